@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace lvcalib {
+
+/// The whole file as text. Errors: missing, a folder, unreadable, larger than `max_bytes`.
+Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t max_bytes);
+
+/// Writes a file so that a reader, a crash or an interruption never sees half of it: the text
+/// goes to a temporary file beside it, is flushed to disk, and then takes the name.
+Status write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// Creates a folder and its parents. Error if a file is in the way or it cannot be created.
+Status create_folder(const std::filesystem::path& path);
+
+}  // namespace lvcalib

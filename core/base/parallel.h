@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace lvcalib {
+
+/// Calls work(i) for i = 0 … count−1 from up to `threads` threads; returns when all are done.
+/// Indices are handed out one by one, so uneven work balances. The first exception is rethrown.
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
+
+}  // namespace lvcalib

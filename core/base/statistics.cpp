@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lvcalib {
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double position = std::clamp(q, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(position);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(low);
+  std::nth_element(values.begin(), nth, values.end());
+  const double at_low = *nth;
+  const double fraction = position - static_cast<double>(low);
+  if (fraction == 0.0) return at_low;
+  const double at_high = *std::min_element(nth + 1, values.end());
+  return at_low + fraction * (at_high - at_low);
+}
+
+double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
+}
+
+double mad_sigma(std::vector<double> values) {
+  const double centre = median(values);
+  for (double& v : values) v = std::abs(v - centre);
+  return 1.4826 * median(std::move(values));
+}
+
+double rms(std::span<const double> values) {
+  if (values.empty()) return 0.0;
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double huber_weight(double residual, double threshold) {
+  const double a = std::abs(residual);
+  return a <= threshold ? 1.0 : threshold / a;
+}
+
+double tukey_weight(double residual, double threshold) {
+  const double u = residual / threshold;
+  if (std::abs(u) >= 1.0) return 0.0;
+  const double k = 1.0 - u * u;
+  return k * k;
+}
+
+double normal_cdf(double x) {
+  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
+}
+
+double normal_pdf(double x) {
+  return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
+}
+
+double chi_square_gate(int degrees_of_freedom, double tail) {
+  // Quantile z of the normal by bisection of the complementary error function.
+  double low = -10.0;
+  double high = 10.0;
+  for (int i = 0; i < 80; ++i) {
+    const double mid = 0.5 * (low + high);
+    (0.5 * std::erfc(mid / std::numbers::sqrt2) > tail ? low : high) = mid;
+  }
+  const double k = degrees_of_freedom;
+  const double base = 1.0 - 2.0 / (9.0 * k) + low * std::sqrt(2.0 / (9.0 * k));
+  return k * base * base * base;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace lvcalib {
+
+/// Quantile q in [0, 1] by linear interpolation between order statistics. NaN for no values.
+/// Takes its argument by value, since it is reordered.
+double quantile(std::vector<double> values, double q);
+
+/// Median; NaN for no values.
+double median(std::vector<double> values);
+
+/// 1.4826 · median |x − median(x)|: the standard deviation of Gaussian data, robust to 50 %
+/// outliers. NaN for no values.
+double mad_sigma(std::vector<double> values);
+
+/// Root mean square; 0 for no values.
+double rms(std::span<const double> values);
+
+/// Weight ρ'(r)/r of Huber's loss for a residual in units of its standard deviation.
+double huber_weight(double residual, double threshold = 1.345);
+
+/// Weight of Tukey's biweight loss; zero beyond the threshold.
+double tukey_weight(double residual, double threshold = 4.685);
+
+/// Standard normal cumulative distribution function.
+double normal_cdf(double x);
+
+/// Standard normal density.
+double normal_pdf(double x);
+
+/// Upper quantile of the χ² distribution (Wilson–Hilferty), for gates: P(χ² > result) = tail.
+double chi_square_gate(int degrees_of_freedom, double tail);
+
+}  // namespace lvcalib

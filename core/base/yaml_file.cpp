@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/yaml_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <yaml-cpp/yaml.h>
+
+#include "base/file_io.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = 4U << 20U;
+// Aliases can make a small file expand without bound; no configuration needs this many values.
+constexpr int kMaxValues = 200'000;
+constexpr int kMaxDepth = 64;
+
+bool convert(const YAML::Node& node, YamlValue& out, int depth, int& budget) {
+  if (depth > kMaxDepth || --budget < 0) return false;
+  out.line = node.Mark().line + 1;
+  if (node.IsScalar()) {
+    out.kind = YamlValue::Kind::kScalar;
+    out.scalar = node.Scalar();
+  } else if (node.IsSequence()) {
+    out.kind = YamlValue::Kind::kList;
+    for (const YAML::Node& item : node) {
+      if (!convert(item, out.list.emplace_back(), depth + 1, budget)) return false;
+    }
+  } else if (node.IsMap()) {
+    out.kind = YamlValue::Kind::kMap;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) return false;
+      auto& [key, value] = out.map.emplace_back(entry.first.Scalar(), YamlValue{});
+      if (!convert(entry.second, value, depth + 1, budget)) return false;
+    }
+  }
+  return true;
+}
+
+std::string describe(const YamlValue& value) {
+  switch (value.kind) {
+    case YamlValue::Kind::kScalar:
+      return "'" + value.scalar.substr(0, 60) + "'";
+    case YamlValue::Kind::kList:
+      return "a list of " + std::to_string(value.list.size());
+    case YamlValue::Kind::kMap:
+      return "a map";
+    case YamlValue::Kind::kNull:
+      break;
+  }
+  return "nothing";
+}
+
+std::string short_number(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+}  // namespace
+
+const YamlValue* YamlValue::find(std::string_view key) const {
+  for (const auto& [name, value] : map) {
+    if (name == key) return &value;
+  }
+  return nullptr;
+}
+
+Result<YamlFile> YamlFile::load(const std::filesystem::path& path) {
+  auto text = read_text_file(path, kMaxFileBytes);
+  if (!text) return text.error();
+  return parse(std::move(*text), path.string());
+}
+
+Result<YamlFile> YamlFile::parse(std::string text, std::string name) {
+  // OpenCV writes "%YAML:1.0", which is not a legal YAML directive.
+  if (text.starts_with("%YAML:")) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    text.replace(0, end, "");
+  }
+  YamlFile file;
+  file.name_ = std::move(name);
+  try {
+    int budget = kMaxValues;
+    const YAML::Node root = YAML::Load(text);
+    if (!convert(root, file.root_, 0, budget)) {
+      return Error::input("YAML is nested too deeply or far too large", file.name_);
+    }
+  } catch (const YAML::Exception& e) {
+    return Error::input("not valid YAML: " + e.msg,
+                        file.name_ + ":" + std::to_string(e.mark.line + 1));
+  }
+  if (file.root_.kind != YamlValue::Kind::kMap) {
+    return Error::input("expected a YAML map of keys and values, found " + describe(file.root_),
+                        file.name_);
+  }
+  return file;
+}
+
+Error YamlFile::error_at(const YamlValue& value, std::string message) const {
+  return Error::input(std::move(message), name_ + ":" + std::to_string(value.line));
+}
+
+Result<double> YamlFile::number(std::string_view key, double low, double high) const {
+  const YamlValue* value = root_.find(key);
+  if (value == nullptr) {
+    return Error::input("key '" + std::string(key) + "' is missing; expected a number", name_);
+  }
+  double number = 0;
+  if (value->kind != YamlValue::Kind::kScalar || !parse_number(value->scalar, number)) {
+    return error_at(*value,
+                    "'" + std::string(key) + "' must be a number, found " + describe(*value));
+  }
+  if (number < low || number > high) {
+    const std::string range = low == std::numeric_limits<double>::lowest()
+                                  ? "at most " + short_number(high)
+                              : high == std::numeric_limits<double>::max()
+                                  ? "at least " + short_number(low)
+                                  : "between " + short_number(low) + " and " + short_number(high);
+    return error_at(*value,
+                    "'" + std::string(key) + "' must be " + range + ", found " + describe(*value));
+  }
+  return number;
+}
+
+Result<int> YamlFile::integer(std::string_view key, int low, int high) const {
+  auto value = number(key, low, high);
+  if (!value) return value.error();
+  if (*value != std::floor(*value)) {
+    return error_at(*root_.find(key), "'" + std::string(key) + "' must be a whole number, found " +
+                                          describe(*root_.find(key)));
+  }
+  return static_cast<int>(*value);
+}
+
+Result<std::string> YamlFile::string(std::string_view key) const {
+  const YamlValue* value = root_.find(key);
+  if (value == nullptr) {
+    return Error::input("key '" + std::string(key) + "' is missing; expected a word", name_);
+  }
+  if (value->kind != YamlValue::Kind::kScalar) {
+    return error_at(*value, "'" + std::string(key) + "' must be a word, found " + describe(*value));
+  }
+  return value->scalar;
+}
+
+Result<std::vector<double>> YamlFile::flatten(const YamlValue& value, std::string_view key) const {
+  std::vector<double> out;
+  if (value.kind != YamlValue::Kind::kList) {
+    return error_at(
+        value, "'" + std::string(key) + "' must be a list of numbers, found " + describe(value));
+  }
+  for (const YamlValue& item : value.list) {
+    if (item.kind == YamlValue::Kind::kList) {
+      auto inner = flatten(item, key);
+      if (!inner) return inner.error();
+      out.insert(out.end(), inner->begin(), inner->end());
+      continue;
+    }
+    double number = 0;
+    if (item.kind != YamlValue::Kind::kScalar || !parse_number(item.scalar, number)) {
+      return error_at(item,
+                      "'" + std::string(key) + "' must hold numbers, found " + describe(item));
+    }
+    out.push_back(number);
+  }
+  return out;
+}
+
+Result<std::vector<double>> YamlFile::numbers(std::string_view key, std::size_t count) const {
+  const YamlValue* value = root_.find(key);
+  if (value == nullptr) {
+    return Error::input("key '" + std::string(key) + "' is missing; expected a list of numbers",
+                        name_);
+  }
+  auto out = flatten(*value, key);
+  if (out && count != 0 && out->size() != count) {
+    return error_at(*value, "'" + std::string(key) + "' must hold " + std::to_string(count) +
+                                " numbers, found " + std::to_string(out->size()));
+  }
+  return out;
+}
+
+std::vector<std::string> YamlFile::unknown_keys(const std::vector<std::string>& known) const {
+  std::vector<std::string> warnings;
+  for (const auto& [key, value] : root_.map) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string text =
+        name_ + ":" + std::to_string(value.line) + ": unknown key '" + key + "' ignored";
+    const std::string nearest = nearest_word(key, known);
+    if (!nearest.empty()) text += "; did you mean '" + nearest + "'?";
+    warnings.push_back(std::move(text));
+  }
+  return warnings;
+}
+
+bool parse_number(std::string_view text, double& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return code == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = word.size();
+  for (const std::string& candidate : candidates) {
+    // Levenshtein distance, one row at a time, ignoring case.
+    std::vector<std::size_t> row(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), 0U);
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (std::size_t j = 0; j < candidate.size(); ++j) {
+        const bool same = std::tolower(static_cast<unsigned char>(word[i])) ==
+                          std::tolower(static_cast<unsigned char>(candidate[j]));
+        const std::size_t replaced = diagonal + (same ? 0 : 1);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+      }
+    }
+    if (row.back() < best_distance) {
+      best_distance = row.back();
+      best = candidate;
+    }
+  }
+  return best_distance * 3 <= std::max(word.size(), best.size()) ? best : std::string{};
+}
+
+}  // namespace lvcalib

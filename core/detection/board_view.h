@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/rigid3.h"
+#include "camera/camera.h"
+#include "target/target.h"
+
+namespace lvcalib {
+
+/// A grey image, row by row; values 0…255 whatever the file's depth (16-bit files keep their
+/// finer steps).
+struct GrayImage {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<float> pixels;
+  [[nodiscard]] float at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                  static_cast<std::size_t>(x)];
+  }
+};
+
+/// Reads png, jpg, bmp or tiff; colour, grey, palette, with alpha, 8 or 16 bit.
+Result<GrayImage> read_image(const std::filesystem::path& path);
+
+/// One corner of the board's pattern found in an image.
+struct CornerObservation {
+  int feature_id = 0;  ///< Tag id, or the index of a checkerboard corner.
+  int corner =
+      0;  ///< 0 lower left, 1 lower right, 2 upper right, 3 upper left; 0 for checkerboards.
+  Eigen::Vector2d board_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+
+/// What one image tells about the board.
+struct BoardView {
+  std::vector<CornerObservation> corners;
+  int tag_count = 0;  ///< Tags found (checkerboard: 0).
+  /// Board pose from the corners alone; covariance of the left perturbation.
+  UncertainRigid3 camera_from_board;
+  /// The other pose of the planar ambiguity, if its fit is not clearly worse.
+  std::optional<Rigid3> alternative_pose;
+  double sigma_px =
+      0.0;  ///< Standard deviation of one corner coordinate, estimated from the residuals.
+  double rms_px = 0.0;
+  std::vector<std::string> warnings;
+};
+
+struct DetectionOptions {
+  double quad_decimate =
+      1.0;  ///< Image reduction for the first search; corners use full resolution.
+  double max_reprojection_px =
+      5.0;           ///< A tag whose corners miss the board's pose by more is dropped.
+  int min_tags = 2;  ///< Fewer make the image unusable.
+};
+
+/// Finds the board in an image: tags or checkerboard corners, refined to sub-pixel accuracy, and
+/// its pose with covariance and resolved planar ambiguity.
+/// Errors (kInput): image size differs from the intrinsics; no tags (and whether the mirrored
+/// image has some); tags of other ids; too few tags; no checkerboard.
+Result<BoardView> find_board_in_image(const GrayImage& image, const Target& target,
+                                      const Camera& camera, const DetectionOptions& options,
+                                      const RunContext& context);
+
+}  // namespace lvcalib

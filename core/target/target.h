@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/error.h"
+
+namespace lvcalib {
+
+enum class TargetType {
+  kAprilGridCircles,  ///< AprilGrid with black circles in the gap crossings.
+  kAprilGrid,         ///< AprilGrid as Kalibr prints it.
+  kCheckerboard,
+};
+
+/// One circular node: its id and its centre on the board.
+struct TargetNode {
+  int id = 0;
+  Eigen::Vector2d center_m = Eigen::Vector2d::Zero();
+};
+
+/// One fiducial tag: its id in the family and the centre of its black square.
+struct TargetTag {
+  int id = 0;
+  int column = 0;
+  int row = 0;
+  Eigen::Vector2d center_m = Eigen::Vector2d::Zero();
+};
+
+/// A rectangle on the board plane.
+struct BoardOutline {
+  Eigen::Vector2d lower_left_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d upper_right_m = Eigen::Vector2d::Zero();
+  [[nodiscard]] Eigen::Vector2d size_m() const { return upper_right_m - lower_left_m; }
+  [[nodiscard]] Eigen::Vector2d center_m() const { return 0.5 * (lower_left_m + upper_right_m); }
+};
+
+/// The printed board. Board frame: x right, y up, z out of the board towards the viewer.
+/// AprilGrid: origin at the outer lower-left corner of the lowest tag; tags upright, ids grow
+/// along x, then y; tag pitch = tag_size·(1 + tag_spacing); node (i, j) sits in the gap crossing
+/// between columns i, i+1 and rows j, j+1 and has id j·(columns−1)+i.
+/// Checkerboard: origin at the first inner corner, x along the columns, y along the rows.
+struct Target {
+  TargetType type = TargetType::kAprilGridCircles;
+
+  // AprilGrid.
+  std::string tag_family = "tag36h11";
+  int tag_columns = 4;
+  int tag_rows = 4;
+  double tag_size_m = 0.12;     ///< Outer edge of the black border.
+  double tag_spacing = 0.8333;  ///< Gap / tag size.
+  int tag_border_bits = 1;      ///< Width of the black border in bits.
+  int first_tag_id = 0;
+  double circle_radius_m = 0.045;
+  double margin_m = 0.06;  ///< White border beyond the outer tags.
+
+  // Checkerboard: inner corners and square sizes, outline, and
+  // pattern centre − board centre.
+  int corner_columns = 0;
+  int corner_rows = 0;
+  double column_spacing_m = 0.0;
+  double row_spacing_m = 0.0;
+  double board_width_m = 0.0;
+  double board_height_m = 0.0;
+  Eigen::Vector2d board_offset_m = Eigen::Vector2d::Zero();
+
+  [[nodiscard]] bool has_tags() const { return type != TargetType::kCheckerboard; }
+  [[nodiscard]] bool has_circles() const { return type == TargetType::kAprilGridCircles; }
+  [[nodiscard]] double tag_pitch_m() const { return tag_size_m * (1.0 + tag_spacing); }
+  /// Width of one bit of a tag.
+  [[nodiscard]] double tag_bit_m() const;
+
+  [[nodiscard]] std::vector<TargetTag> tags() const;
+  [[nodiscard]] std::optional<TargetTag> tag(int id) const;
+  /// The tag's outer corners: lower left, lower right, upper right, upper left (as seen upright).
+  [[nodiscard]] std::vector<Eigen::Vector2d> tag_corners_m(const TargetTag& tag) const;
+  [[nodiscard]] std::vector<TargetNode> nodes() const;
+  /// Inner corners of a checkerboard, row by row.
+  [[nodiscard]] std::vector<Eigen::Vector2d> checkerboard_corners_m() const;
+  /// The edge of the physical board.
+  [[nodiscard]] BoardOutline outline() const;
+
+  /// Albedo of the print at a board point: 0 black, 1 white, nothing outside the outline.
+  /// A point on an edge belongs to the black side.
+  [[nodiscard]] std::optional<double> albedo(const Eigen::Vector2d& point_m) const;
+
+  /// Rotations of the board by multiples of 90° about its centre that map the outline onto
+  /// itself: 4 for a square board, 2 for a rectangular one.
+  [[nodiscard]] int outline_symmetry() const;
+};
+
+/// The bits of a tag's data area; true is white.
+/// Row 0 is the top row of the upright tag, column 0 its left column.
+struct TagPattern {
+  int width = 0;  ///< Data bits along a side (6 for tag36h11).
+  std::vector<bool> white;
+  [[nodiscard]] bool at(int row, int column) const {
+    return white[static_cast<std::size_t>(row * width + column)];
+  }
+};
+
+/// Pattern of one tag of tag36h11, tag36h10, tag25h9 or tag16h5; null for unknown family or id.
+/// The pattern lives as long as the program.
+const TagPattern* tag_pattern(const std::string& family, int id);
+
+/// Number of tags in a family; 0 for an unknown one.
+int tag_family_size(const std::string& family);
+
+/// A target read from a file, with warnings about unknown keys.
+struct TargetFile {
+  Target target;
+  std::vector<std::string> warnings;
+};
+
+/// Reads target.yaml (Kalibr's AprilGrid and checkerboard keys and ours).
+Result<TargetFile> read_target(const std::filesystem::path& path);
+
+/// The target as the text of a target.yaml that reads back as the same target.
+std::string to_yaml(const Target& target);
+
+/// Checks that sizes are positive, circles fit their gaps, ids exist in the family.
+Status check(const Target& target);
+
+}  // namespace lvcalib

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <charconv>
+#include <string>
+
+#include "base/yaml_file.h"
+#include "target/target.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr double kLargestLength_m = 100.0;
+constexpr int kLargestCount = 1000;
+
+// Reads keys one after another and keeps the first error.
+class Reader {
+ public:
+  explicit Reader(const YamlFile& file) : file_(file) {}
+
+  void number(const char* key, double& out, double low = 0.0, double high = kLargestLength_m) {
+    take(file_.number(key, low, high), out);
+  }
+  void optional_number(const char* key, double& out, double low = 0.0) {
+    if (file_.has(key)) number(key, out, low);
+  }
+  void integer(const char* key, int& out, int low, int high = kLargestCount) {
+    take(file_.integer(key, low, high), out);
+  }
+  void optional_integer(const char* key, int& out, int low, int high = kLargestCount) {
+    if (file_.has(key)) integer(key, out, low, high);
+  }
+  void optional_string(const char* key, std::string& out) {
+    if (file_.has(key)) take(file_.string(key), out);
+  }
+  void optional_pair(const char* key, Eigen::Vector2d& out) {
+    if (!file_.has(key)) return;
+    std::vector<double> pair;
+    take(file_.numbers(key, 2), pair);
+    if (pair.size() == 2) out = {pair[0], pair[1]};
+  }
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  template <class T>
+  void take(const Result<T>& result, T& out) {
+    if (result) {
+      out = *result;
+    } else if (!error_) {
+      error_ = result.error();
+    }
+  }
+  const YamlFile& file_;
+  std::optional<Error> error_;
+};
+
+std::string text(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+void read_grid(Reader& reader, Target& target) {
+  reader.optional_string("tagFamily", target.tag_family);
+  reader.integer("tagCols", target.tag_columns, 1);
+  reader.integer("tagRows", target.tag_rows, 1);
+  reader.number("tagSize", target.tag_size_m);
+  reader.number("tagSpacing", target.tag_spacing);
+  reader.optional_integer("tagBorder", target.tag_border_bits, 1, 2);
+  reader.optional_integer("firstTagId", target.first_tag_id, 0, 1'000'000);
+  reader.optional_number("margin", target.margin_m);
+  if (target.has_circles()) reader.number("circleRadius", target.circle_radius_m);
+}
+
+void read_checkerboard(Reader& reader, const YamlFile& file, Target& target) {
+  reader.integer("targetCols", target.corner_columns, 3);
+  reader.integer("targetRows", target.corner_rows, 3);
+  reader.number("colSpacingMeters", target.column_spacing_m);
+  reader.number("rowSpacingMeters", target.row_spacing_m);
+  // Without an outline: the pattern with its outer squares.
+  target.board_width_m = (target.corner_columns + 1) * target.column_spacing_m;
+  target.board_height_m = (target.corner_rows + 1) * target.row_spacing_m;
+  if (file.has("boardWidth")) reader.number("boardWidth", target.board_width_m);
+  if (file.has("boardHeight")) reader.number("boardHeight", target.board_height_m);
+  reader.optional_pair("boardOffset", target.board_offset_m);
+}
+
+}  // namespace
+
+Result<TargetFile> read_target(const std::filesystem::path& path) {
+  auto file = YamlFile::load(path);
+  if (!file) return file.error();
+  auto type = file->string("target_type");
+  if (!type) return type.error();
+
+  Target target;
+  Reader reader(*file);
+  std::vector<std::string> known;
+  if (*type == "aprilgrid_circles" || *type == "aprilgrid") {
+    target.type = *type == "aprilgrid" ? TargetType::kAprilGrid : TargetType::kAprilGridCircles;
+    read_grid(reader, target);
+    known = {"target_type", "tagFamily", "tagCols",    "tagRows",      "tagSize",
+             "tagSpacing",  "tagBorder", "firstTagId", "circleRadius", "margin"};
+  } else if (*type == "checkerboard") {
+    target.type = TargetType::kCheckerboard;
+    read_checkerboard(reader, *file, target);
+    known = {"target_type",      "targetCols", "targetRows",  "colSpacingMeters",
+             "rowSpacingMeters", "boardWidth", "boardHeight", "boardOffset"};
+  } else {
+    return file->error_at(
+        *file->root().find("target_type"),
+        "target_type '" + *type +
+            "' is not known; expected aprilgrid_circles, aprilgrid or checkerboard");
+  }
+  if (reader.error()) return *reader.error();
+  if (Status status = check(target); !status) {
+    Error error = status.error();
+    error.where = path.string();
+    return error;
+  }
+  return TargetFile{target, file->unknown_keys(known)};
+}
+
+std::string to_yaml(const Target& t) {
+  std::string out;
+  const auto line = [&out](const char* key, const std::string& value) {
+    out += std::string(key) + ": " + value + "\n";
+  };
+  if (t.type == TargetType::kCheckerboard) {
+    line("target_type", "checkerboard");
+    line("targetCols", std::to_string(t.corner_columns));
+    line("targetRows", std::to_string(t.corner_rows));
+    line("colSpacingMeters", text(t.column_spacing_m));
+    line("rowSpacingMeters", text(t.row_spacing_m));
+    line("boardWidth", text(t.board_width_m));
+    line("boardHeight", text(t.board_height_m));
+    line("boardOffset", "[" + text(t.board_offset_m.x()) + ", " + text(t.board_offset_m.y()) + "]");
+    return out;
+  }
+  line("target_type", t.has_circles() ? "aprilgrid_circles" : "aprilgrid");
+  line("tagFamily", t.tag_family);
+  line("tagCols", std::to_string(t.tag_columns));
+  line("tagRows", std::to_string(t.tag_rows));
+  line("tagSize", text(t.tag_size_m));
+  line("tagSpacing", text(t.tag_spacing));
+  line("tagBorder", std::to_string(t.tag_border_bits));
+  line("firstTagId", std::to_string(t.first_tag_id));
+  if (t.has_circles()) line("circleRadius", text(t.circle_radius_m));
+  line("margin", text(t.margin_m));
+  return out;
+}
+
+}  // namespace lvcalib
