@@ -53,14 +53,16 @@ double evaluate_derivative(const double* c, int degree, double s) {
 bool positive_on(const double* coefficients, int degree, double end) {
   // The sum of the falling terms bounds the polynomial from below; enough for most points.
   double bound = coefficients[0];
+  double magnitude = std::abs(coefficients[0]);
   double power = 1.0;
   Bernstein scaled{coefficients[0]};
   for (int i = 1; i <= degree; ++i) {
     power *= end;
     scaled[static_cast<std::size_t>(i)] = coefficients[i] * power;
+    magnitude += std::abs(coefficients[i] * power);
     bound += std::min(coefficients[i] * power, 0.0);
   }
-  if (!std::isfinite(power) || !std::isfinite(bound)) return false;
+  if (!std::isfinite(power) || !std::isfinite(magnitude)) return false;
   if (bound > 0.0) return true;
   // Power basis on [0, end] to Bernstein basis: b_j = Σ_i C(j,i)/C(degree,i)·a_i.
   Bernstein b{};
