@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "camera/camera.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <Eigen/LU>
 
@@ -217,6 +219,36 @@ std::optional<Eigen::Vector3d> Camera::unproject(const Eigen::Vector2d& pixel) c
   if (!p.allFinite()) return std::nullopt;
   return model == DistortionModel::kEquidistant ? ray_equidistant(*this, p)
                                                 : ray_perspective(*this, p);
+}
+
+Status check(const Camera& c) {
+  const auto bad = [](std::string message, std::string hint = {}) -> Status {
+    return Error::input(std::move(message), {}, std::move(hint));
+  };
+  if (c.width_px < 1 || c.height_px < 1) {
+    return bad("the image size must be positive, found " + std::to_string(c.width_px) + " × " +
+               std::to_string(c.height_px));
+  }
+  if (!std::isfinite(c.cx) || !std::isfinite(c.cy) || !c.distortion.allFinite()) {
+    return bad("the intrinsics must be finite numbers");
+  }
+  // From fisheye lenses that see all round to telescopes: f / image side well inside 1/50 … 1000.
+  const double side = std::max(c.width_px, c.height_px);
+  for (const double f : {c.fx, c.fy}) {
+    if (!(f >= side / 50.0 && f <= 1000.0 * side)) {
+      return bad("a focal length of " + std::to_string(f) + " px is not plausible for an image " +
+                     std::to_string(static_cast<int>(side)) + " px long",
+                 "focal lengths are given in pixels");
+    }
+  }
+  // A cropped image may have lost its principal point, but not by more than its own size.
+  if (c.cx < -c.width_px || c.cx > 2.0 * c.width_px || c.cy < -c.height_px ||
+      c.cy > 2.0 * c.height_px) {
+    return bad("the principal point (" + std::to_string(c.cx) + ", " + std::to_string(c.cy) +
+               ") px lies far outside the image of " + std::to_string(c.width_px) + " × " +
+               std::to_string(c.height_px) + " px");
+  }
+  return Done{};
 }
 
 }  // namespace lvcalib

@@ -3,6 +3,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 #include <string>
 
 #include "base/yaml_file.h"
@@ -14,80 +16,32 @@ namespace {
 constexpr int kLargestSide_px = 200'000;
 using Keys = std::vector<std::string>;
 
+Keys words(const char* text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
 // Where each fact may stand, ROS's name first. One file uses one name.
-const Keys& width_keys() {
-  static const Keys keys{"image_width", "width", "image_Width"};
-  return keys;
-}
-const Keys& height_keys() {
-  static const Keys keys{"image_height", "height", "image_Height"};
-  return keys;
-}
-const Keys& matrix_keys() {
-  static const Keys keys{"camera_matrix", "Camera_Matrix", "cameraMatrix", "CameraMat", "K", "k"};
-  return keys;
-}
-const Keys& coefficient_keys() {
-  static const Keys keys{"distortion_coefficients",
-                         "Distortion_Coefficients",
-                         "distCoeffs",
-                         "DistCoeff",
-                         "dist_coeffs",
-                         "distortion_coeffs",
-                         "D",
-                         "d"};
-  return keys;
-}
-
+const char* const kWidth = "image_width width image_Width";
+const char* const kHeight = "image_height height image_Height";
+const char* const kSize = "ImageSize image_size resolution";
+const char* const kMatrix = "camera_matrix Camera_Matrix cameraMatrix CameraMat K k";
+const char* const kCoefficients =
+    "distortion_coefficients Distortion_Coefficients distCoeffs DistCoeff dist_coeffs "
+    "distortion_coeffs D d";
+const char* const kRosOnly = "camera_name rectification_matrix projection_matrix";
 // Keys that the formats' own tools write and that do not matter here.
-const Keys& harmless_keys() {
-  static const Keys keys{"distortion_model",
-                         "fisheye_model",
-                         "camera_name",
-                         "header",
-                         "rectification_matrix",
-                         "projection_matrix",
-                         "R",
-                         "P",
-                         "r",
-                         "p",
-                         "binning_x",
-                         "binning_y",
-                         "roi",
-                         "ImageSize",
-                         "image_size",
-                         "calibration_time",
-                         "calibration_Time",
-                         "nframes",
-                         "nr_of_frames",
-                         "nrOfFrames",
-                         "board_width",
-                         "board_Width",
-                         "board_height",
-                         "board_Height",
-                         "square_size",
-                         "square_Size",
-                         "aspectRatio",
-                         "fix_aspect_ratio",
-                         "flags",
-                         "flagValue",
-                         "fix_principal_point",
-                         "zero_tangent_dist",
-                         "avg_reprojection_error",
-                         "Avg_Reprojection_Error",
-                         "ReprojectionError",
-                         "per_view_reprojection_errors",
-                         "Per_View_Reprojection_Errors",
-                         "extrinsic_parameters",
-                         "Extrinsic_Parameters",
-                         "CameraExtrinsicMat",
-                         "image_points",
-                         "Image_points",
-                         "grid_points"};
-  return keys;
-}
+const char* const kHarmless =
+    "distortion_model fisheye_model header R P r p binning_x binning_y roi ImageSize image_size "
+    "calibration_time calibration_Time nframes nr_of_frames nrOfFrames board_width board_Width "
+    "board_height board_Height square_size square_Size aspectRatio fix_aspect_ratio flags "
+    "flagValue fix_principal_point zero_tangent_dist avg_reprojection_error "
+    "Avg_Reprojection_Error ReprojectionError per_view_reprojection_errors "
+    "Per_View_Reprojection_Errors extrinsic_parameters Extrinsic_Parameters CameraExtrinsicMat "
+    "image_points Image_points grid_points";
 
-std::string first_present(const YamlFile& file, const Keys& names) {
+std::string first_present(const YamlFile& file, const char* candidates) {
+  const Keys names = words(candidates);
   const auto found =
       std::find_if(names.begin(), names.end(), [&](const auto& key) { return file.has(key); });
   return found == names.end() ? std::string{} : *found;
@@ -120,9 +74,9 @@ Result<std::vector<double>> matrix_numbers(const YamlFile& file, const std::stri
 }
 
 Result<Done> read_size(const YamlFile& file, Camera& camera) {
-  const std::string width = first_present(file, width_keys());
-  const std::string height = first_present(file, height_keys());
-  const std::string pair = first_present(file, {"ImageSize", "image_size", "resolution"});
+  const std::string width = first_present(file, kWidth);
+  const std::string height = first_present(file, kHeight);
+  const std::string pair = first_present(file, kSize);
   if (width.empty() && height.empty() && !pair.empty()) {
     const auto size = file.numbers(pair, 2);
     if (!size) return size.error();
@@ -136,9 +90,9 @@ Result<Done> read_size(const YamlFile& file, Camera& camera) {
     camera.height_px = static_cast<int>((*size)[1]);
     return Done{};
   }
-  const auto w = file.integer(width.empty() ? width_keys()[0] : width, 1, kLargestSide_px);
+  const auto w = file.integer(width.empty() ? words(kWidth)[0] : width, 1, kLargestSide_px);
   if (!w) return w.error();
-  const auto h = file.integer(height.empty() ? height_keys()[0] : height, 1, kLargestSide_px);
+  const auto h = file.integer(height.empty() ? words(kHeight)[0] : height, 1, kLargestSide_px);
   if (!h) return h.error();
   camera.width_px = *w;
   camera.height_px = *h;
@@ -146,7 +100,7 @@ Result<Done> read_size(const YamlFile& file, Camera& camera) {
 }
 
 Result<Done> read_matrix(const YamlFile& file, Camera& camera) {
-  const std::string key = first_present(file, matrix_keys());
+  const std::string key = first_present(file, kMatrix);
   if (key.empty()) {
     return Error::input("key 'camera_matrix' is missing; expected a 3 × 3 matrix", file.name());
   }
@@ -217,31 +171,25 @@ Result<Done> read_model(const YamlFile& file, const std::string& key, Camera& ca
   return Done{};
 }
 
-Keys all_matrix_style_keys() {
-  Keys known;
-  for (const Keys* keys :
-       {&width_keys(), &height_keys(), &matrix_keys(), &coefficient_keys(), &harmless_keys()}) {
-    known.insert(known.end(), keys->begin(), keys->end());
-  }
-  return known;
-}
-
 // ROS camera_info (distortion_model names the model) and OpenCV FileStorage (the number of
 // coefficients does): both hold a camera matrix.
 Result<CameraFile> read_matrix_style(const YamlFile& file) {
-  CameraFile out{{}, file.unknown_keys(all_matrix_style_keys())};
+  Keys known;
+  for (const char* group : {kWidth, kHeight, kMatrix, kCoefficients, kRosOnly, kHarmless}) {
+    for (auto& key : words(group)) known.push_back(std::move(key));
+  }
+  CameraFile out{{}, file.unknown_keys(known)};
   Camera& camera = out.camera;
   if (Status s = read_size(file, camera); !s) return s.error();
   if (Status s = read_matrix(file, camera); !s) return s.error();
-  const std::string key = first_present(file, coefficient_keys());
+  const std::string key = first_present(file, kCoefficients);
   if (key.empty()) {
     return Error::input("key 'distortion_coefficients' is missing; expected a list of numbers",
                         file.name());
   }
   const auto values = matrix_numbers(file, key);
   if (!values) return values.error();
-  const bool ros =
-      !first_present(file, {"camera_name", "rectification_matrix", "projection_matrix"}).empty();
+  const bool ros = !first_present(file, kRosOnly).empty();
   if (file.has("distortion_model")) {
     if (Status s = read_model(file, "distortion_model", camera); !s) return s.error();
   } else if (ros) {
@@ -271,9 +219,9 @@ Result<CameraFile> read_matrix_style(const YamlFile& file) {
 }
 
 Result<CameraFile> read_kalibr_camera(const YamlFile& file, std::string name) {
-  static const Keys known{"camera_model", "intrinsics", "distortion_model", "distortion_coeffs",
-                          "resolution",   "rostopic",   "cam_overlaps",     "T_cn_cnm1",
-                          "T_cam_imu",    "T_imu_cam",  "timeshift_cam_imu"};
+  const Keys known = words(
+      "camera_model intrinsics distortion_model distortion_coeffs resolution rostopic "
+      "cam_overlaps T_cn_cnm1 T_cam_imu T_imu_cam timeshift_cam_imu");
   CameraFile out{{}, file.unknown_keys(known)};
   Camera& camera = out.camera;
   camera.name = std::move(name);
@@ -333,9 +281,8 @@ Result<CameraFile> read_any(const YamlFile& file) {
     return read_camchain(file);
   }
   if (file.has("camera_model") || file.has("intrinsics")) return read_kalibr_camera(file, {});
-  if (!first_present(file, matrix_keys()).empty() ||
-      !first_present(file, coefficient_keys()).empty() ||
-      !first_present(file, width_keys()).empty()) {
+  if (!first_present(file, kMatrix).empty() || !first_present(file, kCoefficients).empty() ||
+      !first_present(file, kWidth).empty()) {
     return read_matrix_style(file);
   }
   return Error::input(
@@ -417,36 +364,6 @@ std::string to_yaml(const Camera& c) {
   out += "distortion_coefficients:\n  rows: 1\n  cols: " + std::to_string(count) + "\n  data: [";
   for (int i = 0; i < count; ++i) out += (i == 0 ? "" : ", ") + text(c.distortion[i]);
   return out + "]\n";
-}
-
-Status check(const Camera& c) {
-  const auto bad = [](std::string message, std::string hint = {}) -> Status {
-    return Error::input(std::move(message), {}, std::move(hint));
-  };
-  if (c.width_px < 1 || c.height_px < 1) {
-    return bad("the image size must be positive, found " + std::to_string(c.width_px) + " × " +
-               std::to_string(c.height_px));
-  }
-  if (!std::isfinite(c.cx) || !std::isfinite(c.cy) || !c.distortion.allFinite()) {
-    return bad("the intrinsics must be finite numbers");
-  }
-  // From fisheye lenses that see all round to telescopes: f / image side well inside 1/50 … 1000.
-  const double side = std::max(c.width_px, c.height_px);
-  for (const double f : {c.fx, c.fy}) {
-    if (!(f >= side / 50.0 && f <= 1000.0 * side)) {
-      return bad("a focal length of " + text(f) + " px is not plausible for an image " +
-                     text(side) + " px long",
-                 "focal lengths are given in pixels");
-    }
-  }
-  // A cropped image may have lost its principal point, but not by more than its own size.
-  if (c.cx < -c.width_px || c.cx > 2.0 * c.width_px || c.cy < -c.height_px ||
-      c.cy > 2.0 * c.height_px) {
-    return bad("the principal point (" + text(c.cx) + ", " + text(c.cy) +
-               ") px lies far outside the image of " + std::to_string(c.width_px) + " × " +
-               std::to_string(c.height_px) + " px");
-  }
-  return Done{};
 }
 
 }  // namespace lvcalib
