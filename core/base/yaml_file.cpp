@@ -101,6 +101,20 @@ Result<YamlFile> YamlFile::parse(std::string text, std::string name) {
   return file;
 }
 
+Result<YamlFile> YamlFile::section(std::string_view key) const {
+  const YamlValue* value = root_.find(key);
+  if (value == nullptr) {
+    return Error::input("key '" + std::string(key) + "' is missing; expected a map", name_);
+  }
+  if (value->kind != YamlValue::Kind::kMap) {
+    return error_at(*value, "'" + std::string(key) + "' must be a map, found " + describe(*value));
+  }
+  YamlFile out;
+  out.name_ = name_;
+  out.root_ = *value;
+  return out;
+}
+
 Error YamlFile::error_at(const YamlValue& value, std::string message) const {
   return Error::input(std::move(message), name_ + ":" + std::to_string(value.line));
 }

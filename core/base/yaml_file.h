@@ -37,6 +37,10 @@ class YamlFile {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] bool has(std::string_view key) const { return root_.find(key) != nullptr; }
 
+  /// A nested map as a file of its own, for the same typed access to its keys; messages keep
+  /// file and line. Error if the key is missing or does not hold a map.
+  [[nodiscard]] Result<YamlFile> section(std::string_view key) const;
+
   /// A finite number in [low, high]; `expected` completes "expected …" in the message.
   [[nodiscard]] Result<double> number(std::string_view key,
                                       double low = std::numeric_limits<double>::lowest(),

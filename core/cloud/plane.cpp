@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/plane.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <vector>
+
+#include "base/statistics.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr std::size_t kMinPoints = 10;
+constexpr double kMinCosIncidence = 0.02;
+// Tukey's constant for 98 % efficiency on Gaussian noise.
+constexpr double kTukey = 6.0;
+
+// Residuals of all points whose rays meet the plane; NaN for the others.
+std::vector<double> range_residuals(std::span<const Eigen::Vector3f> points,
+                                    const FittedPlane& plane) {
+  std::vector<double> out(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    out[i] = plane.range_residual_m(points[i].cast<double>()).value_or(std::nan(""));
+  }
+  return out;
+}
+
+double robust_sigma(const std::vector<double>& residuals) {
+  constexpr std::size_t kEnough = 20'000;  // The median of more changes nothing.
+  const std::size_t stride = residuals.size() / kEnough + 1;
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < residuals.size(); i += stride) {
+    if (std::isfinite(residuals[i])) sample.push_back(residuals[i]);
+  }
+  return sample.size() < kMinPoints ? 0.0 : mad_sigma(std::move(sample));
+}
+
+struct PlaneSystem {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+  Eigen::Vector3d weighted_center = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  std::size_t inliers = 0;
+};
+
+// Moving the plane by height a and slopes b, c changes the range predicted for a ray that meets
+// it at (u, v) by (a + b u + c v) / (n·ray).
+PlaneSystem build_system(std::span<const Eigen::Vector3f> points, const FittedPlane& plane,
+                         const std::vector<double>& residuals, double sigma) {
+  PlaneSystem system;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(residuals[i])) continue;
+    const double w = tukey_weight(residuals[i] / sigma, kTukey);
+    if (w <= 0) continue;
+    const Eigen::Vector3d p = points[i].cast<double>();
+    const double along = plane.normal.dot(p) / p.norm();
+    const Eigen::Vector2d uv = plane.to_plane(p - residuals[i] * p.normalized());
+    const Eigen::Vector3d j = Eigen::Vector3d(1.0, uv.x(), uv.y()) / along;
+    system.normal += w * j * j.transpose();
+    system.rhs += w * residuals[i] * j;
+    system.weighted_center += w * p;
+    system.weight += w;
+    ++system.inliers;
+  }
+  return system;
+}
+
+void apply(FittedPlane& plane, const Eigen::Vector3d& step) {
+  const Eigen::Vector3d normal =
+      (plane.normal - step(1) * plane.axis_u - step(2) * plane.axis_v).normalized();
+  plane.center_m += step(0) * plane.normal;
+  // axis_u keeps its direction as far as the new normal allows.
+  plane.axis_u = (plane.axis_u - normal * normal.dot(plane.axis_u)).normalized();
+  plane.normal = normal;
+  plane.axis_v = normal.cross(plane.axis_u);
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> FittedPlane::ray_hit(const Eigen::Vector3d& point_m) const {
+  const double along = normal.dot(point_m);
+  if (std::abs(along) < kMinCosIncidence * point_m.norm()) return std::nullopt;
+  return to_plane(point_m * (normal.dot(center_m) / along));
+}
+
+std::optional<double> FittedPlane::range_residual_m(const Eigen::Vector3d& point_m) const {
+  const double range = point_m.norm();
+  const double along = normal.dot(point_m);
+  if (std::abs(along) < kMinCosIncidence * range) return std::nullopt;
+  return range * (1.0 - normal.dot(center_m) / along);
+}
+
+std::optional<FittedPlane> fit_plane(std::span<const Eigen::Vector3f> points_m,
+                                     const FittedPlane& start) {
+  constexpr int kIterations = 8;
+  if (points_m.size() < kMinPoints) return std::nullopt;
+  FittedPlane plane = start;
+  PlaneSystem system;
+  for (int i = 0; i < kIterations; ++i) {
+    const std::vector<double> residuals = range_residuals(points_m, plane);
+    // Float coordinates resolve a few tenths of a micrometre; never divide by less.
+    plane.sigma_range_m = std::max(robust_sigma(residuals), 1e-6);
+    system = build_system(points_m, plane, residuals, plane.sigma_range_m);
+    const Eigen::LDLT<Eigen::Matrix3d> factor(system.normal);
+    if (system.inliers < kMinPoints || factor.info() != Eigen::Success || factor.rcond() < 1e-9) {
+      return std::nullopt;
+    }
+    const Eigen::Vector3d step = factor.solve(system.rhs);
+    if (!step.allFinite()) return std::nullopt;
+    apply(plane, step);
+    // Stop well below the statistical error.
+    if (std::abs(step(0)) < 1e-3 * plane.sigma_range_m / std::sqrt(static_cast<double>(system.inliers))) break;
+  }
+  // Centre the frame on the points: height and slopes are then nearly uncorrelated.
+  const Eigen::Vector3d mean = system.weighted_center / system.weight;
+  plane.center_m = mean - plane.normal * plane.normal.dot(mean - plane.center_m);
+  const std::vector<double> residuals = range_residuals(points_m, plane);
+  system = build_system(points_m, plane, residuals, plane.sigma_range_m);
+  plane.covariance = plane.sigma_range_m * plane.sigma_range_m *
+                     system.normal.ldlt().solve(Eigen::Matrix3d::Identity());
+  plane.inliers = system.inliers;
+  return plane;
+}
+
+void append_point(Cloud& to, const Cloud& from, std::size_t i) {
+  to.points_m.push_back(from.points_m[i]);
+  if (from.has_intensity()) to.intensity.push_back(from.intensity[i]);
+  if (from.has_time()) to.time_s.push_back(from.time_s[i]);
+  if (from.has_line()) to.line.push_back(from.line[i]);
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <string>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "base/file_io.h"
+#include "detection/board_view.h"
+#include "detection/image_header.h"
+
+namespace lvcalib {
+namespace {
+
+// Larger than any camera used for calibration; guards against headers that claim absurd sizes.
+constexpr long long kMaxPixels = 200'000'000;
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
+
+// Luma of ITU-R BT.601; OpenCV stores blue, green, red (, alpha). Alpha is ignored: what lies
+// beneath transparent pixels is what the camera saw.
+template <class Sample>
+void copy_gray(const cv::Mat& mat, float scale, std::vector<float>& pixels) {
+  const int channels = mat.channels();
+  float* out = pixels.data();
+  for (int y = 0; y < mat.rows; ++y) {
+    const Sample* in = mat.ptr<Sample>(y);
+    for (int x = 0; x < mat.cols; ++x, in += channels) {
+      const float value = channels < 3 ? static_cast<float>(in[0])
+                                       : 0.114F * static_cast<float>(in[0]) +
+                                             0.587F * static_cast<float>(in[1]) +
+                                             0.299F * static_cast<float>(in[2]);
+      *out++ = scale * value;
+    }
+  }
+}
+
+Result<GrayImage> to_gray(const cv::Mat& mat, const std::string& where) {
+  GrayImage image{mat.cols, mat.rows, {}};
+  image.pixels.resize(mat.total());
+  if (mat.depth() == CV_8U) {
+    copy_gray<unsigned char>(mat, 1.0F, image.pixels);
+  } else if (mat.depth() == CV_16U) {
+    copy_gray<unsigned short>(mat, 1.0F / 257.0F, image.pixels);
+  } else {
+    return Error::input("the image has neither 8 nor 16 bits per channel", where,
+                        "save it as 8 or 16 bit png");
+  }
+  return image;
+}
+
+}  // namespace
+
+Result<GrayImage> read_image(const std::filesystem::path& path) {
+  const std::string where = path.string();
+  const auto bytes = read_text_file(path, kMaxFileBytes);
+  if (!bytes) return bytes.error();
+  const auto header = read_image_header(*bytes);
+  if (!header) {
+    Error error = header.error();
+    error.where = where;
+    return error;
+  }
+  if (header->width_px < 1 || header->height_px < 1 ||
+      header->width_px > kMaxPixels / header->height_px) {
+    return Error::input("the image claims " + std::to_string(header->width_px) + " × " +
+                            std::to_string(header->height_px) + " pixels; expected 1 to " +
+                            std::to_string(kMaxPixels) + " in all",
+                        where);
+  }
+  try {
+    const cv::Mat raw(1, static_cast<int>(bytes->size()), CV_8U,
+                      const_cast<char*>(bytes->data()));  // imdecode only reads
+    const cv::Mat mat = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
+    if (mat.empty()) {
+      return Error::input("the image cannot be decoded: its data are damaged", where,
+                          "copy or save the image again");
+    }
+    return to_gray(mat, where);
+  } catch (const std::exception&) {
+    // The decoder's own text names source lines of OpenCV, which help nobody here.
+    return Error::input("the image cannot be decoded: its data are damaged", where,
+                        "copy or save the image again");
+  }
+}
+
+}  // namespace lvcalib

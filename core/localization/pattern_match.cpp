@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/pattern_match.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace lvcalib {
+namespace {
+
+// Below this a correlation says nothing and the gain would be noise.
+constexpr int kMinInside = 12;
+
+// Running sums for a Pearson correlation.
+struct Moments {
+  double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
+  void add(double albedo, double intensity) {
+    n += 1;
+    a += albedo;
+    i += intensity;
+    aa += albedo * albedo;
+    ii += intensity * intensity;
+    ai += albedo * intensity;
+  }
+  [[nodiscard]] double correlation() const {
+    if (n < kMinInside) return 0.0;
+    const double va = aa - a * a / n;
+    const double vi = ii - i * i / n;
+    const double c = ai - a * i / n;
+    return va > 0 && vi > 0 ? c / std::sqrt(va * vi) : 0.0;
+  }
+};
+
+double angle_difference(double a, double b) {
+  return std::abs(std::remainder(a - b, 2.0 * std::numbers::pi));
+}
+
+// Correlation over (at most) every stride-th sample.
+Moments moments_at(const std::vector<PlanarSample>& samples, const PatternTemplate& pattern,
+                   const Eigen::Vector2d& outline_center, const PlanarPose& pose,
+                   std::size_t stride) {
+  const auto c = static_cast<float>(std::cos(pose.angle_rad));
+  const auto s = static_cast<float>(std::sin(pose.angle_rad));
+  const Eigen::Vector2f t = pose.center_m.cast<float>();
+  const Eigen::Vector2f b = outline_center.cast<float>();
+  Moments m;
+  for (std::size_t k = 0; k < samples.size(); k += stride) {
+    const Eigen::Vector2f d = samples[k].uv_m - t;
+    const float v = pattern.value(c * d.x() + s * d.y() + b.x(), -s * d.x() + c * d.y() + b.y());
+    if (v >= 0.0F) m.add(v, samples[k].intensity);
+  }
+  return m;
+}
+
+}  // namespace
+
+double PatternMatch::gain(double samples_per_independent) const {
+  if (correlation <= 0 || inside < kMinInside) return 0.0;
+  const double r = std::min(correlation, 0.9999);
+  return -0.5 * (inside / samples_per_independent) * std::log(1.0 - r * r);
+}
+
+std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& samples,
+                                         const PatternTemplate& pattern,
+                                         const Eigen::Vector2d& outline_center_m,
+                                         const PatternSearchRange& range, double separation_m,
+                                         std::size_t count, const RunContext& context) {
+  constexpr std::size_t kSearchSamples = 250;
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kSearchSamples);
+  const int reach = static_cast<int>(std::ceil(range.slack_m / range.step_m));
+  std::vector<PatternMatch> all;
+  for (const double angle : range.angles_rad) {
+    if (context.stopped()) return {};
+    for (int iy = -reach; iy <= reach; ++iy) {
+      for (int ix = -reach; ix <= reach; ++ix) {
+        PatternMatch match;
+        match.pose = {angle, range.center_m + range.step_m * Eigen::Vector2d(ix, iy)};
+        const Moments m = moments_at(samples, pattern, outline_center_m, match.pose, stride);
+        match.correlation = m.correlation();
+        match.inside = static_cast<int>(m.n);
+        if (match.correlation > 0) all.push_back(match);
+      }
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const PatternMatch& a, const PatternMatch& b) { return a.gain() > b.gain(); });
+  std::vector<PatternMatch> best;
+  constexpr double kSeparationAngle = 20.0 * std::numbers::pi / 180.0;
+  for (const PatternMatch& match : all) {
+    const bool taken = std::any_of(best.begin(), best.end(), [&](const PatternMatch& other) {
+      return (match.pose.center_m - other.pose.center_m).norm() < separation_m &&
+             angle_difference(match.pose.angle_rad, other.pose.angle_rad) < kSeparationAngle;
+    });
+    if (taken) continue;
+    best.push_back(match);
+    if (best.size() == count) break;
+  }
+  return best;
+}
+
+namespace {
+
+// Normal equations of intensity = a + b·albedo(pose, scale) at one pose.
+struct PatternSystem {
+  Moments moments;
+  double a = 0.0;
+  double b = 0.0;
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();  // u, v, angle, scale
+  Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
+  double variance = 0.0;
+};
+
+PatternSystem build_system(const std::vector<PlanarSample>& samples,
+                           const PatternTemplate& pattern, const Eigen::Vector2d& outline_center,
+                           const PlanarPose& pose) {
+  PatternSystem system;
+  const double c = std::cos(pose.angle_rad);
+  const double s = std::sin(pose.angle_rad);
+  struct Row {
+    PatternTemplate::Sample sample;
+    Eigen::Vector2d local;
+    double intensity;
+  };
+  std::vector<Row> rows;
+  rows.reserve(samples.size());
+  for (const PlanarSample& sample : samples) {
+    const Eigen::Vector2d d = sample.uv_m.cast<double>() - pose.center_m;
+    const Eigen::Vector2d local(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
+    const auto at = pattern.at(local + outline_center);
+    if (!at.inside) continue;
+    rows.push_back({at, local, sample.intensity});
+    system.moments.add(at.value, sample.intensity);
+  }
+  const Moments& m = system.moments;
+  const double va = m.aa - m.a * m.a / std::max(m.n, 1.0);
+  if (m.n < kMinInside || va <= 0) return system;
+  system.b = (m.ai - m.a * m.i / m.n) / va;
+  system.a = (m.i - system.b * m.a) / m.n;
+  // Moving the pose by (du, dv) in the plane moves board points by −Rᵀ(du, dv).
+  double sum_sq = 0.0;
+  for (const Row& row : rows) {
+    const Eigen::Vector2d g = system.b * row.sample.gradient_per_m;
+    Eigen::Vector4d j;
+    j << -(g.x() * c - g.y() * s), -(g.x() * s + g.y() * c),
+        g.x() * row.local.y() - g.y() * row.local.x(), -g.dot(row.local);
+    const double e = row.intensity - system.a - system.b * row.sample.value;
+    system.normal += j * j.transpose();
+    system.rhs += j * e;
+    sum_sq += e * e;
+  }
+  system.variance = sum_sq / m.n;
+  return system;
+}
+
+}  // namespace
+
+PatternMatch refine_pattern_pose(const std::vector<PlanarSample>& samples,
+                                 const PatternTemplate& pattern,
+                                 const Eigen::Vector2d& outline_center_m, const PlanarPose& start) {
+  constexpr int kIterations = 12;
+  PatternMatch match;
+  match.pose = start;
+  double damping = 1e-3;
+  PatternSystem system = build_system(samples, pattern, outline_center_m, start);
+  for (int i = 0; i < kIterations && system.b > 0; ++i) {
+    Eigen::Matrix3d normal = system.normal.topLeftCorner<3, 3>();
+    normal.diagonal() *= 1.0 + damping;
+    const Eigen::Vector3d step = normal.ldlt().solve(system.rhs.head<3>());
+    if (!step.allFinite()) break;
+    // A gradient is valid only within about the blur.
+    const double limit = 2.0 * pattern.blur_sigma_m();
+    const double factor = std::min(1.0, limit / std::max(step.head<2>().norm(), 1e-12));
+    const PlanarPose next{match.pose.angle_rad + factor * step.z(),
+                          match.pose.center_m + factor * step.head<2>()};
+    PatternSystem candidate = build_system(samples, pattern, outline_center_m, next);
+    const bool better = candidate.moments.correlation() >= system.moments.correlation();
+    if (better) {
+      match.pose = next;
+      system = candidate;
+      damping = std::max(1e-6, 0.3 * damping);
+      if (step.head<2>().norm() < 1e-5) break;
+    } else {
+      damping *= 10.0;
+    }
+  }
+  match.correlation = system.b > 0 ? system.moments.correlation() : 0.0;
+  match.inside = static_cast<int>(system.moments.n);
+  const Eigen::LDLT<Eigen::Matrix4d> full(system.normal);
+  if (full.info() == Eigen::Success && full.isPositive() && full.rcond() > 1e-12) {
+    match.scale = 1.0 + full.solve(system.rhs)(3);
+    const Eigen::Matrix4d covariance = system.variance * full.solve(Eigen::Matrix4d::Identity());
+    match.scale_sigma = std::sqrt(std::max(0.0, covariance(3, 3)));
+  }
+  return match;
+}
+
+std::vector<PlanarSample> average_cells(const std::vector<PlanarSample>& samples, double cell_m) {
+  std::unordered_map<std::uint64_t, std::size_t> cells;
+  std::vector<PlanarSample> out;
+  std::vector<int> count;
+  const auto inverse = static_cast<float>(1.0 / cell_m);
+  for (const PlanarSample& sample : samples) {
+    const auto x = static_cast<std::int64_t>(std::floor(sample.uv_m.x() * inverse));
+    const auto y = static_cast<std::int64_t>(std::floor(sample.uv_m.y() * inverse));
+    const std::uint64_t key = static_cast<std::uint64_t>(x + (1LL << 31)) << 32U |
+                              static_cast<std::uint64_t>((y + (1LL << 31)) & 0xFFFFFFFF);
+    const auto [slot, fresh] = cells.try_emplace(key, out.size());
+    if (fresh) {
+      out.emplace_back();
+      count.push_back(0);
+    }
+    PlanarSample& cell = out[slot->second];
+    const float share = 1.0F / static_cast<float>(++count[slot->second]);
+    cell.uv_m += share * (sample.uv_m - cell.uv_m);
+    cell.intensity += share * (sample.intensity - cell.intensity);
+  }
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/planar_patch.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <unordered_set>
+
+#include "base/random.h"
+#include "base/statistics.h"
+
+namespace lvcalib {
+namespace {
+
+struct LocalPlane {
+  Eigen::Vector3d normal;
+  Eigen::Vector3d center;
+  std::size_t inliers = 0;
+};
+
+constexpr std::size_t kMinNeighbours = 10;  // Fewer cannot tell a plane from chance.
+constexpr int kTriplets = 24;               // 99 % to hit three of a 60 % majority.
+// Share of a neighbourhood that must be flat: a board on a stand has other things beside it.
+constexpr double kMinFlatShare = 0.4;
+// Seen flatter than this (cosine of incidence) a plane gives no usable board.
+constexpr double kMinCosIncidence = 0.12;
+
+std::optional<LocalPlane> least_squares_plane(const VoxelCloud& cloud,
+                                              const std::vector<std::uint32_t>& ids) {
+  if (ids.size() < 3) return std::nullopt;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto i : ids) mean += cloud.voxels()[i].mean_m.cast<double>();
+  mean /= static_cast<double>(ids.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const auto i : ids) {
+    const Eigen::Vector3d d = cloud.voxels()[i].mean_m.cast<double>() - mean;
+    scatter += d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  // All on one line: no plane.
+  if (solver.eigenvalues()(1) < 1e-3 * solver.eigenvalues()(2)) return std::nullopt;
+  Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  if (normal.dot(mean) > 0) normal = -normal;
+  return LocalPlane{normal, mean, ids.size()};
+}
+
+std::vector<std::uint32_t> within(const VoxelCloud& cloud, const std::vector<std::uint32_t>& ids,
+                                  const LocalPlane& plane, double tolerance) {
+  std::vector<std::uint32_t> out;
+  out.reserve(ids.size());
+  for (const auto i : ids) {
+    const Eigen::Vector3d d = cloud.voxels()[i].mean_m.cast<double>() - plane.center;
+    if (std::abs(plane.normal.dot(d)) <= tolerance) out.push_back(i);
+  }
+  return out;
+}
+
+// Plane of the majority of a neighbourhood, by random triplets and one least-squares step.
+std::optional<LocalPlane> majority_plane(const VoxelCloud& cloud,
+                                         const std::vector<std::uint32_t>& ids, double tolerance,
+                                         std::uint64_t seed) {
+  if (ids.size() < kMinNeighbours) return std::nullopt;
+  Random random(seed);
+  LocalPlane best;
+  const auto count = static_cast<std::uint32_t>(ids.size());
+  const std::size_t stride = std::max<std::size_t>(1, ids.size() / 200);  // Scoring needs no more.
+  for (int t = 0; t < kTriplets; ++t) {
+    const auto pick = [&] { return cloud.voxels()[ids[random.below(count)]].mean_m.cast<double>().eval(); };
+    const Eigen::Vector3d a = pick();
+    const Eigen::Vector3d b = pick();
+    const Eigen::Vector3d c = pick();
+    const Eigen::Vector3d n = (b - a).cross(c - a);
+    // Slim triangles give wild normals: height must exceed the tolerance clearly.
+    const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+    if (n.norm() < 3.0 * tolerance * longest) continue;
+    LocalPlane plane{n.normalized(), a, 0};
+    for (std::size_t k = 0; k < ids.size(); k += stride) {
+      const Eigen::Vector3d d = cloud.voxels()[ids[k]].mean_m.cast<double>() - a;
+      if (std::abs(plane.normal.dot(d)) <= tolerance) ++plane.inliers;
+    }
+    if (plane.inliers > best.inliers) best = plane;
+  }
+  if (static_cast<double>(best.inliers * stride) < kMinFlatShare * static_cast<double>(ids.size())) {
+    return std::nullopt;
+  }
+  return least_squares_plane(cloud, within(cloud, ids, best, tolerance));
+}
+
+// The part of `ids` connected to the seed when neighbouring cells of side `gap` connect.
+std::vector<std::uint32_t> connected_part(const VoxelCloud& cloud,
+                                          const std::vector<std::uint32_t>& ids,
+                                          const PlanarPatch& frame, const Eigen::Vector2d& seed,
+                                          double gap, double radius) {
+  const int half = static_cast<int>(std::ceil(radius / gap)) + 1;
+  const int side = 2 * half + 1;
+  std::vector<char> state(static_cast<std::size_t>(side * side), 0);  // 1 occupied, 2 reached
+  const auto cell_of = [&](const Eigen::Vector2d& q) {
+    const int x = std::clamp(static_cast<int>(std::floor((q.x() - seed.x()) / gap)) + half, 0, side - 1);
+    const int y = std::clamp(static_cast<int>(std::floor((q.y() - seed.y()) / gap)) + half, 0, side - 1);
+    return y * side + x;
+  };
+  std::vector<int> cells(ids.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    cells[k] = cell_of(frame.to_plane(cloud.voxels()[ids[k]].mean_m.cast<double>()));
+    state[static_cast<std::size_t>(cells[k])] = 1;
+  }
+  std::vector<int> front{cell_of(seed)};
+  state[static_cast<std::size_t>(front[0])] = 2;
+  while (!front.empty()) {
+    const int at = front.back();
+    front.pop_back();
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int x = at % side + dx;
+        const int y = at / side + dy;
+        if (x < 0 || y < 0 || x >= side || y >= side) continue;
+        const int next = y * side + x;
+        if (state[static_cast<std::size_t>(next)] == 1) {
+          state[static_cast<std::size_t>(next)] = 2;
+          front.push_back(next);
+        }
+      }
+    }
+  }
+  std::vector<std::uint32_t> out;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (state[static_cast<std::size_t>(cells[k])] == 2) out.push_back(ids[k]);
+  }
+  return out;
+}
+
+// Sides of the smallest rectangle around the points, each side trimmed by 1 % of stray points.
+Eigen::Vector2d bounding_sides(const VoxelCloud& cloud, const PlanarPatch& patch) {
+  constexpr int kAngles = 30;  // Three-degree steps: within 0.2 % of the true area.
+  Eigen::Vector2d best(1e9, 1e9);
+  std::vector<Eigen::Vector2d> points;
+  const std::size_t stride = std::max<std::size_t>(1, patch.voxels.size() / 500);
+  for (std::size_t k = 0; k < patch.voxels.size(); k += stride) {
+    points.push_back(patch.to_plane(cloud.voxels()[patch.voxels[k]].mean_m.cast<double>()));
+  }
+  std::vector<double> x(points.size());
+  std::vector<double> y(points.size());
+  for (int a = 0; a < kAngles; ++a) {
+    const double angle = 0.5 * std::numbers::pi * a / kAngles;
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      x[k] = c * points[k].x() + s * points[k].y();
+      y[k] = -s * points[k].x() + c * points[k].y();
+    }
+    const Eigen::Vector2d sides(quantile(x, 0.99) - quantile(x, 0.01),
+                                quantile(y, 0.99) - quantile(y, 0.01));
+    if (sides.prod() < best.prod()) best = sides;
+  }
+  return {best.maxCoeff(), best.minCoeff()};
+}
+
+// Noise of the scene's planes: median deviation from local planes over a sample of places.
+double measure_plane_noise(const VoxelCloud& cloud, const std::vector<std::uint32_t>& seeds,
+                           double radius, double tolerance) {
+  std::vector<double> deviations;
+  std::vector<std::uint32_t> ids;
+  const std::size_t stride = std::max<std::size_t>(1, seeds.size() / 150);
+  for (std::size_t k = 0; k < seeds.size(); k += stride) {
+    cloud.neighbours(cloud.voxels()[seeds[k]].mean_m, radius, ids);
+    const auto plane = majority_plane(cloud, ids, tolerance, seeds[k]);
+    if (!plane) continue;
+    std::vector<double> distance;
+    for (const auto i : within(cloud, ids, *plane, tolerance)) {
+      distance.push_back(std::abs(plane->normal.dot(cloud.voxels()[i].mean_m.cast<double>() - plane->center)));
+    }
+    deviations.push_back(1.4826 * median(std::move(distance)));
+  }
+  return deviations.empty() ? tolerance / 3.0 : quantile(std::move(deviations), 0.75);
+}
+
+class PatchFinder {
+ public:
+  PatchFinder(const VoxelCloud& cloud, const PatchSearchOptions& options)
+      : cloud_(cloud), options_(options),
+        short_side_(std::min(options.board_width_m, options.board_height_m)),
+        diagonal_(std::hypot(options.board_width_m, options.board_height_m)) {}
+
+  std::vector<PlanarPatch> run(const RunContext& context) {
+    const auto seeds = cloud_.cell_representatives();
+    const double radius = 0.3 * short_side_;
+    // A first tolerance from geometry: what still looks flat at the board's size.
+    const double first = 0.03 * short_side_;
+    tolerance_ = options_.plane_tolerance_m > 0
+                     ? options_.plane_tolerance_m
+                     : std::clamp(3.0 * measure_plane_noise(cloud_, seeds, radius, first),
+                                  0.3 * first, 2.0 * first);
+    for (const double gap : options_.connection_gaps) {
+      covered_.assign(cloud_.voxels().size(), 0);
+      for (const auto seed : seeds) {
+        if (context.stopped()) return {};
+        if (covered_[seed] != 0) continue;
+        cloud_.neighbours(cloud_.voxels()[seed].mean_m, radius, ids_);
+        if (auto plane = majority_plane(cloud_, ids_, tolerance_, seed)) grow(seed, *plane, gap * short_side_);
+      }
+    }
+    return std::move(patches_);
+  }
+
+ private:
+  void grow(std::uint32_t seed, LocalPlane plane, double gap) {
+    const Eigen::Vector3d seed_point = cloud_.voxels()[seed].mean_m.cast<double>();
+    if (std::abs(plane.normal.dot(seed_point.normalized())) < kMinCosIncidence) return;
+    const double reach = 1.1 * diagonal_;
+    cloud_.neighbours(cloud_.voxels()[seed].mean_m, reach, ids_);
+    PlanarPatch patch;
+    // Twice: the first plane comes from a small neighbourhood, the second from the whole patch.
+    for (int round = 0; round < 2; ++round) {
+      patch.normal = plane.normal;
+      patch.center_m = plane.center;
+      plane_basis(patch.normal, patch.axis_u, patch.axis_v);
+      const auto near = within(cloud_, ids_, plane, tolerance_);
+      patch.voxels = connected_part(cloud_, near, patch, patch.to_plane(seed_point), gap, reach);
+      const auto refit = least_squares_plane(cloud_, patch.voxels);
+      if (!refit || patch.voxels.size() < kMinNeighbours) return;
+      plane = *refit;
+    }
+    for (const auto i : patch.voxels) covered_[i] = 1;
+    finish(patch, seed_point, reach);
+  }
+
+  void finish(PlanarPatch& patch, const Eigen::Vector3d& seed_point, double reach) {
+    std::vector<double> distance;
+    double farthest = 0.0;
+    for (const auto i : patch.voxels) {
+      const Eigen::Vector3d p = cloud_.voxels()[i].mean_m.cast<double>();
+      distance.push_back(std::abs(patch.normal.dot(p - patch.center_m)));
+      farthest = std::max(farthest, (p - seed_point).norm());
+    }
+    patch.thickness_m = 1.4826 * median(std::move(distance));
+    patch.extent_m = bounding_sides(cloud_, patch);
+    patch.open = farthest > 0.97 * reach;
+    if (patch.extent_m.y() < options_.smallest_side * short_side_) return;
+    patches_.push_back(std::move(patch));
+  }
+
+  const VoxelCloud& cloud_;
+  const PatchSearchOptions& options_;
+  double short_side_;
+  double diagonal_;
+  double tolerance_ = 0.0;
+  std::vector<char> covered_;
+  std::vector<std::uint32_t> ids_;
+  std::vector<PlanarPatch> patches_;
+};
+
+}  // namespace
+
+void plane_basis(const Eigen::Vector3d& normal, Eigen::Vector3d& axis_u, Eigen::Vector3d& axis_v) {
+  // Start from the coordinate axis least aligned with the normal.
+  Eigen::Index smallest = 0;
+  normal.cwiseAbs().minCoeff(&smallest);
+  axis_u = Eigen::Vector3d::Unit(smallest).cross(normal).normalized();
+  axis_v = normal.cross(axis_u);
+}
+
+std::vector<PlanarPatch> find_planar_patches(const VoxelCloud& cloud,
+                                             const PatchSearchOptions& options,
+                                             const RunContext& context) {
+  if (cloud.voxels().empty()) return {};
+  return PatchFinder(cloud, options).run(context);
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/scene_consensus.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/statistics.h"
+
+namespace lvcalib {
+namespace {
+
+// One reading of one scene: the extrinsic it implies.
+struct Proposal {
+  std::size_t scene = 0;
+  std::size_t candidate = 0;
+  double gain = 0.0;
+  UncertainRigid3 camera_from_lidar;
+};
+
+// Chance of refusing a true match: one in ten thousand.
+double agreement_gate() {
+  static const double gate = chi_square_gate(6, 1e-4);
+  return gate;
+}
+
+double squared_distance(const UncertainRigid3& a, const UncertainRigid3& b) {
+  const Vector6d delta = se3_log(a.transform * b.transform.inverse());
+  const Eigen::LDLT<Matrix6d> factor(a.covariance + b.covariance);
+  return delta.dot(factor.solve(delta));
+}
+
+std::vector<Proposal> propose(const std::vector<SceneHypotheses>& scenes,
+                              const std::optional<Rigid3>& guess, const ConsensusOptions& options) {
+  std::vector<Proposal> out;
+  Matrix6d systematic = Matrix6d::Zero();
+  systematic.diagonal().head<3>().setConstant(std::pow(options.systematic_translation_m, 2));
+  systematic.diagonal().tail<3>().setConstant(std::pow(options.systematic_rotation_rad, 2));
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    for (std::size_t k = 0; k < scenes[s].candidates.size(); ++k) {
+      const BoardCandidate& candidate = scenes[s].candidates[k];
+      const auto add = [&](const Rigid3& camera_from_board) {
+        Proposal p;
+        p.scene = s;
+        p.candidate = k;
+        p.gain = candidate.gain;
+        // The systematic part acts at the board, where the two sensors meet, not at the camera.
+        UncertainRigid3 camera{camera_from_board, scenes[s].camera_from_board.covariance};
+        const Matrix6d ad = Rigid3{Eigen::Quaterniond::Identity(), camera_from_board.translation}.adjoint();
+        camera.covariance += ad * systematic * ad.transpose();
+        p.camera_from_lidar = camera * candidate.lidar_from_board.inverse();
+        if (guess && (translation_distance_m(p.camera_from_lidar.transform.inverse(), guess->inverse()) >
+                          options.guess_translation_m ||
+                      rotation_distance_rad(p.camera_from_lidar.transform, *guess) > options.guess_rotation_rad)) {
+          return;
+        }
+        out.push_back(std::move(p));
+      };
+      add(scenes[s].camera_from_board.transform);
+      if (scenes[s].alternative_camera_from_board) add(*scenes[s].alternative_camera_from_board);
+    }
+  }
+  return out;
+}
+
+struct Vote {
+  double score = 0.0;
+  std::vector<std::optional<std::size_t>> proposals;  // per scene, index into the proposals
+};
+
+Vote count_votes(const std::vector<Proposal>& proposals, std::size_t scenes,
+                 const UncertainRigid3& extrinsic, bool own_scene_exact, std::size_t own) {
+  Vote vote;
+  vote.proposals.resize(scenes);
+  std::vector<double> best(scenes, 0.0);
+  for (std::size_t p = 0; p < proposals.size(); ++p) {
+    const Proposal& proposal = proposals[p];
+    if (own_scene_exact && proposal.scene == proposals[own].scene && p != own) continue;
+    const double d = own_scene_exact && p == own ? 0.0 : squared_distance(proposal.camera_from_lidar, extrinsic);
+    if (d > agreement_gate()) continue;
+    const double value = proposal.gain - 0.5 * d;
+    if (!vote.proposals[proposal.scene] || value > best[proposal.scene]) {
+      vote.proposals[proposal.scene] = p;
+      best[proposal.scene] = value;
+    }
+  }
+  for (std::size_t s = 0; s < scenes; ++s) vote.score += vote.proposals[s] ? best[s] : 0.0;
+  return vote;
+}
+
+// Information-weighted mean of the agreeing proposals.
+UncertainRigid3 fuse(const std::vector<Proposal>& proposals, const Vote& vote, Rigid3 start) {
+  UncertainRigid3 out{start, Matrix6d::Identity()};
+  for (int i = 0; i < 5; ++i) {
+    Matrix6d information = Matrix6d::Zero();
+    Vector6d rhs = Vector6d::Zero();
+    for (const auto& index : vote.proposals) {
+      if (!index) continue;
+      const UncertainRigid3& t = proposals[*index].camera_from_lidar;
+      const Matrix6d weight = t.covariance.ldlt().solve(Matrix6d::Identity());
+      information += weight;
+      rhs += weight * se3_log(t.transform * out.transform.inverse());
+    }
+    const Eigen::LDLT<Matrix6d> factor(information);
+    const Vector6d step = factor.solve(rhs);
+    if (!step.allFinite()) break;
+    out.transform = se3_exp(step) * out.transform;
+    out.covariance = factor.solve(Matrix6d::Identity());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<SceneConsensus> decide_scenes(const std::vector<SceneHypotheses>& scenes,
+                                            const std::optional<Rigid3>& guess,
+                                            const ConsensusOptions& options) {
+  const std::vector<Proposal> proposals = propose(scenes, guess, options);
+  if (proposals.empty()) return std::nullopt;
+  std::vector<Vote> votes;
+  std::size_t best = 0;
+  for (std::size_t p = 0; p < proposals.size(); ++p) {
+    votes.push_back(count_votes(proposals, scenes.size(), proposals[p].camera_from_lidar, true, p));
+    if (votes[p].score > votes[best].score) best = p;
+  }
+  SceneConsensus result;
+  result.camera_from_lidar = fuse(proposals, votes[best], proposals[best].camera_from_lidar.transform);
+  // A second count about the mean: the first is only as good as the scene it started from.
+  const Vote final_vote = count_votes(proposals, scenes.size(), result.camera_from_lidar, false, 0);
+  if (final_vote.score >= votes[best].score) {
+    result.camera_from_lidar = fuse(proposals, final_vote, result.camera_from_lidar.transform);
+    votes[best] = final_vote;
+  }
+  result.score = votes[best].score;
+  result.chosen.resize(scenes.size());
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    if (!votes[best].proposals[s]) continue;
+    result.chosen[s] = proposals[*votes[best].proposals[s]].candidate;
+    ++result.agreeing;
+  }
+  for (std::size_t p = 0; p < proposals.size(); ++p) {
+    if (squared_distance(proposals[p].camera_from_lidar, result.camera_from_lidar) > agreement_gate()) {
+      result.runner_up = std::max(result.runner_up, votes[p].score);
+    }
+  }
+  return result;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refinement/board_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/statistics.h"
+#include "refinement/layout.h"
+#include "refinement/node_fit.h"
+#include "refinement/transition.h"
+
+namespace lvcalib {
+namespace {
+
+// Shares of the circle's radius between which the footprint is looked for: finer than a hundredth
+// cannot be told from a step, wider than the radius leaves no plateau.
+constexpr double kSmallestFootprint = 0.01;
+constexpr double kLargestFootprint = 1.0;
+constexpr double kFirstFootprint = 0.15;
+
+// Points inside the outline (shrunk, since beams on the edge mix board and background).
+std::vector<Eigen::Vector3f> points_on_board(const Cloud& cloud, const Target& target,
+                                             const Rigid3& lidar_from_board) {
+  const BoardOutline outline = target.outline();
+  const double shrink = 0.02 * outline.size_m().minCoeff();
+  const Rigid3 board_from_lidar = lidar_from_board.inverse();
+  std::vector<Eigen::Vector3f> out;
+  out.reserve(cloud.size());
+  for (const Eigen::Vector3f& p : cloud.points_m) {
+    // Along the ray to the board, so that range noise does not decide.
+    const Eigen::Vector3d q = board_from_lidar * p.cast<double>().eval();
+    const Eigen::Vector3d origin = board_from_lidar.translation;
+    const double along = origin.z() - q.z();
+    if (std::abs(along) < 1e-9) continue;
+    const Eigen::Vector3d hit = origin + (q - origin) * (origin.z() / along);
+    if (hit.x() > outline.lower_left_m.x() + shrink && hit.x() < outline.upper_right_m.x() - shrink &&
+        hit.y() > outline.lower_left_m.y() + shrink && hit.y() < outline.upper_right_m.y() - shrink) {
+      out.push_back(p);
+    }
+  }
+  return out;
+}
+
+FittedPlane plane_guess(const Rigid3& lidar_from_board, const Target& target) {
+  const Eigen::Matrix3d R = lidar_from_board.rotation.toRotationMatrix();
+  const Eigen::Vector2d center = target.outline().center_m();
+  FittedPlane plane;
+  plane.normal = R.col(2);
+  plane.axis_u = R.col(0);
+  plane.axis_v = R.col(1);
+  plane.center_m = lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
+  return plane;
+}
+
+class NodeRefiner {
+ public:
+  NodeRefiner(const Cloud& cloud, const Target& target, const RefinementOptions& options,
+              BoardRefinement& result)
+      : target_(target), options_(options), result_(result), window_(node_window(target)),
+        nodes_(target.nodes()), model_(kFirstFootprint * target.circle_radius_m) {
+    // The layout starts where the coarse pose puts it.
+    const Eigen::Vector2d origin = result.plane.to_plane(result.lidar_from_board.translation);
+    const Eigen::Vector3d x_axis = result.lidar_from_board.rotation * Eigen::Vector3d::UnitX();
+    layout_.translation_m = origin;
+    layout_.angle_rad = std::atan2(result.plane.axis_v.dot(x_axis), result.plane.axis_u.dot(x_axis));
+    collect_samples(cloud);
+  }
+
+  bool run(const RunContext& context) {
+    for (const TargetNode& node : nodes_) raw_.push_back(layout_ * node.center_m);
+    for (int i = 0; i < options_.max_iterations; ++i) {
+      if (context.stopped()) return false;
+      const double update = iterate();
+      // The footprint settles during the first rounds; a still layout before that means nothing.
+      if (update < options_.tolerance_m && i >= 2) {
+        result_.converged = true;
+        break;
+      }
+    }
+    finish();
+    return true;
+  }
+
+ private:
+  void collect_samples(const Cloud& cloud) {
+    // Samples that the nodes may still reach while the layout moves.
+    const double reach = window_.radius_m + window_.outside_m + 4.0 * options_.max_step_m;
+    samples_.resize(nodes_.size());
+    const double gate = 5.0 * result_.plane.sigma_range_m;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
+      const auto residual = result_.plane.range_residual_m(p);
+      if (!residual || std::abs(*residual) > gate) continue;
+      const auto uv = result_.plane.ray_hit(p);
+      if (!uv) continue;
+      for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        if ((*uv - layout_ * nodes_[n].center_m).squaredNorm() < reach * reach) {
+          samples_[n].push_back({*uv, cloud.intensity[i]});
+        }
+      }
+    }
+  }
+
+  double iterate() {
+    IterationRecord record;
+    std::vector<std::vector<UnwrappedSample>> unwrapped(nodes_.size());
+    std::vector<NodeRecord> records(nodes_.size());
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      records[n].id = nodes_[n].id;
+      unwrapped[n] = unwrap_node(samples_[n], layout_ * nodes_[n].center_m, window_,
+                                 model_.mean_sigma_m(), records[n]);
+    }
+    fits_.clear();
+    std::vector<UnwrappedSample> centred;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      if (unwrapped[n].empty()) {
+        fits_.push_back({records[n], Eigen::Matrix3d::Zero(), 0.0, 0});
+        continue;
+      }
+      fits_.push_back(fit_node(unwrapped[n], records[n], window_, model_, options_));
+      if (fits_.back().record.valid) append_centred(unwrapped[n], fits_.back().record.wave_m, centred);
+    }
+    if (!centred.empty()) {
+      model_.update(centred, kSmallestFootprint * window_.radius_m, kLargestFootprint * window_.radius_m);
+    }
+    record.transition_sigma_m = model_.mean_sigma_m();
+    record.max_update_m = move_layout();
+    for (const NodeFit& fit : fits_) record.nodes.push_back(fit.record);
+    result_.history.push_back(std::move(record));
+    return result_.history.back().max_update_m;
+  }
+
+  // Distances measured from the fitted circle instead of the predicted one.
+  static void append_centred(const std::vector<UnwrappedSample>& samples, const Eigen::Vector3d& wave,
+                             std::vector<UnwrappedSample>& out) {
+    for (UnwrappedSample s : samples) {
+      s.distance_m -= wave.x() * s.cos_psi + wave.y() * s.sin_psi + wave.z();
+      out.push_back(s);
+    }
+  }
+
+  // Projects the step-limited centres to the layout; returns the largest move of a node.
+  double move_layout() {
+    std::vector<Eigen::Vector2d> centers;
+    std::vector<Eigen::Vector2d> model;
+    std::vector<double> weights;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      if (!fits_[n].record.valid) continue;
+      Eigen::Vector2d step = fits_[n].record.wave_m.head<2>();
+      if (step.norm() > options_.max_step_m) step *= options_.max_step_m / step.norm();
+      centers.push_back(fits_[n].record.center_uv_m + step);
+      model.push_back(nodes_[n].center_m);
+      weights.push_back(1.0 / fits_[n].covariance_m2.topLeftCorner<2, 2>().trace());
+    }
+    if (centers.size() < 2) return 0.0;
+    const LayoutPose next = fit_layout(centers, model, weights);
+    double largest = 0.0;
+    for (const TargetNode& node : nodes_) {
+      largest = std::max(largest, (next * node.center_m - layout_ * node.center_m).norm());
+    }
+    layout_ = next;
+    return largest;
+  }
+
+  void finish() {
+    // Bins that scatter more than their standard deviations say: widen all by the common factor.
+    double chi_square = 0.0;
+    int freedom = 0;
+    for (const NodeFit& fit : fits_) {
+      if (!fit.record.valid) continue;
+      chi_square += fit.chi_square;
+      freedom += fit.degrees_of_freedom;
+    }
+    const double excess = freedom > 0 ? std::max(1.0, chi_square / freedom) : 1.0;
+    std::vector<Eigen::Vector2d> centers;
+    std::vector<Eigen::Vector2d> model;
+    std::vector<double> variances;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      const NodeFit& fit = fits_[n];
+      RefinedNode node;
+      node.id = nodes_[n].id;
+      node.valid = fit.record.valid;
+      node.reason = fit.record.reason;
+      node.board_m = nodes_[n].center_m;
+      node.center_uv_m = fit.record.center_uv_m + fit.record.wave_m.head<2>();
+      node.covariance_m2 = excess * fit.covariance_m2.topLeftCorner<2, 2>();
+      node.center_lidar_m = result_.plane.to_lidar(node.center_uv_m);
+      node.raw_lidar_m = result_.plane.to_lidar(raw_[n]);
+      node.valid_bins = static_cast<int>(std::count_if(fit.record.bins.begin(), fit.record.bins.end(),
+                                                       [](const BinRecord& b) { return b.state == BinState::kUsed; }));
+      if (node.valid) {
+        centers.push_back(node.center_uv_m);
+        model.push_back(node.board_m);
+        variances.push_back(0.5 * node.covariance_m2.trace());
+      }
+      result_.nodes.push_back(std::move(node));
+    }
+    const LayoutScale scale = measure_scale(centers, model, variances);
+    result_.scale = scale.scale;
+    result_.scale_sigma = scale.sigma;
+    result_.footprint_m2 = model_.footprint_m2();
+    result_.intensity_noise = std::sqrt(0.5 * (model_.variance(-4.0) + model_.variance(4.0)));
+    store_pose();
+  }
+
+  void store_pose() {
+    const double c = std::cos(layout_.angle_rad);
+    const double s = std::sin(layout_.angle_rad);
+    Eigen::Matrix3d R;
+    R.col(0) = c * result_.plane.axis_u + s * result_.plane.axis_v;
+    R.col(1) = -s * result_.plane.axis_u + c * result_.plane.axis_v;
+    R.col(2) = result_.plane.normal;
+    result_.lidar_from_board = Rigid3::from_matrix(R, result_.plane.to_lidar(layout_.translation_m));
+  }
+
+  const Target& target_;
+  const RefinementOptions& options_;
+  BoardRefinement& result_;
+  NodeWindow window_;
+  std::vector<TargetNode> nodes_;
+  TransitionModel model_;
+  LayoutPose layout_;
+  std::vector<std::vector<PlaneSample>> samples_;  // per node
+  std::vector<NodeFit> fits_;
+  std::vector<Eigen::Vector2d> raw_;
+};
+
+// The plane of the board's points, fitted twice: the second time with the points that the first
+// plane puts inside the outline.
+bool fit_board_plane(const Cloud& cloud, const Target& target, BoardRefinement& result) {
+  for (int round = 0; round < 2; ++round) {
+    const auto points = points_on_board(cloud, target, result.lidar_from_board);
+    result.board_points = points.size();
+    const auto plane = fit_plane(points, plane_guess(result.lidar_from_board, target));
+    if (!plane) return false;
+    result.plane = *plane;
+    // The pose follows the plane: same place and turn, new normal.
+    const Eigen::Vector2d center = target.outline().center_m();
+    const Eigen::Vector3d middle = result.lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
+    Eigen::Matrix3d R;
+    R.col(2) = plane->normal;
+    const Eigen::Vector3d x = result.lidar_from_board.rotation * Eigen::Vector3d::UnitX();
+    R.col(0) = (x - plane->normal * plane->normal.dot(x)).normalized();
+    R.col(1) = R.col(2).cross(R.col(0));
+    const double along = plane->normal.dot(middle);
+    if (std::abs(along) < 1e-9) return false;
+    const Eigen::Vector3d on_plane = middle * (plane->normal.dot(plane->center_m) / along);
+    result.lidar_from_board = Rigid3::from_matrix(R, on_plane - R * Eigen::Vector3d(center.x(), center.y(), 0.0));
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string describe(BinState state) {
+  switch (state) {
+    case BinState::kUsed: return "used";
+    case BinState::kTooFewSamples: return "too few samples";
+    case BinState::kWeakContrast: return "contrast too weak for the noise";
+    case BinState::kOneSided: return "samples on one side of the edge only";
+    case BinState::kNoCrossing: return "no crossing of the mid-level";
+    case BinState::kOutlier: return "contradicts the other bins";
+  }
+  return {};
+}
+
+double RefinedNode::sigma_m() const { return std::sqrt(0.5 * covariance_m2.trace()); }
+
+int BoardRefinement::valid_nodes() const {
+  return static_cast<int>(std::count_if(nodes.begin(), nodes.end(), [](const RefinedNode& n) { return n.valid; }));
+}
+
+Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& target,
+                                     const Rigid3& lidar_from_board,
+                                     const RefinementOptions& options, const RunContext& context) {
+  BoardRefinement result;
+  result.lidar_from_board = lidar_from_board;
+  if (!fit_board_plane(board_points, target, result)) {
+    return Error::input("no plane fits the board's " + std::to_string(result.board_points) +
+                            " LiDAR points; at least ten, not all on one scan line, are needed",
+                        {}, "let the scanner dwell longer or bring the board nearer");
+  }
+  if (!target.has_circles()) {
+    result.converged = true;
+    return result;
+  }
+  if (!board_points.has_intensity()) {
+    return Error::input("the cloud has no intensity, which the circles need", {},
+                        "record the cloud with intensity (or reflectivity)");
+  }
+  NodeRefiner refiner(board_points, target, options, result);
+  if (!refiner.run(context)) return Error::cancelled();
+  if (!result.converged) result.warnings.push_back("refinement did not settle within its iterations");
+  return result;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refinement/node_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/statistics.h"
+
+namespace lvcalib {
+namespace {
+
+// Least samples for a median level worth the name.
+constexpr std::size_t kMinLevelSamples = 8;
+
+int choose_bin_count(std::size_t samples, const RefinementOptions& options) {
+  const int wanted = static_cast<int>(static_cast<double>(samples) / options.samples_per_bin);
+  return std::clamp(wanted, options.min_bins, options.max_bins);
+}
+
+// Weighted least squares of d* = Δc_u cos ψ + Δc_v sin ψ + Δr over the used bins.
+bool solve_wave(NodeFit& fit) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+  int used = 0;
+  for (const BinRecord& bin : fit.record.bins) {
+    if (bin.state != BinState::kUsed) continue;
+    const Eigen::Vector3d j(std::cos(bin.angle_rad), std::sin(bin.angle_rad), 1.0);
+    const double weight = 1.0 / (bin.sigma_m * bin.sigma_m);
+    normal += weight * j * j.transpose();
+    rhs += weight * bin.midpoint_m * j;
+    ++used;
+  }
+  fit.degrees_of_freedom = used - 3;
+  const Eigen::LDLT<Eigen::Matrix3d> factor(normal);
+  // Three unknowns need at least four midpoints spread over the circle.
+  if (used < 4 || factor.info() != Eigen::Success || factor.rcond() < 1e-6) return false;
+  fit.record.wave_m = factor.solve(rhs);
+  fit.covariance_m2 = factor.solve(Eigen::Matrix3d::Identity());
+  fit.chi_square = 0.0;
+  for (const BinRecord& bin : fit.record.bins) {
+    if (bin.state != BinState::kUsed) continue;
+    const Eigen::Vector3d j(std::cos(bin.angle_rad), std::sin(bin.angle_rad), 1.0);
+    const double r = (bin.midpoint_m - j.dot(fit.record.wave_m)) / bin.sigma_m;
+    fit.chi_square += r * r;
+  }
+  return fit.record.wave_m.allFinite();
+}
+
+// Refuses the bin that contradicts the wave most, if it does so clearly. True if one was refused.
+bool refuse_worst_bin(NodeFit& fit) {
+  // One chance in ten thousand per bin, widened when all bins scatter more than they claim.
+  constexpr double kGate = 4.0;
+  const double excess = fit.degrees_of_freedom > 0
+                            ? std::max(1.0, fit.chi_square / fit.degrees_of_freedom)
+                            : 1.0;
+  BinRecord* worst = nullptr;
+  double worst_ratio = kGate * std::sqrt(excess);
+  for (BinRecord& bin : fit.record.bins) {
+    if (bin.state != BinState::kUsed) continue;
+    const Eigen::Vector3d j(std::cos(bin.angle_rad), std::sin(bin.angle_rad), 1.0);
+    const double ratio = std::abs(bin.midpoint_m - j.dot(fit.record.wave_m)) / bin.sigma_m;
+    if (ratio > worst_ratio) {
+      worst_ratio = ratio;
+      worst = &bin;
+    }
+  }
+  if (worst == nullptr) return false;
+  worst->state = BinState::kOutlier;
+  return true;
+}
+
+}  // namespace
+
+NodeWindow node_window(const Target& target) {
+  NodeWindow window;
+  window.radius_m = target.circle_radius_m;
+  // To the centre of the circle, less what the polar angle needs to be defined.
+  window.inside_m = 0.9 * target.circle_radius_m;
+  // To the nearest tag corner, along the diagonal of the gap crossing.
+  window.outside_m = 0.5 * target.tag_spacing * target.tag_size_m * std::numbers::sqrt2 - target.circle_radius_m;
+  return window;
+}
+
+std::vector<UnwrappedSample> unwrap_node(const std::vector<PlaneSample>& samples,
+                                         const Eigen::Vector2d& center_uv_m,
+                                         const NodeWindow& window, double transition_sigma_m,
+                                         NodeRecord& record) {
+  record.center_uv_m = center_uv_m;
+  std::vector<UnwrappedSample> out;
+  std::vector<double> inner;
+  std::vector<double> outer;
+  // Plateaus begin two standard deviations from the edge, but must keep half of the window.
+  const double clear_in = std::min(2.0 * transition_sigma_m, 0.5 * window.inside_m);
+  const double clear_out = std::min(2.0 * transition_sigma_m, 0.5 * window.outside_m);
+  const double largest = window.radius_m + window.outside_m;
+  for (const PlaneSample& sample : samples) {
+    const Eigen::Vector2d d = sample.uv_m - center_uv_m;
+    const double radius_sq = d.squaredNorm();
+    if (radius_sq > largest * largest) continue;
+    const double radius = std::sqrt(radius_sq);
+    const double distance = radius - window.radius_m;
+    if (distance < -clear_in) inner.push_back(sample.intensity);
+    if (distance > clear_out) outer.push_back(sample.intensity);
+    if (distance < -window.inside_m) continue;
+    out.push_back({d.x() / radius, d.y() / radius, distance, sample.intensity, 0});
+  }
+  if (inner.size() < kMinLevelSamples || outer.size() < kMinLevelSamples) {
+    record.reason = "too few samples: " + std::to_string(inner.size()) + " inside and " +
+                    std::to_string(outer.size()) + " outside the circle, at least " +
+                    std::to_string(kMinLevelSamples) + " each needed";
+    return {};
+  }
+  const double noise = std::max(mad_sigma(inner), mad_sigma(outer));
+  record.inner_level = median(std::move(inner));
+  record.outer_level = median(std::move(outer));
+  const double contrast = record.outer_level - record.inner_level;
+  if (!(contrast > noise) || contrast <= 0) {
+    record.reason = "no contrast between circle and paper";
+    return {};
+  }
+  for (UnwrappedSample& s : out) s.level = (s.level - record.inner_level) / contrast;
+  return out;
+}
+
+NodeFit fit_node(std::vector<UnwrappedSample> samples, NodeRecord record, const NodeWindow& window,
+                 const TransitionModel& model, const RefinementOptions& options) {
+  NodeFit fit;
+  fit.record = std::move(record);
+  const int bins = choose_bin_count(samples.size(), options);
+  fit.record.bins.resize(static_cast<std::size_t>(bins));
+  std::vector<std::vector<UnwrappedSample>> by_bin(fit.record.bins.size());
+  const double width = 2.0 * std::numbers::pi / bins;
+  for (UnwrappedSample& s : samples) {
+    const double psi = std::atan2(s.sin_psi, s.cos_psi);
+    s.bin = std::clamp(static_cast<int>((psi + std::numbers::pi) / width), 0, bins - 1);
+    by_bin[static_cast<std::size_t>(s.bin)].push_back(s);
+  }
+  const double plateau_noise = std::sqrt(std::max(model.variance(-4.0), model.variance(4.0)));
+  const bool weak = plateau_noise * options.min_contrast > 1.0;
+  for (std::size_t k = 0; k < by_bin.size(); ++k) {
+    BinRecord& bin = fit.record.bins[k];
+    bin.angle_rad = -std::numbers::pi + (static_cast<double>(k) + 0.5) * width;
+    solve_crossing(by_bin[k], model, window.inside_m, window.outside_m, options.min_bin_samples, bin);
+    if (weak && bin.state == BinState::kUsed) bin.state = BinState::kWeakContrast;
+  }
+  bool solved = solve_wave(fit);
+  while (solved && refuse_worst_bin(fit)) solved = solve_wave(fit);
+  if (!solved) {
+    fit.record.reason = "too few usable bins around the circle";
+    return fit;
+  }
+  // A centre known no better than a quarter of the radius is no measurement.
+  const double sigma = std::sqrt(fit.covariance_m2.topLeftCorner<2, 2>().trace());
+  fit.record.valid = sigma < 0.25 * window.radius_m;
+  if (!fit.record.valid) fit.record.reason = "centre too uncertain";
+  return fit;
+}
+
+}  // namespace lvcalib

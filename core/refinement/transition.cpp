@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refinement/transition.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "base/statistics.h"
+
+namespace lvcalib {
+namespace {
+
+// Residuals beyond this many standard deviations are someone else's (a tag's edge, a stray hit).
+constexpr double kOutlier = 5.0;
+
+}  // namespace
+
+TransitionModel::TransitionModel(double sigma_m)
+    : footprint_(sigma_m * sigma_m * Eigen::Matrix2d::Identity()) {
+  // Before anything is known every sample counts the same.
+  variance_.fill(0.05);
+}
+
+double TransitionModel::sigma_m(const UnwrappedSample& s) const {
+  const Eigen::Vector2d e(s.cos_psi, s.sin_psi);
+  return std::sqrt(e.dot(footprint_ * e));
+}
+
+double TransitionModel::mean_sigma_m() const { return std::sqrt(0.5 * footprint_.trace()); }
+
+int TransitionModel::zone(double z) {
+  return std::clamp(static_cast<int>(std::floor(z / kZoneWidth)) + kZones / 2, 0, kZones - 1);
+}
+
+double TransitionModel::variance(double z) const { return variance_[static_cast<std::size_t>(zone(z))]; }
+
+void TransitionModel::update(const std::vector<UnwrappedSample>& samples, double min_sigma_m,
+                             double max_sigma_m) {
+  update_footprint(samples, min_sigma_m, max_sigma_m);
+  update_noise(samples);
+}
+
+void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& samples,
+                                       double min_sigma_m, double max_sigma_m) {
+  constexpr int kIterations = 6;
+  for (int i = 0; i < kIterations; ++i) {
+    // level = Φ(d/σ): ∂/∂σ² = −φ(d/σ)·d/(2σ³); σ² is linear in the three entries of S.
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+    for (const UnwrappedSample& s : samples) {
+      const double sigma = sigma_m(s);
+      const double z = s.distance_m / sigma;
+      if (std::abs(z) > 4.0) continue;
+      const double e = s.level - normal_cdf(z);
+      const double v = variance(z);
+      if (e * e > kOutlier * kOutlier * v) continue;
+      const double by_variance = -normal_pdf(z) * z / (2.0 * sigma * sigma);
+      const Eigen::Vector3d j = by_variance * Eigen::Vector3d(s.cos_psi * s.cos_psi, 2.0 * s.cos_psi * s.sin_psi,
+                                                              s.sin_psi * s.sin_psi);
+      normal += j * j.transpose() / v;
+      rhs += j * e / v;
+    }
+    normal.diagonal() *= 1.0 + 1e-6;
+    const Eigen::Vector3d step = normal.ldlt().solve(rhs);
+    if (!step.allFinite()) return;
+    Eigen::Matrix2d next;
+    next << footprint_(0, 0) + step(0), footprint_(0, 1) + step(1), footprint_(0, 1) + step(1),
+        footprint_(1, 1) + step(2);
+    // Keep the ellipse within believable axes.
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(next);
+    const Eigen::Vector2d bounded = axes.eigenvalues()
+                                        .cwiseMax(min_sigma_m * min_sigma_m)
+                                        .cwiseMin(max_sigma_m * max_sigma_m);
+    const Eigen::Matrix2d kept = axes.eigenvectors() * bounded.asDiagonal() * axes.eigenvectors().transpose();
+    const double change = (kept - footprint_).norm() / footprint_.norm();
+    footprint_ = kept;
+    if (change < 1e-3) break;
+  }
+}
+
+void TransitionModel::update_noise(const std::vector<UnwrappedSample>& samples) {
+  std::array<std::vector<double>, kZones> residuals;
+  std::vector<double> all;
+  for (const UnwrappedSample& s : samples) {
+    const double z = s.distance_m / sigma_m(s);
+    const double e = s.level - normal_cdf(z);
+    residuals[static_cast<std::size_t>(zone(z))].push_back(e);
+    all.push_back(std::abs(e));
+  }
+  if (all.size() < 20) return;
+  const double overall = 1.4826 * median(std::move(all));
+  for (std::size_t k = 0; k < kZones; ++k) {
+    // Mean square without outliers; the overall variance stands in for ten more samples, so that
+    // thin zones stay near it.
+    constexpr double kPrior = 10.0;
+    double sum = kPrior * overall * overall;
+    double n = kPrior;
+    const double cut = kOutlier * std::max(mad_sigma(residuals[k]), overall);
+    for (const double e : residuals[k]) {
+      if (std::abs(e) > cut) continue;
+      sum += e * e;
+      n += 1.0;
+    }
+    // A quantised, noiseless level must not get infinite weight.
+    variance_[k] = std::max(sum / n, 1e-6);
+  }
+}
+
+namespace {
+
+// Crossing of the mid-level in the binned radial profile, as a start for the exact solution.
+double interpolate_crossing(const std::vector<UnwrappedSample>& samples, double low, double high) {
+  constexpr int kSlots = 10;
+  std::array<double, kSlots> sum{};
+  std::array<double, kSlots> count{};
+  for (const UnwrappedSample& s : samples) {
+    const int k = static_cast<int>((s.distance_m - low) / (high - low) * kSlots);
+    if (k < 0 || k >= kSlots) continue;
+    sum[static_cast<std::size_t>(k)] += s.level;
+    count[static_cast<std::size_t>(k)] += 1.0;
+  }
+  double previous_d = low;
+  double previous_level = 0.0;
+  for (std::size_t k = 0; k < kSlots; ++k) {
+    if (count[k] == 0) continue;
+    const double d = low + (static_cast<double>(k) + 0.5) * (high - low) / kSlots;
+    const double level = sum[k] / count[k];
+    if (level >= 0.5 && previous_level < 0.5) {
+      return previous_d + (d - previous_d) * (0.5 - previous_level) / (level - previous_level);
+    }
+    previous_d = d;
+    previous_level = level;
+  }
+  return 0.0;
+}
+
+struct CrossingSystem {
+  double information = 0.0;
+  double rhs = 0.0;
+  double cos_sum = 0.0, sin_sum = 0.0;
+  int near_inside = 0, near_outside = 0;
+};
+
+CrossingSystem crossing_system(const std::vector<UnwrappedSample>& samples,
+                               const TransitionModel& model, double crossing) {
+  CrossingSystem system;
+  for (const UnwrappedSample& s : samples) {
+    const double sigma = model.sigma_m(s);
+    const double z = (s.distance_m - crossing) / sigma;
+    if (std::abs(z) > 4.0) continue;
+    const double e = s.level - normal_cdf(z);
+    const double v = model.variance(z);
+    if (e * e > kOutlier * kOutlier * v) continue;
+    const double j = -normal_pdf(z) / sigma;  // ∂level/∂crossing
+    const double information = j * j / v;
+    system.information += information;
+    system.rhs += j * e / v;
+    system.cos_sum += information * s.cos_psi;
+    system.sin_sum += information * s.sin_psi;
+    if (z < 0.5) ++system.near_inside;
+    if (z > -0.5) ++system.near_outside;
+  }
+  return system;
+}
+
+}  // namespace
+
+void solve_crossing(const std::vector<UnwrappedSample>& samples, const TransitionModel& model,
+                    double window_in_m, double window_out_m, int min_samples, BinRecord& bin) {
+  constexpr int kIterations = 12;
+  bin.samples = static_cast<int>(samples.size());
+  if (bin.samples < min_samples) {
+    bin.state = BinState::kTooFewSamples;
+    return;
+  }
+  double crossing = interpolate_crossing(samples, -window_in_m, window_out_m);
+  const double step_limit = model.mean_sigma_m();
+  CrossingSystem system;
+  for (int i = 0; i < kIterations; ++i) {
+    system = crossing_system(samples, model, crossing);
+    if (system.information <= 0) break;
+    const double step = std::clamp(system.rhs / system.information, -step_limit, step_limit);
+    crossing += step;
+    if (std::abs(step) < 1e-7) break;
+  }
+  if (system.information <= 0 || crossing < -window_in_m || crossing > window_out_m) {
+    bin.state = BinState::kNoCrossing;
+    return;
+  }
+  if (system.near_inside == 0 || system.near_outside == 0) {
+    bin.state = BinState::kOneSided;
+    return;
+  }
+  bin.midpoint_m = crossing;
+  bin.sigma_m = 1.0 / std::sqrt(system.information);
+  bin.angle_rad = std::atan2(system.sin_sum, system.cos_sum);
+  // A midpoint known no better than the window is no measurement.
+  bin.state = bin.sigma_m < 0.25 * (window_in_m + window_out_m) ? BinState::kUsed : BinState::kNoCrossing;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "refinement/board_refinement.h"
+
+namespace lvcalib {
+
+/// A sample about one node, unwrapped into angle and distance.
+struct UnwrappedSample {
+  double cos_psi = 1.0;
+  double sin_psi = 0.0;
+  double distance_m = 0.0;  ///< From the circle, outside positive.
+  double level = 0.0;       ///< (I − inner)/(outer − inner): 0 black, 1 white.
+  int bin = 0;
+};
+
+/// The intensity transition across a circle's edge, common to all nodes of a scene:
+/// level(d) = Φ(d/σ(ψ)) with σ² = eᵀ S e, e the outward direction, S the footprint's covariance;
+/// and how the noise of a sample depends on its place in the transition.
+class TransitionModel {
+ public:
+  explicit TransitionModel(double sigma_m);
+
+  [[nodiscard]] double sigma_m(const UnwrappedSample& s) const;
+  /// Variance of a sample's level at z = d/σ.
+  [[nodiscard]] double variance(double z) const;
+  [[nodiscard]] const Eigen::Matrix2d& footprint_m2() const { return footprint_; }
+  /// Mean standard deviation over all directions.
+  [[nodiscard]] double mean_sigma_m() const;
+
+  /// Re-estimates footprint and noise from samples whose distances are measured from the fitted
+  /// circles. Keeps the old footprint where the data cannot tell.
+  void update(const std::vector<UnwrappedSample>& samples, double min_sigma_m, double max_sigma_m);
+
+ private:
+  void update_footprint(const std::vector<UnwrappedSample>& samples, double min_sigma_m,
+                        double max_sigma_m);
+  void update_noise(const std::vector<UnwrappedSample>& samples);
+
+  // The transition is divided at z = −3, −2.5, …, 3, with the plateaus at both ends.
+  static constexpr int kZones = 14;
+  static constexpr double kZoneWidth = 0.5;
+  [[nodiscard]] static int zone(double z);
+
+  Eigen::Matrix2d footprint_;
+  std::array<double, kZones> variance_{};
+};
+
+/// Mid-level crossing of one bin's samples under the model. Sets midpoint, sigma, angle and state.
+void solve_crossing(const std::vector<UnwrappedSample>& samples, const TransitionModel& model,
+                    double window_in_m, double window_out_m, int min_samples, BinRecord& bin);
+
+}  // namespace lvcalib
