@@ -1,4 +1,119 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-int main() {
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "interrupt.h"
+#include "progress_printer.h"
+
+namespace lvcalib::cli {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+int exit_status(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::kUntrusted:
+      return 1;
+    case ErrorKind::kUsage:
+      return 2;
+    case ErrorKind::kInput:
+    case ErrorKind::kOutput:
+      return 3;
+    case ErrorKind::kCancelled:
+      break;
+  }
+  return 130;
+}
+
+int fail(ProgressPrinter& printer, const Error& error) {
+  std::string text = error.text();
+  // One message, one line, whatever a file name or a library has put into it.
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  printer.line("lvcalib: error: " + text);
+  return exit_status(error.kind);
+}
+
+struct CommonOptions {
+  int threads = 0;
+  bool quiet = false;
+};
+
+void add_common_options(CLI::App& command, CommonOptions& common) {
+  command.add_option("--threads", common.threads, "worker threads; 0: as many as the machine has")
+      ->check(CLI::Range(0, kMostThreads));
+  command.add_flag("--quiet", common.quiet, "no progress; only warnings and errors");
+  command.set_version_flag("--version", "lvcalib " LVCALIB_VERSION);
+}
+
+// Parses the command line. Returns an exit status when there is nothing to run.
+int parse(CLI::App& app, int argc, char** argv, ProgressPrinter& printer) {
+  try {
+    app.parse(argc, argv);
+    return -1;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
+    const auto used = app.get_subcommands();
+    const std::string where = used.empty() ? std::string{} : used.front()->get_name();
+    return fail(printer,
+                Error::usage(e.what(), where,
+                             "see lvcalib " + (where.empty() ? "" : where + " ") + "--help"));
+  }
+}
+
+int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& interrupt) {
+  CLI::App app("LiDAR-camera calibration", "lvcalib");
+  app.set_version_flag("--version", "lvcalib " LVCALIB_VERSION);
+  app.require_subcommand(1);
+  const std::vector<Command> commands = {
+      add_target_command(app),
+  };
+  CommonOptions common;
+  for (const Command& command : commands) add_common_options(*command.app, common);
+  if (const int status = parse(app, argc, argv, printer); status >= 0) return status;
+
+  Session session;
+  session.quiet = common.quiet;
+  session.context.threads = common.threads;
+  session.context.stop = interrupt.token();
+  if (!common.quiet) {
+    session.context.progress = [&printer](const Progress& progress) { printer.show(progress); };
+  }
+  session.warn = [&printer](const std::string& text) { printer.line("lvcalib: warning: " + text); };
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    const Result<std::string> summary = command.run(session);
+    // A command that failed because it was stopped was stopped, whatever it says.
+    if (!summary && interrupt.token().stop_requested()) return fail(printer, Error::cancelled());
+    if (!summary) return fail(printer, summary.error());
+    printer.finish();
+    std::printf("%s\n", summary->c_str());
+    std::fflush(stdout);
+  }
   return 0;
+}
+
+}  // namespace
+}  // namespace lvcalib::cli
+
+int main(int argc, char** argv) {
+  using lvcalib::Error;
+  lvcalib::cli::InterruptWatch interrupt;
+  lvcalib::cli::ProgressPrinter printer;
+  try {
+    return lvcalib::cli::run(argc, argv, printer, interrupt);
+  } catch (const std::bad_alloc&) {
+    return lvcalib::cli::fail(
+        printer, Error::input("not enough memory", {}, "use smaller clouds or images"));
+  } catch (const std::exception& e) {
+    return lvcalib::cli::fail(printer,
+                              Error::input(std::string("unexpected failure: ") + e.what()));
+  } catch (...) {
+    return lvcalib::cli::fail(printer, Error::input("unexpected failure"));
+  }
 }

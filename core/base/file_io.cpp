@@ -33,31 +33,61 @@ Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) 
   return text;
 }
 
+namespace {
+
+// Writes and flushes everything; the errno of the first failure, or 0. Closes the file.
+int write_and_close(int file, std::string_view content) {
+  int failure = 0;
+  while (!content.empty() && failure == 0) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written >= 0) {
+      content.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      failure = errno;
+    }
+  }
+  if (failure == 0 && ::fsync(file) != 0) failure = errno;
+  if (::close(file) != 0 && failure == 0) failure = errno;
+  return failure;
+}
+
+// Writes to a file without a name, which vanishes if the process is killed, and names it when it
+// is complete. EOPNOTSUPP where the file system has no such files.
+int write_unnamed(const fs::path& path, std::string_view content) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int file = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0644);
+  if (file < 0) return EOPNOTSUPP;
+  const int keep = ::fcntl(file, F_DUPFD_CLOEXEC, 0);
+  if (keep < 0) {
+    ::close(file);
+    return EOPNOTSUPP;
+  }
+  int failure = write_and_close(file, content);
+  const std::string link = "/proc/self/fd/" + std::to_string(keep);
+  if (failure == 0 &&
+      ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0) {
+    failure = EOPNOTSUPP;
+  }
+  ::close(keep);
+  return failure;
+}
+
+int write_named(const fs::path& path, std::string_view content) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  return file < 0 ? errno : write_and_close(file, content);
+}
+
+}  // namespace
+
 Status write_file_atomically(const fs::path& path, std::string_view content) {
   fs::path temporary = path;
   temporary += ".part" + std::to_string(::getpid());
-  const auto fail = [&](int code) -> Status {
-    ::unlink(temporary.c_str());
-    return Error::output("cannot be written: " + std::string(std::strerror(code)), path.string());
-  };
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) return fail(errno);
-  while (!content.empty()) {
-    const ssize_t written = ::write(file, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int code = errno;
-      ::close(file);
-      return fail(code);
-    }
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  const bool flushed = ::fsync(file) == 0;
-  const int flush_error = errno;
-  if (::close(file) != 0) return fail(errno);
-  if (!flushed) return fail(flush_error);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) return fail(errno);
-  return Done{};
+  int failure = write_unnamed(temporary, content);
+  if (failure == EOPNOTSUPP) failure = write_named(temporary, content);
+  if (failure == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) failure = errno;
+  if (failure == 0) return Done{};
+  ::unlink(temporary.c_str());
+  return Error::output("cannot be written: " + std::string(std::strerror(failure)), path.string());
 }
 
 Status create_folder(const fs::path& path) {
