@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/cloud_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lvcalib {
+namespace {
+
+constexpr double kLongestScan_s = 60.0;
+constexpr double kShortestScan_s = 1e-3;
+constexpr double kYear2000_s = 946'684'800.0;
+constexpr double kYear2100_s = 4'102'444'800.0;
+
+FieldLayout moved(FieldLayout field, std::size_t points) {
+  field.offset += points * field.stride;
+  return field;
+}
+
+}  // namespace
+
+double time_unit_s(bool is_integer, double first, double span) {
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
+    if (is_integer && unit == 1.0) continue;
+    const double first_s = first * unit;
+    if (first_s >= kYear2000_s && first_s < kYear2100_s && span * unit <= kLongestScan_s) {
+      return unit;
+    }
+  }
+  if (!is_integer && span <= kLongestScan_s) return 1.0;
+  for (const double unit : {1e-9, 1e-6}) {
+    if (span * unit >= kShortestScan_s) return unit;
+  }
+  return 1e-3;
+}
+
+CloudBuilder::CloudBuilder(const BlockLayout& layout, bool time_is_integer,
+                           std::uint64_t expected_points)
+    : layout_(layout), time_is_integer_(time_is_integer) {
+  const auto count = static_cast<std::size_t>(expected_points);
+  cloud_.points_m.reserve(count);
+  if (layout_.fields[kIntensity]) cloud_.intensity.reserve(count);
+  if (layout_.fields[kTime]) cloud_.time_s.reserve(count);
+  if (layout_.fields[kLine]) cloud_.line.reserve(count);
+}
+
+void CloudBuilder::append(const char* block, std::size_t count) {
+  for (std::size_t first = 0; first < count; first += kBlock) {
+    append_small(block, first, std::min(kBlock, count - first));
+  }
+  seen_ += count;
+}
+
+void CloudBuilder::append_small(const char* block, std::size_t first, std::size_t count) {
+  const auto field = [&](Role role) { return moved(*layout_.fields[role], first); };
+  const bool swap = layout_.swap_bytes;
+  decode_floats(block, field(kX), swap, count, x_.data());
+  decode_floats(block, field(kY), swap, count, y_.data());
+  decode_floats(block, field(kZ), swap, count, z_.data());
+  const std::size_t kept = choose_points(count);
+  if (kept == 0) return;
+  const bool all = kept == count;
+
+  const std::size_t old_size = cloud_.points_m.size();
+  cloud_.points_m.resize(old_size + kept);
+  Eigen::Vector3f* to = cloud_.points_m.data() + old_size;
+  for (std::size_t k = 0; k < kept; ++k) {
+    const std::size_t i = kept_[k];
+    to[k] = {x_[i], y_[i], z_[i]};
+  }
+  if (layout_.fields[kIntensity]) {
+    decode_floats(block, field(kIntensity), swap, count, scratch_.data());
+    append_column(scratch_, kept, all, cloud_.intensity);
+  }
+  if (layout_.fields[kTime]) append_times(block, first, count, kept);
+  if (layout_.fields[kLine]) {
+    decode_lines(block, field(kLine), swap, count, lines_.data());
+    for (std::size_t k = 0; k < kept; ++k) lines_[k] = lines_[kept_[k]];
+    cloud_.line.insert(cloud_.line.end(), lines_.begin(),
+                       lines_.begin() + static_cast<std::ptrdiff_t>(kept));
+  }
+}
+
+// Lists the points that are finite and not at the origin; returns their number.
+std::size_t CloudBuilder::choose_points(std::size_t count) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    kept_[kept] = static_cast<std::uint16_t>(i);
+    // Zero times a finite number is zero, times anything else NaN.
+    const float zero = 0.0F * x_[i] + 0.0F * y_[i] + 0.0F * z_[i];
+    const bool origin = x_[i] == 0.0F && y_[i] == 0.0F && z_[i] == 0.0F;
+    kept += static_cast<std::size_t>(zero == 0.0F && !origin);
+  }
+  cloud_.dropped += count - kept;
+  return kept;
+}
+
+void CloudBuilder::append_times(const char* block, std::size_t first, std::size_t count,
+                                std::size_t kept) {
+  const FieldLayout field = moved(*layout_.fields[kTime], first);
+  for (std::size_t k = 0; k < kept && !first_time_; ++k) {
+    const ExactTime time = decode_time(block, field, layout_.swap_bytes, kept_[k]);
+    if (std::isfinite(time.value)) first_time_ = time;
+  }
+  decode_times(block, field, layout_.swap_bytes, count, first_time_.value_or(ExactTime{}),
+               scratch_.data());
+  append_column(scratch_, kept, kept == count, cloud_.time_s);
+}
+
+void CloudBuilder::append_column(const std::array<float, kBlock>& values, std::size_t kept,
+                                 bool all, std::vector<float>& column) {
+  if (all) {
+    column.insert(column.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kept));
+    return;
+  }
+  for (std::size_t k = 0; k < kept; ++k) column.push_back(values[kept_[k]]);
+}
+
+void CloudBuilder::drop_not_finite(std::vector<float>& column) {
+  const auto bad = static_cast<std::size_t>(
+      std::count_if(column.begin(), column.end(), [](float v) { return !std::isfinite(v); }));
+  if (bad == 0) return;
+  if (bad == column.size()) {
+    column.clear();
+    column.shrink_to_fit();
+    return;
+  }
+  const std::size_t size = column.size();
+  const auto compact = [&](auto& other, const std::vector<char>& keep) {
+    if (other.empty()) return;
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (keep[i] != 0) other[to++] = other[i];
+    }
+    other.resize(to);
+  };
+  std::vector<char> keep(size);
+  std::transform(column.begin(), column.end(), keep.begin(),
+                 [](float v) { return static_cast<char>(std::isfinite(v)); });
+  compact(cloud_.points_m, keep);
+  compact(cloud_.intensity, keep);
+  compact(cloud_.time_s, keep);
+  compact(cloud_.line, keep);
+  cloud_.dropped += bad;
+}
+
+void CloudBuilder::scale_times() {
+  if (cloud_.time_s.empty()) return;
+  const auto [low, high] = std::minmax_element(cloud_.time_s.begin(), cloud_.time_s.end());
+  const float earliest = *low;
+  const double span = static_cast<double>(*high) - earliest;
+  const double unit = time_unit_s(time_is_integer_, first_time_->value, span);
+  for (float& time : cloud_.time_s) {
+    time = static_cast<float>((static_cast<double>(time) - earliest) * unit);
+  }
+}
+
+Result<Cloud> CloudBuilder::finish(const std::string& name) {
+  if (seen_ == 0) return Error::input("holds no points (its header says 0)", name);
+  drop_not_finite(cloud_.intensity);
+  drop_not_finite(cloud_.time_s);
+  if (cloud_.points_m.empty()) {
+    return Error::input("none of its " + std::to_string(seen_) +
+                            " points is usable: all are NaN, infinite or at the origin",
+                        name, "check the driver or the export that wrote the file");
+  }
+  scale_times();
+  return std::move(cloud_);
+}
+
+}  // namespace lvcalib

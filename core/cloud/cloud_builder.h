@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cloud/cloud.h"
+#include "cloud/field_decoder.h"
+
+namespace lvcalib {
+
+/// Seconds per tick of a time field, from its values, as files do not tell. In this order:
+/// 1. Times since 1970 (years 2000 to 2099): the unit that puts `first` there, if the span is a
+///    minute at most.
+/// 2. Floating-point fields: seconds, unless the span would exceed a minute (Livox writes
+///    nanoseconds as double).
+/// 3. The finest of ns, µs, ms that makes the span at least a millisecond: one packet of a
+///    scanner. Drivers of Ouster, Livox and Velodyne count nanoseconds in 32 bits.
+double time_unit_s(bool is_integer, double first, double span);
+
+/// Turns blocks of raw points into the columns of a Cloud, leaving out points that are no
+/// returns. Holds no more than the columns.
+class CloudBuilder {
+ public:
+  /// `time_is_integer`: the file's own type, where `layout` describes converted values.
+  /// `expected_points`: memory to reserve; never more than the file can hold.
+  CloudBuilder(const BlockLayout& layout, bool time_is_integer, std::uint64_t expected_points);
+
+  /// Takes `count` points, laid out from `block` on.
+  void append(const char* block, std::size_t count);
+
+  /// Points taken so far, with those left out.
+  [[nodiscard]] std::uint64_t seen() const { return seen_; }
+
+  /// Completes the cloud. Times become seconds from the earliest one. A field that is finite
+  /// nowhere is dropped; points where it is not finite otherwise. Error if no point is left.
+  Result<Cloud> finish(const std::string& name);
+
+ private:
+  static constexpr std::size_t kBlock = 2048;  // scratch stays in the fastest cache
+
+  void append_small(const char* block, std::size_t first, std::size_t count);
+  std::size_t choose_points(std::size_t count);
+  void append_times(const char* block, std::size_t first, std::size_t count, std::size_t kept);
+  void append_column(const std::array<float, kBlock>& values, std::size_t kept, bool all,
+                     std::vector<float>& column);
+  void drop_not_finite(std::vector<float>& column);
+  void scale_times();
+
+  BlockLayout layout_;
+  bool time_is_integer_;
+  Cloud cloud_;
+  std::uint64_t seen_ = 0;
+  std::optional<ExactTime> first_time_;
+  std::array<float, kBlock> x_ = {}, y_ = {}, z_ = {}, scratch_ = {};
+  std::array<std::uint16_t, kBlock> lines_ = {}, kept_ = {};
+};
+
+}  // namespace lvcalib

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include <lzf.h>
+
+#include "cloud/pcd_header.h"
+#include "cloud/readers.h"
+#include "cloud/text_rows.h"
+
+namespace lvcalib {
+namespace {
+
+// The scalar type of a field that is needed; an error if there is no such type.
+Result<ScalarType> field_type(const Input& input, const PcdField& field) {
+  const auto type = pcd_scalar_type(field.type, field.size);
+  if (type) return *type;
+  return input.error("field '" + field.name + "' has TYPE " + field.type + " and SIZE " +
+                     std::to_string(field.size) +
+                     ", expected F with 4 or 8 or I or U with 1, 2, 4 or 8");
+}
+
+struct PcdColumns {
+  RoleFields roles = {};
+  std::vector<ScalarType> types;  // by role; meaningless for roles without a field
+  [[nodiscard]] bool time_is_integer() const {
+    return roles[kTime] >= 0 && is_integer(types[kTime]);
+  }
+};
+
+Result<PcdColumns> find_columns(const Input& input, const PcdHeader& header) {
+  std::vector<std::string> names;
+  for (const PcdField& field : header.fields) names.push_back(field.name);
+  auto roles = assign_roles(names, input.name());
+  if (!roles) return roles.error();
+  PcdColumns columns{*roles, std::vector<ScalarType>(kRoleCount, ScalarType::kF32)};
+  for (std::size_t role = 0; role < kRoleCount; ++role) {
+    if (columns.roles[role] < 0) continue;
+    auto type = field_type(input, header.fields[static_cast<std::size_t>(columns.roles[role])]);
+    if (!type) return type.error();
+    columns.types[role] = *type;
+  }
+  return columns;
+}
+
+Result<Cloud> finish(const Input& input, std::uint64_t points, CloudBuilder& builder) {
+  if (builder.seen() < points) return truncated(input, points, builder.seen());
+  return builder.finish(input.name());
+}
+
+Result<Cloud> read_ascii(Input& input, const PcdHeader& header, const PcdColumns& columns) {
+  std::vector<TextEntry> entries;
+  std::uint64_t words = 0;
+  for (const PcdField& field : header.fields) {
+    entries.push_back({-1, field.count, false});
+    words += field.count;
+  }
+  for (std::size_t role = 0; role < kRoleCount; ++role) {
+    if (columns.roles[role] < 0) continue;
+    entries[static_cast<std::size_t>(columns.roles[role])].role = static_cast<int>(role);
+  }
+  // A value takes a digit and a separator at least.
+  const std::uint64_t possible = input.remaining() / (2 * words) + 1;
+  CloudBuilder builder(text_layout(entries), columns.time_is_integer(),
+                       std::min(header.points, possible));
+  LineReader lines(input, header.line_count);
+  const Status status = read_text_rows(input, lines, entries, header.points, builder);
+  if (!status) return status.error();
+  return finish(input, header.points, builder);
+}
+
+Result<Cloud> read_binary(Input& input, const PcdHeader& header, const PcdColumns& columns) {
+  BlockLayout layout;
+  const std::size_t point_bytes = header.point_bytes();
+  std::size_t offset = 0;
+  for (std::size_t i = 0; i < header.fields.size(); ++i) {
+    for (std::size_t role = 0; role < kRoleCount; ++role) {
+      if (columns.roles[role] != static_cast<int>(i)) continue;
+      layout.fields[role] = FieldLayout{columns.types[role], offset, point_bytes};
+    }
+    offset += header.fields[i].bytes();
+  }
+  CloudBuilder builder(layout, columns.time_is_integer(),
+                       std::min<std::uint64_t>(header.points, input.remaining() / point_bytes));
+  const Status status = read_binary_points(input, point_bytes, header.points, builder);
+  if (!status) return status.error();
+  return finish(input, header.points, builder);
+}
+
+struct Block {
+  std::unique_ptr<char[]> bytes;  // not zeroed first: this is the largest buffer of the room
+  std::uint32_t size = 0;
+};
+
+// The block of compressed data: two 32-bit sizes, then the LZF stream.
+Result<Block> decompress(Input& input, std::uint64_t points, std::uint64_t padded,
+                         std::uint64_t unpadded) {
+  std::uint32_t sizes[2] = {};
+  auto complete = input.require(sizeof sizes);
+  if (!complete) return complete.error();
+  if (!*complete) return truncated(input, points, 0);
+  std::memcpy(sizes, input.rest().data(), sizeof sizes);
+  input.consume(sizeof sizes);
+  const auto [packed, plain] = sizes;
+  if (plain != padded && plain != unpadded) {
+    return input.error("its compressed data hold " + std::to_string(plain) + " bytes, expected " +
+                       std::to_string(padded) + " for " + std::to_string(points) + " points");
+  }
+  if (packed > input.remaining()) {
+    return input.error("is truncated: its compressed data take " + std::to_string(packed) +
+                           " bytes, found " + std::to_string(input.remaining()) + ", so none of " +
+                           std::to_string(points) + " points can be read",
+                       "copy or export the file again");
+  }
+  // Three bytes of LZF give at most 264 bytes; this bounds memory by the file's real size.
+  if (plain > 88 * static_cast<std::uint64_t>(packed)) {
+    return input.error("its compressed data cannot hold " + std::to_string(points) +
+                       " points: " + std::to_string(packed) + " bytes are too few");
+  }
+  complete = input.require(packed);
+  if (!complete) return complete.error();
+  Block block{std::unique_ptr<char[]>(new char[std::max<std::size_t>(plain, 1)]), plain};
+  if (!*complete || (plain > 0 && lzf_decompress(input.rest().data(), packed, block.bytes.get(),
+                                                 plain) != plain)) {
+    return input.error("its compressed data are damaged", "copy or export the file again");
+  }
+  return block;
+}
+
+Result<Cloud> read_compressed(Input& input, const PcdHeader& header, const PcdColumns& columns) {
+  std::uint64_t unpadded_bytes = 0;
+  for (const PcdField& field : header.fields) {
+    if (field.name != "_") unpadded_bytes += field.bytes();
+  }
+  const std::uint64_t padded = header.points * header.point_bytes();
+  auto block = decompress(input, header.points, padded, header.points * unpadded_bytes);
+  if (!block) return block.error();
+
+  // Column by column; some writers leave the padding out.
+  BlockLayout layout;
+  std::size_t offset = 0;
+  const auto points = static_cast<std::size_t>(header.points);
+  for (std::size_t i = 0; i < header.fields.size(); ++i) {
+    const PcdField& field = header.fields[i];
+    if (field.name == "_" && block->size != padded) continue;
+    for (std::size_t role = 0; role < kRoleCount; ++role) {
+      if (columns.roles[role] != static_cast<int>(i)) continue;
+      layout.fields[role] = FieldLayout{columns.types[role], offset, field.bytes()};
+    }
+    offset += points * field.bytes();
+  }
+  input.consume(input.rest().size());
+  CloudBuilder builder(layout, columns.time_is_integer(), header.points);
+  builder.append(block->bytes.get(), points);
+  return builder.finish(input.name());
+}
+
+}  // namespace
+
+Status read_binary_points(Input& input, std::size_t point_bytes, std::uint64_t points,
+                          CloudBuilder& builder) {
+  while (builder.seen() < points) {
+    const std::uint64_t available = input.rest().size() / point_bytes;
+    const std::uint64_t count = std::min(available, points - builder.seen());
+    builder.append(input.rest().data(), static_cast<std::size_t>(count));
+    input.consume(static_cast<std::size_t>(count) * point_bytes);
+    if (builder.seen() == points) break;
+    auto grew = input.more();
+    if (!grew) return grew.error();
+    if (!*grew) return truncated(input, points, builder.seen());
+  }
+  return Done{};
+}
+
+Result<Cloud> read_pcd(Input& input) {
+  auto header = read_pcd_header(input);
+  if (!header) return header.error();
+  auto columns = find_columns(input, *header);
+  if (!columns) return columns.error();
+  switch (header->data) {
+    case PcdData::kAscii:
+      return read_ascii(input, *header, *columns);
+    case PcdData::kBinary:
+      return read_binary(input, *header, *columns);
+    case PcdData::kBinaryCompressed:
+      break;
+  }
+  return read_compressed(input, *header, *columns);
+}
+
+}  // namespace lvcalib

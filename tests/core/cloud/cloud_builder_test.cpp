@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cloud/cloud_builder.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lvcalib {
+namespace {
+
+TEST(TimeUnit, FollowsTypeSpanAndEpoch) {
+  const struct {
+    bool is_integer;
+    double first, span, expected;
+    const char* what;
+  } cases[] = {
+      {false, 0.0, 0.1, 1.0, "seconds from the start of the scan"},
+      {false, 1642490703.4, 0.1, 1.0, "seconds since 1970"},
+      {false, 12.0, 45.0, 1.0, "a long accumulation"},
+      {false, 1.7e18, 1e8, 1e-9, "Livox: nanoseconds since 1970 as double"},
+      {false, 0.0, 1e8, 1e-9, "nanoseconds as float"},
+      {false, 0.0, 100.0, 1e-3, "milliseconds as float"},
+      {true, 0.0, 99'900'000.0, 1e-9, "Ouster: 32-bit nanoseconds"},
+      {true, 2303.0, 1'304'065.0, 1e-9, "Velodyne: one packet in nanoseconds"},
+      {true, 4e12, 1e8, 1e-9, "Ouster without clock: nanoseconds since power-on"},
+      {true, 0.0, 100'000.0, 1e-6, "microseconds"},
+      {true, 1.7e15, 100'000.0, 1e-6, "microseconds since 1970"},
+      {true, 1.7e12, 100.0, 1e-3, "milliseconds since 1970"},
+      {true, 0.0, 100.0, 1e-3, "milliseconds"},
+      {true, 1.7e18, 3e10, 1e-9, "thirty seconds in nanoseconds since 1970"},
+  };
+  for (const auto& c : cases) {
+    EXPECT_EQ(time_unit_s(c.is_integer, c.first, c.span), c.expected) << c.what;
+  }
+}
+
+struct Point {
+  float x, y, z, intensity;
+  double time;
+};
+
+BlockLayout layout_of_points() {
+  BlockLayout layout;
+  for (std::size_t role = kX; role <= kIntensity; ++role) {
+    layout.fields[role] = FieldLayout{ScalarType::kF32, 4 * role, sizeof(Point)};
+  }
+  layout.fields[kTime] = FieldLayout{ScalarType::kF64, 16, sizeof(Point)};
+  return layout;
+}
+
+Result<Cloud> build(const std::vector<Point>& points) {
+  CloudBuilder builder(layout_of_points(), false, points.size());
+  builder.append(reinterpret_cast<const char*>(points.data()), points.size());
+  return builder.finish("built");
+}
+
+TEST(CloudBuilder, KeepsOrderAcrossBlocksWithGaps) {
+  std::vector<Point> points;
+  for (int i = 0; i < 10'000; ++i) {
+    const auto value = static_cast<float>(i);
+    points.push_back({i % 7 == 3 ? NAN : value, 1, 2, value, 100.0 + 1e-5 * i});
+  }
+  const auto cloud = build(points);
+  ASSERT_TRUE(cloud.ok());
+  EXPECT_EQ(cloud->size() + cloud->dropped, points.size());
+  EXPECT_EQ(cloud->dropped, 1429U);  // 3, 10, …, 9999
+  ASSERT_EQ(cloud->intensity.size(), cloud->size());
+  ASSERT_EQ(cloud->time_s.size(), cloud->size());
+  for (std::size_t k = 0; k < cloud->size(); ++k) {
+    ASSERT_EQ(cloud->points_m[k].x(), cloud->intensity[k]);
+    ASSERT_NEAR(cloud->time_s[k], 1e-5 * static_cast<double>(cloud->intensity[k]), 1e-7);
+  }
+}
+
+TEST(CloudBuilder, TimesStartAtTheEarliestPoint) {
+  const auto cloud = build({{1, 0, 0, 1, 5.5}, {2, 0, 0, 2, 5.25}, {3, 0, 0, 3, 6.0}});
+  ASSERT_TRUE(cloud.ok());
+  EXPECT_THAT(cloud->time_s, testing::ElementsAre(0.25F, 0.0F, 0.75F));
+}
+
+TEST(CloudBuilder, DropsPointsWithoutFiniteIntensityOrTime) {
+  const auto cloud =
+      build({{1, 0, 0, NAN, 1.0}, {2, 0, 0, 2, NAN}, {3, 0, 0, 3, 3.0}, {4, 0, 0, 4, 3.5}});
+  ASSERT_TRUE(cloud.ok());
+  ASSERT_EQ(cloud->size(), 2U);
+  EXPECT_EQ(cloud->dropped, 2U);
+  EXPECT_EQ(cloud->points_m[0].x(), 3.0F);
+  EXPECT_THAT(cloud->intensity, testing::ElementsAre(3, 4));
+  EXPECT_THAT(cloud->time_s, testing::ElementsAre(0.0F, 0.5F));
+}
+
+TEST(CloudBuilder, AFieldThatIsNowhereFiniteCountsAsMissing) {
+  const auto cloud = build({{1, 0, 0, NAN, NAN}, {2, 0, 0, NAN, INFINITY}});
+  ASSERT_TRUE(cloud.ok());
+  EXPECT_EQ(cloud->size(), 2U);
+  EXPECT_FALSE(cloud->has_intensity());
+  EXPECT_FALSE(cloud->has_time());
+}
+
+}  // namespace
+}  // namespace lvcalib
