@@ -72,6 +72,7 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
   app.require_subcommand(1);
   const std::vector<Command> commands = {
       add_target_command(app),
+      add_simulate_command(app),
   };
   CommonOptions common;
   for (const Command& command : commands) add_common_options(*command.app, common);

@@ -113,8 +113,12 @@ Return Beam::fire(const Eigen::Vector3d& direction, double turn_rad) const {
 }
 
 Return Beam::mix(std::span<SubRay> rays) const {
-  std::sort(rays.begin(), rays.end(),
-            [](const SubRay& a, const SubRay& b) { return a.range_m < b.range_m; });
+  const auto nearer = [](const SubRay& a, const SubRay& b) { return a.range_m < b.range_m; };
+  const auto [near, far] = std::minmax_element(rays.begin(), rays.end(), nearer);
+  // The common case of a single pulse needs no order.
+  if (far->range_m - near->range_m > options_.pulse_length_m) {
+    std::sort(rays.begin(), rays.end(), nearer);
+  }
   const double share = 1.0 / static_cast<double>(nodes_.size());
   Return best;
   double best_power = 0.0;
@@ -123,7 +127,8 @@ Return Beam::mix(std::span<SubRay> rays) const {
     double power = 0.0;
     std::size_t i = begin;
     for (; i < rays.size(); ++i) {
-      if (i > begin && rays[i].range_m - rays[i - 1].range_m > options_.pulse_length_m) break;
+      if (i > begin && std::abs(rays[i].range_m - rays[i - 1].range_m) > options_.pulse_length_m)
+        break;
       power += rays[i].power;
       pulse.range_m += rays[i].power * rays[i].range_m;
       pulse.reflectivity += share * rays[i].reflectivity;

@@ -14,7 +14,7 @@ constexpr double kAmbient = 0.5;
 constexpr double kVignetting = 0.15;  // Loss of light in the image corner.
 constexpr int kGrid = 4;              // Spacing of the grid of rays, px: 0.001 px of error at most.
 constexpr int kTile = 16;             // Pixels that share the candidates for their rays.
-constexpr int kEdgeSamples = 6;       // Along either side of a half pixel that an edge crosses.
+constexpr int kEdgeSamples = 5;       // Along either side of a half pixel that an edge crosses.
 
 // Viewing rays of a camera in the LiDAR frame: solved on a coarse grid, bilinear in between.
 class RayGrid {

@@ -25,7 +25,7 @@ struct SimulatedImage {
 /// Light: reflectivity × (ambient + Lambert's law) × mild vignetting, linear up to saturation,
 /// exposed so that white paper facing the lamp's mean has the white level. Around the board every
 /// pixel is integrated over its area: on a grid of half pixels, each one sample where it lies on a
-/// plain piece, 6 × 6 where an edge crosses it. The lens blur is applied on that grid too. Then
+/// plain piece, 5 × 5 where an edge crosses it. The lens blur is applied on that grid too. Then
 /// shot noise (√electrons) and read noise, and rounding to 8 bits.
 SimulatedImage photograph(const ImageOptions& options, const Camera& camera,
                           const Rigid3& camera_from_lidar, const Room& room, Random random,

@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "simulation/whole_below.h"
+
 namespace lvcalib::simulation {
 namespace {
 
@@ -40,8 +42,8 @@ PrintedBoard::PrintedBoard(const Target& target) : target_(target), outline_(tar
 }
 
 bool PrintedBoard::checkerboard_is_white(double x_m, double y_m) const {
-  const int column = static_cast<int>(std::floor(x_m / target_.column_spacing_m));
-  const int row = static_cast<int>(std::floor(y_m / target_.row_spacing_m));
+  const int column = whole_below(x_m / target_.column_spacing_m);
+  const int row = whole_below(y_m / target_.row_spacing_m);
   if (column < -1 || row < -1) return true;
   if (column >= target_.corner_columns || row >= target_.corner_rows) return true;
   return ((column + row) & 1) != 0;
@@ -49,8 +51,8 @@ bool PrintedBoard::checkerboard_is_white(double x_m, double y_m) const {
 
 bool PrintedBoard::is_white(double x_m, double y_m) const {
   if (!target_.has_tags()) return checkerboard_is_white(x_m, y_m);
-  const int column = static_cast<int>(std::floor(x_m / pitch_m_));
-  const int row = static_cast<int>(std::floor(y_m / pitch_m_));
+  const int column = whole_below(x_m / pitch_m_);
+  const int row = whole_below(y_m / pitch_m_);
   if (column >= 0 && row >= 0 && column < target_.tag_columns && row < target_.tag_rows) {
     const double x = x_m - column * pitch_m_;
     const double y = y_m - row * pitch_m_;
@@ -63,8 +65,8 @@ bool PrintedBoard::is_white(double x_m, double y_m) const {
   }
   if (!target_.has_circles()) return true;
   const double first = target_.tag_size_m * (1.0 + 0.5 * target_.tag_spacing);
-  const double i = std::round((x_m - first) / pitch_m_);
-  const double j = std::round((y_m - first) / pitch_m_);
+  const int i = whole_below((x_m - first) / pitch_m_ + 0.5);
+  const int j = whole_below((y_m - first) / pitch_m_ + 0.5);
   if (i < 0 || j < 0 || i > target_.tag_columns - 2 || j > target_.tag_rows - 2) return true;
   const double dx = x_m - first - i * pitch_m_;
   const double dy = y_m - first - j * pitch_m_;

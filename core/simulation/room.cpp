@@ -27,6 +27,7 @@ RayCaster::RayCaster(const Room& room, const Eigen::Vector3d& origin_m) : room_(
     face.axis = face.always ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : to_center / far;
     face.cone_rad = face.always ? std::numbers::pi : std::asin(surface.radius_m() / far);
     faces_.push_back(face);
+    if (surface.board != nullptr) board_center_m_ = surface.board->outline().center_m();
   }
 }
 
@@ -70,11 +71,6 @@ Hit RayCaster::meet_plane(const Eigen::Vector3d& direction, int surface) const {
   const double range = face.distance / slope;
   return {surface, range, face.u.dot(direction) * range - face.offset_u,
           face.v.dot(direction) * range - face.offset_v, std::abs(slope)};
-}
-
-Eigen::Vector2d RayCaster::on_board(const Hit& hit) const {
-  const PrintedBoard* board = room_->surfaces[static_cast<std::size_t>(hit.surface)].board;
-  return board->outline().center_m() + Eigen::Vector2d(hit.u_m, hit.v_m);
 }
 
 double RayCaster::reflectivity(const Hit& hit) const {

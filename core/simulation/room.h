@@ -71,7 +71,9 @@ class RayCaster {
   }
   [[nodiscard]] double reflectivity(const Hit& hit) const;
   /// Board coordinates of a hit on the board.
-  [[nodiscard]] Eigen::Vector2d on_board(const Hit& hit) const;
+  [[nodiscard]] Eigen::Vector2d on_board(const Hit& hit) const {
+    return board_center_m_ + Eigen::Vector2d(hit.u_m, hit.v_m);
+  }
 
  private:
   struct Face {
@@ -85,6 +87,7 @@ class RayCaster {
   };
   const Room* room_;
   std::vector<Face> faces_;
+  Eigen::Vector2d board_center_m_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace lvcalib::simulation

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/whole_below.h"
+
 namespace lvcalib::simulation {
 namespace {
 
@@ -18,12 +20,10 @@ double lattice(int i, int j, std::uint32_t seed) {
 }
 
 double smooth_noise(double x, double y, std::uint32_t seed) {
-  const double floor_x = std::floor(x);
-  const double floor_y = std::floor(y);
-  const int i = static_cast<int>(floor_x);
-  const int j = static_cast<int>(floor_y);
-  const double fx = x - floor_x;
-  const double fy = y - floor_y;
+  const int i = whole_below(x);
+  const int j = whole_below(y);
+  const double fx = x - i;
+  const double fy = y - j;
   const double sx = fx * fx * (3.0 - 2.0 * fx);
   const double sy = fy * fy * (3.0 - 2.0 * fy);
   const double low = std::lerp(lattice(i, j, seed), lattice(i + 1, j, seed), sx);
@@ -44,11 +44,11 @@ double Texture::at(double u_m, double v_m) const {
       deviation = 0.65 * smooth_noise(x, y, seed) + 0.35 * smooth_noise(3.1 * x, 3.1 * y, seed + 1);
       break;
     case Kind::kBlocks:
-      deviation = lattice(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), seed);
+      deviation = lattice(whole_below(x), whole_below(y), seed);
       break;
     case Kind::kStripes:
-      deviation = 0.7 * lattice(static_cast<int>(std::floor(x)), 0, seed) +
-                  0.3 * smooth_noise(6.0 * x, 0.5 * y, seed + 1);
+      deviation =
+          0.7 * lattice(whole_below(x), 0, seed) + 0.3 * smooth_noise(6.0 * x, 0.5 * y, seed + 1);
       break;
   }
   return std::clamp(base + contrast * deviation, 0.03, 0.95);
