@@ -74,6 +74,7 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
       add_calibrate_command(app),
       add_evaluate_command(app),
       add_target_command(app),
+      add_simulate_command(app),
   };
   CommonOptions common;
   for (const Command& command : commands) add_common_options(*command.app, common);
