@@ -2,6 +2,7 @@
 #include "cloud/plane.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
 
