@@ -27,15 +27,20 @@ struct PlanarPatch {
   }
 };
 
+/// How points of a plane hang together.
+struct PatchConnection {
+  double gap = 0.05;        ///< Cell side as a share of the board's shorter side; neighbours connect.
+  bool cut_strips = false;  ///< Connections narrower than three cells do not count.
+};
+
 struct PatchSearchOptions {
   double board_width_m = 0.9;
   double board_height_m = 0.9;
   /// Largest distance from the plane, 0: three times the measured noise of the scene's planes.
   double plane_tolerance_m = 0.0;
-  /// Gap between points that still connects them, as fractions of the board's shorter side. Each
-  /// value gives its own patches: narrow ones part the board from coplanar neighbours, wide ones
-  /// bridge the lines of a sparse scanner.
-  std::vector<double> connection_gaps = {0.05, 0.12};
+  /// Each way of connecting gives its own patches: fine cells part the board from neighbours and
+  /// from floor and walls that its plane cuts; wide ones bridge the lines of a sparse scanner.
+  std::vector<PatchConnection> connections = {{0.05, true}, {0.12, false}};
   double smallest_side = 0.4;  ///< Patches with a shorter side than this share of the board's are left out.
 };
 
