@@ -30,5 +30,7 @@ struct Command {
 // One file per command.
 Command add_target_command(CLI::App& app);
 Command add_simulate_command(CLI::App& app);
+Command add_calibrate_command(CLI::App& app);
+Command add_evaluate_command(CLI::App& app);
 
 }  // namespace lvcalib::cli

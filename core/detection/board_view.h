@@ -38,6 +38,8 @@ struct CornerObservation {
       0;  ///< 0 lower left, 1 lower right, 2 upper right, 3 upper left; 0 for checkerboards.
   Eigen::Vector2d board_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  /// Standard deviation of either coordinate as the pixels' noise alone explains it; 0 unknown.
+  double sigma_px = 0.0;
 };
 
 /// What one image tells about the board.
@@ -55,15 +57,23 @@ struct BoardView {
 };
 
 struct DetectionOptions {
-  double quad_decimate =
-      1.0;  ///< Image reduction for the first search; corners use full resolution.
-  double max_reprojection_px =
-      5.0;           ///< A tag whose corners miss the board's pose by more is dropped.
+  /// Image reduction for the first search; corners use full resolution. Tags below some 30 px are
+  /// missed at 2, but are then looked for where the tags that were found say they must be.
+  double quad_decimate = 2.0;
+  /// A tag whose corners miss the board's pose by more is dropped.
+  double max_reprojection_px = 5.0;
   int min_tags = 2;  ///< Fewer make the image unusable.
+  /// Corners that could not be refined have about this standard deviation.
+  double unrefined_sigma_px = 0.3;
+  /// The other pose of the planar ambiguity is reported unless its likelihood is so much smaller
+  /// that a true pose would look so bad with this probability.
+  double ambiguity_tail = 1e-6;
 };
 
 /// Finds the board in an image: tags or checkerboard corners, refined to sub-pixel accuracy, and
 /// its pose with covariance and resolved planar ambiguity.
+/// A checkerboard that looks the same when turned gets the one of its frames whose y axis points
+/// most upwards in the image (x when that is a tie); it is never mirrored.
 /// Errors (kInput): image size differs from the intrinsics; no tags (and whether the mirrored
 /// image has some); tags of other ids; too few tags; no checkerboard.
 Result<BoardView> find_board_in_image(const GrayImage& image, const Target& target,

@@ -102,7 +102,7 @@ class TagFit {
   void find_quadrants(double threshold);
   [[nodiscard]] std::optional<double> gray_near(const Eigen::Vector2d& tag) const;
   double evaluate(const State& state, const TagPixel& pixel, Vector* jacobian) const;
-  [[nodiscard]] std::vector<double> residuals(const State& state) const;
+  Vector accumulate(bool robust);
   void measure_noise();
   [[nodiscard]] double weight(double residual) const { return tukey_weight(residual / noise_); }
   [[nodiscard]] std::array<Eigen::Vector2d, 4> plane_corners(const State& state) const;
@@ -115,9 +115,9 @@ class TagFit {
   Eigen::Vector2d center_;
   Eigen::Matrix2d plane_by_pixel_;
   std::vector<TagPixel> pixels_;
-  std::size_t candidates_ = 0;
   State state_;
   double noise_ = 0.0;
+  std::vector<double> residuals_;
   Matrix information_ = Matrix::Zero();
   int iterations_ = 0;
 };
@@ -156,7 +156,6 @@ void TagFit::choose_pixels(const TagCorners& start) {
       pixels_.push_back({plane, image_.at(x, y)});
     }
   }
-  candidates_ = pixels_.size();
   const auto most = static_cast<std::size_t>(std::max(options_.max_pixels, 4 * kUnknowns));
   if (pixels_.size() <= most) return;
   // Steps of the golden ratio spread the chosen ones without a pattern in rows or columns.
@@ -234,17 +233,10 @@ double TagFit::evaluate(const State& state, const TagPixel& pixel, Vector* jacob
   return pixel.gray - black - contrast * response;
 }
 
-std::vector<double> TagFit::residuals(const State& state) const {
-  std::vector<double> out(pixels_.size());
-  std::transform(pixels_.begin(), pixels_.end(), out.begin(),
-                 [&](const TagPixel& pixel) { return evaluate(state, pixel, nullptr); });
-  return out;
-}
-
 // Scale of the residuals for Tukey's weights. The model is not exact at the edges, which carry all
 // of the geometry: a few per cent of the contrast are not an outlier.
 void TagFit::measure_noise() {
-  const double spread = mad_sigma(residuals(state_));
+  const double spread = mad_sigma(residuals_);
   noise_ = std::hypot(spread, 0.02 * state_.contrast[0]);
 }
 
@@ -256,28 +248,46 @@ std::array<Eigen::Vector2d, 4> TagFit::plane_corners(const State& state) const {
   return out;
 }
 
-double TagFit::iterate(bool robust) {
-  ++iterations_;
-  if (robust) measure_noise();
+// Normal equations, a block of pixels at a time. Returns the gradient.
+Vector TagFit::accumulate(bool robust) {
+  constexpr int kBlock = 64;
+  Eigen::Matrix<double, kUnknowns, kBlock> rows;
+  Eigen::Matrix<double, kBlock, 1> values;
   Vector gradient = Vector::Zero();
   information_.setZero();
+  residuals_.resize(pixels_.size());
   Vector jacobian;
-  for (const TagPixel& pixel : pixels_) {
-    const double residual = evaluate(state_, pixel, &jacobian);
-    const double w = robust ? weight(residual) : 1.0;
-    if (w == 0.0) continue;
-    gradient += w * residual * jacobian;
-    information_.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, w);
+  for (std::size_t begin = 0; begin < pixels_.size(); begin += kBlock) {
+    const std::size_t end = std::min(pixels_.size(), begin + kBlock);
+    if (end - begin < kBlock) {
+      rows.setZero();
+      values.setZero();
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      const double residual = evaluate(state_, pixels_[i], &jacobian);
+      residuals_[i] = residual;
+      const double root = robust ? std::sqrt(weight(residual)) : 1.0;
+      rows.col(static_cast<Eigen::Index>(i - begin)) = root * jacobian;
+      values[static_cast<Eigen::Index>(i - begin)] = root * residual;
+    }
+    gradient.noalias() += rows * values;
+    information_.noalias() += rows * rows.transpose();
   }
-  information_ = Matrix(information_.selfadjointView<Eigen::Lower>());
+  return gradient;
+}
+
+double TagFit::iterate(bool robust) {
+  ++iterations_;
+  if (robust) measure_noise();  // from the residuals of the iteration before
+  const Vector gradient = accumulate(robust);
   // The curvature is a small correction; half the range as its prior keeps it so when the tag is
   // too small to tell it from the blur.
   const double prior = noise_ > 0.0 ? noise_ : 0.05 * state_.contrast[0];
   information_(kCurve, kCurve) += prior * prior / 0.25;
-  gradient[kCurve] -= prior * prior / 0.25 * state_.curve;
   const Eigen::LDLT<Matrix> solver(information_);
   if (solver.info() != Eigen::Success || !solver.isPositive()) return -1.0;
-  const Vector step = solver.solve(gradient);
+  const Vector step =
+      solver.solve(gradient - prior * prior / 0.25 * state_.curve * Vector::Unit(kCurve));
   if (!step.allFinite()) return -1.0;
   const auto before = plane_corners(state_);
   state_ = moved(state_, step);

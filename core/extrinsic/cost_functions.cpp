@@ -50,8 +50,10 @@ Rigid3 rigid_from_block(const double* block) {
 }
 
 void rigid_to_block(const Rigid3& transform, double* block) {
-  Eigen::Map<Eigen::Vector4d>(block) = transform.rotation.coeffs();
-  Eigen::Map<Eigen::Vector3d>(block + 4) = transform.translation;
+  Eigen::Map<Eigen::Vector4d> rotation(block);
+  Eigen::Map<Eigen::Vector3d> translation(block + 4);
+  rotation = transform.rotation.coeffs();
+  translation = transform.translation;
 }
 
 bool RigidManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
@@ -66,8 +68,8 @@ bool RigidManifold::PlusJacobian(const double* /*x*/, double* jacobian) const {
 }
 
 bool RigidManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
-  Eigen::Map<Vector6d>(y_minus_x) =
-      se3_log(rigid_from_block(y) * rigid_from_block(x).inverse());
+  Eigen::Map<Vector6d> difference(y_minus_x);
+  difference = se3_log(rigid_from_block(y) * rigid_from_block(x).inverse());
   return true;
 }
 

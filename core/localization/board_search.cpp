@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cloud/plane.h"
 #include "localization/outline_match.h"
 #include "localization/pattern_match.h"
 

@@ -153,7 +153,8 @@ Result<std::string> draw_image(const Target& target, const SheetLayout& layout, 
     return Error::usage("the resolution must be between 1 and 10000 dpi");
   }
   const double scale = dpi / 25.4;
-  const Eigen::Vector2d size_px = (scale * layout.page_mm).array().ceil();
+  // A millionth of a pixel is rounding, not content.
+  const Eigen::Vector2d size_px = ((scale * layout.page_mm).array() - 1e-6).ceil();
   if (size_px.maxCoeff() > kLongestImage_px) {
     const double fits = kLongestImage_px * 25.4 / layout.page_mm.maxCoeff();
     return Error::usage("the image would be " + std::to_string(std::lround(size_px.maxCoeff())) +

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <cairo.h>
 
@@ -26,8 +29,55 @@ struct Window {
   }
 };
 
-// The black part of a tag as one even-odd outline: its square with the white cells cut out, white
-// neighbours in a row as one. A single fill has no seams between cells, whatever the renderer.
+using Corner = std::pair<int, int>;  // column, row of a cell corner
+using Outline = std::vector<Corner>;
+
+// One step along the outline of a tag's white cells, with white on the right-hand side.
+std::multimap<Corner, Corner> white_edges(const TagPattern& pattern) {
+  const auto white = [&pattern](int row, int column) {
+    return row >= 0 && column >= 0 && row < pattern.width && column < pattern.width &&
+           pattern.at(row, column);
+  };
+  std::multimap<Corner, Corner> edges;
+  for (int row = 0; row < pattern.width; ++row) {
+    for (int column = 0; column < pattern.width; ++column) {
+      if (!white(row, column)) continue;
+      const Corner corners[] = {
+          {column, row}, {column + 1, row}, {column + 1, row + 1}, {column, row + 1}};
+      if (!white(row - 1, column)) edges.emplace(corners[0], corners[1]);
+      if (!white(row, column + 1)) edges.emplace(corners[1], corners[2]);
+      if (!white(row + 1, column)) edges.emplace(corners[2], corners[3]);
+      if (!white(row, column - 1)) edges.emplace(corners[3], corners[0]);
+    }
+  }
+  return edges;
+}
+
+// The closed outlines of a tag's white cells. Where two cells touch at a corner only, either way
+// on encloses the same area.
+std::vector<Outline> white_outlines(const TagPattern& pattern) {
+  std::multimap<Corner, Corner> edges = white_edges(pattern);
+  std::vector<Outline> outlines;
+  while (!edges.empty()) {
+    Outline outline{edges.begin()->first};
+    for (auto edge = edges.begin(); edge != edges.end(); edge = edges.find(outline.back())) {
+      const Corner next = edge->second;
+      edges.erase(edge);
+      const std::size_t n = outline.size();
+      const bool straight =
+          n >= 2 &&
+          ((outline[n - 2].first == next.first && outline[n - 1].first == next.first) ||
+           (outline[n - 2].second == next.second && outline[n - 1].second == next.second));
+      if (straight) outline.pop_back();
+      outline.push_back(next);
+    }
+    outlines.push_back(std::move(outline));
+  }
+  return outlines;
+}
+
+// The black part of a tag as one even-odd shape: its square with the outlines of the white areas
+// cut out. No two edges coincide anywhere, so no renderer shows seams between cells.
 void fill_tag(cairo_t* cairo, const Target& target, const TargetTag& tag,
               const Eigen::Vector2d& center_mm) {
   const double size = 1000.0 * target.tag_size_m;
@@ -35,16 +85,13 @@ void fill_tag(cairo_t* cairo, const Target& target, const TargetTag& tag,
   cairo_rectangle(cairo, corner.x(), corner.y(), size, size);
   if (const TagPattern* pattern = tag_pattern(target.tag_family, tag.id); pattern != nullptr) {
     const double bit = size / (pattern->width + 2 * target.tag_border_bits);
-    for (int row = 0; row < pattern->width; ++row) {
-      for (int start = 0; start < pattern->width; ++start) {
-        int end = start;
-        while (end < pattern->width && pattern->at(row, end)) ++end;
-        if (end == start) continue;
-        cairo_rectangle(cairo, corner.x() + bit * (start + target.tag_border_bits),
-                        corner.y() + bit * (row + target.tag_border_bits), bit * (end - start),
-                        bit);
-        start = end;
+    for (const Outline& outline : white_outlines(*pattern)) {
+      cairo_new_sub_path(cairo);
+      for (const auto& [column, row] : outline) {
+        cairo_line_to(cairo, corner.x() + bit * (column + target.tag_border_bits),
+                      corner.y() + bit * (row + target.tag_border_bits));
       }
+      cairo_close_path(cairo);
     }
   }
   cairo_fill(cairo);
@@ -165,7 +212,7 @@ void draw_footer(cairo_t* cairo, const Target& target, const SheetLayout& layout
   }
   draw_text(cairo, bar + Eigen::Vector2d(length + 3.0, 0.35 * kTextHeight_mm), label,
             room - length - 3.0);
-  draw_text(cairo, bar + Eigen::Vector2d(0.0, 7.0), sheet_parameters(target), room);
+  draw_text(cairo, bar + Eigen::Vector2d(0.0, 6.0), sheet_parameters(target), room);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace lvcalib {
 namespace {
 
-// Strip below the board for the scale bar and two lines of text.
+// Strip below the board: marks, then the scale bar, then a line of text.
 constexpr double kFooter_mm = 16.0;
 constexpr double kFooterInset_mm = 4.0;
 // Width that the shortest scale bar with its label takes.
@@ -47,7 +47,7 @@ double longest_scale_bar(double room_mm) {
 }
 
 void place_footer(SheetLayout& layout, double left, double top, double width) {
-  layout.scale_bar_mm = {left + kFooterInset_mm, top + 5.0};
+  layout.scale_bar_mm = {left + kFooterInset_mm, top + 8.5};
   layout.scale_bar_length_mm = longest_scale_bar(width - 2 * kFooterInset_mm);
 }
 

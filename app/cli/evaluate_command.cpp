@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+
+#include "command.h"
+#include "report/result_file.h"
+
+namespace lvcalib::cli {
+namespace {
+
+struct Options {
+  std::string result;
+  std::string truth;
+};
+
+Result<std::string> run(const Options& options) {
+  auto estimate = read_result(options.result);
+  if (!estimate) return estimate.error();
+  auto truth = read_truth(options.truth);
+  if (!truth) return truth.error();
+  const ExtrinsicError e = compare_extrinsics(*estimate, *truth);
+  const Vector6d& x = e.left_perturbation;
+  const Vector6d& n = e.normalized;
+  char text[512];
+  std::snprintf(text, sizeof text,
+                "translation %.3f mm, rotation %.3f mrad off; by axis [%.3f %.3f %.3f] mm [%.3f %.3f %.3f] mrad; in "
+                "standard deviations [%.2f %.2f %.2f] [%.2f %.2f %.2f]",
+                e.translation_mm, e.rotation_mrad, 1e3 * x(0), 1e3 * x(1), 1e3 * x(2), 1e3 * x(3), 1e3 * x(4), 1e3 * x(5),
+                n(0), n(1), n(2), n(3), n(4), n(5));
+  return std::string(text);
+}
+
+}  // namespace
+
+Command add_evaluate_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("evaluate", "Compare a result with a simulation's truth");
+  command->add_option("RESULT", options->result, "result.json")->required();
+  command->add_option("--truth", options->truth, "truth.json")->required();
+  return {command, [options](Session&) { return run(*options); }};
+}
+
+}  // namespace lvcalib::cli

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/yaml_file.h"
+#include "command.h"
+#include "simulation/dataset_writer.h"
+#include "simulation/simulator.h"
+#include "target/target.h"
+
+namespace lvcalib::cli {
+namespace {
+
+using simulation::LidarKind;
+using simulation::SimulationOptions;
+
+struct Options {
+  SimulationOptions simulation;
+  std::string output;
+  bool force = false;
+  std::string target_path;
+  std::string image_size;
+  std::string distance_m;
+  std::vector<std::string> effects;
+  bool absent = false;
+};
+
+// Splits "A:B" at the separator.
+std::optional<std::pair<std::string, std::string>> split(const std::string& text, char separator) {
+  const auto at = text.find(separator);
+  if (at == std::string::npos) return std::nullopt;
+  return std::pair{text.substr(0, at), text.substr(at + 1)};
+}
+
+Status read_image_size(const std::string& text, simulation::ImageOptions& image) {
+  if (text.empty()) return Done{};
+  const auto parts = split(text, 'x');
+  double width = 0.0;
+  double height = 0.0;
+  // The range check of the simulation comes later; here only what an int can hold.
+  if (!parts || !parse_number(parts->first, width) || !parse_number(parts->second, height) ||
+      width != static_cast<int>(width) || height != static_cast<int>(height)) {
+    return Error::usage("'" + text + "' is no image size, expected WIDTHxHEIGHT", "--image");
+  }
+  image.width_px = static_cast<int>(width);
+  image.height_px = static_cast<int>(height);
+  return Done{};
+}
+
+Status read_distance(const std::string& text, simulation::PlacementOptions& placement) {
+  if (text.empty()) return Done{};
+  const auto parts = split(text, ':');
+  if (!parts || !parse_number(parts->first, placement.min_distance_m) ||
+      !parse_number(parts->second, placement.max_distance_m)) {
+    return Error::usage("'" + text + "' is no range of distances, expected MIN:MAX in metres",
+                        "--distance");
+  }
+  return Done{};
+}
+
+Status read_effects(const std::vector<std::string>& texts, std::map<std::string, double>& effects) {
+  for (const std::string& text : texts) {
+    const auto parts = split(text, '=');
+    double value = 0.0;
+    if (!parts || parts->first.empty() || !parse_number(parts->second, value)) {
+      return Error::usage("'" + text + "' is no effect, expected ID=VALUE with a number",
+                          "--effect");
+    }
+    effects[parts->first] = value;
+  }
+  return Done{};
+}
+
+Result<SimulationOptions> complete(const Options& options, const Session& session) {
+  SimulationOptions out = options.simulation;
+  out.placement.board = !options.absent;
+  if (Status s = read_image_size(options.image_size, out.image); !s) return s.error();
+  if (Status s = read_distance(options.distance_m, out.placement); !s) return s.error();
+  if (Status s = read_effects(options.effects, out.effects); !s) return s.error();
+  if (!options.target_path.empty()) {
+    auto file = read_target(options.target_path);
+    if (!file) return file.error();
+    for (const std::string& warning : file->warnings) session.warn(warning);
+    out.target = file->target;
+  }
+  return out;
+}
+
+Result<std::string> run(const Options& options, Session& session) {
+  const auto complete_options = complete(options, session);
+  if (!complete_options) return complete_options.error();
+  const auto simulator = simulation::Simulator::create(*complete_options);
+  if (!simulator) return simulator.error();
+  auto writer = simulation::DatasetWriter::create(simulator->rig(), options.output, options.force);
+  if (!writer) return writer.error();
+  const Status simulated = simulation::simulate_each(
+      *simulator, session.context,
+      [&](int, const simulation::SimulatedScene& scene) { return writer->add(scene); });
+  if (!simulated) return simulated.error();
+  if (session.context.stopped()) return Error::cancelled();
+  if (Status status = writer->finish(); !status) return status.error();
+  const int scenes = complete_options->scenes;
+  return options.output + ": " + std::to_string(scenes) + (scenes == 1 ? " scene" : " scenes") +
+         ", truth in " + writer->truth_path().filename().string();
+}
+
+void add_scene_options(CLI::App& command, Options& options) {
+  auto& placement = options.simulation.placement;
+  command.add_option("--target", options.target_path, "target.yaml of the board");
+  command.add_option("--distance", options.distance_m,
+                     "MIN:MAX from the LiDAR to the board's centre, m (default 2:4)");
+  command.add_option("--tilt", placement.max_tilt_deg, "largest tilt of the board, degrees")
+      ->capture_default_str();
+  command.add_option("--roll", placement.max_roll_deg, "largest roll of the board, degrees")
+      ->capture_default_str();
+  command.add_flag("--decoy,!--no-decoy", placement.decoy,
+                   "a panel of the board's size with another print (default: yes)");
+  command.add_flag("--clutter,!--no-clutter", placement.clutter,
+                   "boxes on the floor (default: yes)");
+  command.add_flag("--absent", options.absent, "leave the board out");
+  command.add_flag("--partial", placement.partial,
+                   "the board partly outside the LiDAR's field of view");
+  command.add_flag("--on-wall", placement.flush_on_wall, "the board flush on a wall");
+}
+
+void add_sensor_options(CLI::App& command, Options& options) {
+  auto& lidar = options.simulation.lidar;
+  auto& image = options.simulation.image;
+  const std::map<std::string, LidarKind> kinds = {{"rosette", LidarKind::kRosette},
+                                                  {"avia", LidarKind::kAvia},
+                                                  {"spinning", LidarKind::kSpinning}};
+  command.add_option("--lidar", lidar.kind, "rosette, avia or spinning (default avia)")
+      ->transform(CLI::CheckedTransformer(kinds));
+  command.add_option("--points", lidar.points, "points per scene; 0: what suits the LiDAR");
+  command.add_option("--lines", lidar.lines, "lines of a spinning LiDAR: 64 or 128")
+      ->capture_default_str();
+  command.add_option("--range-noise", lidar.range_sigma_m, "range noise on white, m, one sigma")
+      ->capture_default_str();
+  command.add_option("--angle-noise", lidar.angle_sigma_deg, "direction noise, degrees, one sigma")
+      ->capture_default_str();
+  command.add_option("--intensity-noise", lidar.intensity_sigma, "intensity noise, one sigma")
+      ->capture_default_str();
+  const std::map<std::string, DistortionModel> models = {
+      {"plumb_bob", DistortionModel::kPlumbBob},
+      {"rational_polynomial", DistortionModel::kRationalPolynomial},
+      {"equidistant", DistortionModel::kEquidistant}};
+  command
+      .add_option("--camera-model", image.distortion,
+                  "plumb_bob, rational_polynomial or equidistant (default plumb_bob)")
+      ->transform(CLI::CheckedTransformer(models));
+  command.add_option("--image", options.image_size, "WIDTHxHEIGHT (default 1440x900)");
+  command.add_option("--blur", image.blur_px, "lens blur, px, one sigma")->capture_default_str();
+}
+
+}  // namespace
+
+Command add_simulate_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "Make a dataset whose true calibration is known");
+  command
+      ->add_option("-o,--output", options->output,
+                   "folder of the dataset; its truth goes to FOLDER-truth.json")
+      ->required();
+  command->add_option("--seed", options->simulation.seed, "everything random follows from it")
+      ->capture_default_str();
+  command->add_option("--scenes", options->simulation.scenes, "number of board poses")
+      ->capture_default_str();
+  add_sensor_options(*command, *options);
+  add_scene_options(*command, *options);
+  std::string known;
+  for (const std::string& id : simulation::plantable_effects()) known += " " + id;
+  command->add_option(
+      "--effect", options->effects,
+      "ID=VALUE, a disturbance to plant; known:" + (known.empty() ? " none" : known));
+  command->add_flag("--force", options->force, "replace an earlier simulated dataset");
+  return {command, [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace lvcalib::cli

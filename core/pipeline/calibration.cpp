@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/calibration.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "pipeline/quality.h"
+#include "pipeline/scene_loading.h"
+
+namespace lvcalib {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::vector<SceneHypotheses> hypotheses(const CalibrationResult& result) {
+  std::vector<SceneHypotheses> out;
+  for (const SceneResult& scene : result.scenes) {
+    SceneHypotheses h;
+    if (scene.view && scene.search) {
+      h.camera_from_board = scene.view->camera_from_board;
+      h.alternative_camera_from_board = scene.view->alternative_pose;
+      h.candidates = scene.search->candidates;
+    }
+    out.push_back(std::move(h));
+  }
+  return out;
+}
+
+class Calibration {
+ public:
+  Calibration(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context)
+      : dataset_(dataset), request_(request), context_(context) {}
+
+  Result<CalibrationResult> run() {
+    const auto start = Clock::now();
+    if (Status s = prepare(); !s) return s.error();
+    if (Status s = load_scenes(dataset_, request_, context_, result_); !s) return s.error();
+    if (Status s = some_view(); !s) return s.error();
+    if (Status s = agree(); !s) return s.error();
+    if (Status s = refine(); !s) return s.error();
+    if (Status s = optimize(); !s) return s.error();
+    result_.times.total_ms = ms_since(start);
+    context_.report("optimize", 1.0, "done");
+    return std::move(result_);
+  }
+
+ private:
+  Status prepare() {
+    result_.dataset = dataset_.path.string();
+    result_.target = dataset_.target;
+    result_.camera = dataset_.camera;
+    result_.warnings = dataset_.warnings;
+    for (const SceneFiles& files : dataset_.scenes) {
+      SceneResult scene;
+      scene.name = files.name;
+      if (std::find(request_.rejected.begin(), request_.rejected.end(), files.name) != request_.rejected.end()) {
+        scene.reason = "rejected by the user";
+      }
+      result_.scenes.push_back(std::move(scene));
+    }
+    for (const std::string& name : request_.rejected) {
+      const bool known = std::any_of(dataset_.scenes.begin(), dataset_.scenes.end(),
+                                     [&](const SceneFiles& f) { return f.name == name; });
+      if (!known) return Error::usage("there is no scene '" + name + "' to reject", dataset_.path.string());
+    }
+    return Done{};
+  }
+
+  // The board must be seen in at least one image.
+  Status some_view() const {
+    for (const SceneResult& scene : result_.scenes) {
+      if (scene.view) return Done{};
+    }
+    for (const SceneResult& scene : result_.scenes) {
+      if (!scene.reason.empty() && scene.reason != "rejected by the user") {
+        return Error::input("the board is not found in any image; scene " + scene.name + ": " + scene.reason);
+      }
+    }
+    return Error::input("every scene is rejected", result_.dataset);
+  }
+
+  Status agree() {
+    context_.report("localize", 0.7, "comparing scenes");
+    auto consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
+    if (!consensus) {
+      // Perhaps the board hangs flush on a wall: look on larger planes, everywhere.
+      if (Status s = search_again(std::nullopt); !s) return s;
+      consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
+    } else if (consensus->agreeing >= 2 && missing_scenes(*consensus)) {
+      result_.consensus = *consensus;
+      if (Status s = search_again(consensus->camera_from_lidar.transform); !s) return s;
+      consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
+    }
+    if (!consensus) return not_found();
+    result_.consensus = std::move(*consensus);
+    for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
+      SceneResult& scene = result_.scenes[s];
+      scene.chosen = result_.consensus.chosen[s];
+      if (!scene.reason.empty() || scene.chosen) continue;
+      scene.reason = scene.search && !scene.search->candidates.empty()
+                         ? "the board found in the cloud does not agree with the other scenes"
+                         : "the board is not found in the cloud (" + search_summary(scene) + ")";
+    }
+    return Done{};
+  }
+
+  [[nodiscard]] bool missing_scenes(const SceneConsensus& consensus) const {
+    for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
+      if (result_.scenes[s].view && !consensus.chosen[s]) return true;
+    }
+    return false;
+  }
+
+  // Second look: where the other scenes put the board, or (without them) on walls everywhere.
+  Status search_again(const std::optional<Rigid3>& camera_from_lidar) {
+    const PatternPyramid pyramid(result_.target);
+    const BoardOutline outline = result_.target.outline();
+    const Eigen::Vector2d c = outline.center_m();
+    for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
+      SceneResult& scene = result_.scenes[s];
+      if (!scene.view || (camera_from_lidar && result_.consensus.chosen[s])) continue;
+      BoardSearchRegion region;
+      if (camera_from_lidar) {
+        region.center_m = camera_from_lidar->inverse() * (scene.view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0));
+        region.radius_m = 0.75 * outline.size_m().norm();
+      }
+      if (Status status = search_scene_again(dataset_.scenes[s], request_, region, context_, pyramid, result_, s); !status) return status;
+    }
+    return Done{};
+  }
+
+  static std::string search_summary(const SceneResult& scene) {
+    if (!scene.search) return "not searched";
+    std::string text = std::to_string(scene.search->patches) + " flat patches of its size";
+    if (scene.search->best_correlation > 0) {
+      text += ", best pattern correlation " + std::to_string(scene.search->best_correlation).substr(0, 4);
+    }
+    return text;
+  }
+
+  Status not_found() const {
+    std::string detail;
+    for (const SceneResult& scene : result_.scenes) {
+      if (scene.view) detail += (detail.empty() ? "" : "; ") + scene.name + ": " + search_summary(scene);
+    }
+    if (const auto scale = find_scaled_board(dataset_, request_, result_, context_)) {
+      const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
+      return Error::untrusted("LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
+                                  std::to_string(std::abs(percent)) + " % " + (percent > 0 ? "larger" : "smaller") +
+                                  " than target.yaml says",
+                              result_.dataset, "measure the printed tags and correct tagSize");
+    }
+    if (context_.stopped()) return Error::cancelled();
+    return Error::untrusted("the board is not found in any cloud (" + detail + ")", result_.dataset,
+                            "check that the LiDAR sees the whole board and that target.yaml describes it");
+  }
+
+  Status refine() {
+    std::mutex mutex;
+    std::optional<Error> failure;
+    std::size_t done = 0;
+    parallel_for(result_.scenes.size(), context_.thread_count(), [&](std::size_t s) {
+      SceneResult& scene = result_.scenes[s];
+      if (!scene.chosen || context_.stopped()) return;
+      const auto start = Clock::now();
+      const BoardCandidate& candidate = scene.search->candidates[*scene.chosen];
+      scene.board_points = std::move(scene.search->patch_points[candidate.patch]);
+      scene.search->patch_points.clear();
+      auto refinement = refine_board(scene.board_points, result_.target, candidate.lidar_from_board.transform,
+                                     request_.options.refinement, context_);
+      const double elapsed = ms_since(start);
+      const std::lock_guard lock(mutex);
+      result_.times.refine_ms += elapsed;
+      if (refinement) {
+        scene.refinement = std::move(*refinement);
+        judge_refinement(scene);
+      } else {
+        scene.reason = refinement.error().text();
+      }
+      ++done;
+      context_.report("refine", 0.7 + 0.2 * static_cast<double>(done) / static_cast<double>(result_.scenes.size()), scene.name);
+    });
+    if (context_.stopped()) return Error::cancelled();
+    return Done{};
+  }
+
+  void judge_refinement(SceneResult& scene) const {
+    if (result_.target.has_circles() && scene.refinement->valid_nodes() < 3) {
+      std::string detail;
+      for (const RefinedNode& node : scene.refinement->nodes) {
+        if (!node.valid && detail.empty()) detail = "; node " + std::to_string(node.id) + ": " + node.reason;
+      }
+      scene.reason = "only " + std::to_string(scene.refinement->valid_nodes()) + " of " +
+                     std::to_string(scene.refinement->nodes.size()) + " circles usable" + detail;
+      return;
+    }
+    scene.used = true;
+  }
+
+  Status optimize() {
+    context_.report("optimize", 0.92, "joint solve");
+    const auto start = Clock::now();
+    std::vector<bool> use;
+    for (const SceneResult& scene : result_.scenes) use.push_back(scene.used);
+    auto solved = resolve_calibration(std::move(result_), use, request_.options);
+    if (!solved) return solved.error();
+    result_ = std::move(*solved);
+    result_.times.optimize_ms = ms_since(start);
+    return Done{};
+  }
+
+  const Dataset& dataset_;
+  const CalibrationRequest& request_;
+  const RunContext& context_;
+  CalibrationResult result_;
+};
+
+}  // namespace
+
+std::string name_of(Quality quality) {
+  switch (quality) {
+    case Quality::kGood: return "good";
+    case Quality::kDoubtful: return "doubtful";
+    case Quality::kFailed: break;
+  }
+  return "failed";
+}
+
+Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
+                                    const RunContext& context) {
+  return Calibration(dataset, request, context).run();
+}
+
+Result<CalibrationResult> resolve_calibration(CalibrationResult result, const std::vector<bool>& use,
+                                              const CalibrationOptions& options) {
+  std::vector<SceneObservations> observations;
+  std::vector<std::size_t> index;
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    SceneResult& scene = result.scenes[s];
+    if (!scene.view || !scene.refinement) continue;
+    SceneObservations o;
+    o.name = scene.name;
+    o.use = s < use.size() && use[s];
+    o.corners = scene.view->corners;
+    o.camera_from_board = scene.view->camera_from_board.transform;
+    // Of an ambiguous camera pose take the reading that the LiDAR supports.
+    if (scene.view->alternative_pose) {
+      const Rigid3 predicted = result.consensus.camera_from_lidar.transform * scene.refinement->lidar_from_board;
+      if (rotation_distance_rad(*scene.view->alternative_pose, predicted) < rotation_distance_rad(o.camera_from_board, predicted)) {
+        o.camera_from_board = *scene.view->alternative_pose;
+      }
+    }
+    o.plane = scene.refinement->plane;
+    o.lidar_from_board = scene.refinement->lidar_from_board;
+    o.nodes = scene.refinement->nodes;
+    observations.push_back(std::move(o));
+    index.push_back(s);
+  }
+  auto solution = solve_extrinsic(observations, result.camera, result.target, options.extrinsic);
+  if (!solution) {
+    Error error = solution.error();
+    error.where = result.dataset;
+    for (const SceneResult& scene : result.scenes) {
+      if (!scene.reason.empty()) {
+        error.message += "; scene " + scene.name + ": " + scene.reason;
+        break;
+      }
+    }
+    return error;
+  }
+  result.extrinsic = std::move(*solution);
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    SceneResult& scene = result.scenes[index[k]];
+    const bool wanted = observations[k].use;
+    scene.used = result.extrinsic.scenes[k].used;
+    if (wanted) scene.reason = result.extrinsic.scenes[k].reason;
+  }
+  judge_quality(result, options.quality);
+  return result;
+}
+
+}  // namespace lvcalib

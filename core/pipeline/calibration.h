@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "pipeline/dataset.h"
+#include "pipeline/options.h"
+
+namespace lvcalib {
+
+/// Wall time of each stage in milliseconds. Stages of different scenes run at the same time: load,
+/// detect, localize and refine are sums over scenes; total is the clock on the wall.
+struct StageTimes {
+  double load_ms = 0, detect_ms = 0, localize_ms = 0, refine_ms = 0, optimize_ms = 0, total_ms = 0;
+};
+
+/// Everything found in one scene; what a stage did not reach is empty.
+struct SceneResult {
+  std::string name;
+  bool used = false;
+  std::string reason;  ///< Why it is not used, in words.
+  std::optional<BoardView> view;
+  std::optional<BoardSearchResult> search;
+  std::optional<std::size_t> chosen;  ///< Candidate that all scenes agree on.
+  Cloud board_points;                 ///< Full-density points about the board.
+  std::optional<BoardRefinement> refinement;
+};
+
+enum class Quality { kGood, kDoubtful, kFailed };
+std::string name_of(Quality quality);
+
+/// A finished calibration.
+struct CalibrationResult {
+  std::string dataset;
+  Target target;
+  Camera camera;
+  std::vector<SceneResult> scenes;
+  SceneConsensus consensus;
+  ExtrinsicSolution extrinsic;
+  Quality quality = Quality::kFailed;
+  std::vector<std::string> warnings;
+  StageTimes times;
+};
+
+/// What to run besides the dataset.
+struct CalibrationRequest {
+  CalibrationOptions options;
+  std::optional<Rigid3> guess;      ///< Rough T_camera_lidar; narrows the search.
+  bool use_crops = false;           ///< Take scenes/NAME/board.pcd instead of cloud.pcd where present.
+  std::vector<std::string> rejected;///< Scenes to leave out.
+};
+
+/// The whole calibration: load, detect, localize, refine, optimise.
+/// Errors: kInput for unusable files or images (named), kUntrusted if the board is not found or
+/// the scenes do not determine an extrinsic, kCancelled.
+Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
+                                    const RunContext& context);
+
+/// Solves again from kept features with other scenes in use (`use` per scene). Milliseconds.
+Result<CalibrationResult> resolve_calibration(CalibrationResult result, const std::vector<bool>& use,
+                                              const CalibrationOptions& options);
+
+}  // namespace lvcalib

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "base/yaml_file.h"
+
+namespace lvcalib {
+namespace fs = std::filesystem;
+namespace {
+
+// The first of the names that exists in a folder.
+fs::path first_existing(const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::error_code code;
+    if (fs::exists(folder / name, code)) return folder / name;
+  }
+  return {};
+}
+
+Result<SceneFiles> open_scene(const fs::path& folder) {
+  SceneFiles scene;
+  scene.name = folder.filename().string();
+  scene.image = first_existing(folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
+  if (scene.image.empty()) {
+    return Error::input("no image in this scene; expected image.png, .jpg, .bmp or .tiff", folder.string());
+  }
+  scene.cloud = first_existing(folder, {"cloud.pcd", "cloud.ply"});
+  if (scene.cloud.empty()) {
+    return Error::input("no cloud in this scene; expected cloud.pcd or cloud.ply", folder.string());
+  }
+  scene.crop = first_existing(folder, {"board.pcd", "board.ply"});
+  return scene;
+}
+
+Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
+  std::error_code code;
+  if (!fs::is_directory(folder, code)) {
+    return Error::input("folder not found; expected one folder per scene in it", folder.string());
+  }
+  std::vector<fs::path> folders;
+  for (auto it = fs::directory_iterator(folder, code); !code && it != fs::directory_iterator(); it.increment(code)) {
+    std::error_code inner;
+    if (it->is_directory(inner) && !it->path().filename().string().starts_with('.')) folders.push_back(it->path());
+  }
+  if (code) return Error::input("cannot be listed: " + code.message(), folder.string());
+  if (folders.empty()) {
+    return Error::input("no scenes; expected folders with image.png and cloud.pcd", folder.string());
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<SceneFiles> scenes;
+  for (const fs::path& path : folders) {
+    auto scene = open_scene(path);
+    if (!scene) return scene.error();
+    scenes.push_back(std::move(*scene));
+  }
+  return scenes;
+}
+
+}  // namespace
+
+Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
+  auto file = YamlFile::load(path);
+  if (!file) return file.error();
+  const YamlValue* value = file->root().find("T_camera_lidar");
+  if (value == nullptr) return Error::input("key 'T_camera_lidar' is missing", path.string());
+  if (value->kind == YamlValue::Kind::kMap && value->find("matrix") != nullptr) value = value->find("matrix");
+  if (value->kind == YamlValue::Kind::kMap) {
+    const YamlValue* t = value->find("translation_m");
+    const YamlValue* q = value->find("quaternion_xyzw");
+    if (t == nullptr || q == nullptr) {
+      return file->error_at(*value, "'T_camera_lidar' must be a matrix, or have translation_m and quaternion_xyzw");
+    }
+    auto translation = file->flatten(*t, "translation_m");
+    if (!translation) return translation.error();
+    auto rotation = file->flatten(*q, "quaternion_xyzw");
+    if (!rotation) return rotation.error();
+    if (translation->size() != 3 || rotation->size() != 4) {
+      return file->error_at(*value, "expected 3 numbers in translation_m and 4 in quaternion_xyzw");
+    }
+    const auto& r = *rotation;
+    const Eigen::Quaterniond quaternion(r[3], r[0], r[1], r[2]);
+    if (std::abs(quaternion.norm() - 1.0) > 0.01) return file->error_at(*q, "quaternion_xyzw must have length 1");
+    return Rigid3{quaternion.normalized(), {(*translation)[0], (*translation)[1], (*translation)[2]}};
+  }
+  auto numbers = file->flatten(*value, "T_camera_lidar");
+  if (!numbers) return numbers.error();
+  if (numbers->size() != 12 && numbers->size() != 16) {
+    return file->error_at(*value, "'T_camera_lidar' must hold 12 or 16 numbers, found " + std::to_string(numbers->size()));
+  }
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = (*numbers)[static_cast<std::size_t>(i)];
+  const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
+  // Rough matrices are typed by hand; but they must be rotations, not scales or mirrors.
+  if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 0.05 || R.determinant() < 0) {
+    return file->error_at(*value, "the left 3×3 part of 'T_camera_lidar' is not a rotation");
+  }
+  return Rigid3::from_matrix(m);
+}
+
+Result<Dataset> open_dataset(const fs::path& path) {
+  std::error_code code;
+  if (!fs::is_directory(path, code)) {
+    return Error::input("dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it", path.string());
+  }
+  Dataset dataset;
+  dataset.path = path;
+  auto target = read_target(path / "target.yaml");
+  if (!target) return target.error();
+  dataset.target = target->target;
+  dataset.warnings = target->warnings;
+  auto camera = read_camera(path / "camera.yaml");
+  if (!camera) return camera.error();
+  dataset.camera = camera->camera;
+  dataset.warnings.insert(dataset.warnings.end(), camera->warnings.begin(), camera->warnings.end());
+  if (fs::exists(path / "rig.yaml", code)) {
+    auto rough = read_rough_extrinsic(path / "rig.yaml");
+    if (!rough) return rough.error();
+    dataset.rough_camera_from_lidar = *rough;
+  }
+  auto scenes = list_scenes(path / "scenes");
+  if (!scenes) return scenes.error();
+  dataset.scenes = std::move(*scenes);
+  return dataset;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/rigid3.h"
+#include "camera/camera.h"
+#include "target/target.h"
+
+namespace lvcalib {
+
+/// Files of one scene.
+struct SceneFiles {
+  std::string name;
+  std::filesystem::path image;
+  std::filesystem::path cloud;
+  std::filesystem::path crop;  ///< board.pcd; empty if there is none.
+};
+
+/// A dataset folder: target.yaml, camera.yaml, optional rig.yaml, scenes/NAME/….
+struct Dataset {
+  std::filesystem::path path;
+  Target target;
+  Camera camera;
+  std::optional<Rigid3> rough_camera_from_lidar;
+  std::vector<SceneFiles> scenes;  ///< Sorted by name.
+  std::vector<std::string> warnings;
+};
+
+/// Reads the descriptions and lists the scenes; images and clouds are not opened.
+/// Errors name what is missing and what was expected.
+Result<Dataset> open_dataset(const std::filesystem::path& path);
+
+/// A rough T_camera_lidar from rig.yaml: rows of a 3×4 or 4×4 matrix, or translation_m and
+/// quaternion_xyzw, under T_camera_lidar.
+Result<Rigid3> read_rough_extrinsic(const std::filesystem::path& path);
+
+}  // namespace lvcalib

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "detection/board_view.h"
+#include "extrinsic/extrinsic_solver.h"
+#include "localization/board_search.h"
+#include "localization/scene_consensus.h"
+#include "refinement/board_refinement.h"
+
+namespace lvcalib {
+
+/// When a result counts as trustworthy.
+struct QualityOptions {
+  double scale_warning = 0.003;   ///< Size difference between LiDAR and model worth a warning.
+  double scale_failure = 0.01;    ///< And one that makes the result untrustworthy.
+  double max_sigma_px = 1.5;      ///< Corner noise above this makes the result doubtful.
+  double max_noise_scale = 3.0;   ///< LiDAR residuals this many times their σ make it doubtful.
+  double min_margin = 10.0;       ///< Evidence (nats) by which the assignment must win.
+};
+
+/// Every option of a calibration.
+struct CalibrationOptions {
+  DetectionOptions detection;
+  BoardSearchOptions localization;
+  ConsensusOptions consensus;
+  RefinementOptions refinement;
+  ExtrinsicOptions extrinsic;
+  QualityOptions quality;
+};
+
+/// One option as forms, command line and files see it. All options are numbers; switches are
+/// whole numbers 0 and 1.
+struct OptionDeclaration {
+  std::string key;          ///< "refinement.max_bins"
+  std::string unit;         ///< "m", "px", "1", …
+  std::string description;  ///< One sentence.
+  double low = 0.0;
+  double high = 0.0;
+  bool whole = false;
+  std::string stage;        ///< First stage to run again when it changes.
+  std::function<double(const CalibrationOptions&)> get;
+  std::function<void(CalibrationOptions&, double)> set;
+  [[nodiscard]] double default_value() const { return get(CalibrationOptions{}); }
+};
+
+/// The one declaration of all options; order is the order of forms.
+const std::vector<OptionDeclaration>& option_declarations();
+
+/// Sets one option by key; errors name the range or the nearest known key.
+Status set_option(CalibrationOptions& options, const std::string& key, double value);
+
+struct OptionsFile {
+  CalibrationOptions options;
+  std::vector<std::string> warnings;
+};
+
+/// Reads a YAML file of "section: {name: value}" or "section.name: value". Unknown keys are
+/// warned about with the nearest known one.
+Result<OptionsFile> read_options(const std::filesystem::path& path);
+
+}  // namespace lvcalib

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "pipeline/calibration.h"
+
+namespace lvcalib {
+
+/// Size of the board as the LiDAR measures it over the model's, from all used scenes together.
+/// Sigma 0 if there is nothing to measure it by.
+struct MeasuredScale {
+  double scale = 1.0;
+  double sigma = 0.0;
+};
+MeasuredScale measured_scale(const CalibrationResult& result);
+
+/// Sets quality and adds the warnings that explain it.
+void judge_quality(CalibrationResult& result, const QualityOptions& options);
+
+/// Looks for the board in other sizes, after it was not found in its own. The size (over the
+/// model's) at which it is found, or nothing.
+std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
+                                        const CalibrationResult& result, const RunContext& context);
+
+}  // namespace lvcalib

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/scene_loading.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <mutex>
+
+#include "base/parallel.h"
+
+namespace lvcalib {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Distance from the camera to the middle of the board.
+double board_distance(const BoardView& view, const Target& target) {
+  const Eigen::Vector2d c = target.outline().center_m();
+  return (view.camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0)).norm();
+}
+
+class SceneLoader {
+ public:
+  SceneLoader(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context,
+              CalibrationResult& result)
+      : dataset_(dataset), request_(request), context_(context), result_(result), pyramid_(dataset.target) {}
+
+  Status run() {
+    const std::size_t n = dataset_.scenes.size();
+    std::vector<std::promise<void>> seen(n);
+    std::vector<std::future<void>> image_done;
+    for (auto& promise : seen) image_done.push_back(promise.get_future());
+    // Images first, then clouds: with few scenes both cores stay busy to the end. A cloud waits
+    // only for its own image, which was handed out before it.
+    parallel_for(2 * n, context_.thread_count(), [&](std::size_t task) {
+      const std::size_t s = task % n;
+      if (task < n) {
+        if (wanted(s)) look_at_image(s);
+        seen[s].set_value();
+      } else {
+        image_done[s].wait();
+        if (wanted(s) && result_.scenes[s].view) look_at_cloud(s);
+      }
+      report(task);
+    });
+    if (context_.stopped()) return Error::cancelled();
+    if (failure_) return *failure_;
+    return Done{};
+  }
+
+ private:
+  [[nodiscard]] bool wanted(std::size_t s) {
+    if (context_.stopped()) return false;
+    const std::lock_guard lock(mutex_);
+    return !failure_ && result_.scenes[s].reason.empty();
+  }
+
+  void look_at_image(std::size_t s) {
+    const SceneFiles& files = dataset_.scenes[s];
+    auto start = Clock::now();
+    auto image = read_image(files.image);
+    const double load = ms_since(start);
+    if (!image) return fail(image.error());
+    start = Clock::now();
+    RunContext quiet = context_;
+    quiet.progress = {};
+    // One thread per image where there are enough images.
+    quiet.threads = std::max(1, context_.thread_count() / static_cast<int>(dataset_.scenes.size()));
+    auto view = find_board_in_image(*image, dataset_.target, dataset_.camera, request_.options.detection, quiet);
+    const double detect = ms_since(start);
+    const std::lock_guard lock(mutex_);
+    result_.times.load_ms += load;
+    result_.times.detect_ms += detect;
+    if (view) {
+      result_.scenes[s].view = std::move(*view);
+      return;
+    }
+    if (view.error().kind == ErrorKind::kCancelled) return;
+    Error error = view.error();
+    if (error.where.empty()) error.where = files.image.string();
+    result_.scenes[s].reason = error.text();
+    // A size that contradicts the intrinsics spoils every scene alike.
+    if (size_differs(*image)) failure_ = error;
+  }
+
+  [[nodiscard]] bool size_differs(const GrayImage& image) const {
+    return image.width_px != dataset_.camera.width_px || image.height_px != dataset_.camera.height_px;
+  }
+
+  void look_at_cloud(std::size_t s) {
+    const SceneFiles& files = dataset_.scenes[s];
+    const auto& path = request_.use_crops && !files.crop.empty() ? files.crop : files.cloud;
+    auto start = Clock::now();
+    auto cloud = read_cloud(path, context_.stop);
+    const double load = ms_since(start);
+    if (!cloud) return fail(cloud.error());
+    if (dataset_.target.has_circles() && !cloud->has_intensity()) {
+      return fail(Error::input("the cloud has no intensity, which the board's circles need", path.string(),
+                               "record it with intensity or reflectivity"));
+    }
+    start = Clock::now();
+    RunContext quiet = context_;
+    quiet.progress = {};
+    std::optional<BoardSearchRegion> region;
+    if (request_.guess) region = predicted_region(s, *request_.guess, true);
+    auto search = search_board(*cloud, dataset_.target, pyramid_,
+                               board_distance(*result_.scenes[s].view, dataset_.target), region,
+                               request_.options.localization, quiet);
+    const double localize = ms_since(start);
+    const std::lock_guard lock(mutex_);
+    result_.times.load_ms += load;
+    result_.times.localize_ms += localize;
+    result_.scenes[s].search = std::move(search);
+  }
+
+  [[nodiscard]] BoardSearchRegion predicted_region(std::size_t s, const Rigid3& guess, bool rough) const {
+    const BoardOutline outline = dataset_.target.outline();
+    const Eigen::Vector2d c = outline.center_m();
+    const Eigen::Vector3d center = result_.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0);
+    const auto& o = request_.options.consensus;
+    const double slack = rough ? o.guess_translation_m + o.guess_rotation_rad * center.norm() : 0.1;
+    return {guess.inverse() * center, 0.6 * outline.size_m().norm() + slack};
+  }
+
+  void fail(Error error) {
+    if (error.kind == ErrorKind::kCancelled) return;
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::move(error);
+  }
+
+  void report(std::size_t task) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    const std::size_t n = dataset_.scenes.size();
+    const double fraction = 0.7 * static_cast<double>(done_) / static_cast<double>(2 * n);
+    context_.report(task < n ? "detect" : "localize", fraction, dataset_.scenes[task % n].name);
+  }
+
+  const Dataset& dataset_;
+  const CalibrationRequest& request_;
+  const RunContext& context_;
+  CalibrationResult& result_;
+  PatternPyramid pyramid_;
+  std::mutex mutex_;
+  std::optional<Error> failure_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace
+
+Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
+                   const RunContext& context, CalibrationResult& result) {
+  return SceneLoader(dataset, request, context, result).run();
+}
+
+Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,
+                          const BoardSearchRegion& region, const RunContext& context,
+                          const PatternPyramid& pyramid, CalibrationResult& result,
+                          std::size_t index) {
+  const auto& path = request.use_crops && !files.crop.empty() ? files.crop : files.cloud;
+  auto cloud = read_cloud(path, context.stop);
+  if (!cloud) return cloud.error();
+  BoardSearchOptions options = request.options.localization;
+  options.search_walls = true;
+  SceneResult& scene = result.scenes[index];
+  auto search = search_board(*cloud, result.target, pyramid, board_distance(*scene.view, result.target),
+                             region.radius_m > 0 ? std::optional(region) : std::nullopt, options, context);
+  if (context.stopped()) return Error::cancelled();
+  scene.search = std::move(search);
+  return Done{};
+}
+
+}  // namespace lvcalib

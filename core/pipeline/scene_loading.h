@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pipeline/calibration.h"
+
+namespace lvcalib {
+
+/// The stages that look at one scene alone: image → board view, cloud → board candidates. Runs
+/// all scenes, images first, on the context's threads; keeps only the points about the
+/// candidates, so that no more clouds than threads are in memory at once.
+/// Errors: the first unusable file.
+Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
+                   const RunContext& context, CalibrationResult& result);
+
+/// Reads one scene's cloud (or crop) and searches the board in it once more, in a region.
+Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,
+                          const BoardSearchRegion& region, const RunContext& context,
+                          const PatternPyramid& pyramid, CalibrationResult& result,
+                          std::size_t index);
+
+}  // namespace lvcalib

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/result_file.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/file_io.h"
+
+namespace lvcalib {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kMaxResultBytes = 256U << 20U;
+
+template <class Matrix>
+ordered_json rows_of(const Matrix& matrix) {
+  ordered_json rows = ordered_json::array();
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    ordered_json row = ordered_json::array();
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+ordered_json list_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+ordered_json pose_json(const Rigid3& pose) {
+  const Eigen::Vector4d q = pose.rotation.coeffs();
+  return {{"matrix", rows_of(pose.matrix())},
+          {"translation_m", list_of(pose.translation)},
+          {"quaternion_xyzw", {q(0), q(1), q(2), q(3)}}};
+}
+
+ordered_json refinement_json(const BoardRefinement& refinement) {
+  ordered_json updates = ordered_json::array();
+  for (const IterationRecord& record : refinement.history) updates.push_back(1e3 * record.max_update_m);
+  return {{"converged", refinement.converged},
+          {"iterations", refinement.history.size()},
+          {"max_update_mm", std::move(updates)},
+          {"range_noise_mm", 1e3 * refinement.plane.sigma_range_m},
+          {"transition_sigma_mm", 1e3 * std::sqrt(0.5 * refinement.footprint_m2.trace())},
+          {"scale", refinement.scale},
+          {"scale_sigma", refinement.scale_sigma}};
+}
+
+ordered_json nodes_json(const BoardRefinement& refinement, const SceneSolution* solution) {
+  ordered_json nodes = ordered_json::array();
+  for (std::size_t k = 0; k < refinement.nodes.size(); ++k) {
+    const RefinedNode& node = refinement.nodes[k];
+    ordered_json j = {{"id", node.id},
+                      {"valid", node.valid},
+                      {"center_lidar_m", list_of(node.center_lidar_m)},
+                      {"sigma_mm", 1e3 * node.sigma_m()},
+                      {"valid_bins", node.valid_bins}};
+    if (!node.valid) j["reason"] = node.reason;
+    if (solution != nullptr && k < solution->nodes.size()) {
+      j["residual_mm"] = list_of(1e3 * solution->nodes[k].residual_m);
+      j["used"] = solution->nodes[k].used;
+    }
+    nodes.push_back(std::move(j));
+  }
+  return nodes;
+}
+
+ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution) {
+  ordered_json j = {{"name", scene.name},
+                    {"used", scene.used},
+                    {"reason", scene.reason},
+                    {"tags", scene.view ? scene.view->tag_count : 0},
+                    {"board_points", scene.refinement ? scene.refinement->board_points : 0}};
+  if (solution != nullptr) {
+    j["T_camera_board"] = rows_of(solution->camera_from_board.matrix());
+  } else if (scene.view) {
+    j["T_camera_board"] = rows_of(scene.view->camera_from_board.transform.matrix());
+  }
+  if (scene.refinement) j["T_lidar_board"] = rows_of(scene.refinement->lidar_from_board.matrix());
+  j["rms_px"] = solution != nullptr ? solution->rms_px : 0.0;
+  j["rms_mm"] = solution != nullptr ? solution->rms_mm : 0.0;
+  if (scene.refinement) {
+    j["refinement"] = refinement_json(*scene.refinement);
+    j["nodes"] = nodes_json(*scene.refinement, solution);
+  }
+  return j;
+}
+
+const SceneSolution* solution_of(const CalibrationResult& result, const std::string& name) {
+  for (const SceneSolution& s : result.extrinsic.scenes) {
+    if (s.name == name) return &s;
+  }
+  return nullptr;
+}
+
+ordered_json to_json(const CalibrationResult& result) {
+  const ExtrinsicSolution& x = result.extrinsic;
+  ordered_json j;
+  j["version"] = version();
+  j["dataset"] = result.dataset;
+  j["T_camera_lidar"] = pose_json(x.camera_from_lidar.transform);
+  j["covariance"] = rows_of(x.camera_from_lidar.covariance);
+  j["quality"] = name_of(result.quality);
+  j["warnings"] = result.warnings;
+  j["rms_px"] = x.rms_px;
+  j["rms_mm"] = x.rms_mm;
+  j["sigma_px"] = x.sigma_px;
+  j["node_noise_scale"] = x.node_scale;
+  j["plane_noise_scale"] = x.plane_scale;
+  j["rank"] = x.rank;
+  j["weak_directions"] = x.weak_directions;
+  j["assignment_margin"] = {{"best", result.consensus.score},
+                            {"runner_up", result.consensus.runner_up},
+                            {"margin", result.consensus.margin()},
+                            {"unit", "nat"}};
+  j["scenes"] = ordered_json::array();
+  for (const SceneResult& scene : result.scenes) j["scenes"].push_back(scene_json(scene, solution_of(result, scene.name)));
+  j["leave_one_out"] = ordered_json::array();
+  for (const LeaveOneOut& l : x.leave_one_out) {
+    j["leave_one_out"].push_back({{"without", l.without}, {"translation_mm", l.translation_mm}, {"rotation_mrad", l.rotation_mrad}});
+  }
+  const StageTimes& t = result.times;
+  j["timing_ms"] = {{"load", t.load_ms}, {"detect", t.detect_ms}, {"localize", t.localize_ms}, {"refine", t.refine_ms},
+                    {"optimize", t.optimize_ms}, {"total", t.total_ms}};
+  return j;
+}
+
+std::string yaml_number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+std::string yaml_list(const std::vector<double>& values) {
+  std::string out = "[";
+  for (std::size_t k = 0; k < values.size(); ++k) out += (k == 0 ? "" : ", ") + yaml_number(values[k]);
+  return out + "]";
+}
+
+std::string yaml_quoted(const std::string& text) {
+  // A JSON string is a legal YAML double-quoted scalar.
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+template <class Matrix>
+std::string yaml_rows(const Matrix& m) {
+  std::string out;
+  for (Eigen::Index r = 0; r < m.rows(); ++r) {
+    std::vector<double> row;
+    for (Eigen::Index c = 0; c < m.cols(); ++c) row.push_back(m(r, c));
+    out += "    - " + yaml_list(row) + "\n";
+  }
+  return out;
+}
+
+Result<nlohmann::json> read_json(const std::filesystem::path& path) {
+  auto text = read_text_file(path, kMaxResultBytes);
+  if (!text) return text.error();
+  auto j = nlohmann::json::parse(*text, nullptr, false);
+  if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", path.string());
+  return j;
+}
+
+// Rows of numbers as a matrix of the given size; false if they are not.
+bool read_rows(const nlohmann::json& j, Eigen::Index rows, Eigen::Index columns, Eigen::MatrixXd& out) {
+  if (!j.is_array() || static_cast<Eigen::Index>(j.size()) != rows) return false;
+  out.resize(rows, columns);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const auto& row = j[static_cast<std::size_t>(r)];
+    if (!row.is_array() || static_cast<Eigen::Index>(row.size()) != columns) return false;
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const auto& value = row[static_cast<std::size_t>(c)];
+      if (!value.is_number()) return false;
+      out(r, c) = value.get<double>();
+    }
+  }
+  return out.allFinite();
+}
+
+}  // namespace
+
+std::string version() { return LVCALIB_VERSION; }
+
+std::string result_as_json(const CalibrationResult& result) {
+  return to_json(result).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string result_as_yaml(const CalibrationResult& result) {
+  const ExtrinsicSolution& x = result.extrinsic;
+  const Rigid3& pose = x.camera_from_lidar.transform;
+  const Eigen::Vector4d q = pose.rotation.coeffs();
+  const Vector6d sigma = x.camera_from_lidar.covariance.diagonal().cwiseSqrt();
+  std::string out = "# Takes a point from the LiDAR frame (m) to the camera frame (x right, y down, z forward).\n";
+  out += "version: " + yaml_quoted(version()) + "\ndataset: " + yaml_quoted(result.dataset) + "\n";
+  out += "T_camera_lidar:\n  matrix:\n" + yaml_rows(pose.matrix());
+  out += "  translation_m: " + yaml_list({pose.translation.x(), pose.translation.y(), pose.translation.z()}) + "\n";
+  out += "  quaternion_xyzw: " + yaml_list({q(0), q(1), q(2), q(3)}) + "\n";
+  out += "# Standard deviations of the left perturbation in the camera frame.\n";
+  out += "sigma_translation_mm: " + yaml_list({1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2)}) + "\n";
+  out += "sigma_rotation_mrad: " + yaml_list({1e3 * sigma(3), 1e3 * sigma(4), 1e3 * sigma(5)}) + "\n";
+  out += "covariance:\n" + yaml_rows(x.camera_from_lidar.covariance);
+  out += "quality: " + name_of(result.quality) + "\nwarnings:";
+  out += result.warnings.empty() ? " []\n" : "\n";
+  for (const std::string& w : result.warnings) out += "  - " + yaml_quoted(w) + "\n";
+  out += "rms_px: " + yaml_number(x.rms_px) + "\nrms_mm: " + yaml_number(x.rms_mm) + "\nscenes:\n";
+  for (const SceneResult& scene : result.scenes) {
+    out += "  - {name: " + yaml_quoted(scene.name) + ", used: " + (scene.used ? "true" : "false") + ", reason: " + yaml_quoted(scene.reason) + "}\n";
+  }
+  return out;
+}
+
+Status write_results(const CalibrationResult& result, const std::filesystem::path& folder) {
+  if (Status s = create_folder(folder); !s) return s;
+  if (Status s = write_file_atomically(folder / "result.yaml", result_as_yaml(result)); !s) return s;
+  return write_file_atomically(folder / "result.json", result_as_json(result));
+}
+
+Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {
+  auto j = read_json(path);
+  if (!j) return j.error();
+  const auto pose = j->find("T_camera_lidar");
+  Eigen::MatrixXd m;
+  if (pose == j->end() || !pose->is_object() || !pose->contains("matrix") || !read_rows((*pose)["matrix"], 4, 4, m)) {
+    return Error::input("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers", path.string());
+  }
+  StoredExtrinsic out;
+  out.camera_from_lidar = Rigid3::from_matrix(Eigen::Matrix4d(m));
+  if (j->contains("covariance") && read_rows((*j)["covariance"], 6, 6, m)) out.covariance = m;
+  return out;
+}
+
+Result<Rigid3> read_truth(const std::filesystem::path& path) {
+  auto j = read_json(path);
+  if (!j) return j.error();
+  Eigen::MatrixXd m;
+  if (!j->contains("T_CL") || !read_rows((*j)["T_CL"], 3, 4, m)) {
+    return Error::input("T_CL is missing or not 3 rows of 4 numbers", path.string());
+  }
+  return Rigid3::from_matrix(Eigen::Matrix3d(m.leftCols<3>()), Eigen::Vector3d(m.col(3)));
+}
+
+ExtrinsicError compare_extrinsics(const StoredExtrinsic& estimate, const Rigid3& truth) {
+  ExtrinsicError error;
+  error.translation_mm = 1e3 * translation_distance_m(estimate.camera_from_lidar, truth);
+  error.rotation_mrad = 1e3 * rotation_distance_rad(estimate.camera_from_lidar, truth);
+  error.left_perturbation = se3_log(truth * estimate.camera_from_lidar.inverse());
+  for (int k = 0; k < 6; ++k) {
+    const double variance = estimate.covariance(k, k);
+    error.normalized(k) = variance > 0 ? error.left_perturbation(k) / std::sqrt(variance) : std::nan("");
+  }
+  return error;
+}
+
+}  // namespace lvcalib

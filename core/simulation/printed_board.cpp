@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/printed_board.h"
+
+#include <algorithm>
+
+#include <opencv2/imgproc.hpp>
+
+#include "simulation/whole_below.h"
+
+namespace lvcalib::simulation {
+namespace {
+
+// Bits of one tag with its border, from the lower left, row by row; 1 is white.
+std::vector<std::uint8_t> bits_of_tag(const Target& target, int id, int side) {
+  std::vector<std::uint8_t> bits(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  const TagPattern* pattern = tag_pattern(target.tag_family, id);
+  if (pattern == nullptr) return bits;
+  const int border = target.tag_border_bits;
+  for (int row = 0; row < pattern->width; ++row) {
+    for (int column = 0; column < pattern->width; ++column) {
+      const int from_below = side - 1 - border - row;
+      bits[static_cast<std::size_t>(from_below * side + border + column)] =
+          pattern->at(row, column) ? 1 : 0;
+    }
+  }
+  return bits;
+}
+
+}  // namespace
+
+PrintedBoard::PrintedBoard(const Target& target) : target_(target), outline_(target.outline()) {
+  if (target_.has_tags()) {
+    pitch_m_ = target_.tag_pitch_m();
+    bit_m_ = target_.tag_bit_m();
+    bits_ = static_cast<int>(std::lround(target_.tag_size_m / bit_m_));
+    for (const TargetTag& tag : target_.tags()) {
+      const auto bits = bits_of_tag(target_, tag.id, bits_);
+      tag_bits_.insert(tag_bits_.end(), bits.begin(), bits.end());
+    }
+  }
+  map_edges();
+}
+
+bool PrintedBoard::checkerboard_is_white(double x_m, double y_m) const {
+  const int column = whole_below(x_m / target_.column_spacing_m);
+  const int row = whole_below(y_m / target_.row_spacing_m);
+  if (column < -1 || row < -1) return true;
+  if (column >= target_.corner_columns || row >= target_.corner_rows) return true;
+  return ((column + row) & 1) != 0;
+}
+
+bool PrintedBoard::is_white(double x_m, double y_m) const {
+  if (!target_.has_tags()) return checkerboard_is_white(x_m, y_m);
+  const int column = whole_below(x_m / pitch_m_);
+  const int row = whole_below(y_m / pitch_m_);
+  if (column >= 0 && row >= 0 && column < target_.tag_columns && row < target_.tag_rows) {
+    const double x = x_m - column * pitch_m_;
+    const double y = y_m - row * pitch_m_;
+    if (x < target_.tag_size_m && y < target_.tag_size_m) {
+      const int i = std::min(static_cast<int>(x / bit_m_), bits_ - 1);
+      const int j = std::min(static_cast<int>(y / bit_m_), bits_ - 1);
+      const int tag = row * target_.tag_columns + column;
+      return tag_bits_[static_cast<std::size_t>((tag * bits_ + j) * bits_ + i)] != 0;
+    }
+  }
+  if (!target_.has_circles()) return true;
+  const double first = target_.tag_size_m * (1.0 + 0.5 * target_.tag_spacing);
+  const int i = whole_below((x_m - first) / pitch_m_ + 0.5);
+  const int j = whole_below((y_m - first) / pitch_m_ + 0.5);
+  if (i < 0 || j < 0 || i > target_.tag_columns - 2 || j > target_.tag_rows - 2) return true;
+  const double dx = x_m - first - i * pitch_m_;
+  const double dy = y_m - first - j * pitch_m_;
+  return dx * dx + dy * dy > target_.circle_radius_m * target_.circle_radius_m;
+}
+
+void PrintedBoard::map_edges() {
+  const Eigen::Vector2d size = outline_.size_m();
+  // About a thousand cells along the longer side resolve every bit of a printable board.
+  cell_m_ = size.maxCoeff() / 1000.0;
+  cells_x_ = std::max(2, static_cast<int>(std::ceil(size.x() / cell_m_)));
+  cells_y_ = std::max(2, static_cast<int>(std::ceil(size.y() / cell_m_)));
+  cv::Mat white(cells_y_, cells_x_, CV_8U);
+  for (int j = 0; j < cells_y_; ++j) {
+    for (int i = 0; i < cells_x_; ++i) {
+      white.at<std::uint8_t>(j, i) = is_white(outline_.lower_left_m.x() + (i + 0.5) * cell_m_,
+                                              outline_.lower_left_m.y() + (j + 0.5) * cell_m_)
+                                         ? 1
+                                         : 0;
+    }
+  }
+  cv::Mat lowest;
+  cv::Mat highest;
+  cv::erode(white, lowest, cv::Mat::ones(3, 3, CV_8U));
+  cv::dilate(white, highest, cv::Mat::ones(3, 3, CV_8U));
+  cv::Mat plain = lowest == highest;
+  plain.row(0) = 0;
+  plain.row(cells_y_ - 1) = 0;
+  plain.col(0) = 0;
+  plain.col(cells_x_ - 1) = 0;
+  cv::Mat distance;
+  cv::distanceTransform(plain, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  clearance_cells_.assign(distance.begin<float>(), distance.end<float>());
+}
+
+double PrintedBoard::clearance_m(double x_m, double y_m) const {
+  if (!inside(x_m, y_m)) return 0.0;
+  const int i =
+      std::min(static_cast<int>((x_m - outline_.lower_left_m.x()) / cell_m_), cells_x_ - 1);
+  const int j =
+      std::min(static_cast<int>((y_m - outline_.lower_left_m.y()) / cell_m_), cells_y_ - 1);
+  // The point is up to 0.71 cells from its cell's centre, the edge up to one from a marked cell's.
+  const double cells = clearance_cells_[static_cast<std::size_t>(j * cells_x_ + i)] - 1.75;
+  return std::max(0.0, cells) * cell_m_;
+}
+
+}  // namespace lvcalib::simulation

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "target/target.h"
+
+namespace lvcalib::simulation {
+
+/// A target prepared for millions of look-ups: its print as flat tables, and a map of how far the
+/// nearest edge is, so that footprints and pixels on a plain part need one look-up only.
+class PrintedBoard {
+ public:
+  explicit PrintedBoard(const Target& target);
+
+  /// Reflectivities of the print in LiDAR and camera light.
+  static constexpr double kBlack = 0.07;
+  static constexpr double kWhite = 0.85;
+
+  /// Reflectivity at a point of the board plane that lies within the outline.
+  [[nodiscard]] double reflectivity(double x_m, double y_m) const {
+    return is_white(x_m, y_m) ? kWhite : kBlack;
+  }
+  [[nodiscard]] bool is_white(double x_m, double y_m) const;
+
+  [[nodiscard]] bool inside(double x_m, double y_m) const {
+    return x_m >= outline_.lower_left_m.x() && x_m <= outline_.upper_right_m.x() &&
+           y_m >= outline_.lower_left_m.y() && y_m <= outline_.upper_right_m.y();
+  }
+
+  /// A lower bound of the distance to the nearest edge of the print or of the board; 0 outside.
+  [[nodiscard]] double clearance_m(double x_m, double y_m) const;
+
+  [[nodiscard]] const BoardOutline& outline() const { return outline_; }
+
+ private:
+  [[nodiscard]] bool checkerboard_is_white(double x_m, double y_m) const;
+  void map_edges();
+
+  Target target_;
+  BoardOutline outline_;
+  double pitch_m_ = 0.0;
+  double bit_m_ = 0.0;
+  int bits_ = 0;                        // Along a side of a tag, border included.
+  std::vector<std::uint8_t> tag_bits_;  // Tag by tag, from the lower left bit, row by row.
+  double cell_m_ = 0.001;
+  int cells_x_ = 0;
+  int cells_y_ = 0;
+  std::vector<float> clearance_cells_;
+};
+
+}  // namespace lvcalib::simulation

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "target/target.h"
+
+namespace lvcalib {
+namespace {
+using ::testing::HasSubstr;
+
+class TargetYaml : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = std::filesystem::temp_directory_path() /
+            ("lvcalib_target_" + std::to_string(::getpid()) + ".yaml");
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  Result<TargetFile> read(const std::string& text) const {
+    std::ofstream(path_) << text;
+    return read_target(path_);
+  }
+  [[nodiscard]] std::string error(const std::string& text) const {
+    const auto file = read(text);
+    EXPECT_FALSE(file.ok()) << text;
+    if (file) return {};
+    EXPECT_EQ(file.error().kind, ErrorKind::kInput);
+    EXPECT_THAT(file.error().where, HasSubstr(path_.string()));
+    return file.error().text();
+  }
+  std::filesystem::path path_;
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+const char* const kGrid = R"(target_type: aprilgrid_circles
+tagFamily: tag36h11
+tagCols: 5
+tagRows: 3
+tagSize: 0.10        # m
+tagSpacing: 0.9
+tagBorder: 2
+firstTagId: 7
+circleRadius: 0.04
+margin: 0.05
+)";
+
+const char* const kChecker = R"(target_type: checkerboard
+targetCols: 5
+targetRows: 7
+colSpacingMeters: 0.095
+rowSpacingMeters: 0.09
+boardWidth: 0.61
+boardHeight: 0.85
+boardOffset: [0.002, -0.001]
+)";
+
+void expect_same(const Target& a, const Target& b) {
+  EXPECT_EQ(to_yaml(a), to_yaml(b));
+  EXPECT_EQ(a.type, b.type);
+  EXPECT_EQ(a.outline().lower_left_m, b.outline().lower_left_m);
+  EXPECT_EQ(a.outline().upper_right_m, b.outline().upper_right_m);
+}
+
+TEST_F(TargetYaml, ReadsEveryKeyOfAGrid) {
+  const auto file = read(kGrid);
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  EXPECT_TRUE(file->warnings.empty());
+  const Target& t = file->target;
+  EXPECT_EQ(t.type, TargetType::kAprilGridCircles);
+  EXPECT_EQ(t.tag_columns, 5);
+  EXPECT_EQ(t.tag_rows, 3);
+  EXPECT_EQ(t.tag_size_m, 0.10);
+  EXPECT_EQ(t.tag_spacing, 0.9);
+  EXPECT_EQ(t.tag_border_bits, 2);
+  EXPECT_EQ(t.first_tag_id, 7);
+  EXPECT_EQ(t.circle_radius_m, 0.04);
+  EXPECT_EQ(t.margin_m, 0.05);
+}
+
+TEST_F(TargetYaml, ReadsKalibrsOwnGridWithDefaults) {
+  const auto file =
+      read("target_type: 'aprilgrid'\ntagCols: 6\ntagRows: 6\ntagSize: 0.088\ntagSpacing: 0.3\n");
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  EXPECT_EQ(file->target.type, TargetType::kAprilGrid);
+  EXPECT_EQ(file->target.tag_family, "tag36h11");
+  EXPECT_EQ(file->target.tag_border_bits, 1);
+  EXPECT_EQ(file->target.first_tag_id, 0);
+  EXPECT_TRUE(file->target.nodes().empty());
+}
+
+TEST_F(TargetYaml, ReadsCheckerboards) {
+  const auto file = read(kChecker);
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  EXPECT_EQ(file->target.corner_columns, 5);
+  EXPECT_EQ(file->target.corner_rows, 7);
+  EXPECT_EQ(file->target.column_spacing_m, 0.095);
+  EXPECT_EQ(file->target.row_spacing_m, 0.09);
+  EXPECT_EQ(file->target.board_width_m, 0.61);
+  EXPECT_EQ(file->target.board_offset_m, Eigen::Vector2d(0.002, -0.001));
+  // Without an outline: the pattern with its outer squares.
+  const auto bare = read(
+      "target_type: checkerboard\ntargetCols: 5\ntargetRows: 7\ncolSpacingMeters: 0.1\n"
+      "rowSpacingMeters: 0.1\n");
+  ASSERT_TRUE(bare.ok());
+  EXPECT_NEAR(bare->target.board_width_m, 0.6, 1e-12);
+  EXPECT_NEAR(bare->target.board_height_m, 0.8, 1e-12);
+}
+
+TEST_F(TargetYaml, WritesWhatItReads) {
+  for (const char* text : {kGrid, kChecker}) {
+    const auto first = read(text);
+    ASSERT_TRUE(first.ok());
+    const auto second = read(to_yaml(first->target));
+    ASSERT_TRUE(second.ok()) << second.error().text();
+    EXPECT_TRUE(second->warnings.empty());
+    expect_same(first->target, second->target);
+  }
+  Target odd;
+  odd.type = TargetType::kAprilGrid;
+  odd.tag_size_m = 1.0 / 7.0;
+  odd.tag_spacing = 1.0 / 3.0;
+  const auto again = read(to_yaml(odd));
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(again->target.tag_size_m, odd.tag_size_m);
+  expect_same(again->target, odd);
+}
+
+TEST_F(TargetYaml, WarnsOfUnknownKeysWithTheNearestKnownOne) {
+  const auto file = read(replaced(kGrid, "tagBorder", "tagBoarder"));
+  ASSERT_TRUE(file.ok());
+  ASSERT_EQ(file->warnings.size(), 1U);
+  EXPECT_THAT(file->warnings[0], HasSubstr(":7: unknown key 'tagBoarder'"));
+  EXPECT_THAT(file->warnings[0], HasSubstr("did you mean 'tagBorder'?"));
+  EXPECT_EQ(file->target.tag_border_bits, 1);
+}
+
+TEST_F(TargetYaml, RefusesBadGrids) {
+  EXPECT_THAT(error(replaced(kGrid, "target_type: aprilgrid_circles\n", "")),
+              HasSubstr("'target_type' is missing"));
+  EXPECT_THAT(error(replaced(kGrid, "aprilgrid_circles", "circlegrid")),
+              HasSubstr("expected aprilgrid_circles, aprilgrid or checkerboard"));
+  for (const char* key : {"tagCols", "tagRows", "tagSize", "tagSpacing", "circleRadius"}) {
+    EXPECT_THAT(error(replaced(kGrid, key, "other")),
+                HasSubstr("key '" + std::string(key) + "' is missing"));
+  }
+  EXPECT_THAT(error(replaced(kGrid, "0.10", "big")), HasSubstr(":5: 'tagSize' must be a number"));
+  EXPECT_THAT(error(replaced(kGrid, "0.10", ".nan")), HasSubstr("found '.nan'"));
+  EXPECT_THAT(error(replaced(kGrid, "0.10", "[0.1]")), HasSubstr("a list of 1"));
+  EXPECT_THAT(error(replaced(kGrid, "0.10", "0")), HasSubstr("positive"));
+  EXPECT_THAT(error(replaced(kGrid, "0.10", "-1")), HasSubstr("between 0 and 100"));
+  EXPECT_THAT(error(replaced(kGrid, "tagCols: 5", "tagCols: 2.5")), HasSubstr("whole number"));
+  EXPECT_THAT(error(replaced(kGrid, "tagCols: 5", "tagCols: 1")), HasSubstr("2 × 2 tags"));
+  EXPECT_THAT(error(replaced(kGrid, "tagCols: 5", "tagCols: 900")), HasSubstr("do not exist"));
+  EXPECT_THAT(error(replaced(kGrid, "firstTagId: 7", "firstTagId: 573")),
+              HasSubstr("which has 587"));
+  EXPECT_THAT(error(replaced(kGrid, "tagBorder: 2", "tagBorder: 3")), HasSubstr("between 1 and 2"));
+  EXPECT_THAT(error(replaced(kGrid, "tag36h11", "tag99h1")), HasSubstr("is not known"));
+  EXPECT_THAT(error(replaced(kGrid, "0.04\n", "0.09\n")), HasSubstr("circles run into the tags"));
+}
+
+TEST_F(TargetYaml, RefusesBadCheckerboardsAndStrangers) {
+  EXPECT_THAT(error(replaced(kChecker, "targetCols: 5", "targetCols: 2")), HasSubstr("between 3"));
+  EXPECT_THAT(error(replaced(kChecker, "0.095", "0")), HasSubstr("positive"));
+  EXPECT_THAT(error(replaced(kChecker, "0.61", "0.2")), HasSubstr("smaller than its pattern"));
+  EXPECT_THAT(error(replaced(kChecker, "[0.002, -0.001]", "[0.002]")),
+              HasSubstr("2 numbers, found 1"));
+  EXPECT_THAT(error("a: [1"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(error("- 1\n"), HasSubstr("expected a YAML map"));
+  EXPECT_FALSE(read_target("/nonexistent/target.yaml").ok());
+}
+
+}  // namespace
+}  // namespace lvcalib
