@@ -21,6 +21,14 @@ struct YamlValue {
   std::vector<YamlValue> list;
   std::vector<std::pair<std::string, YamlValue>> map;
 
+  // Defined in the source file: clang cannot while the type within `map` is incomplete.
+  YamlValue();
+  YamlValue(const YamlValue&);
+  YamlValue(YamlValue&&) noexcept;
+  YamlValue& operator=(const YamlValue&);
+  YamlValue& operator=(YamlValue&&) noexcept;
+  ~YamlValue();
+
   [[nodiscard]] const YamlValue* find(std::string_view key) const;
 };
 

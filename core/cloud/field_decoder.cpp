@@ -132,7 +132,9 @@ ExactTime decode_time(const char* block, const FieldLayout& field, bool swap_byt
     const T value = swap_bytes ? load<T, true>(at) : load<T, false>(at);
     ExactTime time;
     time.value = static_cast<double>(value);
-    if constexpr (std::is_integral_v<T>) time.ticks = static_cast<std::uint64_t>(value);
+    if constexpr (std::is_integral_v<T>) {
+      time.ticks = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+    }
     return time;
   });
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/plane.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include "base/statistics.h"
 
@@ -110,7 +111,9 @@ std::optional<FittedPlane> fit_plane(std::span<const Eigen::Vector3f> points_m,
     if (!step.allFinite()) return std::nullopt;
     apply(plane, step);
     // Stop well below the statistical error.
-    if (std::abs(step(0)) < 1e-3 * plane.sigma_range_m / std::sqrt(static_cast<double>(system.inliers))) break;
+    if (std::abs(step(0)) <
+        1e-3 * plane.sigma_range_m / std::sqrt(static_cast<double>(system.inliers)))
+      break;
   }
   // Centre the frame on the points: height and slopes are then nearly uncorrelated.
   const Eigen::Vector3d mean = system.weighted_center / system.weight;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/planar_patch.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <unordered_set>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include "base/random.h"
 #include "base/statistics.h"
@@ -68,7 +69,9 @@ std::optional<LocalPlane> majority_plane(const VoxelCloud& cloud,
   const auto count = static_cast<std::uint32_t>(ids.size());
   const std::size_t stride = std::max<std::size_t>(1, ids.size() / 200);  // Scoring needs no more.
   for (int t = 0; t < kTriplets; ++t) {
-    const auto pick = [&] { return cloud.voxels()[ids[random.below(count)]].mean_m.cast<double>().eval(); };
+    const auto pick = [&] {
+      return cloud.voxels()[ids[random.below(count)]].mean_m.cast<double>().eval();
+    };
     const Eigen::Vector3d a = pick();
     const Eigen::Vector3d b = pick();
     const Eigen::Vector3d c = pick();
@@ -83,7 +86,8 @@ std::optional<LocalPlane> majority_plane(const VoxelCloud& cloud,
     }
     if (plane.inliers > best.inliers) best = plane;
   }
-  if (static_cast<double>(best.inliers * stride) < kMinFlatShare * static_cast<double>(ids.size())) {
+  if (static_cast<double>(best.inliers * stride) <
+      kMinFlatShare * static_cast<double>(ids.size())) {
     return std::nullopt;
   }
   return least_squares_plane(cloud, within(cloud, ids, best, tolerance));
@@ -93,8 +97,11 @@ std::optional<LocalPlane> majority_plane(const VoxelCloud& cloud,
 class CellGrid {
  public:
   CellGrid(const Eigen::Vector2d& seed, double cell, double radius)
-      : seed_(seed), cell_(cell), half_(static_cast<int>(std::ceil(radius / cell)) + 2),
-        side_(2 * half_ + 1), occupied_(static_cast<std::size_t>(side_ * side_), 0) {}
+      : seed_(seed),
+        cell_(cell),
+        half_(static_cast<int>(std::ceil(radius / cell)) + 2),
+        side_(2 * half_ + 1),
+        occupied_(static_cast<std::size_t>(side_ * side_), 0) {}
 
   [[nodiscard]] int cell_of(const Eigen::Vector2d& q) const {
     // The outermost ring stays empty, so that neighbours always exist.
@@ -243,7 +250,8 @@ double measure_plane_noise(const VoxelCloud& cloud, const std::vector<std::uint3
     if (!plane) continue;
     std::vector<double> distance;
     for (const auto i : within(cloud, ids, *plane, tolerance)) {
-      distance.push_back(std::abs(plane->normal.dot(cloud.voxels()[i].mean_m.cast<double>() - plane->center)));
+      distance.push_back(
+          std::abs(plane->normal.dot(cloud.voxels()[i].mean_m.cast<double>() - plane->center)));
     }
     deviations.push_back(1.4826 * median(std::move(distance)));
   }
@@ -253,7 +261,8 @@ double measure_plane_noise(const VoxelCloud& cloud, const std::vector<std::uint3
 class PatchFinder {
  public:
   PatchFinder(const VoxelCloud& cloud, const PatchSearchOptions& options)
-      : cloud_(cloud), options_(options),
+      : cloud_(cloud),
+        options_(options),
         short_side_(std::min(options.board_width_m, options.board_height_m)),
         diagonal_(std::hypot(options.board_width_m, options.board_height_m)) {}
 
@@ -272,7 +281,8 @@ class PatchFinder {
         if (context.stopped()) return {};
         if (covered_[seed] != 0) continue;
         cloud_.neighbours(cloud_.voxels()[seed].mean_m, radius, ids_);
-        if (auto plane = majority_plane(cloud_, ids_, tolerance_, seed)) grow(seed, *plane, connection);
+        if (auto plane = majority_plane(cloud_, ids_, tolerance_, seed))
+          grow(seed, *plane, connection);
       }
     }
     return std::move(patches_);

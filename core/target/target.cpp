@@ -154,6 +154,10 @@ Status check(const Target& t) {
       return bad("the board outline is smaller than its pattern",
                  "measure boardWidth and boardHeight");
     }
+    constexpr double kLargestBoard_m = 100.0;
+    if (t.board_width_m > kLargestBoard_m || t.board_height_m > kLargestBoard_m) {
+      return bad("the board is larger than 100 m", "spacings and outline are in metres");
+    }
     return Done{};
   }
   const int family = tag_family_size(t.tag_family);
