@@ -220,7 +220,7 @@ std::vector<std::string> YamlFile::unknown_keys(const std::vector<std::string>& 
 }
 
 bool parse_number(std::string_view text, double& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   return code == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }

@@ -171,17 +171,40 @@ Result<Done> read_model(const YamlFile& file, const std::string& key, Camera& ca
   return Done{};
 }
 
-// ROS camera_info (distortion_model names the model) and OpenCV FileStorage (the number of
-// coefficients does): both hold a camera matrix.
+// The model by its name, or by the number of coefficients in OpenCV's way.
+Status choose_model(const YamlFile& file, std::size_t coefficients, CameraFile& out) {
+  Camera& camera = out.camera;
+  if (file.has("distortion_model")) return read_model(file, "distortion_model", camera);
+  if (!first_present(file, kRosOnly).empty()) {
+    return Error::input(
+        "key 'distortion_model' is missing; expected plumb_bob, rational_polynomial or equidistant",
+        file.name());
+  }
+  if (file.has("fisheye_model")) {
+    const auto fisheye = file.integer("fisheye_model", 0, 1);
+    if (!fisheye) return fisheye.error();
+    if (*fisheye == 1) {
+      camera.model = DistortionModel::kEquidistant;
+      return Done{};
+    }
+  } else if (coefficients == 4) {
+    out.warnings.push_back(file.name() +
+                           ": 4 distortion coefficients and no distortion_model: taken as k1 k2 p1 "
+                           "p2; add 'distortion_model: equidistant' if this is a fisheye lens");
+  }
+  if (coefficients >= 8) camera.model = DistortionModel::kRationalPolynomial;
+  return Done{};
+}
+
+// ROS camera_info and OpenCV FileStorage: both hold a camera matrix.
 Result<CameraFile> read_matrix_style(const YamlFile& file) {
   Keys known;
   for (const char* group : {kWidth, kHeight, kMatrix, kCoefficients, kRosOnly, kHarmless}) {
     for (auto& key : words(group)) known.push_back(std::move(key));
   }
   CameraFile out{{}, file.unknown_keys(known)};
-  Camera& camera = out.camera;
-  if (Status s = read_size(file, camera); !s) return s.error();
-  if (Status s = read_matrix(file, camera); !s) return s.error();
+  if (Status s = read_size(file, out.camera); !s) return s.error();
+  if (Status s = read_matrix(file, out.camera); !s) return s.error();
   const std::string key = first_present(file, kCoefficients);
   if (key.empty()) {
     return Error::input("key 'distortion_coefficients' is missing; expected a list of numbers",
@@ -189,31 +212,12 @@ Result<CameraFile> read_matrix_style(const YamlFile& file) {
   }
   const auto values = matrix_numbers(file, key);
   if (!values) return values.error();
-  const bool ros = !first_present(file, kRosOnly).empty();
-  if (file.has("distortion_model")) {
-    if (Status s = read_model(file, "distortion_model", camera); !s) return s.error();
-  } else if (ros) {
-    return Error::input(
-        "key 'distortion_model' is missing; expected plumb_bob, rational_polynomial or equidistant",
-        file.name());
-  } else if (file.has("fisheye_model")) {
-    const auto fisheye = file.integer("fisheye_model", 0, 1);
-    if (!fisheye) return fisheye.error();
-    if (*fisheye == 1) camera.model = DistortionModel::kEquidistant;
-  } else if (values->size() == 4) {
-    out.warnings.push_back(file.name() +
-                           ": 4 distortion coefficients and no distortion_model: taken as k1 k2 p1 "
-                           "p2; add 'distortion_model: equidistant' if this is a fisheye lens");
-  }
-  const bool by_count = !file.has("distortion_model");
-  if (by_count && camera.model == DistortionModel::kPlumbBob && values->size() >= 8) {
-    camera.model = DistortionModel::kRationalPolynomial;
-  }
-  if (Status s = set_distortion(file, key, *values, camera); !s) return s.error();
+  if (Status s = choose_model(file, values->size(), out); !s) return s.error();
+  if (Status s = set_distortion(file, key, *values, out.camera); !s) return s.error();
   if (file.has("camera_name")) {
     const auto name = file.string("camera_name");
     if (!name) return name.error();
-    camera.name = *name;
+    out.camera.name = *name;
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #include "localization/planar_patch.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

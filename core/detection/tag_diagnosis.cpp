@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detection/tag_diagnosis.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "detection/tag_detector.h"
+
+namespace lvcalib {
+namespace {
+
+GrayImage mirrored(const GrayImage& image) {
+  GrayImage out = image;
+  for (int y = 0; y < image.height_px; ++y) {
+    const auto row = out.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width_px;
+    std::reverse(row, row + image.width_px);
+  }
+  return out;
+}
+
+// Distinct ids seen. A lone tag with corrected bits may be chance among so many attempts, and the
+// smallest family reads tags into any texture: two faultless ones are asked for.
+std::set<int> ids_seen(const GrayImage& image, const std::string& family, int border_bits,
+                       const RunContext& context) {
+  TagSearchOptions search;
+  search.max_hamming = 0;
+  const auto tags = find_tags(image, family, border_bits, search, context);
+  std::set<int> ids;
+  if (tags) {
+    for (const TagDetection& tag : *tags) ids.insert(tag.id);
+  }
+  const std::size_t enough = family == "tag16h5" ? 4 : 2;
+  return ids.size() >= enough ? ids : std::set<int>{};
+}
+
+std::string listed(const std::set<int>& ids) {
+  constexpr std::size_t kShown = 8;
+  std::string out;
+  std::size_t count = 0;
+  for (const int id : ids) {
+    if (count == kShown) return out + ", …";
+    out += (count++ > 0 ? ", " : "") + std::to_string(id);
+  }
+  return out;
+}
+
+std::string border_name(int bits) {
+  return std::to_string(bits) + "-bit border";
+}
+
+std::string expected_ids(const Target& target) {
+  return std::to_string(target.first_tag_id) + " to " +
+         std::to_string(target.first_tag_id + target.tag_columns * target.tag_rows - 1);
+}
+
+}  // namespace
+
+Error explain_missing_tags(const GrayImage& image, const Target& target, int found,
+                           const DetectionOptions& options, const RunContext& context) {
+  const int border = target.tag_border_bits;
+  const int other_border = 3 - border;
+  const std::set<int> same = ids_seen(image, target.tag_family, border, context);
+  const bool foreign =
+      std::any_of(same.begin(), same.end(), [&](int id) { return !target.tag(id).has_value(); });
+  if (foreign) {
+    return Error::input("the image shows tags " + listed(same) + " of " + target.tag_family +
+                            "; the target has " + expected_ids(target),
+                        {}, "check firstTagId, tagCols and tagRows, or use the right board");
+  }
+  if (found > 0) {
+    return Error::input("only " + std::to_string(found) + " of the board's " +
+                            std::to_string(target.tags().size()) +
+                            " tags found, expected at least " + std::to_string(options.min_tags),
+                        {}, "show more of the board, nearer, sharper or better lit");
+  }
+  if (context.stopped()) return Error::cancelled();
+  if (!ids_seen(image, target.tag_family, other_border, context).empty()) {
+    return Error::input("the tags in the image have a " + border_name(other_border) +
+                            "; the target says " + border_name(border),
+                        {}, "set tagBorder: " + std::to_string(other_border));
+  }
+  if (context.stopped()) return Error::cancelled();
+  const GrayImage mirror = mirrored(image);
+  if (!ids_seen(mirror, target.tag_family, border, context).empty() ||
+      !ids_seen(mirror, target.tag_family, other_border, context).empty()) {
+    return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror",
+                        {}, "turn off flipping in the camera driver, or print the board again");
+  }
+  for (const char* family : {"tag36h11", "tag36h10", "tag25h9", "tag16h5"}) {
+    for (const int bits : {1, 2}) {
+      if (family == target.tag_family) continue;
+      if (context.stopped()) return Error::cancelled();
+      if (ids_seen(image, family, bits, context).empty()) continue;
+      return Error::input(
+          std::string("tags of family ") + family + " with a " + border_name(bits) +
+              " found; the target says " + target.tag_family,
+          {}, std::string("set tagFamily: ") + family + " and tagBorder: " + std::to_string(bits));
+    }
+  }
+  return Error::input("no tags in the image", {},
+                      "the board must be in view, sharp, and neither dark nor overexposed");
+}
+
+}  // namespace lvcalib

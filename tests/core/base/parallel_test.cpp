@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/parallel.h"
+
+#include <atomic>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/progress.h"
+
+namespace lvcalib {
+namespace {
+
+TEST(ParallelFor, DoesEveryIndexOnce) {
+  for (const int threads : {-1, 0, 1, 2, 7}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1000}}) {
+      std::vector<std::atomic<int>> seen(count);
+      parallel_for(count, threads, [&](std::size_t i) { ++seen[i]; });
+      for (const auto& n : seen) EXPECT_EQ(n, 1);
+    }
+  }
+}
+
+TEST(ParallelFor, WorksOnSeveralThreadsAtOnce) {
+  // Two calls that wait for each other end only if they run side by side.
+  std::atomic<int> arrived{0};
+  parallel_for(2, 2, [&](std::size_t) {
+    ++arrived;
+    while (arrived < 2) std::this_thread::yield();
+  });
+  EXPECT_EQ(arrived, 2);
+}
+
+TEST(ParallelFor, HandsOnTheFirstExceptionAndStops) {
+  for (const int threads : {1, 4}) {
+    std::atomic<int> calls{0};
+    EXPECT_THROW(parallel_for(100'000, threads,
+                              [&](std::size_t i) {
+                                ++calls;
+                                if (i == 3) throw std::runtime_error("three");
+                              }),
+                 std::runtime_error);
+    EXPECT_LT(calls, 100'000);
+  }
+}
+
+TEST(RunContext, ReportsStopsAndCountsThreads) {
+  std::stop_source stop;
+  std::vector<std::string> stages;
+  RunContext context;
+  context.stop = stop.get_token();
+  context.report("load", 0.1, "nobody listens");
+  context.progress = [&](const Progress& p) { stages.push_back(p.stage + " " + p.text); };
+  context.report("load", 0.5, "half");
+  EXPECT_EQ(stages, std::vector<std::string>{"load half"});
+  EXPECT_FALSE(context.stopped());
+  stop.request_stop();
+  EXPECT_TRUE(context.stopped());
+  EXPECT_GE(context.thread_count(), 1);
+  context.threads = 5;
+  EXPECT_EQ(context.thread_count(), 5);
+}
+
+}  // namespace
+}  // namespace lvcalib

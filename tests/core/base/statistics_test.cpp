@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/statistics.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+
+namespace lvcalib {
+namespace {
+
+TEST(Statistics, QuantilesInterpolateBetweenOrderStatistics) {
+  EXPECT_EQ(quantile({3, 1, 2}, 0.0), 1);
+  EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2);
+  EXPECT_EQ(quantile({3, 1, 2}, 1.0), 3);
+  EXPECT_NEAR(quantile({4, 1, 3, 2}, 0.5), 2.5, 1e-15);
+  EXPECT_NEAR(quantile({0, 10}, 0.25), 2.5, 1e-15);
+  EXPECT_EQ(quantile({5}, 0.7), 5);
+  EXPECT_EQ(quantile({1, 2}, -1), 1);
+  EXPECT_EQ(quantile({1, 2}, 2), 2);
+  EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+  EXPECT_TRUE(std::isnan(median({})));
+  EXPECT_TRUE(std::isnan(mad_sigma({})));
+}
+
+TEST(Statistics, MadSigmaIsTheStandardDeviationAndIgnoresOutliers) {
+  Random random(1);
+  std::vector<double> values;
+  for (int i = 0; i < 20'000; ++i) values.push_back(random.normal(5.0, 2.0));
+  EXPECT_NEAR(median(values), 5.0, 0.06);
+  EXPECT_NEAR(mad_sigma(values), 2.0, 0.06);
+  for (int i = 0; i < 2'000; ++i) values.push_back(1e6);
+  EXPECT_NEAR(mad_sigma(values), 2.0, 0.35);
+}
+
+TEST(Statistics, RmsOfKnownValues) {
+  const std::vector<double> values{3, -4};
+  EXPECT_NEAR(rms(values), std::sqrt(12.5), 1e-15);
+  EXPECT_EQ(rms({}), 0.0);
+}
+
+TEST(Statistics, RobustWeightsFollowTheirLosses) {
+  // w(r) = ρ'(r)/r, with ρ from the definitions, differentiated numerically.
+  const double k = 1.345;
+  const auto huber = [k](double r) {
+    return std::abs(r) <= k ? 0.5 * r * r : k * (std::abs(r) - 0.5 * k);
+  };
+  const double c = 4.685;
+  const auto tukey = [c](double r) {
+    const double u = std::min(1.0, r * r / (c * c));
+    return c * c / 6 * (1 - std::pow(1 - u, 3));
+  };
+  for (const double r : {0.1, 1.0, 1.3, 2.0, 4.0, 6.0}) {
+    const double h = 1e-6;
+    EXPECT_NEAR(huber_weight(r), (huber(r + h) - huber(r - h)) / (2 * h * r), 1e-6);
+    EXPECT_NEAR(tukey_weight(r), (tukey(r + h) - tukey(r - h)) / (2 * h * r), 1e-6);
+    EXPECT_EQ(huber_weight(-r), huber_weight(r));
+    EXPECT_EQ(tukey_weight(-r), tukey_weight(r));
+  }
+  EXPECT_EQ(huber_weight(0), 1.0);
+  EXPECT_EQ(tukey_weight(0), 1.0);
+  EXPECT_EQ(tukey_weight(5), 0.0);
+}
+
+TEST(Statistics, NormalDistributionAgreesWithTables) {
+  EXPECT_NEAR(normal_cdf(0), 0.5, 1e-15);
+  EXPECT_NEAR(normal_cdf(1.959963985), 0.975, 1e-9);
+  EXPECT_NEAR(normal_cdf(-3), 0.0013498980316, 1e-12);
+  EXPECT_NEAR(normal_pdf(0), 0.3989422804014327, 1e-15);
+  EXPECT_NEAR(normal_pdf(1.5), (normal_cdf(1.5 + 1e-5) - normal_cdf(1.5 - 1e-5)) / 2e-5, 1e-8);
+}
+
+TEST(Statistics, ChiSquareGateAgreesWithTables) {
+  // Upper 5 % and 1 % points from printed tables; Wilson–Hilferty is good to about one per cent.
+  const struct {
+    int degrees;
+    double tail;
+    double value;
+  } table[] = {{1, 0.05, 3.841}, {2, 0.05, 5.991},  {6, 0.05, 12.592},  {10, 0.05, 18.307},
+               {2, 0.01, 9.210}, {6, 0.01, 16.812}, {30, 0.01, 50.892}, {100, 0.05, 124.342}};
+  for (const auto& row : table) {
+    EXPECT_NEAR(chi_square_gate(row.degrees, row.tail), row.value, 0.03 * row.value);
+  }
+}
+
+}  // namespace
+}  // namespace lvcalib
