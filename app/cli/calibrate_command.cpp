@@ -18,7 +18,8 @@ struct Options {
   std::vector<std::string> rejected;
 };
 
-Result<CalibrationRequest> make_request(const Options& options, const Dataset& dataset, Session& session) {
+Result<CalibrationRequest> make_request(const Options& options, const Dataset& dataset,
+                                        Session& session) {
   CalibrationRequest request;
   request.use_crops = options.crops;
   request.rejected = options.rejected;
@@ -43,11 +44,12 @@ std::string summary_of(const CalibrationResult& result, const std::string& outpu
   const Vector6d sigma = x.camera_from_lidar.covariance.diagonal().cwiseSqrt();
   char text[512];
   std::snprintf(text, sizeof text,
-                "%s: %d of %zu scenes, t = [%.4f %.4f %.4f] ± [%.2f %.2f %.2f] mm, rotation ± [%.2f %.2f %.2f] mrad, "
+                "%s: %d of %zu scenes, t = [%.4f %.4f %.4f] ± [%.2f %.2f %.2f] mm, rotation ± "
+                "[%.2f %.2f %.2f] mrad, "
                 "%.3f px, %.3f mm -> %s",
-                name_of(result.quality).c_str(), x.used_scenes, result.scenes.size(), t.x(), t.y(), t.z(), 1e3 * sigma(0),
-                1e3 * sigma(1), 1e3 * sigma(2), 1e3 * sigma(3), 1e3 * sigma(4), 1e3 * sigma(5), x.rms_px, x.rms_mm,
-                output.c_str());
+                name_of(result.quality).c_str(), x.used_scenes, result.scenes.size(), t.x(), t.y(),
+                t.z(), 1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2), 1e3 * sigma(3),
+                1e3 * sigma(4), 1e3 * sigma(5), x.rms_px, x.rms_mm, output.c_str());
   return text;
 }
 
@@ -63,9 +65,11 @@ Result<std::string> run(const Options& options, Session& session) {
   if (Status s = write_results(*result, options.output); !s) return s.error();
   const std::string summary = summary_of(*result, options.output);
   if (result->quality == Quality::kFailed || result->extrinsic.used_scenes < 2) {
-    return Error::untrusted("the result cannot be trusted; " + (result->warnings.empty() ? std::string{} : result->warnings.back()) +
-                                "; written for inspection to " + options.output,
-                            options.dataset);
+    return Error::untrusted(
+        "the result cannot be trusted; " +
+            (result->warnings.empty() ? std::string{} : result->warnings.back()) +
+            "; written for inspection to " + options.output,
+        options.dataset);
   }
   return summary;
 }
@@ -74,11 +78,16 @@ Result<std::string> run(const Options& options, Session& session) {
 
 Command add_calibrate_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("calibrate", "Find T_camera_lidar from a dataset of board scenes");
-  command->add_option("DATASET", options->dataset, "folder with target.yaml, camera.yaml and scenes/")->required();
-  command->add_option("-o,--output", options->output, "folder for result.json and result.yaml")->required();
+  CLI::App* command =
+      app.add_subcommand("calibrate", "Find T_camera_lidar from a dataset of board scenes");
+  command
+      ->add_option("DATASET", options->dataset, "folder with target.yaml, camera.yaml and scenes/")
+      ->required();
+  command->add_option("-o,--output", options->output, "folder for result.json and result.yaml")
+      ->required();
   command->add_option("--config", options->config, "YAML file of options");
-  command->add_option("--init", options->rough, "rig.yaml with a rough T_camera_lidar; narrows the search");
+  command->add_option("--init", options->rough,
+                      "rig.yaml with a rough T_camera_lidar; narrows the search");
   command->add_flag("--crops", options->crops, "use scenes/NAME/board.pcd where present");
   command->add_option("--reject", options->rejected, "leave out this scene (repeatable)");
   return {command, [options](Session& session) { return run(*options, session); }};

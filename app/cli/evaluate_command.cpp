@@ -22,10 +22,11 @@ Result<std::string> run(const Options& options) {
   const Vector6d& n = e.normalized;
   char text[512];
   std::snprintf(text, sizeof text,
-                "translation %.3f mm, rotation %.3f mrad off; by axis [%.3f %.3f %.3f] mm [%.3f %.3f %.3f] mrad; in "
+                "translation %.3f mm, rotation %.3f mrad off; by axis [%.3f %.3f %.3f] mm [%.3f "
+                "%.3f %.3f] mrad; in "
                 "standard deviations [%.2f %.2f %.2f] [%.2f %.2f %.2f]",
-                e.translation_mm, e.rotation_mrad, 1e3 * x(0), 1e3 * x(1), 1e3 * x(2), 1e3 * x(3), 1e3 * x(4), 1e3 * x(5),
-                n(0), n(1), n(2), n(3), n(4), n(5));
+                e.translation_mm, e.rotation_mrad, 1e3 * x(0), 1e3 * x(1), 1e3 * x(2), 1e3 * x(3),
+                1e3 * x(4), 1e3 * x(5), n(0), n(1), n(2), n(3), n(4), n(5));
   return std::string(text);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <map>
 #include <optional>
 #include <vector>
@@ -15,8 +16,26 @@ namespace {
 using simulation::LidarKind;
 using simulation::SimulationOptions;
 
+// What a word on the command line stands for.
+const std::map<std::string, LidarKind>& lidar_kinds() {
+  static const std::map<std::string, LidarKind> kinds = {{"rosette", LidarKind::kRosette},
+                                                         {"avia", LidarKind::kAvia},
+                                                         {"spinning", LidarKind::kSpinning}};
+  return kinds;
+}
+
+const std::map<std::string, DistortionModel>& camera_models() {
+  static const std::map<std::string, DistortionModel> models = {
+      {"plumb_bob", DistortionModel::kPlumbBob},
+      {"rational_polynomial", DistortionModel::kRationalPolynomial},
+      {"equidistant", DistortionModel::kEquidistant}};
+  return models;
+}
+
 struct Options {
   SimulationOptions simulation;
+  std::string lidar = "avia";
+  std::string camera_model = "plumb_bob";
   std::string output;
   bool force = false;
   std::string target_path;
@@ -38,9 +57,10 @@ Status read_image_size(const std::string& text, simulation::ImageOptions& image)
   const auto parts = split(text, 'x');
   double width = 0.0;
   double height = 0.0;
-  // The range check of the simulation comes later; here only what an int can hold.
+  // The simulation checks the range; here only what an int can hold.
+  const auto is_whole = [](double x) { return std::abs(x) < 1e6 && x == std::trunc(x); };
   if (!parts || !parse_number(parts->first, width) || !parse_number(parts->second, height) ||
-      width != static_cast<int>(width) || height != static_cast<int>(height)) {
+      !is_whole(width) || !is_whole(height)) {
     return Error::usage("'" + text + "' is no image size, expected WIDTHxHEIGHT", "--image");
   }
   image.width_px = static_cast<int>(width);
@@ -75,6 +95,8 @@ Status read_effects(const std::vector<std::string>& texts, std::map<std::string,
 Result<SimulationOptions> complete(const Options& options, const Session& session) {
   SimulationOptions out = options.simulation;
   out.placement.board = !options.absent;
+  out.lidar.kind = lidar_kinds().at(options.lidar);
+  out.image.distortion = camera_models().at(options.camera_model);
   if (Status s = read_image_size(options.image_size, out.image); !s) return s.error();
   if (Status s = read_distance(options.distance_m, out.placement); !s) return s.error();
   if (Status s = read_effects(options.effects, out.effects); !s) return s.error();
@@ -127,11 +149,9 @@ void add_scene_options(CLI::App& command, Options& options) {
 void add_sensor_options(CLI::App& command, Options& options) {
   auto& lidar = options.simulation.lidar;
   auto& image = options.simulation.image;
-  const std::map<std::string, LidarKind> kinds = {{"rosette", LidarKind::kRosette},
-                                                  {"avia", LidarKind::kAvia},
-                                                  {"spinning", LidarKind::kSpinning}};
-  command.add_option("--lidar", lidar.kind, "rosette, avia or spinning (default avia)")
-      ->transform(CLI::CheckedTransformer(kinds));
+  command.add_option("--lidar", options.lidar, "rosette, avia or spinning")
+      ->check(CLI::IsMember({"rosette", "avia", "spinning"}))
+      ->capture_default_str();
   command.add_option("--points", lidar.points, "points per scene; 0: what suits the LiDAR");
   command.add_option("--lines", lidar.lines, "lines of a spinning LiDAR: 64 or 128")
       ->capture_default_str();
@@ -141,14 +161,11 @@ void add_sensor_options(CLI::App& command, Options& options) {
       ->capture_default_str();
   command.add_option("--intensity-noise", lidar.intensity_sigma, "intensity noise, one sigma")
       ->capture_default_str();
-  const std::map<std::string, DistortionModel> models = {
-      {"plumb_bob", DistortionModel::kPlumbBob},
-      {"rational_polynomial", DistortionModel::kRationalPolynomial},
-      {"equidistant", DistortionModel::kEquidistant}};
   command
-      .add_option("--camera-model", image.distortion,
-                  "plumb_bob, rational_polynomial or equidistant (default plumb_bob)")
-      ->transform(CLI::CheckedTransformer(models));
+      .add_option("--camera-model", options.camera_model,
+                  "plumb_bob, rational_polynomial or equidistant")
+      ->check(CLI::IsMember({"plumb_bob", "rational_polynomial", "equidistant"}))
+      ->capture_default_str();
   command.add_option("--image", options.image_size, "WIDTHxHEIGHT (default 1440x900)");
   command.add_option("--blur", image.blur_px, "lens blur, px, one sigma")->capture_default_str();
 }

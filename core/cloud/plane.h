@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <span>
+
+#include <Eigen/Core>
 
 #include "cloud/cloud.h"
 
@@ -11,8 +12,8 @@ namespace lvcalib {
 
 /// A plane fitted to LiDAR points, with an in-plane frame and the covariance of its pose.
 struct FittedPlane {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Unit, towards the LiDAR.
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero(); ///< A point of the plane, amid the points.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< Unit, towards the LiDAR.
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< A point of the plane, amid the points.
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX();
   Eigen::Vector3d axis_v = Eigen::Vector3d::UnitY();  ///< axis_u × axis_v = normal.
   /// Covariance of (height at center_m [m], slope along axis_u, slope along axis_v).

@@ -81,7 +81,9 @@ bool RigidManifold::MinusJacobian(const double* /*x*/, double* jacobian) const {
 
 CornerCost::CornerCost(const Camera& camera, const Eigen::Vector2d& board_m,
                        const Eigen::Vector2d& pixel, double sigma_px)
-    : camera_(&camera), point_(board_m.x(), board_m.y(), 0.0), pixel_(pixel),
+    : camera_(&camera),
+      point_(board_m.x(), board_m.y(), 0.0),
+      pixel_(pixel),
       inverse_sigma_(1.0 / sigma_px) {}
 
 bool CornerCost::Evaluate(double const* const* parameters, double* residuals,
@@ -102,7 +104,9 @@ bool CornerCost::Evaluate(double const* const* parameters, double* residuals,
 
 NodeCost::NodeCost(const Eigen::Vector2d& board_m, const Eigen::Vector3d& center_lidar_m,
                    const PlaneAxes& axes, const Eigen::Matrix2d& whitening)
-    : point_(board_m.x(), board_m.y(), 0.0), center_(center_lidar_m), axes_(axes),
+    : point_(board_m.x(), board_m.y(), 0.0),
+      center_(center_lidar_m),
+      axes_(axes),
       whitening_(whitening) {}
 
 bool NodeCost::Evaluate(double const* const* parameters, double* residuals,

@@ -8,10 +8,9 @@
 // perturbation T ← Exp(ξ)·T, ξ = (translation, rotation). Jacobians are by ξ: RigidManifold's
 // plus-Jacobian is [I₆; 0], so that the six columns pass through unchanged.
 
+#include <Eigen/Core>
 #include <ceres/manifold.h>
 #include <ceres/sized_cost_function.h>
-
-#include <Eigen/Core>
 
 #include "base/rigid3.h"
 #include "camera/camera.h"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "extrinsic/extrinsic_solver.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
-#include <algorithm>
-#include <cmath>
 
 #include "base/statistics.h"
 #include "extrinsic/joint_problem.h"
@@ -36,7 +37,11 @@ class Solver {
  public:
   Solver(const std::vector<SceneObservations>& scenes, const Camera& camera, const Target& target,
          const ExtrinsicOptions& options)
-      : scenes_(scenes), camera_(camera), target_(target), options_(options), mask_(full_mask(scenes)) {}
+      : scenes_(scenes),
+        camera_(camera),
+        target_(target),
+        options_(options),
+        mask_(full_mask(scenes)) {}
 
   Result<ExtrinsicSolution> run() {
     reasons_.resize(scenes_.size());
@@ -46,7 +51,8 @@ class Solver {
     if (Status status = enough_scenes(); !status) return status.error();
     JointState start;
     start.camera_from_lidar = closed_form_extrinsic(scenes_, target_);
-    for (const SceneObservations& scene : scenes_) start.camera_from_board.push_back(scene.camera_from_board);
+    for (const SceneObservations& scene : scenes_)
+      start.camera_from_board.push_back(scene.camera_from_board);
     NoiseScales scales;
     scales.sigma_px = initial_sigma_px();
     JointFit fit = settle(start, scales, mask_);
@@ -60,8 +66,10 @@ class Solver {
     const int used = count_used(mask_);
     if (used == 0) return Error::untrusted("no usable scene is left");
     if (!target_.has_circles() && used < 3) {
-      return Error::untrusted(std::to_string(used) + " usable scenes; a target without circles needs three or more, differently turned",
-                              {}, "take scenes with the board tilted left, right, up and down");
+      return Error::untrusted(
+          std::to_string(used) +
+              " usable scenes; a target without circles needs three or more, differently turned",
+          {}, "take scenes with the board tilted left, right, up and down");
     }
     return Done{};
   }
@@ -71,13 +79,15 @@ class Solver {
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (!mask_.scene[s]) continue;
       for (const CornerObservation& c : scenes_[s].corners) {
-        const auto p = camera_.project(scenes_[s].camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+        const auto p = camera_.project(scenes_[s].camera_from_board *
+                                       Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
         if (!p) continue;
         errors.push_back(p->x() - c.pixel.x());
         errors.push_back(p->y() - c.pixel.y());
       }
     }
-    return errors.empty() ? options_.sigma_px_floor : std::max(options_.sigma_px_floor, mad_sigma(std::move(errors)));
+    return errors.empty() ? options_.sigma_px_floor
+                          : std::max(options_.sigma_px_floor, mad_sigma(std::move(errors)));
   }
 
   // Solves and re-estimates the noise scales until they stand still.
@@ -101,11 +111,13 @@ class Solver {
   void update_scales(const JointFit& fit, NoiseScales& scales) const {
     const auto& corner = fit.groups[static_cast<std::size_t>(ResidualGroup::kCorner)];
     if (corner.redundancy > 1.0) {
-      scales.sigma_px = std::max(options_.sigma_px_floor,
-                                 scales.sigma_px * std::sqrt(corner.chi_square / corner.redundancy));
+      scales.sigma_px =
+          std::max(options_.sigma_px_floor,
+                   scales.sigma_px * std::sqrt(corner.chi_square / corner.redundancy));
     }
     scales.node = widened(fit.groups[static_cast<std::size_t>(ResidualGroup::kNode)], scales.node);
-    scales.plane = widened(fit.groups[static_cast<std::size_t>(ResidualGroup::kPlane)], scales.plane);
+    scales.plane =
+        widened(fit.groups[static_cast<std::size_t>(ResidualGroup::kPlane)], scales.plane);
   }
 
   static double widened(const GroupFit& group, double scale) {
@@ -120,7 +132,8 @@ class Solver {
   static double lidar_misfit(const JointFit& fit, const NoiseScales& scales) {
     const auto& node = fit.groups[static_cast<std::size_t>(ResidualGroup::kNode)];
     const auto& plane = fit.groups[static_cast<std::size_t>(ResidualGroup::kPlane)];
-    const double chi_square = node.chi_square * scales.node * scales.node + plane.chi_square * scales.plane * scales.plane;
+    const double chi_square = node.chi_square * scales.node * scales.node +
+                              plane.chi_square * scales.plane * scales.plane;
     return chi_square / std::max(1.0, node.redundancy + plane.redundancy);
   }
 
@@ -154,13 +167,16 @@ class Solver {
         }
       }
       // With the same cure from two scenes one cannot tell which is bad.
-      if (worst == scenes_.size() || best * kImprovement > all || best * kImprovement > second) return;
-      const Rigid3 own = scenes_[worst].camera_from_board * scenes_[worst].lidar_from_board.inverse();
+      if (worst == scenes_.size() || best * kImprovement > all || best * kImprovement > second)
+        return;
+      const Rigid3 own =
+          scenes_[worst].camera_from_board * scenes_[worst].lidar_from_board.inverse();
       const Rigid3& rest = best_fit.state.camera_from_lidar;
-      reasons_[worst] = "contradicts the other scenes by " +
-                        std::to_string(std::lround(1e3 * translation_distance_m(own.inverse(), rest.inverse()))) + " mm and " +
-                        std::to_string(std::lround(1e3 * rotation_distance_rad(own, rest))) +
-                        " mrad: did the board or the rig move between cloud and image?";
+      reasons_[worst] =
+          "contradicts the other scenes by " +
+          std::to_string(std::lround(1e3 * translation_distance_m(own.inverse(), rest.inverse()))) +
+          " mm and " + std::to_string(std::lround(1e3 * rotation_distance_rad(own, rest))) +
+          " mrad: did the board or the rig move between cloud and image?";
       mask_.scene[worst] = false;
       fit = best_fit;
       scales = best_scales;
@@ -186,12 +202,13 @@ class Solver {
       const auto nodes = node_residuals(s, fit.state);
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         if (!mask_.node[s][k]) continue;
-        const Eigen::Matrix2d whitening = whitening_2(
-            scales.node * scales.node *
-            (scenes_[s].nodes[k].covariance_m2 +
-             std::pow(options_.node_sigma_floor_m, 2) * Eigen::Matrix2d::Identity()));
+        const Eigen::Matrix2d whitening =
+            whitening_2(scales.node * scales.node *
+                        (scenes_[s].nodes[k].covariance_m2 +
+                         std::pow(options_.node_sigma_floor_m, 2) * Eigen::Matrix2d::Identity()));
         const Eigen::Vector3d in_lidar = scenes_[s].lidar_from_board.rotation * nodes[k].residual_m;
-        const Eigen::Vector2d in_plane(scenes_[s].plane.axis_u.dot(in_lidar), scenes_[s].plane.axis_v.dot(in_lidar));
+        const Eigen::Vector2d in_plane(scenes_[s].plane.axis_u.dot(in_lidar),
+                                       scenes_[s].plane.axis_v.dot(in_lidar));
         if ((whitening * in_plane).norm() > options_.rejection_gate) {
           mask_.node[s][k] = false;
           any = true;
@@ -206,7 +223,8 @@ class Solver {
     for (std::size_t k = 0; k < scenes_[s].corners.size(); ++k) {
       const CornerObservation& c = scenes_[s].corners[k];
       CornerResidual r{c.feature_id, c.corner, Eigen::Vector2d::Zero(), mask_.corner[s][k]};
-      const auto p = camera_.project(state.camera_from_board[s] * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+      const auto p = camera_.project(state.camera_from_board[s] *
+                                     Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
       if (p) {
         r.residual_px = c.pixel - *p;
       } else {
@@ -222,8 +240,8 @@ class Solver {
     const Rigid3 board_from_lidar = state.camera_from_board[s].inverse() * state.camera_from_lidar;
     for (std::size_t k = 0; k < scenes_[s].nodes.size(); ++k) {
       const RefinedNode& node = scenes_[s].nodes[k];
-      const Eigen::Vector3d residual =
-          board_from_lidar * node.center_lidar_m - Eigen::Vector3d(node.board_m.x(), node.board_m.y(), 0.0);
+      const Eigen::Vector3d residual = board_from_lidar * node.center_lidar_m -
+                                       Eigen::Vector3d(node.board_m.x(), node.board_m.y(), 0.0);
       out.push_back({node.id, residual, mask_.node[s][k]});
     }
     return out;
@@ -269,7 +287,8 @@ class Solver {
       if (n.used) mm.push_back(1e3 * n.residual_m.norm());
     }
     if (scenes_[s].nodes.empty()) {
-      const Rigid3 lidar_from_board = state.camera_from_lidar.inverse() * state.camera_from_board[s];
+      const Rigid3 lidar_from_board =
+          state.camera_from_lidar.inverse() * state.camera_from_board[s];
       const Eigen::Matrix3d probes = plane_probe_points(target_);
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector3d p = lidar_from_board * Eigen::Vector3d(probes.col(k));
@@ -310,34 +329,41 @@ class Solver {
       covariance += variance * direction * direction.transpose();
       const double middle = 0.5 * (axes.eigenvalues()(2) + axes.eigenvalues()(3));
       if (!determined || eigenvalue < 0.01 * middle) {
-        solution.weak_directions.push_back(describe_direction(direction, std::sqrt(middle / std::max(eigenvalue, 1e-300)), determined));
+        solution.weak_directions.push_back(describe_direction(
+            direction, std::sqrt(middle / std::max(eigenvalue, 1e-300)), determined));
       }
     }
     solution.camera_from_lidar.covariance = unit.asDiagonal() * covariance * unit.asDiagonal();
   }
 
   static std::string describe_direction(const Vector6d& direction, double ratio, bool determined) {
-    static const char* const kNames[] = {"translation along the camera's x axis", "translation along the camera's y axis",
-                                         "translation along the camera's z axis", "rotation about the camera's x axis",
-                                         "rotation about the camera's y axis",    "rotation about the camera's z axis"};
+    static const char* const kNames[] = {
+        "translation along the camera's x axis", "translation along the camera's y axis",
+        "translation along the camera's z axis", "rotation about the camera's x axis",
+        "rotation about the camera's y axis",    "rotation about the camera's z axis"};
     Eigen::Index main = 0;
     direction.cwiseAbs().maxCoeff(&main);
     std::string text = kNames[main];
-    if (!determined) return text + " is not determined: add scenes with the board turned differently";
-    return text + " is known " + std::to_string(std::lround(ratio)) + " times worse than the typical direction";
+    if (!determined)
+      return text + " is not determined: add scenes with the board turned differently";
+    return text + " is known " + std::to_string(std::lround(ratio)) +
+           " times worse than the typical direction";
   }
 
-  void leave_one_out(const JointFit& fit, const NoiseScales& scales, ExtrinsicSolution& solution) const {
+  void leave_one_out(const JointFit& fit, const NoiseScales& scales,
+                     ExtrinsicSolution& solution) const {
     const int fewest = target_.has_circles() ? 3 : 4;
     if (count_used(mask_) < fewest) return;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (!mask_.scene[s]) continue;
       ObservationMask without = mask_;
       without.scene[s] = false;
-      const JointFit other = solve_joint(scenes_, camera_, target_, fit.state, scales, without, options_);
+      const JointFit other =
+          solve_joint(scenes_, camera_, target_, fit.state, scales, without, options_);
       const Rigid3& a = fit.state.camera_from_lidar;
       const Rigid3& b = other.state.camera_from_lidar;
-      solution.leave_one_out.push_back({scenes_[s].name, 1e3 * translation_distance_m(a.inverse(), b.inverse()),
+      solution.leave_one_out.push_back({scenes_[s].name,
+                                        1e3 * translation_distance_m(a.inverse(), b.inverse()),
                                         1e3 * rotation_distance_rad(a, b)});
     }
   }
@@ -359,8 +385,11 @@ Rigid3 closed_form_extrinsic(const std::vector<SceneObservations>& scenes, const
   const Eigen::Vector2d a = outline.lower_left_m;
   const Eigen::Vector2d b = outline.upper_right_m;
   const Eigen::Vector2d c = outline.center_m();
-  const std::vector<Eigen::Vector3d> points{{a.x(), a.y(), 0}, {b.x(), a.y(), 0}, {b.x(), b.y(), 0},
-                                            {a.x(), b.y(), 0}, {c.x(), c.y(), outline.size_m().maxCoeff()}};
+  const std::vector<Eigen::Vector3d> points{{a.x(), a.y(), 0},
+                                            {b.x(), a.y(), 0},
+                                            {b.x(), b.y(), 0},
+                                            {a.x(), b.y(), 0},
+                                            {c.x(), c.y(), outline.size_m().maxCoeff()}};
   std::vector<Eigen::Vector3d> camera;
   std::vector<Eigen::Vector3d> lidar;
   for (const SceneObservations& scene : scenes) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "base/error.h"
 #include "base/rigid3.h"
@@ -20,19 +21,19 @@ struct SceneObservations {
   std::string name;
   bool use = true;
   std::vector<CornerObservation> corners;
-  Rigid3 camera_from_board;           ///< Start value, from the corners alone.
-  FittedPlane plane;                  ///< The board's plane in the LiDAR frame.
-  Rigid3 lidar_from_board;            ///< From the LiDAR alone.
-  std::vector<RefinedNode> nodes;     ///< Empty for targets without circles.
+  Rigid3 camera_from_board;        ///< Start value, from the corners alone.
+  FittedPlane plane;               ///< The board's plane in the LiDAR frame.
+  Rigid3 lidar_from_board;         ///< From the LiDAR alone.
+  std::vector<RefinedNode> nodes;  ///< Empty for targets without circles.
 };
 
 struct ExtrinsicOptions {
-  double sigma_px_floor = 0.01;      ///< Corner noise is never taken below this.
-  double node_sigma_floor_m = 5e-5;  ///< Added in quadrature to every node's standard deviation.
-  double plane_sigma_floor_m = 2e-5; ///< Added in quadrature to the plane's height.
-  double robust_threshold = 4.0;     ///< Huber threshold in standard deviations.
-  double rejection_gate = 5.0;       ///< A tag or node farther off (in σ) is left out.
-  bool reject_bad_scenes = true;     ///< Leave out scenes that contradict all others.
+  double sigma_px_floor = 0.01;       ///< Corner noise is never taken below this.
+  double node_sigma_floor_m = 5e-5;   ///< Added in quadrature to every node's standard deviation.
+  double plane_sigma_floor_m = 2e-5;  ///< Added in quadrature to the plane's height.
+  double robust_threshold = 4.0;      ///< Huber threshold in standard deviations.
+  double rejection_gate = 5.0;        ///< A tag or node farther off (in σ) is left out.
+  bool reject_bad_scenes = true;      ///< Leave out scenes that contradict all others.
   int max_iterations = 50;
 };
 
@@ -57,7 +58,7 @@ struct SceneSolution {
   std::string reason;  ///< Why it is not used.
   Rigid3 camera_from_board;
   double rms_px = 0.0;
-  double rms_mm = 0.0;        ///< Of the node residuals; of the plane's heights without nodes.
+  double rms_mm = 0.0;  ///< Of the node residuals; of the plane's heights without nodes.
   std::vector<CornerResidual> corners;
   std::vector<NodeResidual> nodes;
 };
@@ -77,10 +78,10 @@ struct ExtrinsicSolution {
   std::vector<LeaveOneOut> leave_one_out;
   double rms_px = 0.0;
   double rms_mm = 0.0;
-  double sigma_px = 0.0;    ///< Corner noise estimated from the residuals.
-  double node_scale = 1.0;  ///< Factor on the nodes' stated σ that the residuals ask for (≥ 1).
-  double plane_scale = 1.0; ///< The same for the planes.
-  int rank = 6;             ///< Directions of the extrinsic that the scenes determine.
+  double sigma_px = 0.0;     ///< Corner noise estimated from the residuals.
+  double node_scale = 1.0;   ///< Factor on the nodes' stated σ that the residuals ask for (≥ 1).
+  double plane_scale = 1.0;  ///< The same for the planes.
+  int rank = 6;              ///< Directions of the extrinsic that the scenes determine.
   std::vector<std::string> weak_directions;  ///< In words; empty when none is.
   int used_scenes = 0;
   int iterations = 0;

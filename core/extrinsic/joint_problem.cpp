@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "extrinsic/joint_problem.h"
 
+#include <cmath>
+
+#include <Eigen/Cholesky>
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-
-#include <Eigen/Cholesky>
-#include <cmath>
 
 #include "extrinsic/cost_functions.h"
 
@@ -20,8 +20,14 @@ class JointProblem {
   JointProblem(const std::vector<SceneObservations>& scenes, const Camera& camera,
                const Target& target, const JointState& start, const NoiseScales& scales,
                const ObservationMask& mask, const ExtrinsicOptions& options)
-      : scenes_(scenes), camera_(camera), scales_(scales), mask_(mask), options_(options),
-        probes_(plane_probe_points(target)), boards_(scenes.size()), problem_(problem_options()) {
+      : scenes_(scenes),
+        camera_(camera),
+        scales_(scales),
+        mask_(mask),
+        options_(options),
+        probes_(plane_probe_points(target)),
+        boards_(scenes.size()),
+        problem_(problem_options()) {
     rigid_to_block(start.camera_from_lidar, extrinsic_.data());
     problem_.AddParameterBlock(extrinsic_.data(), 7, &manifold_);
     for (std::size_t s = 0; s < scenes.size(); ++s) {
@@ -47,7 +53,8 @@ class JointProblem {
     fit.converged = summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE;
     fit.iterations = static_cast<int>(summary.iterations.size());
     fit.state.camera_from_lidar = rigid_from_block(extrinsic_.data());
-    for (const Block& board : boards_) fit.state.camera_from_board.push_back(rigid_from_block(board.data()));
+    for (const Block& board : boards_)
+      fit.state.camera_from_board.push_back(rigid_from_block(board.data()));
     analyse(fit);
     return fit;
   }
@@ -65,8 +72,8 @@ class JointProblem {
     for (std::size_t k = 0; k < scene.corners.size(); ++k) {
       if (!mask_.corner[s][k]) continue;
       const CornerObservation& c = scene.corners[k];
-      add(problem_.AddResidualBlock(new CornerCost(camera_, c.board_m, c.pixel, scales_.sigma_px), &loss_,
-                                    boards_[s].data()),
+      add(problem_.AddResidualBlock(new CornerCost(camera_, c.board_m, c.pixel, scales_.sigma_px),
+                                    &loss_, boards_[s].data()),
           ResidualGroup::kCorner, 2);
     }
     PlaneAxes axes;
@@ -77,19 +84,20 @@ class JointProblem {
     for (std::size_t k = 0; k < scene.nodes.size(); ++k) {
       if (!mask_.node[s][k]) continue;
       const RefinedNode& node = scene.nodes[k];
-      const Eigen::Matrix2d covariance = scales_.node * scales_.node *
-                                         (node.covariance_m2 + floor_sq * Eigen::Matrix2d::Identity());
+      const Eigen::Matrix2d covariance =
+          scales_.node * scales_.node *
+          (node.covariance_m2 + floor_sq * Eigen::Matrix2d::Identity());
       add(problem_.AddResidualBlock(
-              new NodeCost(node.board_m, node.center_lidar_m, axes, whitening_2(covariance)), &loss_,
-              extrinsic_.data(), boards_[s].data()),
+              new NodeCost(node.board_m, node.center_lidar_m, axes, whitening_2(covariance)),
+              &loss_, extrinsic_.data(), boards_[s].data()),
           ResidualGroup::kNode, 2);
     }
-    const Eigen::Matrix3d covariance =
-        scales_.plane * scales_.plane *
-        probe_covariance(scene.plane, scene.lidar_from_board, probes_, options_.plane_sigma_floor_m);
-    add(problem_.AddResidualBlock(
-            new PlaneCost(probes_, scene.plane.center_m, scene.plane.normal, whitening_3(covariance)), &loss_,
-            extrinsic_.data(), boards_[s].data()),
+    const Eigen::Matrix3d covariance = scales_.plane * scales_.plane *
+                                       probe_covariance(scene.plane, scene.lidar_from_board,
+                                                        probes_, options_.plane_sigma_floor_m);
+    add(problem_.AddResidualBlock(new PlaneCost(probes_, scene.plane.center_m, scene.plane.normal,
+                                                whitening_3(covariance)),
+                                  &loss_, extrinsic_.data(), boards_[s].data()),
         ResidualGroup::kPlane, 3);
   }
 
@@ -146,7 +154,8 @@ class JointProblem {
     }
   }
 
-  static double leverage(const ceres::CRSMatrix& m, std::size_t row, const Eigen::MatrixXd& inverse) {
+  static double leverage(const ceres::CRSMatrix& m, std::size_t row,
+                         const Eigen::MatrixXd& inverse) {
     double sum = 0.0;
     for (int a = m.rows[row]; a < m.rows[row + 1]; ++a) {
       for (int b = m.rows[row]; b < m.rows[row + 1]; ++b) {

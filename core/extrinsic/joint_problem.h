@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "extrinsic/extrinsic_solver.h"
 

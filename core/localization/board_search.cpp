@@ -25,8 +25,13 @@ class BoardSearch {
  public:
   BoardSearch(const Cloud& cloud, const Target& target, const PatternPyramid& pyramid,
               const BoardSearchOptions& options, const RunContext& context)
-      : cloud_(cloud), target_(target), pyramid_(pyramid), options_(options), context_(context),
-        outline_(target.outline()), size_(outline_.size_m()) {}
+      : cloud_(cloud),
+        target_(target),
+        pyramid_(pyramid),
+        options_(options),
+        context_(context),
+        outline_(target.outline()),
+        size_(outline_.size_m()) {}
 
   BoardSearchResult run(double camera_distance_m, const std::optional<BoardSearchRegion>& region) {
     BoardSearchResult result;
@@ -55,7 +60,8 @@ class BoardSearch {
       if (!plausible_size(patch)) continue;
       ++result.patches;
       PatchMatches item;
-      item.matches = by_pattern ? search_patch(voxels, patch) : outline_poses(voxels, patch, target_);
+      item.matches =
+          by_pattern ? search_patch(voxels, patch) : outline_poses(voxels, patch, target_);
       item.patch = std::move(patch);
       for (const PatternMatch& m : item.matches) {
         result.best_correlation = std::max(result.best_correlation, m.correlation);
@@ -90,8 +96,10 @@ class BoardSearch {
       const bool repeated = std::any_of(kept.begin(), kept.end(), [&](const PatchMatches& other) {
         const auto& a = item.matches.front().pose.center_m;
         const auto& b = other.matches.front().pose.center_m;
-        const Eigen::Vector3d pa = item.patch.center_m + a.x() * item.patch.axis_u + a.y() * item.patch.axis_v;
-        const Eigen::Vector3d pb = other.patch.center_m + b.x() * other.patch.axis_u + b.y() * other.patch.axis_v;
+        const Eigen::Vector3d pa =
+            item.patch.center_m + a.x() * item.patch.axis_u + a.y() * item.patch.axis_v;
+        const Eigen::Vector3d pb =
+            other.patch.center_m + b.x() * other.patch.axis_u + b.y() * other.patch.axis_v;
         return (pa - pb).norm() < 0.1 * other.patch.extent_m.y() &&
                item.patch.normal.dot(other.patch.normal) > std::cos(5.0 * kDegree);
       });
@@ -105,7 +113,8 @@ class BoardSearch {
     samples.reserve(patch.voxels.size());
     for (const auto i : patch.voxels) {
       const auto& voxel = voxels.voxels()[i];
-      samples.push_back({patch.to_plane(voxel.mean_m.cast<double>()).cast<float>(), voxel.mean_intensity});
+      samples.push_back(
+          {patch.to_plane(voxel.mean_m.cast<double>()).cast<float>(), voxel.mean_intensity});
     }
     const OutlineFit outline = fit_outline(samples, size_);
     PatternSearchRange range;
@@ -113,12 +122,14 @@ class BoardSearch {
     // A patch of the board's own size leaves little room; cut-off or grown ones leave the
     // difference, and any angle.
     const double misfit = outline.side_error_m.cwiseAbs().maxCoeff();
-    range.slack_m = 0.06 * size_.minCoeff() + (patch.open ? 0.6 * patch.extent_m.x() : 0.6 * misfit);
+    range.slack_m =
+        0.06 * size_.minCoeff() + (patch.open ? 0.6 * patch.extent_m.x() : 0.6 * misfit);
     range.step_m = 0.03 * size_.minCoeff();
     if (misfit < 0.12 * size_.minCoeff()) {
       for (int quarter = 0; quarter < 4; ++quarter) {
         for (int d = -2; d <= 2; ++d) {
-          range.angles_rad.push_back(outline.angle_rad + quarter * 90.0 * kDegree + 3.0 * d * kDegree);
+          range.angles_rad.push_back(outline.angle_rad + quarter * 90.0 * kDegree +
+                                     3.0 * d * kDegree);
         }
       }
     } else {
@@ -144,8 +155,9 @@ class BoardSearch {
         }
       }
     }
-    std::stable_sort(result.candidates.begin(), result.candidates.end(),
-                     [](const BoardCandidate& a, const BoardCandidate& b) { return a.gain > b.gain; });
+    std::stable_sort(
+        result.candidates.begin(), result.candidates.end(),
+        [](const BoardCandidate& a, const BoardCandidate& b) { return a.gain > b.gain; });
   }
 
   // One pass over the cloud: the points about every patch, at full density.
@@ -159,7 +171,8 @@ class BoardSearch {
     std::vector<Slab> slabs;
     for (const PatchMatches& item : found) {
       const Eigen::Vector2d c = item.matches.front().pose.center_m;
-      const Eigen::Vector3d center = item.patch.center_m + c.x() * item.patch.axis_u + c.y() * item.patch.axis_v;
+      const Eigen::Vector3d center =
+          item.patch.center_m + c.x() * item.patch.axis_u + c.y() * item.patch.axis_v;
       // Voxel means are calmer than single points: allow for several times the thickness.
       const double tolerance = std::max(0.05 * size_.minCoeff(), 6.0 * item.patch.thickness_m);
       slabs.push_back({item.patch.normal.cast<float>(), item.patch.center_m.cast<float>(),
@@ -200,7 +213,8 @@ class BoardSearch {
       }
       const bool repeated = std::any_of(done.begin(), done.end(), [&](const PatternMatch& other) {
         return (other.pose.center_m - match.pose.center_m).norm() < 0.3 * separation_m() &&
-               std::abs(std::remainder(other.pose.angle_rad - match.pose.angle_rad, 2 * std::numbers::pi)) < 0.2;
+               std::abs(std::remainder(other.pose.angle_rad - match.pose.angle_rad,
+                                       2 * std::numbers::pi)) < 0.2;
       });
       result.best_correlation = std::max(result.best_correlation, match.correlation);
       if (repeated || match.correlation < options_.min_correlation) continue;
@@ -210,7 +224,8 @@ class BoardSearch {
   }
 
   // Every local maximum of the search, and of the best ones every symmetric assignment.
-  [[nodiscard]] std::vector<PlanarPose> starting_poses(const std::vector<PatternMatch>& matches) const {
+  [[nodiscard]] std::vector<PlanarPose> starting_poses(
+      const std::vector<PatternMatch>& matches) const {
     std::vector<PlanarPose> poses;
     const int symmetry = target_.outline_symmetry();
     for (std::size_t m = 0; m < matches.size(); ++m) {
@@ -230,14 +245,16 @@ class BoardSearch {
     rotation.col(0) = c * patch.axis_u + s * patch.axis_v;
     rotation.col(1) = -s * patch.axis_u + c * patch.axis_v;
     rotation.col(2) = patch.normal;
-    const Eigen::Vector3d center = patch.center_m + pose.center_m.x() * patch.axis_u + pose.center_m.y() * patch.axis_v;
+    const Eigen::Vector3d center =
+        patch.center_m + pose.center_m.x() * patch.axis_u + pose.center_m.y() * patch.axis_v;
     const Eigen::Vector2d oc = outline_.center_m();
     return Rigid3::from_matrix(rotation, center - rotation * Eigen::Vector3d(oc.x(), oc.y(), 0.0));
   }
 
   // Covariance of a pose known by position σ and rotation σ about the board's centre.
-  [[nodiscard]] Matrix6d covariance_about_center(const Rigid3& pose, double across_m, double along_m,
-                                                 double tilt_rad, double turn_rad) const {
+  [[nodiscard]] Matrix6d covariance_about_center(const Rigid3& pose, double across_m,
+                                                 double along_m, double tilt_rad,
+                                                 double turn_rad) const {
     const Eigen::Matrix3d R = pose.rotation.toRotationMatrix();
     const Eigen::Vector2d oc = outline_.center_m();
     const Eigen::Vector3d center = pose * Eigen::Vector3d(oc.x(), oc.y(), 0.0);
@@ -248,8 +265,9 @@ class BoardSearch {
     return ad * local * ad.transpose();
   }
 
-  [[nodiscard]] BoardCandidate pattern_candidate(const PlanarPatch& patch, const PatternMatch& match,
-                                                 double cell, std::size_t index) const {
+  [[nodiscard]] BoardCandidate pattern_candidate(const PlanarPatch& patch,
+                                                 const PatternMatch& match, double cell,
+                                                 std::size_t index) const {
     BoardCandidate candidate;
     candidate.lidar_from_board.transform = pose_of(patch, match.pose);
     // Generous: the coarse pose is good to a fraction of the blur, the plane to its thickness.
@@ -267,7 +285,8 @@ class BoardSearch {
     return candidate;
   }
 
-  [[nodiscard]] BoardCandidate outline_candidate(const PlanarPatch& patch, const PatternMatch& match,
+  [[nodiscard]] BoardCandidate outline_candidate(const PlanarPatch& patch,
+                                                 const PatternMatch& match,
                                                  std::size_t index) const {
     BoardCandidate candidate;
     candidate.lidar_from_board.transform = pose_of(patch, match.pose);

@@ -22,16 +22,16 @@ struct BoardCandidate {
   double correlation = 0.0;  ///< Intensity against albedo; 0 when found by its outline alone.
   double scale = 1.0;        ///< Pattern size measured by the LiDAR over the model's.
   double scale_sigma = 0.0;
-  std::size_t patch = 0;     ///< Index into BoardSearchResult::patch_points.
+  std::size_t patch = 0;  ///< Index into BoardSearchResult::patch_points.
 };
 
 struct BoardSearchOptions {
-  double min_range_m = 0.3;      ///< Closer points (the rig itself) are ignored.
-  double max_lever_arm_m = 5.0;  ///< Largest believable distance between camera and LiDAR.
-  double min_correlation = 0.6;  ///< Pattern correlation below this is not the board.
-  double plane_tolerance_m = 0.0;///< 0: from the measured noise.
-  int max_patches = 6;           ///< Patches examined at full density.
-  bool search_walls = false;     ///< Also look for the pattern on planes larger than the board.
+  double min_range_m = 0.3;        ///< Closer points (the rig itself) are ignored.
+  double max_lever_arm_m = 5.0;    ///< Largest believable distance between camera and LiDAR.
+  double min_correlation = 0.6;    ///< Pattern correlation below this is not the board.
+  double plane_tolerance_m = 0.0;  ///< 0: from the measured noise.
+  int max_patches = 6;             ///< Patches examined at full density.
+  bool search_walls = false;       ///< Also look for the pattern on planes larger than the board.
 };
 
 /// Where to look, when a rough extrinsic or a crop is given.
@@ -42,9 +42,9 @@ struct BoardSearchRegion {
 
 struct BoardSearchResult {
   std::vector<BoardCandidate> candidates;  ///< Best first.
-  std::vector<Cloud> patch_points;         ///< Full-density points about each patch with a candidate.
-  int patches = 0;                         ///< Flat patches of about the board's size.
-  double best_correlation = 0.0;           ///< Of any patch, accepted or not.
+  std::vector<Cloud> patch_points;  ///< Full-density points about each patch with a candidate.
+  int patches = 0;                  ///< Flat patches of about the board's size.
+  double best_correlation = 0.0;    ///< Of any patch, accepted or not.
 };
 
 /// Blurred patterns of one target, coarse to fine; built once and shared by all scenes.

@@ -55,7 +55,8 @@ std::vector<PatternMatch> outline_poses(const VoxelCloud& cloud, const PlanarPat
   std::vector<PlanarSample> samples;
   samples.reserve(patch.voxels.size());
   for (const auto i : patch.voxels) {
-    samples.push_back({patch.to_plane(cloud.voxels()[i].mean_m.cast<double>()).cast<float>(), 0.0F});
+    samples.push_back(
+        {patch.to_plane(cloud.voxels()[i].mean_m.cast<double>()).cast<float>(), 0.0F});
   }
   const Eigen::Vector2d size = target.outline().size_m();
   const OutlineFit fit = fit_outline(samples, size);

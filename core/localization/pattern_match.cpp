@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/pattern_match.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
+
+#include <Eigen/Cholesky>
 
 namespace lvcalib {
 namespace {
@@ -112,9 +113,8 @@ struct PatternSystem {
   double variance = 0.0;
 };
 
-PatternSystem build_system(const std::vector<PlanarSample>& samples,
-                           const PatternTemplate& pattern, const Eigen::Vector2d& outline_center,
-                           const PlanarPose& pose) {
+PatternSystem build_system(const std::vector<PlanarSample>& samples, const PatternTemplate& pattern,
+                           const Eigen::Vector2d& outline_center, const PlanarPose& pose) {
   PatternSystem system;
   const double c = std::cos(pose.angle_rad);
   const double s = std::sin(pose.angle_rad);

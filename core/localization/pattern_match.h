@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "base/progress.h"
 #include "localization/pattern_template.h"
@@ -36,7 +37,7 @@ struct PatternMatch {
 /// Boards are looked for at these angles and centres.
 struct PatternSearchRange {
   Eigen::Vector2d center_m = Eigen::Vector2d::Zero();
-  double slack_m = 0.1;                ///< Centres within ± this of center_m along both axes.
+  double slack_m = 0.1;  ///< Centres within ± this of center_m along both axes.
   std::vector<double> angles_rad;
   double step_m = 0.025;
 };

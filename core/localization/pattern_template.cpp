@@ -15,7 +15,8 @@ void blur_lines(std::vector<float>& data, int count, int length, int line_stride
   std::vector<float> line(static_cast<std::size_t>(length));
   for (int l = 0; l < count; ++l) {
     float* start = data.data() + static_cast<std::ptrdiff_t>(l) * line_stride;
-    for (int i = 0; i < length; ++i) line[static_cast<std::size_t>(i)] = start[static_cast<std::ptrdiff_t>(i) * step];
+    for (int i = 0; i < length; ++i)
+      line[static_cast<std::size_t>(i)] = start[static_cast<std::ptrdiff_t>(i) * step];
     for (int i = 0; i < length; ++i) {
       float sum = 0.0F;
       for (int k = -half; k <= half; ++k) {
@@ -61,7 +62,8 @@ PatternTemplate::PatternTemplate(const Target& target, double blur_sigma_m)
       for (int s = 0; s < kSub * kSub; ++s) {
         const Eigen::Vector2d offset((s % kSub + 0.5) / kSub - 0.5, (s / kSub + 0.5) / kSub - 0.5);
         const Eigen::Vector2d p = outline.lower_left_m + step * (Eigen::Vector2d(c, r) + offset);
-        sum += target.albedo(p.cwiseMax(outline.lower_left_m).cwiseMin(outline.upper_right_m)).value_or(1.0);
+        sum += target.albedo(p.cwiseMax(outline.lower_left_m).cwiseMin(outline.upper_right_m))
+                   .value_or(1.0);
       }
       raster_[static_cast<std::size_t>(r * columns_ + c)] = static_cast<float>(sum / (kSub * kSub));
     }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/planar_patch.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <unordered_set>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include "base/random.h"
 #include "base/statistics.h"
@@ -68,7 +69,9 @@ std::optional<LocalPlane> majority_plane(const VoxelCloud& cloud,
   const auto count = static_cast<std::uint32_t>(ids.size());
   const std::size_t stride = std::max<std::size_t>(1, ids.size() / 200);  // Scoring needs no more.
   for (int t = 0; t < kTriplets; ++t) {
-    const auto pick = [&] { return cloud.voxels()[ids[random.below(count)]].mean_m.cast<double>().eval(); };
+    const auto pick = [&] {
+      return cloud.voxels()[ids[random.below(count)]].mean_m.cast<double>().eval();
+    };
     const Eigen::Vector3d a = pick();
     const Eigen::Vector3d b = pick();
     const Eigen::Vector3d c = pick();
@@ -83,51 +86,128 @@ std::optional<LocalPlane> majority_plane(const VoxelCloud& cloud,
     }
     if (plane.inliers > best.inliers) best = plane;
   }
-  if (static_cast<double>(best.inliers * stride) < kMinFlatShare * static_cast<double>(ids.size())) {
+  if (static_cast<double>(best.inliers * stride) <
+      kMinFlatShare * static_cast<double>(ids.size())) {
     return std::nullopt;
   }
   return least_squares_plane(cloud, within(cloud, ids, best, tolerance));
 }
 
-// The part of `ids` connected to the seed when neighbouring cells of side `gap` connect.
-std::vector<std::uint32_t> connected_part(const VoxelCloud& cloud,
-                                          const std::vector<std::uint32_t>& ids,
-                                          const PlanarPatch& frame, const Eigen::Vector2d& seed,
-                                          double gap, double radius) {
-  const int half = static_cast<int>(std::ceil(radius / gap)) + 1;
-  const int side = 2 * half + 1;
-  std::vector<char> state(static_cast<std::size_t>(side * side), 0);  // 1 occupied, 2 reached
-  const auto cell_of = [&](const Eigen::Vector2d& q) {
-    const int x = std::clamp(static_cast<int>(std::floor((q.x() - seed.x()) / gap)) + half, 0, side - 1);
-    const int y = std::clamp(static_cast<int>(std::floor((q.y() - seed.y()) / gap)) + half, 0, side - 1);
-    return y * side + x;
-  };
-  std::vector<int> cells(ids.size());
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    cells[k] = cell_of(frame.to_plane(cloud.voxels()[ids[k]].mean_m.cast<double>()));
-    state[static_cast<std::size_t>(cells[k])] = 1;
+// Cells of a plane about a seed, and which of them are connected to it.
+class CellGrid {
+ public:
+  CellGrid(const Eigen::Vector2d& seed, double cell, double radius)
+      : seed_(seed),
+        cell_(cell),
+        half_(static_cast<int>(std::ceil(radius / cell)) + 2),
+        side_(2 * half_ + 1),
+        occupied_(static_cast<std::size_t>(side_ * side_), 0) {}
+
+  [[nodiscard]] int cell_of(const Eigen::Vector2d& q) const {
+    // The outermost ring stays empty, so that neighbours always exist.
+    const auto index = [&](double v) {
+      return std::clamp(static_cast<int>(std::floor(v / cell_)) + half_, 1, side_ - 2);
+    };
+    return index(q.y() - seed_.y()) * side_ + index(q.x() - seed_.x());
   }
-  std::vector<int> front{cell_of(seed)};
-  state[static_cast<std::size_t>(front[0])] = 2;
-  while (!front.empty()) {
-    const int at = front.back();
-    front.pop_back();
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int x = at % side + dx;
-        const int y = at / side + dy;
-        if (x < 0 || y < 0 || x >= side || y >= side) continue;
-        const int next = y * side + x;
-        if (state[static_cast<std::size_t>(next)] == 1) {
-          state[static_cast<std::size_t>(next)] = 2;
+  void occupy(int cell) { occupied_[static_cast<std::size_t>(cell)] = 1; }
+
+  // Cells connected to the seed over eight neighbours. With `open`, connections narrower than
+  // three cells do not count: where the board's plane cuts floor or walls they carry a thin strip
+  // of points that would tie the board to the room.
+  [[nodiscard]] std::vector<char> reach(bool open) const {
+    const std::vector<char> core = open ? eroded() : occupied_;
+    const int start = nearest(core);
+    std::vector<char> reached(occupied_.size(), 0);
+    if (start < 0) return open ? reach(false) : reached;
+    std::vector<int> front{start};
+    reached[static_cast<std::size_t>(start)] = 1;
+    while (!front.empty()) {
+      const int at = front.back();
+      front.pop_back();
+      for_neighbours(at, [&](int next) {
+        const auto n = static_cast<std::size_t>(next);
+        if (core[n] != 0 && reached[n] == 0) {
+          reached[n] = 1;
           front.push_back(next);
         }
+      });
+    }
+    return open ? dilated(reached) : reached;
+  }
+
+ private:
+  template <class F>
+  void for_neighbours(int at, F&& visit) const {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int next = at + dy * side_ + dx;
+        if (next >= 0 && next < side_ * side_) visit(next);
       }
     }
   }
+  [[nodiscard]] std::vector<char> eroded() const {
+    std::vector<char> out(occupied_.size(), 0);
+    for (int at = 0; at < side_ * side_; ++at) {
+      int count = 0;
+      for_neighbours(at, [&](int next) { count += occupied_[static_cast<std::size_t>(next)]; });
+      // One hole is allowed: noise and dark print drop returns.
+      out[static_cast<std::size_t>(at)] = count >= 8 ? 1 : 0;
+    }
+    return out;
+  }
+  [[nodiscard]] std::vector<char> dilated(const std::vector<char>& cells) const {
+    std::vector<char> out = cells;
+    for (int at = 0; at < side_ * side_; ++at) {
+      if (cells[static_cast<std::size_t>(at)] == 0) continue;
+      for_neighbours(at, [&](int next) {
+        if (occupied_[static_cast<std::size_t>(next)] != 0) out[static_cast<std::size_t>(next)] = 1;
+      });
+    }
+    return out;
+  }
+  // The marked cell nearest to the seed, within three cells; −1 if there is none.
+  [[nodiscard]] int nearest(const std::vector<char>& cells) const {
+    int best = -1;
+    int best_distance = 1000;
+    for (int dy = -3; dy <= 3; ++dy) {
+      for (int dx = -3; dx <= 3; ++dx) {
+        const int y = half_ + dy;
+        const int x = half_ + dx;
+        if (y < 0 || x < 0 || y >= side_ || x >= side_) continue;
+        const int distance = dx * dx + dy * dy;
+        if (cells[static_cast<std::size_t>(y * side_ + x)] != 0 && distance < best_distance) {
+          best = y * side_ + x;
+          best_distance = distance;
+        }
+      }
+    }
+    return best;
+  }
+
+  Eigen::Vector2d seed_;
+  double cell_;
+  int half_;
+  int side_;
+  std::vector<char> occupied_;
+};
+
+// The part of `ids` connected to the seed.
+std::vector<std::uint32_t> connected_part(const VoxelCloud& cloud,
+                                          const std::vector<std::uint32_t>& ids,
+                                          const PlanarPatch& frame, const Eigen::Vector2d& seed,
+                                          const PatchConnection& connection, double cell,
+                                          double radius) {
+  CellGrid grid(seed, cell, radius);
+  std::vector<int> cells(ids.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    cells[k] = grid.cell_of(frame.to_plane(cloud.voxels()[ids[k]].mean_m.cast<double>()));
+    grid.occupy(cells[k]);
+  }
+  const std::vector<char> reached = grid.reach(connection.cut_strips);
   std::vector<std::uint32_t> out;
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    if (state[static_cast<std::size_t>(cells[k])] == 2) out.push_back(ids[k]);
+    if (reached[static_cast<std::size_t>(cells[k])] != 0) out.push_back(ids[k]);
   }
   return out;
 }
@@ -170,7 +250,8 @@ double measure_plane_noise(const VoxelCloud& cloud, const std::vector<std::uint3
     if (!plane) continue;
     std::vector<double> distance;
     for (const auto i : within(cloud, ids, *plane, tolerance)) {
-      distance.push_back(std::abs(plane->normal.dot(cloud.voxels()[i].mean_m.cast<double>() - plane->center)));
+      distance.push_back(
+          std::abs(plane->normal.dot(cloud.voxels()[i].mean_m.cast<double>() - plane->center)));
     }
     deviations.push_back(1.4826 * median(std::move(distance)));
   }
@@ -180,7 +261,8 @@ double measure_plane_noise(const VoxelCloud& cloud, const std::vector<std::uint3
 class PatchFinder {
  public:
   PatchFinder(const VoxelCloud& cloud, const PatchSearchOptions& options)
-      : cloud_(cloud), options_(options),
+      : cloud_(cloud),
+        options_(options),
         short_side_(std::min(options.board_width_m, options.board_height_m)),
         diagonal_(std::hypot(options.board_width_m, options.board_height_m)) {}
 
@@ -193,20 +275,21 @@ class PatchFinder {
                      ? options_.plane_tolerance_m
                      : std::clamp(3.0 * measure_plane_noise(cloud_, seeds, radius, first),
                                   0.3 * first, 2.0 * first);
-    for (const double gap : options_.connection_gaps) {
+    for (const PatchConnection& connection : options_.connections) {
       covered_.assign(cloud_.voxels().size(), 0);
       for (const auto seed : seeds) {
         if (context.stopped()) return {};
         if (covered_[seed] != 0) continue;
         cloud_.neighbours(cloud_.voxels()[seed].mean_m, radius, ids_);
-        if (auto plane = majority_plane(cloud_, ids_, tolerance_, seed)) grow(seed, *plane, gap * short_side_);
+        if (auto plane = majority_plane(cloud_, ids_, tolerance_, seed))
+          grow(seed, *plane, connection);
       }
     }
     return std::move(patches_);
   }
 
  private:
-  void grow(std::uint32_t seed, LocalPlane plane, double gap) {
+  void grow(std::uint32_t seed, LocalPlane plane, const PatchConnection& connection) {
     const Eigen::Vector3d seed_point = cloud_.voxels()[seed].mean_m.cast<double>();
     if (std::abs(plane.normal.dot(seed_point.normalized())) < kMinCosIncidence) return;
     const double reach = 1.1 * diagonal_;
@@ -218,7 +301,8 @@ class PatchFinder {
       patch.center_m = plane.center;
       plane_basis(patch.normal, patch.axis_u, patch.axis_v);
       const auto near = within(cloud_, ids_, plane, tolerance_);
-      patch.voxels = connected_part(cloud_, near, patch, patch.to_plane(seed_point), gap, reach);
+      patch.voxels = connected_part(cloud_, near, patch, patch.to_plane(seed_point), connection,
+                                    connection.gap * short_side_, reach);
       const auto refit = least_squares_plane(cloud_, patch.voxels);
       if (!refit || patch.voxels.size() < kMinNeighbours) return;
       plane = *refit;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "base/progress.h"
 #include "localization/voxel_cloud.h"
@@ -16,9 +17,10 @@ struct PlanarPatch {
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX();  ///< In-plane axes; axis_u × axis_v = normal.
   Eigen::Vector3d axis_v = Eigen::Vector3d::UnitY();
-  double thickness_m = 0.0;                           ///< Robust standard deviation about the plane.
-  Eigen::Vector2d extent_m = Eigen::Vector2d::Zero(); ///< Sides of the smallest bounding rectangle, longer first.
-  bool open = false;                                  ///< Goes on beyond the searched radius (a wall).
+  double thickness_m = 0.0;  ///< Robust standard deviation about the plane.
+  Eigen::Vector2d extent_m =
+      Eigen::Vector2d::Zero();  ///< Sides of the smallest bounding rectangle, longer first.
+  bool open = false;            ///< Goes on beyond the searched radius (a wall).
   std::vector<std::uint32_t> voxels;
 
   [[nodiscard]] Eigen::Vector2d to_plane(const Eigen::Vector3d& point_m) const {
@@ -27,16 +29,22 @@ struct PlanarPatch {
   }
 };
 
+/// How points of a plane hang together.
+struct PatchConnection {
+  double gap = 0.05;  ///< Cell side as a share of the board's shorter side; neighbours connect.
+  bool cut_strips = false;  ///< Connections narrower than three cells do not count.
+};
+
 struct PatchSearchOptions {
   double board_width_m = 0.9;
   double board_height_m = 0.9;
   /// Largest distance from the plane, 0: three times the measured noise of the scene's planes.
   double plane_tolerance_m = 0.0;
-  /// Gap between points that still connects them, as fractions of the board's shorter side. Each
-  /// value gives its own patches: narrow ones part the board from coplanar neighbours, wide ones
-  /// bridge the lines of a sparse scanner.
-  std::vector<double> connection_gaps = {0.05, 0.12};
-  double smallest_side = 0.4;  ///< Patches with a shorter side than this share of the board's are left out.
+  /// Each way of connecting gives its own patches: fine cells part the board from neighbours and
+  /// from floor and walls that its plane cuts; wide ones bridge the lines of a sparse scanner.
+  std::vector<PatchConnection> connections = {{0.05, true}, {0.12, false}};
+  double smallest_side =
+      0.4;  ///< Patches with a shorter side than this share of the board's are left out.
 };
 
 /// Finds every flat patch that could hold the board: not smaller than a board that is partly cut

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/scene_consensus.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/Cholesky>
 
 #include "base/statistics.h"
 
@@ -46,12 +47,14 @@ std::vector<Proposal> propose(const std::vector<SceneHypotheses>& scenes,
         p.gain = candidate.gain;
         // The systematic part acts at the board, where the two sensors meet, not at the camera.
         UncertainRigid3 camera{camera_from_board, scenes[s].camera_from_board.covariance};
-        const Matrix6d ad = Rigid3{Eigen::Quaterniond::Identity(), camera_from_board.translation}.adjoint();
+        const Matrix6d ad =
+            Rigid3{Eigen::Quaterniond::Identity(), camera_from_board.translation}.adjoint();
         camera.covariance += ad * systematic * ad.transpose();
         p.camera_from_lidar = camera * candidate.lidar_from_board.inverse();
-        if (guess && (translation_distance_m(p.camera_from_lidar.transform.inverse(), guess->inverse()) >
-                          options.guess_translation_m ||
-                      rotation_distance_rad(p.camera_from_lidar.transform, *guess) > options.guess_rotation_rad)) {
+        if (guess && (translation_distance_m(p.camera_from_lidar.transform.inverse(),
+                                             guess->inverse()) > options.guess_translation_m ||
+                      rotation_distance_rad(p.camera_from_lidar.transform, *guess) >
+                          options.guess_rotation_rad)) {
           return;
         }
         out.push_back(std::move(p));
@@ -76,7 +79,8 @@ Vote count_votes(const std::vector<Proposal>& proposals, std::size_t scenes,
   for (std::size_t p = 0; p < proposals.size(); ++p) {
     const Proposal& proposal = proposals[p];
     if (own_scene_exact && proposal.scene == proposals[own].scene && p != own) continue;
-    const double d = own_scene_exact && p == own ? 0.0 : squared_distance(proposal.camera_from_lidar, extrinsic);
+    const double d =
+        own_scene_exact && p == own ? 0.0 : squared_distance(proposal.camera_from_lidar, extrinsic);
     if (d > agreement_gate()) continue;
     const double value = proposal.gain - 0.5 * d;
     if (!vote.proposals[proposal.scene] || value > best[proposal.scene]) {
@@ -124,7 +128,8 @@ std::optional<SceneConsensus> decide_scenes(const std::vector<SceneHypotheses>& 
     if (votes[p].score > votes[best].score) best = p;
   }
   SceneConsensus result;
-  result.camera_from_lidar = fuse(proposals, votes[best], proposals[best].camera_from_lidar.transform);
+  result.camera_from_lidar =
+      fuse(proposals, votes[best], proposals[best].camera_from_lidar.transform);
   // A second count about the mean: the first is only as good as the scene it started from.
   const Vote final_vote = count_votes(proposals, scenes.size(), result.camera_from_lidar, false, 0);
   if (final_vote.score >= votes[best].score) {
@@ -139,7 +144,8 @@ std::optional<SceneConsensus> decide_scenes(const std::vector<SceneHypotheses>& 
     ++result.agreeing;
   }
   for (std::size_t p = 0; p < proposals.size(); ++p) {
-    if (squared_distance(proposals[p].camera_from_lidar, result.camera_from_lidar) > agreement_gate()) {
+    if (squared_distance(proposals[p].camera_from_lidar, result.camera_from_lidar) >
+        agreement_gate()) {
       result.runner_up = std::max(result.runner_up, votes[p].score);
     }
   }

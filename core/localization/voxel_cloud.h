@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "base/progress.h"
 #include "cloud/cloud.h"

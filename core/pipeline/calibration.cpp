@@ -60,7 +60,8 @@ class Calibration {
     for (const SceneFiles& files : dataset_.scenes) {
       SceneResult scene;
       scene.name = files.name;
-      if (std::find(request_.rejected.begin(), request_.rejected.end(), files.name) != request_.rejected.end()) {
+      if (std::find(request_.rejected.begin(), request_.rejected.end(), files.name) !=
+          request_.rejected.end()) {
         scene.reason = "rejected by the user";
       }
       result_.scenes.push_back(std::move(scene));
@@ -68,7 +69,8 @@ class Calibration {
     for (const std::string& name : request_.rejected) {
       const bool known = std::any_of(dataset_.scenes.begin(), dataset_.scenes.end(),
                                      [&](const SceneFiles& f) { return f.name == name; });
-      if (!known) return Error::usage("there is no scene '" + name + "' to reject", dataset_.path.string());
+      if (!known)
+        return Error::usage("there is no scene '" + name + "' to reject", dataset_.path.string());
     }
     return Done{};
   }
@@ -80,7 +82,8 @@ class Calibration {
     }
     for (const SceneResult& scene : result_.scenes) {
       if (!scene.reason.empty() && scene.reason != "rejected by the user") {
-        return Error::input("the board is not found in any image; scene " + scene.name + ": " + scene.reason);
+        return Error::input("the board is not found in any image; scene " + scene.name + ": " +
+                            scene.reason);
       }
     }
     return Error::input("every scene is rejected", result_.dataset);
@@ -128,10 +131,14 @@ class Calibration {
       if (!scene.view || (camera_from_lidar && result_.consensus.chosen[s])) continue;
       BoardSearchRegion region;
       if (camera_from_lidar) {
-        region.center_m = camera_from_lidar->inverse() * (scene.view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0));
+        region.center_m = camera_from_lidar->inverse() * (scene.view->camera_from_board.transform *
+                                                          Eigen::Vector3d(c.x(), c.y(), 0.0));
         region.radius_m = 0.75 * outline.size_m().norm();
       }
-      if (Status status = search_scene_again(dataset_.scenes[s], request_, region, context_, pyramid, result_, s); !status) return status;
+      if (Status status = search_scene_again(dataset_.scenes[s], request_, region, context_,
+                                             pyramid, result_, s);
+          !status)
+        return status;
     }
     return Done{};
   }
@@ -140,7 +147,8 @@ class Calibration {
     if (!scene.search) return "not searched";
     std::string text = std::to_string(scene.search->patches) + " flat patches of its size";
     if (scene.search->best_correlation > 0) {
-      text += ", best pattern correlation " + std::to_string(scene.search->best_correlation).substr(0, 4);
+      text += ", best pattern correlation " +
+              std::to_string(scene.search->best_correlation).substr(0, 4);
     }
     return text;
   }
@@ -148,18 +156,21 @@ class Calibration {
   Status not_found() const {
     std::string detail;
     for (const SceneResult& scene : result_.scenes) {
-      if (scene.view) detail += (detail.empty() ? "" : "; ") + scene.name + ": " + search_summary(scene);
+      if (scene.view)
+        detail += (detail.empty() ? "" : "; ") + scene.name + ": " + search_summary(scene);
     }
     if (const auto scale = find_scaled_board(dataset_, request_, result_, context_)) {
       const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
-      return Error::untrusted("LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
-                                  std::to_string(std::abs(percent)) + " % " + (percent > 0 ? "larger" : "smaller") +
-                                  " than target.yaml says",
-                              result_.dataset, "measure the printed tags and correct tagSize");
+      return Error::untrusted(
+          "LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
+              std::to_string(std::abs(percent)) + " % " + (percent > 0 ? "larger" : "smaller") +
+              " than target.yaml says",
+          result_.dataset, "measure the printed tags and correct tagSize");
     }
     if (context_.stopped()) return Error::cancelled();
-    return Error::untrusted("the board is not found in any cloud (" + detail + ")", result_.dataset,
-                            "check that the LiDAR sees the whole board and that target.yaml describes it");
+    return Error::untrusted(
+        "the board is not found in any cloud (" + detail + ")", result_.dataset,
+        "check that the LiDAR sees the whole board and that target.yaml describes it");
   }
 
   Status refine() {
@@ -173,8 +184,9 @@ class Calibration {
       const BoardCandidate& candidate = scene.search->candidates[*scene.chosen];
       scene.board_points = std::move(scene.search->patch_points[candidate.patch]);
       scene.search->patch_points.clear();
-      auto refinement = refine_board(scene.board_points, result_.target, candidate.lidar_from_board.transform,
-                                     request_.options.refinement, context_);
+      auto refinement =
+          refine_board(scene.board_points, result_.target, candidate.lidar_from_board.transform,
+                       request_.options.refinement, context_);
       const double elapsed = ms_since(start);
       const std::lock_guard lock(mutex);
       result_.times.refine_ms += elapsed;
@@ -185,7 +197,10 @@ class Calibration {
         scene.reason = refinement.error().text();
       }
       ++done;
-      context_.report("refine", 0.7 + 0.2 * static_cast<double>(done) / static_cast<double>(result_.scenes.size()), scene.name);
+      context_.report(
+          "refine",
+          0.7 + 0.2 * static_cast<double>(done) / static_cast<double>(result_.scenes.size()),
+          scene.name);
     });
     if (context_.stopped()) return Error::cancelled();
     return Done{};
@@ -195,7 +210,8 @@ class Calibration {
     if (result_.target.has_circles() && scene.refinement->valid_nodes() < 3) {
       std::string detail;
       for (const RefinedNode& node : scene.refinement->nodes) {
-        if (!node.valid && detail.empty()) detail = "; node " + std::to_string(node.id) + ": " + node.reason;
+        if (!node.valid && detail.empty())
+          detail = "; node " + std::to_string(node.id) + ": " + node.reason;
       }
       scene.reason = "only " + std::to_string(scene.refinement->valid_nodes()) + " of " +
                      std::to_string(scene.refinement->nodes.size()) + " circles usable" + detail;
@@ -226,9 +242,12 @@ class Calibration {
 
 std::string name_of(Quality quality) {
   switch (quality) {
-    case Quality::kGood: return "good";
-    case Quality::kDoubtful: return "doubtful";
-    case Quality::kFailed: break;
+    case Quality::kGood:
+      return "good";
+    case Quality::kDoubtful:
+      return "doubtful";
+    case Quality::kFailed:
+      break;
   }
   return "failed";
 }
@@ -238,7 +257,8 @@ Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationReq
   return Calibration(dataset, request, context).run();
 }
 
-Result<CalibrationResult> resolve_calibration(CalibrationResult result, const std::vector<bool>& use,
+Result<CalibrationResult> resolve_calibration(CalibrationResult result,
+                                              const std::vector<bool>& use,
                                               const CalibrationOptions& options) {
   std::vector<SceneObservations> observations;
   std::vector<std::size_t> index;
@@ -252,8 +272,10 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result, const st
     o.camera_from_board = scene.view->camera_from_board.transform;
     // Of an ambiguous camera pose take the reading that the LiDAR supports.
     if (scene.view->alternative_pose) {
-      const Rigid3 predicted = result.consensus.camera_from_lidar.transform * scene.refinement->lidar_from_board;
-      if (rotation_distance_rad(*scene.view->alternative_pose, predicted) < rotation_distance_rad(o.camera_from_board, predicted)) {
+      const Rigid3 predicted =
+          result.consensus.camera_from_lidar.transform * scene.refinement->lidar_from_board;
+      if (rotation_distance_rad(*scene.view->alternative_pose, predicted) <
+          rotation_distance_rad(o.camera_from_board, predicted)) {
         o.camera_from_board = *scene.view->alternative_pose;
       }
     }

@@ -49,9 +49,9 @@ struct CalibrationResult {
 /// What to run besides the dataset.
 struct CalibrationRequest {
   CalibrationOptions options;
-  std::optional<Rigid3> guess;      ///< Rough T_camera_lidar; narrows the search.
-  bool use_crops = false;           ///< Take scenes/NAME/board.pcd instead of cloud.pcd where present.
-  std::vector<std::string> rejected;///< Scenes to leave out.
+  std::optional<Rigid3> guess;  ///< Rough T_camera_lidar; narrows the search.
+  bool use_crops = false;       ///< Take scenes/NAME/board.pcd instead of cloud.pcd where present.
+  std::vector<std::string> rejected;  ///< Scenes to leave out.
 };
 
 /// The whole calibration: load, detect, localize, refine, optimise.
@@ -61,7 +61,8 @@ Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationReq
                                     const RunContext& context);
 
 /// Solves again from kept features with other scenes in use (`use` per scene). Milliseconds.
-Result<CalibrationResult> resolve_calibration(CalibrationResult result, const std::vector<bool>& use,
+Result<CalibrationResult> resolve_calibration(CalibrationResult result,
+                                              const std::vector<bool>& use,
                                               const CalibrationOptions& options);
 
 }  // namespace lvcalib

@@ -23,9 +23,11 @@ fs::path first_existing(const fs::path& folder, const std::vector<std::string>& 
 Result<SceneFiles> open_scene(const fs::path& folder) {
   SceneFiles scene;
   scene.name = folder.filename().string();
-  scene.image = first_existing(folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
+  scene.image = first_existing(
+      folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
   if (scene.image.empty()) {
-    return Error::input("no image in this scene; expected image.png, .jpg, .bmp or .tiff", folder.string());
+    return Error::input("no image in this scene; expected image.png, .jpg, .bmp or .tiff",
+                        folder.string());
   }
   scene.cloud = first_existing(folder, {"cloud.pcd", "cloud.ply"});
   if (scene.cloud.empty()) {
@@ -41,13 +43,16 @@ Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
     return Error::input("folder not found; expected one folder per scene in it", folder.string());
   }
   std::vector<fs::path> folders;
-  for (auto it = fs::directory_iterator(folder, code); !code && it != fs::directory_iterator(); it.increment(code)) {
+  for (auto it = fs::directory_iterator(folder, code); !code && it != fs::directory_iterator();
+       it.increment(code)) {
     std::error_code inner;
-    if (it->is_directory(inner) && !it->path().filename().string().starts_with('.')) folders.push_back(it->path());
+    if (it->is_directory(inner) && !it->path().filename().string().starts_with('.'))
+      folders.push_back(it->path());
   }
   if (code) return Error::input("cannot be listed: " + code.message(), folder.string());
   if (folders.empty()) {
-    return Error::input("no scenes; expected folders with image.png and cloud.pcd", folder.string());
+    return Error::input("no scenes; expected folders with image.png and cloud.pcd",
+                        folder.string());
   }
   std::sort(folders.begin(), folders.end());
   std::vector<SceneFiles> scenes;
@@ -66,12 +71,14 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
   if (!file) return file.error();
   const YamlValue* value = file->root().find("T_camera_lidar");
   if (value == nullptr) return Error::input("key 'T_camera_lidar' is missing", path.string());
-  if (value->kind == YamlValue::Kind::kMap && value->find("matrix") != nullptr) value = value->find("matrix");
+  if (value->kind == YamlValue::Kind::kMap && value->find("matrix") != nullptr)
+    value = value->find("matrix");
   if (value->kind == YamlValue::Kind::kMap) {
     const YamlValue* t = value->find("translation_m");
     const YamlValue* q = value->find("quaternion_xyzw");
     if (t == nullptr || q == nullptr) {
-      return file->error_at(*value, "'T_camera_lidar' must be a matrix, or have translation_m and quaternion_xyzw");
+      return file->error_at(
+          *value, "'T_camera_lidar' must be a matrix, or have translation_m and quaternion_xyzw");
     }
     auto translation = file->flatten(*t, "translation_m");
     if (!translation) return translation.error();
@@ -82,13 +89,16 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
     }
     const auto& r = *rotation;
     const Eigen::Quaterniond quaternion(r[3], r[0], r[1], r[2]);
-    if (std::abs(quaternion.norm() - 1.0) > 0.01) return file->error_at(*q, "quaternion_xyzw must have length 1");
-    return Rigid3{quaternion.normalized(), {(*translation)[0], (*translation)[1], (*translation)[2]}};
+    if (std::abs(quaternion.norm() - 1.0) > 0.01)
+      return file->error_at(*q, "quaternion_xyzw must have length 1");
+    return Rigid3{quaternion.normalized(),
+                  {(*translation)[0], (*translation)[1], (*translation)[2]}};
   }
   auto numbers = file->flatten(*value, "T_camera_lidar");
   if (!numbers) return numbers.error();
   if (numbers->size() != 12 && numbers->size() != 16) {
-    return file->error_at(*value, "'T_camera_lidar' must hold 12 or 16 numbers, found " + std::to_string(numbers->size()));
+    return file->error_at(*value, "'T_camera_lidar' must hold 12 or 16 numbers, found " +
+                                      std::to_string(numbers->size()));
   }
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
   for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = (*numbers)[static_cast<std::size_t>(i)];
@@ -103,7 +113,9 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
 Result<Dataset> open_dataset(const fs::path& path) {
   std::error_code code;
   if (!fs::is_directory(path, code)) {
-    return Error::input("dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it", path.string());
+    return Error::input(
+        "dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it",
+        path.string());
   }
   Dataset dataset;
   dataset.path = path;

@@ -12,8 +12,8 @@ namespace {
 // Declares one option from a chain of member pointers: section and field.
 template <class Section, class Field>
 OptionDeclaration declare(const char* key, const char* unit, double low, double high,
-                          const char* stage, const char* description, Section CalibrationOptions::*section,
-                          Field Section::*field) {
+                          const char* stage, const char* description,
+                          Section CalibrationOptions::*section, Field Section::*field) {
   OptionDeclaration d;
   d.key = key;
   d.unit = unit;
@@ -22,8 +22,12 @@ OptionDeclaration declare(const char* key, const char* unit, double low, double 
   d.high = high;
   d.whole = std::is_integral_v<Field>;
   d.stage = stage;
-  d.get = [section, field](const CalibrationOptions& o) { return static_cast<double>(o.*section.*field); };
-  d.set = [section, field](CalibrationOptions& o, double v) { o.*section.*field = static_cast<Field>(v); };
+  d.get = [section, field](const CalibrationOptions& o) {
+    return static_cast<double>(o.*section.*field);
+  };
+  d.set = [section, field](CalibrationOptions& o, double v) {
+    o.*section.*field = static_cast<Field>(v);
+  };
   return d;
 }
 
@@ -36,39 +40,85 @@ std::vector<OptionDeclaration> make_declarations() {
   using E = ExtrinsicOptions;
   using Q = QualityOptions;
   return {
-      declare("detection.quad_decimate", "1", 1, 8, "detect", "Image reduction for the first tag search.", &O::detection, &D::quad_decimate),
-      declare("detection.max_reprojection_px", "px", 0.1, 1000, "detect", "A tag that misses the board's pose by more is dropped.", &O::detection, &D::max_reprojection_px),
-      declare("detection.min_tags", "1", 1, 1000, "detect", "Fewer tags make an image unusable.", &O::detection, &D::min_tags),
-      declare("localization.min_range_m", "m", 0, 100, "localize", "Closer points (the rig itself) are ignored.", &O::localization, &L::min_range_m),
-      declare("localization.max_lever_arm_m", "m", 0.01, 1000, "localize", "Largest believable distance between camera and LiDAR.", &O::localization, &L::max_lever_arm_m),
-      declare("localization.min_correlation", "1", 0, 1, "localize", "Pattern correlation below this is not the board.", &O::localization, &L::min_correlation),
-      declare("localization.plane_tolerance_m", "m", 0, 1, "localize", "Flatness of plane candidates; 0: from the measured noise.", &O::localization, &L::plane_tolerance_m),
-      declare("localization.max_patches", "1", 1, 1000, "localize", "Plane candidates examined at full density.", &O::localization, &L::max_patches),
-      declare("localization.search_walls", "0/1", 0, 1, "localize", "Look for the pattern on planes larger than the board from the start.", &O::localization, &L::search_walls),
-      declare("consensus.systematic_rotation_rad", "rad", 0, 1, "localize", "Systematic rotation error allowed between scenes.", &O::consensus, &C::systematic_rotation_rad),
-      declare("consensus.systematic_translation_m", "m", 0, 10, "localize", "Systematic translation error allowed between scenes.", &O::consensus, &C::systematic_translation_m),
-      declare("consensus.guess_translation_m", "m", 0.001, 100, "localize", "How far a rough extrinsic may be off.", &O::consensus, &C::guess_translation_m),
-      declare("consensus.guess_rotation_rad", "rad", 0.001, 3.15, "localize", "How far a rough extrinsic may be turned.", &O::consensus, &C::guess_rotation_rad),
-      declare("refinement.max_bins", "1", 6, 360, "refine", "Angular bins of a densely sampled node.", &O::refinement, &R::max_bins),
-      declare("refinement.min_bins", "1", 6, 360, "refine", "Angular bins of a sparsely sampled node.", &O::refinement, &R::min_bins),
-      declare("refinement.samples_per_bin", "1", 1, 10000, "refine", "Wanted samples per bin; decides how many bins a node gets.", &O::refinement, &R::samples_per_bin),
-      declare("refinement.min_bin_samples", "1", 2, 10000, "refine", "A bin with fewer samples is refused.", &O::refinement, &R::min_bin_samples),
-      declare("refinement.min_contrast", "1", 0, 1000, "refine", "Smallest level difference in units of the intensity noise.", &O::refinement, &R::min_contrast),
-      declare("refinement.max_step_m", "m", 1e-4, 1, "refine", "Largest correction of a node in one iteration.", &O::refinement, &R::max_step_m),
-      declare("refinement.tolerance_m", "m", 1e-9, 1, "refine", "Done when no node moves by more.", &O::refinement, &R::tolerance_m),
-      declare("refinement.max_iterations", "1", 1, 1000, "refine", "Most iterations.", &O::refinement, &R::max_iterations),
-      declare("extrinsic.sigma_px_floor", "px", 1e-4, 100, "optimize", "Corner noise is never taken below this.", &O::extrinsic, &E::sigma_px_floor),
-      declare("extrinsic.node_sigma_floor_m", "m", 0, 1, "optimize", "Added in quadrature to every node's standard deviation.", &O::extrinsic, &E::node_sigma_floor_m),
-      declare("extrinsic.plane_sigma_floor_m", "m", 1e-9, 1, "optimize", "Added in quadrature to the plane's height.", &O::extrinsic, &E::plane_sigma_floor_m),
-      declare("extrinsic.robust_threshold", "1", 0.5, 1000, "optimize", "Huber threshold in standard deviations.", &O::extrinsic, &E::robust_threshold),
-      declare("extrinsic.rejection_gate", "1", 1, 1000, "optimize", "A tag or node farther off (in σ) is left out.", &O::extrinsic, &E::rejection_gate),
-      declare("extrinsic.reject_bad_scenes", "0/1", 0, 1, "optimize", "Leave out scenes that contradict all others.", &O::extrinsic, &E::reject_bad_scenes),
-      declare("extrinsic.max_iterations", "1", 1, 10000, "optimize", "Most iterations of one solve.", &O::extrinsic, &E::max_iterations),
-      declare("quality.scale_warning", "1", 0, 1, "optimize", "Size difference between LiDAR and model worth a warning.", &O::quality, &Q::scale_warning),
-      declare("quality.scale_failure", "1", 0, 1, "optimize", "Size difference that makes the result untrustworthy.", &O::quality, &Q::scale_failure),
-      declare("quality.max_sigma_px", "px", 0, 1000, "optimize", "Corner noise above this makes the result doubtful.", &O::quality, &Q::max_sigma_px),
-      declare("quality.max_noise_scale", "1", 1, 1e6, "optimize", "LiDAR residuals this many times their σ make the result doubtful.", &O::quality, &Q::max_noise_scale),
-      declare("quality.min_margin", "nat", 0, 1e9, "optimize", "Evidence by which the board assignment must win.", &O::quality, &Q::min_margin),
+      declare("detection.quad_decimate", "1", 1, 8, "detect",
+              "Image reduction for the first tag search.", &O::detection, &D::quad_decimate),
+      declare("detection.max_reprojection_px", "px", 0.1, 1000, "detect",
+              "A tag that misses the board's pose by more is dropped.", &O::detection,
+              &D::max_reprojection_px),
+      declare("detection.min_tags", "1", 1, 1000, "detect", "Fewer tags make an image unusable.",
+              &O::detection, &D::min_tags),
+      declare("localization.min_range_m", "m", 0, 100, "localize",
+              "Closer points (the rig itself) are ignored.", &O::localization, &L::min_range_m),
+      declare("localization.max_lever_arm_m", "m", 0.01, 1000, "localize",
+              "Largest believable distance between camera and LiDAR.", &O::localization,
+              &L::max_lever_arm_m),
+      declare("localization.min_correlation", "1", 0, 1, "localize",
+              "Pattern correlation below this is not the board.", &O::localization,
+              &L::min_correlation),
+      declare("localization.plane_tolerance_m", "m", 0, 1, "localize",
+              "Flatness of plane candidates; 0: from the measured noise.", &O::localization,
+              &L::plane_tolerance_m),
+      declare("localization.max_patches", "1", 1, 1000, "localize",
+              "Plane candidates examined at full density.", &O::localization, &L::max_patches),
+      declare("localization.search_walls", "0/1", 0, 1, "localize",
+              "Look for the pattern on planes larger than the board from the start.",
+              &O::localization, &L::search_walls),
+      declare("consensus.systematic_rotation_rad", "rad", 0, 1, "localize",
+              "Systematic rotation error allowed between scenes.", &O::consensus,
+              &C::systematic_rotation_rad),
+      declare("consensus.systematic_translation_m", "m", 0, 10, "localize",
+              "Systematic translation error allowed between scenes.", &O::consensus,
+              &C::systematic_translation_m),
+      declare("consensus.guess_translation_m", "m", 0.001, 100, "localize",
+              "How far a rough extrinsic may be off.", &O::consensus, &C::guess_translation_m),
+      declare("consensus.guess_rotation_rad", "rad", 0.001, 3.15, "localize",
+              "How far a rough extrinsic may be turned.", &O::consensus, &C::guess_rotation_rad),
+      declare("refinement.max_bins", "1", 6, 360, "refine",
+              "Angular bins of a densely sampled node.", &O::refinement, &R::max_bins),
+      declare("refinement.min_bins", "1", 6, 360, "refine",
+              "Angular bins of a sparsely sampled node.", &O::refinement, &R::min_bins),
+      declare("refinement.samples_per_bin", "1", 1, 10000, "refine",
+              "Wanted samples per bin; decides how many bins a node gets.", &O::refinement,
+              &R::samples_per_bin),
+      declare("refinement.min_bin_samples", "1", 2, 10000, "refine",
+              "A bin with fewer samples is refused.", &O::refinement, &R::min_bin_samples),
+      declare("refinement.min_contrast", "1", 0, 1000, "refine",
+              "Smallest level difference in units of the intensity noise.", &O::refinement,
+              &R::min_contrast),
+      declare("refinement.max_step_m", "m", 1e-4, 1, "refine",
+              "Largest correction of a node in one iteration.", &O::refinement, &R::max_step_m),
+      declare("refinement.tolerance_m", "m", 1e-9, 1, "refine", "Done when no node moves by more.",
+              &O::refinement, &R::tolerance_m),
+      declare("refinement.max_iterations", "1", 1, 1000, "refine", "Most iterations.",
+              &O::refinement, &R::max_iterations),
+      declare("extrinsic.sigma_px_floor", "px", 1e-4, 100, "optimize",
+              "Corner noise is never taken below this.", &O::extrinsic, &E::sigma_px_floor),
+      declare("extrinsic.node_sigma_floor_m", "m", 0, 1, "optimize",
+              "Added in quadrature to every node's standard deviation.", &O::extrinsic,
+              &E::node_sigma_floor_m),
+      declare("extrinsic.plane_sigma_floor_m", "m", 1e-9, 1, "optimize",
+              "Added in quadrature to the plane's height.", &O::extrinsic, &E::plane_sigma_floor_m),
+      declare("extrinsic.robust_threshold", "1", 0.5, 1000, "optimize",
+              "Huber threshold in standard deviations.", &O::extrinsic, &E::robust_threshold),
+      declare("extrinsic.rejection_gate", "1", 1, 1000, "optimize",
+              "A tag or node farther off (in σ) is left out.", &O::extrinsic, &E::rejection_gate),
+      declare("extrinsic.reject_bad_scenes", "0/1", 0, 1, "optimize",
+              "Leave out scenes that contradict all others.", &O::extrinsic, &E::reject_bad_scenes),
+      declare("extrinsic.max_iterations", "1", 1, 10000, "optimize",
+              "Most iterations of one solve.", &O::extrinsic, &E::max_iterations),
+      declare("quality.scale_warning", "1", 0, 1, "optimize",
+              "Size difference between LiDAR and model worth a warning.", &O::quality,
+              &Q::scale_warning),
+      declare("quality.scale_failure", "1", 0, 1, "optimize",
+              "Size difference that makes the result untrustworthy.", &O::quality,
+              &Q::scale_failure),
+      declare("quality.max_sigma_px", "px", 0, 1000, "optimize",
+              "Corner noise above this makes the result doubtful.", &O::quality, &Q::max_sigma_px),
+      declare("quality.max_noise_scale", "1", 1, 1e6, "optimize",
+              "LiDAR residuals this many times their σ make the result doubtful.", &O::quality,
+              &Q::max_noise_scale),
+      declare("quality.min_margin", "nat", 0, 1e9, "optimize",
+              "Evidence by which the board assignment must win.", &O::quality, &Q::min_margin),
   };
 }
 
@@ -90,7 +140,8 @@ Status read_value(const YamlFile& file, const std::string& key, const YamlValue&
   }
   if (Status status = set_option(out.options, key, number); !status) {
     if (status.error().kind == ErrorKind::kUsage) {
-      out.warnings.push_back(file.name() + ":" + std::to_string(value.line) + ": " + status.error().text());
+      out.warnings.push_back(file.name() + ":" + std::to_string(value.line) + ": " +
+                             status.error().text());
       return Done{};
     }
     return file.error_at(value, status.error().message);
@@ -111,7 +162,8 @@ Status set_option(CalibrationOptions& options, const std::string& key, double va
     keys.push_back(d.key);
     if (d.key != key) continue;
     if (!(value >= d.low && value <= d.high)) {
-      return Error::input("'" + key + "' must be between " + shown(d.low) + " and " + shown(d.high) + " " + d.unit + ", found " + shown(value));
+      return Error::input("'" + key + "' must be between " + shown(d.low) + " and " +
+                          shown(d.high) + " " + d.unit + ", found " + shown(value));
     }
     if (d.whole && value != std::floor(value)) {
       return Error::input("'" + key + "' must be a whole number, found " + shown(value));
@@ -120,7 +172,8 @@ Status set_option(CalibrationOptions& options, const std::string& key, double va
     return Done{};
   }
   const std::string nearest = nearest_word(key, keys);
-  return Error::usage("unknown option '" + key + "' ignored" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  return Error::usage("unknown option '" + key + "' ignored" +
+                      (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
 Result<OptionsFile> read_options(const std::filesystem::path& path) {

@@ -17,11 +17,11 @@ namespace lvcalib {
 
 /// When a result counts as trustworthy.
 struct QualityOptions {
-  double scale_warning = 0.003;   ///< Size difference between LiDAR and model worth a warning.
-  double scale_failure = 0.01;    ///< And one that makes the result untrustworthy.
-  double max_sigma_px = 1.5;      ///< Corner noise above this makes the result doubtful.
-  double max_noise_scale = 3.0;   ///< LiDAR residuals this many times their σ make it doubtful.
-  double min_margin = 10.0;       ///< Evidence (nats) by which the assignment must win.
+  double scale_warning = 0.003;  ///< Size difference between LiDAR and model worth a warning.
+  double scale_failure = 0.01;   ///< And one that makes the result untrustworthy.
+  double max_sigma_px = 1.5;     ///< Corner noise above this makes the result doubtful.
+  double max_noise_scale = 3.0;  ///< LiDAR residuals this many times their σ make it doubtful.
+  double min_margin = 10.0;      ///< Evidence (nats) by which the assignment must win.
 };
 
 /// Every option of a calibration.
@@ -43,7 +43,7 @@ struct OptionDeclaration {
   double low = 0.0;
   double high = 0.0;
   bool whole = false;
-  std::string stage;        ///< First stage to run again when it changes.
+  std::string stage;  ///< First stage to run again when it changes.
   std::function<double(const CalibrationOptions&)> get;
   std::function<void(CalibrationOptions&, double)> set;
   [[nodiscard]] double default_value() const { return get(CalibrationOptions{}); }

@@ -16,7 +16,9 @@ std::string formatted(const char* format, double a, double b = 0.0) {
 // Collects warnings and keeps the worst verdict.
 class Verdict {
  public:
-  explicit Verdict(CalibrationResult& result) : result_(result) { result_.quality = Quality::kGood; }
+  explicit Verdict(CalibrationResult& result) : result_(result) {
+    result_.quality = Quality::kGood;
+  }
   void note(std::string text) { result_.warnings.push_back(std::move(text)); }
   void doubtful(std::string text) {
     if (result_.quality == Quality::kGood) result_.quality = Quality::kDoubtful;
@@ -38,7 +40,8 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
   if (std::abs(off) < 4.0 * scale.sigma || std::abs(off) < options.scale_warning) return;
   const std::string text =
       "LiDAR and camera disagree on the board's size: the LiDAR measures it " +
-      formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * scale.sigma) + (off > 0 ? "larger" : "smaller") +
+      formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * scale.sigma) +
+      (off > 0 ? "larger" : "smaller") +
       " than target.yaml says; measure the print and correct tagSize";
   if (std::abs(off) > options.scale_failure) {
     verdict.failed(text);
@@ -48,8 +51,8 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
 }
 
 Target scaled(Target t, double s) {
-  for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m, &t.row_spacing_m,
-                         &t.board_width_m, &t.board_height_m}) {
+  for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
+                         &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
     *length *= s;
   }
   t.board_offset_m *= s;
@@ -77,47 +80,64 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   const std::size_t before = result.warnings.size();
   Verdict verdict(result);
   const ExtrinsicSolution& x = result.extrinsic;
-  if (x.rank < 6) verdict.failed("the scenes determine only " + std::to_string(x.rank) + " of 6 directions of the extrinsic");
+  if (x.rank < 6)
+    verdict.failed("the scenes determine only " + std::to_string(x.rank) +
+                   " of 6 directions of the extrinsic");
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
-  if (x.used_scenes < 2) verdict.doubtful("only one usable scene: nothing to check the result against; take two or more");
-  if (x.used_scenes == 2) verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
+  if (x.used_scenes < 2)
+    verdict.doubtful(
+        "only one usable scene: nothing to check the result against; take two or more");
+  if (x.used_scenes == 2)
+    verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
-    verdict.doubtful(formatted("tag corners miss their model by %.2f px: check the intrinsics and that the board is flat", x.sigma_px));
+    verdict.doubtful(formatted(
+        "tag corners miss their model by %.2f px: check the intrinsics and that the board is flat",
+        x.sigma_px));
   }
   if (x.node_scale > options.max_noise_scale || x.plane_scale > options.max_noise_scale) {
-    verdict.doubtful(formatted("LiDAR residuals are %.1f times (nodes) and %.1f times (planes) their noise: an effect is missing in the model",
-                               x.node_scale, x.plane_scale));
+    verdict.doubtful(
+        formatted("LiDAR residuals are %.1f times (nodes) and %.1f times (planes) their noise: an "
+                  "effect is missing in the model",
+                  x.node_scale, x.plane_scale));
   }
   if (x.used_scenes > 1 && result.consensus.margin() < options.min_margin) {
-    verdict.doubtful(formatted("another assignment of the board is nearly as good (margin %.1f)", result.consensus.margin()));
+    verdict.doubtful(formatted("another assignment of the board is nearly as good (margin %.1f)",
+                               result.consensus.margin()));
   }
   for (const SceneResult& scene : result.scenes) {
     if (!scene.used && !scene.reason.empty() && scene.reason != "rejected by the user") {
       verdict.note("scene " + scene.name + " is not used: " + scene.reason);
     }
     if (!scene.refinement || !scene.used) continue;
-    for (const std::string& w : scene.refinement->warnings) verdict.note("scene " + scene.name + ": " + w);
+    for (const std::string& w : scene.refinement->warnings)
+      verdict.note("scene " + scene.name + ": " + w);
   }
-  for (std::size_t k = before; k < result.warnings.size(); ++k) result.warnings[k].insert(0, "result: ");
+  for (std::size_t k = before; k < result.warnings.size(); ++k)
+    result.warnings[k].insert(0, "result: ");
 }
 
 std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
-                                        const CalibrationResult& result, const RunContext& context) {
+                                        const CalibrationResult& result,
+                                        const RunContext& context) {
   // Wrong units and wrong readings: from half to double in steps that the search bridges.
-  for (const double s : {1.05, 0.95, 1.1, 0.9, 1.16, 0.85, 1.22, 0.8, 1.3, 0.74, 1.4, 0.68, 1.55, 0.6, 1.75, 0.5, 2.0}) {
+  for (const double s : {1.05, 0.95, 1.1, 0.9, 1.16, 0.85, 1.22, 0.8, 1.3, 0.74, 1.4, 0.68, 1.55,
+                         0.6, 1.75, 0.5, 2.0}) {
     const Target target = scaled(dataset.target, s);
     const PatternPyramid pyramid(target);
     for (std::size_t k = 0; k < dataset.scenes.size(); ++k) {
       if (!result.scenes[k].view) continue;
       if (context.stopped()) return std::nullopt;
       const SceneFiles& files = dataset.scenes[k];
-      const auto cloud = read_cloud(request.use_crops && !files.crop.empty() ? files.crop : files.cloud, context.stop);
+      const auto cloud = read_cloud(
+          request.use_crops && !files.crop.empty() ? files.crop : files.cloud, context.stop);
       if (!cloud || !matches_by_pattern(target, *cloud)) break;
-      const double distance = s * result.scenes[k].view->camera_from_board.transform.translation.norm();
+      const double distance =
+          s * result.scenes[k].view->camera_from_board.transform.translation.norm();
       RunContext quiet = context;
       quiet.progress = {};
-      const auto search = search_board(*cloud, target, pyramid, distance, std::nullopt, request.options.localization, quiet);
+      const auto search = search_board(*cloud, target, pyramid, distance, std::nullopt,
+                                       request.options.localization, quiet);
       if (!search.candidates.empty()) return s * search.candidates.front().scale;
       break;  // One scene per size is enough to try.
     }

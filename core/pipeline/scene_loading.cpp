@@ -28,7 +28,11 @@ class SceneLoader {
  public:
   SceneLoader(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context,
               CalibrationResult& result)
-      : dataset_(dataset), request_(request), context_(context), result_(result), pyramid_(dataset.target) {}
+      : dataset_(dataset),
+        request_(request),
+        context_(context),
+        result_(result),
+        pyramid_(dataset.target) {}
 
   Status run() {
     const std::size_t n = dataset_.scenes.size();
@@ -71,7 +75,8 @@ class SceneLoader {
     quiet.progress = {};
     // One thread per image where there are enough images.
     quiet.threads = std::max(1, context_.thread_count() / static_cast<int>(dataset_.scenes.size()));
-    auto view = find_board_in_image(*image, dataset_.target, dataset_.camera, request_.options.detection, quiet);
+    auto view = find_board_in_image(*image, dataset_.target, dataset_.camera,
+                                    request_.options.detection, quiet);
     const double detect = ms_since(start);
     const std::lock_guard lock(mutex_);
     result_.times.load_ms += load;
@@ -89,7 +94,8 @@ class SceneLoader {
   }
 
   [[nodiscard]] bool size_differs(const GrayImage& image) const {
-    return image.width_px != dataset_.camera.width_px || image.height_px != dataset_.camera.height_px;
+    return image.width_px != dataset_.camera.width_px ||
+           image.height_px != dataset_.camera.height_px;
   }
 
   void look_at_cloud(std::size_t s) {
@@ -100,8 +106,8 @@ class SceneLoader {
     const double load = ms_since(start);
     if (!cloud) return fail(cloud.error());
     if (dataset_.target.has_circles() && !cloud->has_intensity()) {
-      return fail(Error::input("the cloud has no intensity, which the board's circles need", path.string(),
-                               "record it with intensity or reflectivity"));
+      return fail(Error::input("the cloud has no intensity, which the board's circles need",
+                               path.string(), "record it with intensity or reflectivity"));
     }
     start = Clock::now();
     RunContext quiet = context_;
@@ -118,10 +124,12 @@ class SceneLoader {
     result_.scenes[s].search = std::move(search);
   }
 
-  [[nodiscard]] BoardSearchRegion predicted_region(std::size_t s, const Rigid3& guess, bool rough) const {
+  [[nodiscard]] BoardSearchRegion predicted_region(std::size_t s, const Rigid3& guess,
+                                                   bool rough) const {
     const BoardOutline outline = dataset_.target.outline();
     const Eigen::Vector2d c = outline.center_m();
-    const Eigen::Vector3d center = result_.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0);
+    const Eigen::Vector3d center =
+        result_.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0);
     const auto& o = request_.options.consensus;
     const double slack = rough ? o.guess_translation_m + o.guess_rotation_rad * center.norm() : 0.1;
     return {guess.inverse() * center, 0.6 * outline.size_m().norm() + slack};
@@ -168,8 +176,9 @@ Status search_scene_again(const SceneFiles& files, const CalibrationRequest& req
   BoardSearchOptions options = request.options.localization;
   options.search_walls = true;
   SceneResult& scene = result.scenes[index];
-  auto search = search_board(*cloud, result.target, pyramid, board_distance(*scene.view, result.target),
-                             region.radius_m > 0 ? std::optional(region) : std::nullopt, options, context);
+  auto search =
+      search_board(*cloud, result.target, pyramid, board_distance(*scene.view, result.target),
+                   region.radius_m > 0 ? std::optional(region) : std::nullopt, options, context);
   if (context.stopped()) return Error::cancelled();
   scene.search = std::move(search);
   return Done{};

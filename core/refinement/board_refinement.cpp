@@ -33,8 +33,10 @@ std::vector<Eigen::Vector3f> points_on_board(const Cloud& cloud, const Target& t
     const double along = origin.z() - q.z();
     if (std::abs(along) < 1e-9) continue;
     const Eigen::Vector3d hit = origin + (q - origin) * (origin.z() / along);
-    if (hit.x() > outline.lower_left_m.x() + shrink && hit.x() < outline.upper_right_m.x() - shrink &&
-        hit.y() > outline.lower_left_m.y() + shrink && hit.y() < outline.upper_right_m.y() - shrink) {
+    if (hit.x() > outline.lower_left_m.x() + shrink &&
+        hit.x() < outline.upper_right_m.x() - shrink &&
+        hit.y() > outline.lower_left_m.y() + shrink &&
+        hit.y() < outline.upper_right_m.y() - shrink) {
       out.push_back(p);
     }
   }
@@ -56,13 +58,18 @@ class NodeRefiner {
  public:
   NodeRefiner(const Cloud& cloud, const Target& target, const RefinementOptions& options,
               BoardRefinement& result)
-      : target_(target), options_(options), result_(result), window_(node_window(target)),
-        nodes_(target.nodes()), model_(kFirstFootprint * target.circle_radius_m) {
+      : target_(target),
+        options_(options),
+        result_(result),
+        window_(node_window(target)),
+        nodes_(target.nodes()),
+        model_(kFirstFootprint * target.circle_radius_m) {
     // The layout starts where the coarse pose puts it.
     const Eigen::Vector2d origin = result.plane.to_plane(result.lidar_from_board.translation);
     const Eigen::Vector3d x_axis = result.lidar_from_board.rotation * Eigen::Vector3d::UnitX();
     layout_.translation_m = origin;
-    layout_.angle_rad = std::atan2(result.plane.axis_v.dot(x_axis), result.plane.axis_u.dot(x_axis));
+    layout_.angle_rad =
+        std::atan2(result.plane.axis_v.dot(x_axis), result.plane.axis_u.dot(x_axis));
     collect_samples(cloud);
   }
 
@@ -118,10 +125,12 @@ class NodeRefiner {
         continue;
       }
       fits_.push_back(fit_node(unwrapped[n], records[n], window_, model_, options_));
-      if (fits_.back().record.valid) append_centred(unwrapped[n], fits_.back().record.wave_m, centred);
+      if (fits_.back().record.valid)
+        append_centred(unwrapped[n], fits_.back().record.wave_m, centred);
     }
     if (!centred.empty()) {
-      model_.update(centred, kSmallestFootprint * window_.radius_m, kLargestFootprint * window_.radius_m);
+      model_.update(centred, kSmallestFootprint * window_.radius_m,
+                    kLargestFootprint * window_.radius_m);
     }
     record.transition_sigma_m = model_.mean_sigma_m();
     record.max_update_m = move_layout();
@@ -131,8 +140,8 @@ class NodeRefiner {
   }
 
   // Distances measured from the fitted circle instead of the predicted one.
-  static void append_centred(const std::vector<UnwrappedSample>& samples, const Eigen::Vector3d& wave,
-                             std::vector<UnwrappedSample>& out) {
+  static void append_centred(const std::vector<UnwrappedSample>& samples,
+                             const Eigen::Vector3d& wave, std::vector<UnwrappedSample>& out) {
     for (UnwrappedSample s : samples) {
       s.distance_m -= wave.x() * s.cos_psi + wave.y() * s.sin_psi + wave.z();
       out.push_back(s);
@@ -186,8 +195,9 @@ class NodeRefiner {
       node.covariance_m2 = excess * fit.covariance_m2.topLeftCorner<2, 2>();
       node.center_lidar_m = result_.plane.to_lidar(node.center_uv_m);
       node.raw_lidar_m = result_.plane.to_lidar(raw_[n]);
-      node.valid_bins = static_cast<int>(std::count_if(fit.record.bins.begin(), fit.record.bins.end(),
-                                                       [](const BinRecord& b) { return b.state == BinState::kUsed; }));
+      node.valid_bins = static_cast<int>(
+          std::count_if(fit.record.bins.begin(), fit.record.bins.end(),
+                        [](const BinRecord& b) { return b.state == BinState::kUsed; }));
       if (node.valid) {
         centers.push_back(node.center_uv_m);
         model.push_back(node.board_m);
@@ -210,7 +220,8 @@ class NodeRefiner {
     R.col(0) = c * result_.plane.axis_u + s * result_.plane.axis_v;
     R.col(1) = -s * result_.plane.axis_u + c * result_.plane.axis_v;
     R.col(2) = result_.plane.normal;
-    result_.lidar_from_board = Rigid3::from_matrix(R, result_.plane.to_lidar(layout_.translation_m));
+    result_.lidar_from_board =
+        Rigid3::from_matrix(R, result_.plane.to_lidar(layout_.translation_m));
   }
 
   const Target& target_;
@@ -236,7 +247,8 @@ bool fit_board_plane(const Cloud& cloud, const Target& target, BoardRefinement& 
     result.plane = *plane;
     // The pose follows the plane: same place and turn, new normal.
     const Eigen::Vector2d center = target.outline().center_m();
-    const Eigen::Vector3d middle = result.lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
+    const Eigen::Vector3d middle =
+        result.lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
     Eigen::Matrix3d R;
     R.col(2) = plane->normal;
     const Eigen::Vector3d x = result.lidar_from_board.rotation * Eigen::Vector3d::UnitX();
@@ -245,7 +257,8 @@ bool fit_board_plane(const Cloud& cloud, const Target& target, BoardRefinement& 
     const double along = plane->normal.dot(middle);
     if (std::abs(along) < 1e-9) return false;
     const Eigen::Vector3d on_plane = middle * (plane->normal.dot(plane->center_m) / along);
-    result.lidar_from_board = Rigid3::from_matrix(R, on_plane - R * Eigen::Vector3d(center.x(), center.y(), 0.0));
+    result.lidar_from_board =
+        Rigid3::from_matrix(R, on_plane - R * Eigen::Vector3d(center.x(), center.y(), 0.0));
   }
   return true;
 }
@@ -254,20 +267,29 @@ bool fit_board_plane(const Cloud& cloud, const Target& target, BoardRefinement& 
 
 std::string describe(BinState state) {
   switch (state) {
-    case BinState::kUsed: return "used";
-    case BinState::kTooFewSamples: return "too few samples";
-    case BinState::kWeakContrast: return "contrast too weak for the noise";
-    case BinState::kOneSided: return "samples on one side of the edge only";
-    case BinState::kNoCrossing: return "no crossing of the mid-level";
-    case BinState::kOutlier: return "contradicts the other bins";
+    case BinState::kUsed:
+      return "used";
+    case BinState::kTooFewSamples:
+      return "too few samples";
+    case BinState::kWeakContrast:
+      return "contrast too weak for the noise";
+    case BinState::kOneSided:
+      return "samples on one side of the edge only";
+    case BinState::kNoCrossing:
+      return "no crossing of the mid-level";
+    case BinState::kOutlier:
+      return "contradicts the other bins";
   }
   return {};
 }
 
-double RefinedNode::sigma_m() const { return std::sqrt(0.5 * covariance_m2.trace()); }
+double RefinedNode::sigma_m() const {
+  return std::sqrt(0.5 * covariance_m2.trace());
+}
 
 int BoardRefinement::valid_nodes() const {
-  return static_cast<int>(std::count_if(nodes.begin(), nodes.end(), [](const RefinedNode& n) { return n.valid; }));
+  return static_cast<int>(
+      std::count_if(nodes.begin(), nodes.end(), [](const RefinedNode& n) { return n.valid; }));
 }
 
 Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& target,
@@ -290,7 +312,8 @@ Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& ta
   }
   NodeRefiner refiner(board_points, target, options, result);
   if (!refiner.run(context)) return Error::cancelled();
-  if (!result.converged) result.warnings.push_back("refinement did not settle within its iterations");
+  if (!result.converged)
+    result.warnings.push_back("refinement did not settle within its iterations");
   return result;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "base/progress.h"
 #include "base/rigid3.h"
@@ -39,9 +40,9 @@ std::string describe(BinState state);
 
 /// One angular bin of one node in one iteration.
 struct BinRecord {
-  double angle_rad = 0.0;    ///< Information-weighted mean polar angle ψ.
-  double midpoint_m = 0.0;   ///< Signed distance d* of the mid-level crossing.
-  double sigma_m = 0.0;      ///< Its standard deviation.
+  double angle_rad = 0.0;   ///< Information-weighted mean polar angle ψ.
+  double midpoint_m = 0.0;  ///< Signed distance d* of the mid-level crossing.
+  double sigma_m = 0.0;     ///< Its standard deviation.
   int samples = 0;
   BinState state = BinState::kTooFewSamples;
 };
@@ -50,7 +51,7 @@ struct BinRecord {
 struct NodeRecord {
   int id = 0;
   Eigen::Vector2d center_uv_m = Eigen::Vector2d::Zero();  ///< Centre at the start, in the plane.
-  Eigen::Vector3d wave_m = Eigen::Vector3d::Zero();       ///< (Δc_u, Δc_v, Δr) of the fitted wave.
+  Eigen::Vector3d wave_m = Eigen::Vector3d::Zero();  ///< (Δc_u, Δc_v, Δr) of the fitted wave.
   double inner_level = 0.0;
   double outer_level = 0.0;
   std::vector<BinRecord> bins;
@@ -70,11 +71,11 @@ struct RefinedNode {
   int id = 0;
   bool valid = false;
   std::string reason;
-  Eigen::Vector2d board_m = Eigen::Vector2d::Zero();   ///< Where the model has it.
+  Eigen::Vector2d board_m = Eigen::Vector2d::Zero();  ///< Where the model has it.
   Eigen::Vector2d center_uv_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();  ///< Of center_uv_m.
   Eigen::Vector3d center_lidar_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d raw_lidar_m = Eigen::Vector3d::Zero();    ///< CAD transfer before refinement.
+  Eigen::Vector3d raw_lidar_m = Eigen::Vector3d::Zero();  ///< CAD transfer before refinement.
   int valid_bins = 0;
   /// Standard deviation per in-plane axis (root mean of the two variances).
   [[nodiscard]] double sigma_m() const;
@@ -84,13 +85,14 @@ struct RefinedNode {
 struct BoardRefinement {
   FittedPlane plane;
   Rigid3 lidar_from_board;
-  std::vector<RefinedNode> nodes;  ///< All nodes of the target, valid or not; empty without circles.
+  std::vector<RefinedNode>
+      nodes;  ///< All nodes of the target, valid or not; empty without circles.
   std::vector<IterationRecord> history;
   bool converged = false;
   /// Covariance of the transition's blur in the plane (footprint and angular jitter), m².
   Eigen::Matrix2d footprint_m2 = Eigen::Matrix2d::Zero();
-  double intensity_noise = 0.0;    ///< Of a single sample, over the level difference.
-  double scale = 1.0;              ///< Size of the node layout measured by the LiDAR over the model's.
+  double intensity_noise = 0.0;  ///< Of a single sample, over the level difference.
+  double scale = 1.0;  ///< Size of the node layout measured by the LiDAR over the model's.
   double scale_sigma = 0.0;
   std::size_t board_points = 0;
   std::vector<std::string> warnings;

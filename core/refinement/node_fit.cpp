@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "refinement/node_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <Eigen/Cholesky>
 
 #include "base/statistics.h"
 
@@ -52,9 +53,8 @@ bool solve_wave(NodeFit& fit) {
 bool refuse_worst_bin(NodeFit& fit) {
   // One chance in ten thousand per bin, widened when all bins scatter more than they claim.
   constexpr double kGate = 4.0;
-  const double excess = fit.degrees_of_freedom > 0
-                            ? std::max(1.0, fit.chi_square / fit.degrees_of_freedom)
-                            : 1.0;
+  const double excess =
+      fit.degrees_of_freedom > 0 ? std::max(1.0, fit.chi_square / fit.degrees_of_freedom) : 1.0;
   BinRecord* worst = nullptr;
   double worst_ratio = kGate * std::sqrt(excess);
   for (BinRecord& bin : fit.record.bins) {
@@ -79,7 +79,8 @@ NodeWindow node_window(const Target& target) {
   // To the centre of the circle, less what the polar angle needs to be defined.
   window.inside_m = 0.9 * target.circle_radius_m;
   // To the nearest tag corner, along the diagonal of the gap crossing.
-  window.outside_m = 0.5 * target.tag_spacing * target.tag_size_m * std::numbers::sqrt2 - target.circle_radius_m;
+  window.outside_m =
+      0.5 * target.tag_spacing * target.tag_size_m * std::numbers::sqrt2 - target.circle_radius_m;
   return window;
 }
 
@@ -142,7 +143,8 @@ NodeFit fit_node(std::vector<UnwrappedSample> samples, NodeRecord record, const 
   for (std::size_t k = 0; k < by_bin.size(); ++k) {
     BinRecord& bin = fit.record.bins[k];
     bin.angle_rad = -std::numbers::pi + (static_cast<double>(k) + 0.5) * width;
-    solve_crossing(by_bin[k], model, window.inside_m, window.outside_m, options.min_bin_samples, bin);
+    solve_crossing(by_bin[k], model, window.inside_m, window.outside_m, options.min_bin_samples,
+                   bin);
     if (weak && bin.state == BinState::kUsed) bin.state = BinState::kWeakContrast;
   }
   bool solved = solve_wave(fit);

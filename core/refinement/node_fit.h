@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "refinement/board_refinement.h"
 #include "refinement/transition.h"
@@ -29,7 +30,7 @@ NodeWindow node_window(const Target& target);
 struct NodeFit {
   NodeRecord record;
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< Of (Δc_u, Δc_v, Δr).
-  double chi_square = 0.0;  ///< Of the bins about the wave.
+  double chi_square = 0.0;                                  ///< Of the bins about the wave.
   int degrees_of_freedom = 0;
 };
 

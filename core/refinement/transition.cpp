@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "refinement/transition.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
 
@@ -27,13 +28,17 @@ double TransitionModel::sigma_m(const UnwrappedSample& s) const {
   return std::sqrt(e.dot(footprint_ * e));
 }
 
-double TransitionModel::mean_sigma_m() const { return std::sqrt(0.5 * footprint_.trace()); }
+double TransitionModel::mean_sigma_m() const {
+  return std::sqrt(0.5 * footprint_.trace());
+}
 
 int TransitionModel::zone(double z) {
   return std::clamp(static_cast<int>(std::floor(z / kZoneWidth)) + kZones / 2, 0, kZones - 1);
 }
 
-double TransitionModel::variance(double z) const { return variance_[static_cast<std::size_t>(zone(z))]; }
+double TransitionModel::variance(double z) const {
+  return variance_[static_cast<std::size_t>(zone(z))];
+}
 
 void TransitionModel::update(const std::vector<UnwrappedSample>& samples, double min_sigma_m,
                              double max_sigma_m) {
@@ -56,8 +61,9 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
       const double v = variance(z);
       if (e * e > kOutlier * kOutlier * v) continue;
       const double by_variance = -normal_pdf(z) * z / (2.0 * sigma * sigma);
-      const Eigen::Vector3d j = by_variance * Eigen::Vector3d(s.cos_psi * s.cos_psi, 2.0 * s.cos_psi * s.sin_psi,
-                                                              s.sin_psi * s.sin_psi);
+      const Eigen::Vector3d j =
+          by_variance * Eigen::Vector3d(s.cos_psi * s.cos_psi, 2.0 * s.cos_psi * s.sin_psi,
+                                        s.sin_psi * s.sin_psi);
       normal += j * j.transpose() / v;
       rhs += j * e / v;
     }
@@ -69,10 +75,10 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
         footprint_(1, 1) + step(2);
     // Keep the ellipse within believable axes.
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(next);
-    const Eigen::Vector2d bounded = axes.eigenvalues()
-                                        .cwiseMax(min_sigma_m * min_sigma_m)
-                                        .cwiseMin(max_sigma_m * max_sigma_m);
-    const Eigen::Matrix2d kept = axes.eigenvectors() * bounded.asDiagonal() * axes.eigenvectors().transpose();
+    const Eigen::Vector2d bounded =
+        axes.eigenvalues().cwiseMax(min_sigma_m * min_sigma_m).cwiseMin(max_sigma_m * max_sigma_m);
+    const Eigen::Matrix2d kept =
+        axes.eigenvectors() * bounded.asDiagonal() * axes.eigenvectors().transpose();
     const double change = (kept - footprint_).norm() / footprint_.norm();
     footprint_ = kept;
     if (change < 1e-3) break;
@@ -196,7 +202,8 @@ void solve_crossing(const std::vector<UnwrappedSample>& samples, const Transitio
   bin.sigma_m = 1.0 / std::sqrt(system.information);
   bin.angle_rad = std::atan2(system.sin_sum, system.cos_sum);
   // A midpoint known no better than the window is no measurement.
-  bin.state = bin.sigma_m < 0.25 * (window_in_m + window_out_m) ? BinState::kUsed : BinState::kNoCrossing;
+  bin.state =
+      bin.sigma_m < 0.25 * (window_in_m + window_out_m) ? BinState::kUsed : BinState::kNoCrossing;
 }
 
 }  // namespace lvcalib

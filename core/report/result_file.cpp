@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
@@ -25,7 +26,9 @@ ordered_json rows_of(const Matrix& matrix) {
   return rows;
 }
 
-ordered_json list_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json list_of(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 ordered_json pose_json(const Rigid3& pose) {
   const Eigen::Vector4d q = pose.rotation.coeffs();
@@ -36,7 +39,8 @@ ordered_json pose_json(const Rigid3& pose) {
 
 ordered_json refinement_json(const BoardRefinement& refinement) {
   ordered_json updates = ordered_json::array();
-  for (const IterationRecord& record : refinement.history) updates.push_back(1e3 * record.max_update_m);
+  for (const IterationRecord& record : refinement.history)
+    updates.push_back(1e3 * record.max_update_m);
   return {{"converged", refinement.converged},
           {"iterations", refinement.history.size()},
           {"max_update_mm", std::move(updates)},
@@ -114,13 +118,17 @@ ordered_json to_json(const CalibrationResult& result) {
                             {"margin", result.consensus.margin()},
                             {"unit", "nat"}};
   j["scenes"] = ordered_json::array();
-  for (const SceneResult& scene : result.scenes) j["scenes"].push_back(scene_json(scene, solution_of(result, scene.name)));
+  for (const SceneResult& scene : result.scenes)
+    j["scenes"].push_back(scene_json(scene, solution_of(result, scene.name)));
   j["leave_one_out"] = ordered_json::array();
   for (const LeaveOneOut& l : x.leave_one_out) {
-    j["leave_one_out"].push_back({{"without", l.without}, {"translation_mm", l.translation_mm}, {"rotation_mrad", l.rotation_mrad}});
+    j["leave_one_out"].push_back({{"without", l.without},
+                                  {"translation_mm", l.translation_mm},
+                                  {"rotation_mrad", l.rotation_mrad}});
   }
   const StageTimes& t = result.times;
-  j["timing_ms"] = {{"load", t.load_ms}, {"detect", t.detect_ms}, {"localize", t.localize_ms}, {"refine", t.refine_ms},
+  j["timing_ms"] = {{"load", t.load_ms},         {"detect", t.detect_ms},
+                    {"localize", t.localize_ms}, {"refine", t.refine_ms},
                     {"optimize", t.optimize_ms}, {"total", t.total_ms}};
   return j;
 }
@@ -133,7 +141,8 @@ std::string yaml_number(double value) {
 
 std::string yaml_list(const std::vector<double>& values) {
   std::string out = "[";
-  for (std::size_t k = 0; k < values.size(); ++k) out += (k == 0 ? "" : ", ") + yaml_number(values[k]);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    out += (k == 0 ? "" : ", ") + yaml_number(values[k]);
   return out + "]";
 }
 
@@ -162,7 +171,8 @@ Result<nlohmann::json> read_json(const std::filesystem::path& path) {
 }
 
 // Rows of numbers as a matrix of the given size; false if they are not.
-bool read_rows(const nlohmann::json& j, Eigen::Index rows, Eigen::Index columns, Eigen::MatrixXd& out) {
+bool read_rows(const nlohmann::json& j, Eigen::Index rows, Eigen::Index columns,
+               Eigen::MatrixXd& out) {
   if (!j.is_array() || static_cast<Eigen::Index>(j.size()) != rows) return false;
   out.resize(rows, columns);
   for (Eigen::Index r = 0; r < rows; ++r) {
@@ -179,7 +189,9 @@ bool read_rows(const nlohmann::json& j, Eigen::Index rows, Eigen::Index columns,
 
 }  // namespace
 
-std::string version() { return LVCALIB_VERSION; }
+std::string version() {
+  return LVCALIB_VERSION;
+}
 
 std::string result_as_json(const CalibrationResult& result) {
   return to_json(result).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -190,28 +202,35 @@ std::string result_as_yaml(const CalibrationResult& result) {
   const Rigid3& pose = x.camera_from_lidar.transform;
   const Eigen::Vector4d q = pose.rotation.coeffs();
   const Vector6d sigma = x.camera_from_lidar.covariance.diagonal().cwiseSqrt();
-  std::string out = "# Takes a point from the LiDAR frame (m) to the camera frame (x right, y down, z forward).\n";
+  std::string out =
+      "# Takes a point from the LiDAR frame (m) to the camera frame (x right, y down, z "
+      "forward).\n";
   out += "version: " + yaml_quoted(version()) + "\ndataset: " + yaml_quoted(result.dataset) + "\n";
   out += "T_camera_lidar:\n  matrix:\n" + yaml_rows(pose.matrix());
-  out += "  translation_m: " + yaml_list({pose.translation.x(), pose.translation.y(), pose.translation.z()}) + "\n";
+  out += "  translation_m: " +
+         yaml_list({pose.translation.x(), pose.translation.y(), pose.translation.z()}) + "\n";
   out += "  quaternion_xyzw: " + yaml_list({q(0), q(1), q(2), q(3)}) + "\n";
   out += "# Standard deviations of the left perturbation in the camera frame.\n";
-  out += "sigma_translation_mm: " + yaml_list({1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2)}) + "\n";
-  out += "sigma_rotation_mrad: " + yaml_list({1e3 * sigma(3), 1e3 * sigma(4), 1e3 * sigma(5)}) + "\n";
+  out +=
+      "sigma_translation_mm: " + yaml_list({1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2)}) + "\n";
+  out +=
+      "sigma_rotation_mrad: " + yaml_list({1e3 * sigma(3), 1e3 * sigma(4), 1e3 * sigma(5)}) + "\n";
   out += "covariance:\n" + yaml_rows(x.camera_from_lidar.covariance);
   out += "quality: " + name_of(result.quality) + "\nwarnings:";
   out += result.warnings.empty() ? " []\n" : "\n";
   for (const std::string& w : result.warnings) out += "  - " + yaml_quoted(w) + "\n";
   out += "rms_px: " + yaml_number(x.rms_px) + "\nrms_mm: " + yaml_number(x.rms_mm) + "\nscenes:\n";
   for (const SceneResult& scene : result.scenes) {
-    out += "  - {name: " + yaml_quoted(scene.name) + ", used: " + (scene.used ? "true" : "false") + ", reason: " + yaml_quoted(scene.reason) + "}\n";
+    out += "  - {name: " + yaml_quoted(scene.name) + ", used: " + (scene.used ? "true" : "false") +
+           ", reason: " + yaml_quoted(scene.reason) + "}\n";
   }
   return out;
 }
 
 Status write_results(const CalibrationResult& result, const std::filesystem::path& folder) {
   if (Status s = create_folder(folder); !s) return s;
-  if (Status s = write_file_atomically(folder / "result.yaml", result_as_yaml(result)); !s) return s;
+  if (Status s = write_file_atomically(folder / "result.yaml", result_as_yaml(result)); !s)
+    return s;
   return write_file_atomically(folder / "result.json", result_as_json(result));
 }
 
@@ -220,8 +239,10 @@ Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {
   if (!j) return j.error();
   const auto pose = j->find("T_camera_lidar");
   Eigen::MatrixXd m;
-  if (pose == j->end() || !pose->is_object() || !pose->contains("matrix") || !read_rows((*pose)["matrix"], 4, 4, m)) {
-    return Error::input("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers", path.string());
+  if (pose == j->end() || !pose->is_object() || !pose->contains("matrix") ||
+      !read_rows((*pose)["matrix"], 4, 4, m)) {
+    return Error::input("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers",
+                        path.string());
   }
   StoredExtrinsic out;
   out.camera_from_lidar = Rigid3::from_matrix(Eigen::Matrix4d(m));
@@ -246,7 +267,8 @@ ExtrinsicError compare_extrinsics(const StoredExtrinsic& estimate, const Rigid3&
   error.left_perturbation = se3_log(truth * estimate.camera_from_lidar.inverse());
   for (int k = 0; k < 6; ++k) {
     const double variance = estimate.covariance(k, k);
-    error.normalized(k) = variance > 0 ? error.left_perturbation(k) / std::sqrt(variance) : std::nan("");
+    error.normalized(k) =
+        variance > 0 ? error.left_perturbation(k) / std::sqrt(variance) : std::nan("");
   }
   return error;
 }

@@ -35,7 +35,7 @@ Result<Rigid3> read_truth(const std::filesystem::path& path);
 
 /// Errors of an extrinsic against the truth.
 struct ExtrinsicError {
-  double translation_mm = 0.0;    ///< Distance between the two LiDAR origins in the camera frame.
+  double translation_mm = 0.0;  ///< Distance between the two LiDAR origins in the camera frame.
   double rotation_mrad = 0.0;
   Vector6d left_perturbation = Vector6d::Zero();  ///< Log(truth · estimate⁻¹), m and rad.
   /// Each component over its standard deviation; NaN without a covariance.

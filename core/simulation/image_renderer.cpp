@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numbers>
 
 #include <opencv2/imgproc.hpp>
 
@@ -160,9 +160,10 @@ class Renderer {
     const Eigen::Vector3d corner = rays_.at(position(tile.x, origin.x), position(tile.y, origin.y));
     const double angle = std::acos(std::clamp(middle.dot(corner), -1.0, 1.0));
     RayCaster::Candidates storage;
-    std::span<const std::uint8_t> candidates;
-    // Half as much again as the corner's angle covers the other corners under any distortion.
-    if (std::isfinite(angle)) candidates = caster_.candidates(middle, 1.5 * angle + 1e-3, storage);
+    // Half as much again as the corner's angle covers the other corners under any distortion;
+    // a tile at the edge of the lens's reach asks for everything.
+    const double margin = std::isfinite(angle) ? 1.5 * angle + 1e-3 : std::numbers::pi;
+    const auto candidates = caster_.candidates(middle, margin, storage);
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
       for (int x = tile.x; x < tile.x + tile.width; ++x) {
         const double px = position(x, origin.x);

@@ -51,8 +51,8 @@ Hit RayCaster::cast(const Eigen::Vector3d& direction,
   for (const std::uint8_t index : candidates) {
     const Face& face = faces_[index];
     const double slope = face.normal.dot(direction);
-    // Same sign: the plane lies ahead. Compared by products, so that grazing rays divide nothing.
-    if (slope * face.distance <= 0.0) continue;
+    // Same sign: the plane lies ahead. Written so that a ray without direction (NaN) hits nothing.
+    if (!(slope * face.distance > 0.0)) continue;
     const double range = face.distance / slope;
     if (range >= hit.range_m) continue;
     const double u = face.u.dot(direction) * range - face.offset_u;
@@ -67,7 +67,7 @@ Hit RayCaster::cast(const Eigen::Vector3d& direction,
 Hit RayCaster::meet_plane(const Eigen::Vector3d& direction, int surface) const {
   const Face& face = faces_[static_cast<std::size_t>(surface)];
   const double slope = face.normal.dot(direction);
-  if (slope * face.distance <= 0.0) return {};
+  if (!(slope * face.distance > 0.0)) return {};
   const double range = face.distance / slope;
   return {surface, range, face.u.dot(direction) * range - face.offset_u,
           face.v.dot(direction) * range - face.offset_v, std::abs(slope)};
