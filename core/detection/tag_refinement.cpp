@@ -153,7 +153,7 @@ void TagFit::choose_pixels(const TagCorners& start) {
       const Eigen::Vector2d t = transform(state_.tag_from_plane, plane);
       if (!(t.cwiseAbs().maxCoeff() < rim) || t.cwiseAbs().minCoeff() > 1.0) continue;
       if (!near_edge(t.x()) && !near_edge(t.y()) && (x + 2 * y) % 3 != 0) continue;
-      pixels_.push_back({plane, image_.at(x, y)});
+      if (std::isfinite(image_.at(x, y))) pixels_.push_back({plane, image_.at(x, y)});
     }
   }
   const auto most = static_cast<std::size_t>(std::max(options_.max_pixels, 4 * kUnknowns));
@@ -297,12 +297,18 @@ double TagFit::iterate(bool robust) {
   return std::isfinite(motion) && state_.contrast[0] > 0.0 ? motion : -1.0;
 }
 
-// Correlation of image and model over the pixels that agree, and their share.
+// Share and noise of the pixels that agree; correlation of image and model over the data bits, for
+// which the pixels that do not agree count as well: they are what another tag would show.
 bool TagFit::describe_agreement(TagRefinement& out) const {
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, squares = 0;
+  double agreeing = 0, n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, squares = 0;
   for (const TagPixel& pixel : pixels_) {
     const double residual = evaluate(state_, pixel, nullptr);
-    if (weight(residual) == 0.0) continue;
+    if (weight(residual) > 0.0) {
+      agreeing += 1;
+      squares += residual * residual;
+    }
+    const Eigen::Vector2d t = transform(state_.tag_from_plane, pixel.plane);
+    if (t.cwiseAbs().maxCoeff() > tag_.data_edge()) continue;
     const double model = pixel.gray - residual;
     n += 1;
     sx += model;
@@ -310,11 +316,10 @@ bool TagFit::describe_agreement(TagRefinement& out) const {
     sxx += model * model;
     sxy += model * pixel.gray;
     syy += pixel.gray * pixel.gray;
-    squares += residual * residual;
   }
-  if (n < 2 * kUnknowns) return false;
-  out.inliers = n / static_cast<double>(pixels_.size());
-  out.noise = std::sqrt(squares / (n - kUnknowns));
+  if (agreeing < 2 * kUnknowns || n < kUnknowns) return false;
+  out.inliers = agreeing / static_cast<double>(pixels_.size());
+  out.noise = std::sqrt(squares / (agreeing - kUnknowns));
   const double variance = (sxx - sx * sx / n) * (syy - sy * sy / n);
   out.correlation = variance > 0.0 ? (sxy - sx * sy / n) / std::sqrt(variance) : 0.0;
   return true;
