@@ -85,21 +85,21 @@ std::function<void(const fs::path&)> edit_target(const std::string& from, const 
 
 std::vector<BadInput> boards() {
   return {
-      {"NoTags", make_grey, 3, {"S001/image.png: no tags in the image"}},
-      {"Mirrored", mirror, 3, {"S001/image.png: ", "mirrored"}},
+      {"NoTags", make_grey, 3, {"A/image.png: no tags in the image"}},
+      {"Mirrored", mirror, 3, {"A/image.png: ", "mirrored"}},
       {"OtherIds",
        edit_target("firstTagId: 0", "firstTagId: 100"),
        3,
-       {"S001/image.png: ", "shows tags 0, 1, 2", "the target has 100 to 115"}},
+       {"A/image.png: ", "shows tags 0, 1, 2", "the target has 100 to 115"}},
       {"OtherBorder",
        edit_target("tagBorder: 1", "tagBorder: 2"),
        3,
-       {"S001/image.png: ", "1-bit border", "target says 2-bit"}},
+       {"A/image.png: ", "1-bit border", "target says 2-bit"}},
       {"OtherFamily",
        edit_target("tag36h11", "tag25h9"),
        3,
-       {"S001/image.png: ", "tag36h11", "target says tag25h9"}},
-      {"BoardNotInClouds", take_board_out_of_clouds, 1, {"not found in any cloud", "S001", "S003"}},
+       {"A/image.png: ", "tag36h11", "target says tag25h9"}},
+      {"BoardNotInClouds", take_board_out_of_clouds, 1, {"not found in any cloud", "A", "C"}},
   };
 }
 
@@ -162,8 +162,8 @@ INSTANTIATE_TEST_SUITE_P(Dataset, WrongTagSize,
 TEST(OneScene, GivesAResultThatIsDoubtfulAndSaysWhy) {
   BadInput input{"OneScene",
                  [](const fs::path& dataset) {
-                   fs::remove_all(dataset / "scenes" / "S002");
-                   fs::remove_all(dataset / "scenes" / "S003");
+                   fs::remove_all(dataset / "scenes" / "B");
+                   fs::remove_all(dataset / "scenes" / "C");
                  },
                  1,
                  {"only one usable scene", "take two or more"}};
@@ -176,18 +176,18 @@ TEST(OneScene, GivesAResultThatIsDoubtfulAndSaysWhy) {
 
   input.name = "AllButOneRejected";
   input.spoil = {};
-  input.arguments = {"--reject", "S001", "--reject", "S003"};
+  input.arguments = {"--reject", "A", "--reject", "C"};
   const SpoiledRun rejected(input);
   rejected.expect_as_described();
   EXPECT_TRUE(fs::exists(rejected.output() / "result.json"));
 }
 
 TEST(OneBoardMissing, CostsOneScene) {
-  const SpoiledRun run({"OneBoardMissing",
-                        [](const fs::path& dataset) { take_board_out_of_cloud(dataset, "S002"); }});
+  const SpoiledRun run(
+      {"OneBoardMissing", [](const fs::path& dataset) { take_board_out_of_cloud(dataset, "B"); }});
   EXPECT_EQ(run.outcome().status, 0) << run.outcome().err;
   EXPECT_THAT(lines_with(run.outcome().err, "lvcalib: warning: "),
-              ::testing::Contains(HasSubstr("scene S002 is not used")));
+              ::testing::Contains(HasSubstr("scene B is not used")));
 }
 
 }  // namespace

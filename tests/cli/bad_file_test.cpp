@@ -48,8 +48,8 @@ std::string garbage() {
 
 constexpr const char* kTarget = "target.yaml";
 constexpr const char* kCamera = "camera.yaml";
-constexpr const char* kImage = "scenes/S002/image.png";
-constexpr const char* kCloud = "scenes/S002/cloud.pcd";
+constexpr const char* kImage = "scenes/B/image.png";
+constexpr const char* kCloud = "scenes/B/cloud.pcd";
 
 std::vector<BadInput> missing_files() {
   return {
@@ -81,19 +81,19 @@ std::vector<BadInput> missing_files() {
        },
        3,
        {"dataset/scenes: no scenes", "expected"}},
-      {"SceneWithoutImage", remove(kImage), 3, {"scenes/S002: no image", "image.png"}},
-      {"SceneWithoutCloud", remove(kCloud), 3, {"scenes/S002: no cloud", "cloud.pcd"}},
+      {"SceneWithoutImage", remove(kImage), 3, {"scenes/B: no image", "image.png"}},
+      {"SceneWithoutCloud", remove(kCloud), 3, {"scenes/B: no cloud", "cloud.pcd"}},
       {"DanglingLink",
        [](const fs::path& dataset) {
          fs::remove(dataset / kImage);
          fs::create_symlink("nowhere", dataset / kImage);
        },
        3,
-       {"scenes/S002"}},
+       {"scenes/B"}},
       {"TargetIsFolder", folder_instead(kTarget), 3, {"target.yaml: not a regular file"}},
       {"CameraIsFolder", folder_instead(kCamera), 3, {"camera.yaml: not a regular file"}},
-      {"ImageIsFolder", folder_instead(kImage), 3, {"S002/image.png: not a regular file"}},
-      {"CloudIsFolder", folder_instead(kCloud), 3, {"S002/cloud.pcd: is a folder, expected"}},
+      {"ImageIsFolder", folder_instead(kImage), 3, {"B/image.png: not a regular file"}},
+      {"CloudIsFolder", folder_instead(kCloud), 3, {"B/cloud.pcd: is a folder, expected"}},
   };
 }
 

@@ -17,8 +17,8 @@ struct BadInput {
   std::string name;  ///< Letters and digits only.
   std::function<void(const std::filesystem::path& dataset)> spoil;
   int status = 3;
-  std::vector<std::string> message;    ///< What the one error line says, in parts.
-  std::vector<std::string> arguments;  ///< Besides the dataset and -o.
+  std::vector<std::string> message = {};    ///< What the one error line says, in parts.
+  std::vector<std::string> arguments = {};  ///< Besides the dataset and -o.
   bool unprivileged = false;
 };
 std::ostream& operator<<(std::ostream& stream, const BadInput& input);

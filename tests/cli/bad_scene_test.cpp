@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 using Spoil = std::function<void(const fs::path&)>;
-constexpr const char* kImage = "scenes/S002/image.png";
-constexpr const char* kCloud = "scenes/S002/cloud.pcd";
+constexpr const char* kImage = "scenes/B/image.png";
+constexpr const char* kCloud = "scenes/B/cloud.pcd";
 
 Spoil write(const char* name, const std::string& content) {
   return [=](const fs::path& dataset) { write_file(dataset / name, content); };
@@ -63,19 +63,19 @@ std::vector<BadInput> images() {
       {"ImageOfOtherSize",
        resize_image(0.5),
        3,
-       {"S002/image.png: ", "512 × 384", "1024 × 768", "intrinsics"}},
-      {"EmptyImage", write(kImage, ""), 3, {"S002/image.png: "}},
-      {"TextAsImage", write(kImage, "this is no image\n"), 3, {"S002/image.png: ", "expected"}},
-      {"TruncatedImage", change(kImage, first_half), 3, {"S002/image.png: "}},
-      {"DamagedImage", change(kImage, damaged), 3, {"S002/image.png: "}},
+       {"B/image.png: ", "512 × 384", "1024 × 768", "intrinsics"}},
+      {"EmptyImage", write(kImage, ""), 3, {"B/image.png: "}},
+      {"TextAsImage", write(kImage, "this is no image\n"), 3, {"B/image.png: ", "expected"}},
+      {"TruncatedImage", change(kImage, first_half), 3, {"B/image.png: "}},
+      {"DamagedImage", change(kImage, damaged), 3, {"B/image.png: "}},
       {"HeaderOnlyImage",
        change(kImage, [](const std::string& png) { return png.substr(0, 33); }),
        3,
-       {"S002/image.png: "}},
+       {"B/image.png: "}},
       {"HugeImage",
        change(kImage, claiming_huge_size),
        3,
-       {"S002/image.png: ", "claims 2147483647 × 2147483647 pixels; expected"}},
+       {"B/image.png: ", "claims 2147483647 × 2147483647 pixels; expected"}},
   };
 }
 
@@ -111,7 +111,7 @@ std::string with_other_data(std::string bytes) {
 
 std::vector<BadInput> clouds() {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  const std::string where = "S002/cloud.pcd: ";
+  const std::string where = "B/cloud.pcd: ";
   return {
       {"NoIntensity", drop_intensity, 3, {where, "no intensity"}},
       {"EmptyCloud", write(kCloud, ""), 3, {where}},
@@ -176,7 +176,7 @@ std::vector<BadInput> costing_a_scene() {
       {"FewPoints",
        write(kCloud, pcd_header("x y z intensity", 2, "ascii") + "1 2 3 4\n1 2 2 4\n"),
        0,
-       {"scene S002 is not used", "not found in the cloud"}},
+       {"scene B is not used", "not found in the cloud"}},
       {"GreyImage",
        [](const fs::path& dataset) {
          const cv::Mat grey(768, 1024, CV_8U, cv::Scalar(128));
@@ -184,7 +184,7 @@ std::vector<BadInput> costing_a_scene() {
          cv::imwrite((dataset / kImage).string(), grey);
        },
        0,
-       {"scene S002 is not used", "S002/image.png: no tags in the image"}},
+       {"scene B is not used", "B/image.png: no tags in the image"}},
   };
 }
 

@@ -22,12 +22,12 @@ Spoil beside(const std::string& name, const std::string& content) {
 std::vector<BadInput> usage() {
   const std::string matrix = "T_camera_lidar:\n  - [2, 0, 0, 0]\n  - [0, 1, 0, 0]\n";
   return {
-      {"RejectUnknownScene", {}, 2, {"dataset", "no scene 'S009'"}, {"--reject", "S009"}},
+      {"RejectUnknownScene", {}, 2, {"dataset", "no scene 'Z'"}, {"--reject", "Z"}},
       {"RejectAll",
        {},
        3,
        {"every scene is rejected"},
-       {"--reject", "S001", "--reject", "S002", "--reject", "S003"}},
+       {"--reject", "A", "--reject", "B", "--reject", "C"}},
       {"UnknownOption", {}, 2, {"calibrate: ", "--frobnicate"}, {"--frobnicate"}},
       {"ExtraArgument", {}, 2, {"calibrate: ", "another"}, {"another"}},
       {"ThreadsWord", {}, 2, {"--threads"}, {"--threads", "two"}},

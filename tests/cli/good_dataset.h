@@ -23,7 +23,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A small simulated dataset with scenes "01", "02" and "03", made once per test program, with
+/// A small simulated dataset with scenes A, B and C, made once per test program, with
 /// PATH-truth.json beside it. Not to be written to.
 const std::filesystem::path& good_dataset();
 
