@@ -13,23 +13,29 @@ std::string formatted(const char* format, double a, double b = 0.0) {
   return text;
 }
 
-// Collects warnings and keeps the worst verdict.
+// Collects warnings and keeps the worst verdict with its first reason.
 class Verdict {
  public:
   explicit Verdict(CalibrationResult& result) : result_(result) {
     result_.quality = Quality::kGood;
+    result_.quality_reason.clear();
   }
   void note(std::string text) { result_.warnings.push_back(std::move(text)); }
   void doubtful(std::string text) {
-    if (result_.quality == Quality::kGood) result_.quality = Quality::kDoubtful;
+    become(Quality::kDoubtful, text);
     note(std::move(text));
   }
   void failed(std::string text) {
-    result_.quality = Quality::kFailed;
+    become(Quality::kFailed, text);
     note(std::move(text));
   }
 
  private:
+  void become(Quality quality, const std::string& reason) {
+    if (result_.quality >= quality) return;
+    result_.quality = quality;
+    result_.quality_reason = reason;
+  }
   CalibrationResult& result_;
 };
 
@@ -80,14 +86,14 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   const std::size_t before = result.warnings.size();
   Verdict verdict(result);
   const ExtrinsicSolution& x = result.extrinsic;
+  if (x.used_scenes < 2)
+    verdict.doubtful(
+        "only one usable scene: nothing to check the result against; take two or more");
   if (x.rank < 6)
     verdict.failed("the scenes determine only " + std::to_string(x.rank) +
                    " of 6 directions of the extrinsic");
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
-  if (x.used_scenes < 2)
-    verdict.doubtful(
-        "only one usable scene: nothing to check the result against; take two or more");
   if (x.used_scenes == 2)
     verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
