@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <regex>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
