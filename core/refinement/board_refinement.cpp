@@ -20,8 +20,9 @@ constexpr double kFirstFootprint = 0.15;
 // Footprint and noise are re-estimated this often, then kept: with few samples they would go on
 // swapping bins in and out for ever.
 constexpr int kSettlingRounds = 8;
-// From this iteration on steps are halved, which ends a swing between two states.
-constexpr int kDampedFrom = 15;
+// From this iteration on steps shrink as 1/2, 1/3, …: a bin that is refused in one round and
+// taken in the next would keep the layout swinging by a fraction of its standard deviation.
+constexpr int kDampedFrom = 12;
 
 // Points on the board, parted into white and black print, whose range noise differs.
 struct BoardPoints {
@@ -150,7 +151,7 @@ class NodeRefiner {
                     kLargestFootprint * window_.radius_m);
     }
     record.transition_sigma_m = model_.mean_sigma_m();
-    record.max_update_m = move_layout(iteration < kDampedFrom ? 1.0 : 0.5);
+    record.max_update_m = move_layout(1.0 / std::max(1, iteration - kDampedFrom + 2));
     for (const NodeFit& fit : fits_) record.nodes.push_back(fit.record);
     result_.history.push_back(std::move(record));
     return result_.history.back().max_update_m;
