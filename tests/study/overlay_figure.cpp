@@ -15,7 +15,7 @@ namespace lvcalib::study {
 namespace {
 
 constexpr int kWidth = 1200;
-constexpr int kPicture = 580;  // height of the photograph
+constexpr int kPicture = 560;  // height of the photograph
 constexpr int kLegend = 76;
 constexpr double kMargin = 36;
 
