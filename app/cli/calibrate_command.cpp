@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -56,20 +57,23 @@ std::string summary_of(const CalibrationResult& result, const std::string& outpu
 Result<std::string> run(const Options& options, Session& session) {
   auto dataset = open_dataset(options.dataset);
   if (!dataset) return dataset.error();
+  // Said before anything else: what follows may be their consequence.
+  for (const std::string& warning : dataset->warnings) session.warn(warning);
   auto request = make_request(options, *dataset, session);
   if (!request) return request.error();
   auto result = calibrate(*dataset, *request, session.context);
   if (!result) return result.error();
   if (session.context.stopped()) return Error::cancelled();
-  for (const std::string& warning : result->warnings) session.warn(warning);
+  for (const std::string& warning : result->warnings) {
+    const auto& said = dataset->warnings;
+    if (std::find(said.begin(), said.end(), warning) == said.end()) session.warn(warning);
+  }
   if (Status s = write_results(*result, options.output); !s) return s.error();
   const std::string summary = summary_of(*result, options.output);
   if (result->quality == Quality::kFailed || result->extrinsic.used_scenes < 2) {
-    return Error::untrusted(
-        "the result cannot be trusted; " +
-            (result->warnings.empty() ? std::string{} : result->warnings.back()) +
-            "; written for inspection to " + options.output,
-        options.dataset);
+    return Error::untrusted("the result cannot be trusted: " + result->quality_reason +
+                                "; written for inspection to " + options.output,
+                            options.dataset);
   }
   return summary;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/plane.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -16,6 +17,8 @@ constexpr std::size_t kMinPoints = 10;
 constexpr double kMinCosIncidence = 0.02;
 // Tukey's constant for 98 % efficiency on Gaussian noise.
 constexpr double kTukey = 6.0;
+constexpr std::size_t kGroups = 4;
+using GroupSigmas = std::array<double, kGroups>;
 
 // Residuals of all points whose rays meet the plane; NaN for the others.
 std::vector<double> range_residuals(std::span<const Eigen::Vector3f> points,
@@ -27,14 +30,33 @@ std::vector<double> range_residuals(std::span<const Eigen::Vector3f> points,
   return out;
 }
 
-double robust_sigma(const std::vector<double>& residuals) {
+std::size_t group_of(std::span<const std::uint8_t> groups, std::size_t i) {
+  return groups.empty() ? 0 : std::min<std::size_t>(groups[i], kGroups - 1);
+}
+
+// Robust σ of every group; one with too few points takes the σ of all.
+GroupSigmas robust_sigmas(const std::vector<double>& residuals,
+                          std::span<const std::uint8_t> groups, double& typical) {
   constexpr std::size_t kEnough = 20'000;  // The median of more changes nothing.
   const std::size_t stride = residuals.size() / kEnough + 1;
-  std::vector<double> sample;
+  std::array<std::vector<double>, kGroups> samples;
+  std::vector<double> all;
   for (std::size_t i = 0; i < residuals.size(); i += stride) {
-    if (std::isfinite(residuals[i])) sample.push_back(residuals[i]);
+    if (!std::isfinite(residuals[i])) continue;
+    samples[group_of(groups, i)].push_back(residuals[i]);
+    all.push_back(residuals[i]);
   }
-  return sample.size() < kMinPoints ? 0.0 : mad_sigma(std::move(sample));
+  const std::size_t total = all.size();
+  // Float coordinates resolve a few tenths of a micrometre; never divide by less.
+  const double common = total < kMinPoints ? 1e-6 : std::max(1e-6, mad_sigma(std::move(all)));
+  GroupSigmas sigmas{};
+  typical = common;
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    const std::size_t count = samples[g].size();
+    sigmas[g] = count < 5 * kMinPoints ? common : std::max(1e-6, mad_sigma(std::move(samples[g])));
+    if (4 * count > total) typical = std::min(typical, sigmas[g]);
+  }
+  return sigmas;
 }
 
 struct PlaneSystem {
@@ -48,11 +70,13 @@ struct PlaneSystem {
 // Moving the plane by height a and slopes b, c changes the range predicted for a ray that meets
 // it at (u, v) by (a + b u + c v) / (n·ray).
 PlaneSystem build_system(std::span<const Eigen::Vector3f> points, const FittedPlane& plane,
-                         const std::vector<double>& residuals, double sigma) {
+                         const std::vector<double>& residuals,
+                         std::span<const std::uint8_t> groups) {
   PlaneSystem system;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isfinite(residuals[i])) continue;
-    const double w = tukey_weight(residuals[i] / sigma, kTukey);
+    const double sigma = plane.group_sigma_m[group_of(groups, i)];
+    const double w = tukey_weight(residuals[i] / sigma, kTukey) / (sigma * sigma);
     if (w <= 0) continue;
     const Eigen::Vector3d p = points[i].cast<double>();
     const double along = plane.normal.dot(p) / p.norm();
@@ -93,16 +117,16 @@ std::optional<double> FittedPlane::range_residual_m(const Eigen::Vector3d& point
 }
 
 std::optional<FittedPlane> fit_plane(std::span<const Eigen::Vector3f> points_m,
-                                     const FittedPlane& start) {
+                                     const FittedPlane& start,
+                                     std::span<const std::uint8_t> groups) {
   constexpr int kIterations = 8;
   if (points_m.size() < kMinPoints) return std::nullopt;
   FittedPlane plane = start;
   PlaneSystem system;
   for (int i = 0; i < kIterations; ++i) {
     const std::vector<double> residuals = range_residuals(points_m, plane);
-    // Float coordinates resolve a few tenths of a micrometre; never divide by less.
-    plane.sigma_range_m = std::max(robust_sigma(residuals), 1e-6);
-    system = build_system(points_m, plane, residuals, plane.sigma_range_m);
+    plane.group_sigma_m = robust_sigmas(residuals, groups, plane.sigma_range_m);
+    system = build_system(points_m, plane, residuals, groups);
     const Eigen::LDLT<Eigen::Matrix3d> factor(system.normal);
     if (system.inliers < kMinPoints || factor.info() != Eigen::Success || factor.rcond() < 1e-9) {
       return std::nullopt;
@@ -111,17 +135,14 @@ std::optional<FittedPlane> fit_plane(std::span<const Eigen::Vector3f> points_m,
     if (!step.allFinite()) return std::nullopt;
     apply(plane, step);
     // Stop well below the statistical error.
-    if (std::abs(step(0)) <
-        1e-3 * plane.sigma_range_m / std::sqrt(static_cast<double>(system.inliers)))
-      break;
+    if (std::abs(step(0)) * std::sqrt(system.weight) < 1e-3) break;
   }
   // Centre the frame on the points: height and slopes are then nearly uncorrelated.
   const Eigen::Vector3d mean = system.weighted_center / system.weight;
   plane.center_m = mean - plane.normal * plane.normal.dot(mean - plane.center_m);
   const std::vector<double> residuals = range_residuals(points_m, plane);
-  system = build_system(points_m, plane, residuals, plane.sigma_range_m);
-  plane.covariance = plane.sigma_range_m * plane.sigma_range_m *
-                     system.normal.ldlt().solve(Eigen::Matrix3d::Identity());
+  system = build_system(points_m, plane, residuals, groups);
+  plane.covariance = system.normal.ldlt().solve(Eigen::Matrix3d::Identity());
   plane.inliers = system.inliers;
   return plane;
 }

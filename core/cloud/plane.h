@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -18,7 +20,9 @@ struct FittedPlane {
   Eigen::Vector3d axis_v = Eigen::Vector3d::UnitY();  ///< axis_u × axis_v = normal.
   /// Covariance of (height at center_m [m], slope along axis_u, slope along axis_v).
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double sigma_range_m = 0.0;  ///< Robust standard deviation of the range residuals.
+  /// Robust standard deviation of the range residuals, per group of points (see fit_plane).
+  std::array<double, 4> group_sigma_m{};
+  double sigma_range_m = 0.0;  ///< The smallest of them that stands for a fair share of the points.
   std::size_t inliers = 0;
 
   [[nodiscard]] Eigen::Vector2d to_plane(const Eigen::Vector3d& point_m) const {
@@ -36,9 +40,12 @@ struct FittedPlane {
 
 /// Fits a plane so that the residuals along the rays are smallest (range noise, not perpendicular
 /// distance), robustly (Tukey). `start` gives the first normal, centre and axis_u.
+/// `groups` (empty, or one number 0 … 3 per point) parts points of different noise, as dark and
+/// white print: each group's σ is measured and weighs its points.
 /// Nothing with fewer than ten points or all of them on one line.
 std::optional<FittedPlane> fit_plane(std::span<const Eigen::Vector3f> points_m,
-                                     const FittedPlane& start);
+                                     const FittedPlane& start,
+                                     std::span<const std::uint8_t> groups = {});
 
 /// Appends point i of `from` with all its fields to `to`.
 void append_point(Cloud& to, const Cloud& from, std::size_t i);

@@ -50,6 +50,7 @@ const NormalTable& normal_table() {
 
 BlurredTag::BlurredTag(const TagPattern& pattern, int border_bits)
     : side_(pattern.width + 2 * border_bits),
+      data_edge_(static_cast<double>(pattern.width) / side_),
       width_(side_ + 2),
       cells_(static_cast<std::size_t>(width_ * width_), 1.0) {
   for (int row = 0; row < side_; ++row) {

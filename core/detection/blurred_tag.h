@@ -35,6 +35,8 @@ class BlurredTag {
   [[nodiscard]] int side() const { return side_; }
   /// Width of a cell in tag coordinates.
   [[nodiscard]] double cell() const { return 2.0 / side_; }
+  /// Distance of the data area's edge from the middle.
+  [[nodiscard]] double data_edge() const { return data_edge_; }
   /// Quadrants in the order of TagCorners; albedo 0 or 1.
   void set_quadrant(std::size_t corner, double albedo);
   /// Albedo of the cell at a point, without blur.
@@ -59,6 +61,7 @@ class BlurredTag {
   }
 
   int side_;
+  double data_edge_;
   int width_;                  // side plus one surrounding cell on either side
   std::vector<double> cells_;  // rows from bottom to top
 };

@@ -97,7 +97,7 @@ void complete_board_tags(std::vector<BoardTag>& tags, const GrayImage& image, co
   }
   // Nothing but the pose speaks for these tags, so that the image must be clearer than usual.
   TagRefinementOptions strict;
-  strict.min_correlation = 0.9;
+  strict.min_correlation = 0.65;
   parallel_for(wanted.size(), context.thread_count(), [&](std::size_t i) {
     if (!context.stopped()) refine(wanted[i], image, target, camera, strict);
   });

@@ -36,19 +36,21 @@ struct Grid {
   }
 };
 
+enum class Method { kSectors, kSquares };
+
 // Searches a reduced image, which takes a fraction of the time and finds blurred boards better.
-bool find_grid(const cv::Mat& image, double reduction, Grid& grid) {
+bool find_grid(const cv::Mat& image, double reduction, Method method, Grid& grid) {
   cv::Mat small = image;
   if (reduction > 1.0)
     cv::resize(image, small, {}, 1.0 / reduction, 1.0 / reduction, cv::INTER_AREA);
   const cv::Size size(grid.columns, grid.rows);
   std::vector<cv::Point2f> corners;
-  bool found = cv::findChessboardCornersSB(small, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE);
-  if (!found) {
-    found = cv::findChessboardCorners(
-        small, size, corners,
-        cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK);
-  }
+  const bool found =
+      method == Method::kSectors
+          ? cv::findChessboardCornersSB(small, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE)
+          : cv::findChessboardCorners(small, size, corners,
+                                      cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE |
+                                          cv::CALIB_CB_FAST_CHECK);
   if (!found || corners.size() != static_cast<std::size_t>(size.area())) return false;
   const double sx = static_cast<double>(image.cols) / small.cols;
   const double sy = static_cast<double>(image.rows) / small.rows;
@@ -169,13 +171,19 @@ Grid oriented(const Grid& found, const cv::Mat& image, const Target& target) {
 bool search(const cv::Mat& image, Grid& grid, const RunContext& context) {
   // About 1000 pixels along the longer side show the squares of any usable board.
   const double first = std::max(1.0, std::max(image.cols, image.rows) / 1000.0);
-  std::vector<double> reductions{first};
-  if (first > 1.2) reductions.push_back(1.0);
-  reductions.push_back(2.0 * first);
-  for (const double reduction : reductions) {
+  struct Attempt {
+    double reduction;
+    Method method;
+  };
+  std::vector<Attempt> attempts{{first, Method::kSectors}, {first, Method::kSquares}};
+  // The search for squares takes up to 20 s on a full image without this board.
+  if (first > 1.2) attempts.push_back({1.0, Method::kSectors});
+  attempts.push_back({2.0 * first, Method::kSectors});
+  attempts.push_back({2.0 * first, Method::kSquares});
+  for (const Attempt& attempt : attempts) {
     if (context.stopped()) return false;
-    if (std::min(image.cols, image.rows) / reduction < 20.0) continue;
-    if (find_grid(image, reduction, grid)) return true;
+    if (std::min(image.cols, image.rows) / attempt.reduction < 20.0) continue;
+    if (find_grid(image, attempt.reduction, attempt.method, grid)) return true;
   }
   return false;
 }

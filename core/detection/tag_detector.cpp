@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <numeric>
 
@@ -14,6 +13,8 @@
 #include <apriltag/tag36h10.h>
 #include <apriltag/tag36h11.h>
 #include <opencv2/imgproc.hpp>
+
+#include "base/parallel.h"
 
 namespace lvcalib {
 namespace {
@@ -31,7 +32,16 @@ constexpr Family kFamilies[] = {
     {"tag16h5", tag16h5_create, tag16h5_destroy},
 };
 
-using FamilyHandle = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
+// Gives a family back to the library in the state in which it was created.
+struct FamilyDeleter {
+  void (*destroy)(apriltag_family_t*) = nullptr;
+  std::uint64_t* codes = nullptr;
+  void operator()(apriltag_family_t* family) const {
+    family->codes = codes;
+    destroy(family);
+  }
+};
+using FamilyHandle = std::unique_ptr<apriltag_family_t, FamilyDeleter>;
 using ImageHandle = std::unique_ptr<image_u8_t, void (*)(image_u8_t*)>;
 
 // The library's family with `border_bits` rings of black and only the wanted ids: the decoder's
@@ -40,7 +50,8 @@ FamilyHandle make_family(const std::string& name, int border_bits,
                          const TagSearchOptions& options) {
   for (const Family& entry : kFamilies) {
     if (name != entry.name) continue;
-    FamilyHandle family(entry.create(), entry.destroy);
+    apriltag_family_t* created = entry.create();
+    FamilyHandle family(created, {entry.destroy, created->codes});
     const int extra = border_bits - 1;
     family->width_at_border += 2 * extra;
     family->total_width += 2 * extra;
@@ -49,14 +60,13 @@ FamilyHandle make_family(const std::string& name, int border_bits,
       family->bit_y[i] += static_cast<std::uint32_t>(extra);
     }
     if (options.id_count > 0) {
-      const auto first = static_cast<std::uint32_t>(options.first_id);
-      const auto count = static_cast<std::uint32_t>(options.id_count);
-      std::memmove(family->codes, family->codes + first, count * sizeof(family->codes[0]));
-      family->ncodes = count;
+      // The table of codes is shared by all families of this name: point into it, never write.
+      family->codes += options.first_id;
+      family->ncodes = static_cast<std::uint32_t>(options.id_count);
     }
     return family;
   }
-  return {nullptr, tag36h11_destroy};
+  return {};
 }
 
 // A quarter of a per mille of the pixels may lie beyond the range that is kept.
@@ -172,13 +182,15 @@ struct Pass {
 };
 
 std::vector<TagDetection> run_pass(image_u8_t& image, apriltag_family_t& family, const Pass& pass,
-                                   const TagSearchOptions& options, int threads) {
+                                   const TagSearchOptions& options) {
   std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)> detector(
       apriltag_detector_create(), apriltag_detector_destroy);
   apriltag_detector_add_family_bits(detector.get(), &family, options.max_hamming);
   detector->quad_decimate = static_cast<float>(pass.decimate);
   detector->decode_sharpening = pass.sharpening;
-  detector->nthreads = threads;
+  // The library's worker threads lose work and crash now and then: its task list is not guarded
+  // (fixed after 3.3). The passes run in parallel instead.
+  detector->nthreads = 1;
   zarray_t* found = apriltag_detector_detect(detector.get(), &image);
   std::vector<TagDetection> out;
   for (int i = 0; i < zarray_size(found); ++i) {
@@ -215,6 +227,56 @@ void merge(std::vector<TagDetection>& all, const std::vector<TagDetection>& more
   }
 }
 
+double sample(const GrayImage& image, const Eigen::Vector2d& p) {
+  const double x = std::clamp(p.x(), 0.0, image.width_px - 1.001);
+  const double y = std::clamp(p.y(), 0.0, image.height_px - 1.001);
+  const int x0 = static_cast<int>(x);
+  const int y0 = static_cast<int>(y);
+  const double s = x - x0;
+  const double t = y - y0;
+  return (1 - t) * ((1 - s) * image.at(x0, y0) + s * image.at(x0 + 1, y0)) +
+         t * ((1 - s) * image.at(x0, y0 + 1) + s * image.at(x0 + 1, y0 + 1));
+}
+
+// Correlation of the grey values at the cells' centres with the printed cells.
+double cell_correlation(const GrayImage& image, const TagPattern& pattern, int border_bits,
+                        const TagCorners& corners) {
+  const int side = pattern.width + 2 * border_bits;
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const int r = row - border_bits;
+      const int c = column - border_bits;
+      const bool data = r >= 0 && c >= 0 && r < pattern.width && c < pattern.width;
+      const double cell = data && pattern.at(r, c) ? 1.0 : 0.0;
+      // Bilinear between the corners: perspective within a tag is far below a cell.
+      const double s = (column + 0.5) / side;
+      const double t = (row + 0.5) / side;
+      const double gray = sample(image, (1 - t) * ((1 - s) * corners[3] + s * corners[2]) +
+                                            t * ((1 - s) * corners[0] + s * corners[1]));
+      n += 1;
+      sx += cell;
+      sy += gray;
+      sxx += cell * cell;
+      sxy += cell * gray;
+      syy += gray * gray;
+    }
+  }
+  const double variance = (sxx - sx * sx / n) * (syy - sy * sy / n);
+  return variance > 0.0 ? (sxy - sx * sy / n) / std::sqrt(variance) : 0.0;
+}
+
+// The bits of a tag with the other border width lie at most half a bit from where this one's are
+// sampled, so that they can often be read, at wrong places.
+void drop_other_border(std::vector<TagDetection>& tags, const GrayImage& image,
+                       const std::string& family, int border_bits) {
+  std::erase_if(tags, [&](const TagDetection& tag) {
+    const TagPattern& pattern = *tag_pattern(family, tag.id);
+    return cell_correlation(image, pattern, border_bits, tag.corners) <
+           cell_correlation(image, pattern, 3 - border_bits, tag.corners);
+  });
+}
+
 Status check(const std::string& family, int border_bits, const TagSearchOptions& options) {
   const int size = tag_family_size(family);
   if (size == 0) return Error::usage("tag family '" + family + "' is not known");
@@ -240,26 +302,30 @@ Result<std::vector<TagDetection>> find_tags(const GrayImage& image, const std::s
   if (std::min(image.width_px, image.height_px) < 16 * options.decimate) {
     return std::vector<TagDetection>{};
   }
-  const FamilyHandle handle = make_family(family, border_bits, options);
   const ImageHandle small = to_u8(image);
-  const int threads = context.thread_count();
-  Pass first;
-  first.decimate = options.decimate;
-  std::vector<TagDetection> all = run_pass(*small, *handle, first, options, threads);
-  if (!options.thorough) return all;
-
-  std::vector<Pass> passes;
-  if (options.decimate > 1.0) passes.push_back({1.0, 1.0});
-  passes.push_back({1.0, 2.0, Treatment::kSharpen, 1.0});
-  passes.push_back({1.0, 1.0, Treatment::kShrinkBlack});
-  passes.push_back({1.0, 2.0, Treatment::kShrinkBlack, 1.0});
-  const ImageHandle large = enlarge(*small);
-  for (Pass& pass : passes) {
-    if (context.stopped()) return Error::cancelled();
-    pass.min_margin = options.min_margin;
-    const ImageHandle treated = treat(pass.scale > 1.0 ? *large : *small, pass.treatment);
-    merge(all, run_pass(*treated, *handle, pass, options, threads));
+  // What each pass after the first adds: small and crowded tags; tags whose corners touch other
+  // black areas.
+  std::vector<Pass> passes{{options.decimate, 1.0}};
+  ImageHandle large(nullptr, image_u8_destroy);
+  if (options.thorough) {
+    if (options.decimate > 1.0) passes.push_back({1.0, 1.0});
+    passes.push_back({1.0, 2.0, Treatment::kSharpen, 1.0});
+    passes.push_back({1.0, 1.0, Treatment::kShrinkBlack});
+    passes.push_back({1.0, 2.0, Treatment::kShrinkBlack, 1.0});
+    for (std::size_t i = 1; i < passes.size(); ++i) passes[i].min_margin = options.min_margin;
+    large = enlarge(*small);
   }
+  std::vector<std::vector<TagDetection>> found(passes.size());
+  parallel_for(passes.size(), context.thread_count(), [&](std::size_t i) {
+    if (context.stopped()) return;
+    const FamilyHandle handle = make_family(family, border_bits, options);
+    const ImageHandle treated = treat(passes[i].scale > 1.0 ? *large : *small, passes[i].treatment);
+    found[i] = run_pass(*treated, *handle, passes[i], options);
+    drop_other_border(found[i], image, family, border_bits);
+  });
+  if (context.stopped()) return Error::cancelled();
+  std::vector<TagDetection> all = std::move(found.front());
+  for (std::size_t i = 1; i < found.size(); ++i) merge(all, found[i]);
   return all;
 }
 

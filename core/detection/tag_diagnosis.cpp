@@ -22,8 +22,9 @@ GrayImage mirrored(const GrayImage& image) {
 // Distinct ids seen. A lone tag with corrected bits may be chance among so many attempts, and the
 // smallest family reads tags into any texture: two faultless ones are asked for.
 std::set<int> ids_seen(const GrayImage& image, const std::string& family, int border_bits,
-                       const RunContext& context) {
+                       double decimate, const RunContext& context) {
   TagSearchOptions search;
+  search.decimate = decimate;
   search.max_hamming = 0;
   const auto tags = find_tags(image, family, border_bits, search, context);
   std::set<int> ids;
@@ -60,7 +61,8 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
                            const DetectionOptions& options, const RunContext& context) {
   const int border = target.tag_border_bits;
   const int other_border = 3 - border;
-  const std::set<int> same = ids_seen(image, target.tag_family, border, context);
+  const std::set<int> same =
+      ids_seen(image, target.tag_family, border, options.quad_decimate, context);
   const bool foreign =
       std::any_of(same.begin(), same.end(), [&](int id) { return !target.tag(id).has_value(); });
   if (foreign) {
@@ -75,15 +77,15 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
                         {}, "show more of the board, nearer, sharper or better lit");
   }
   if (context.stopped()) return Error::cancelled();
-  if (!ids_seen(image, target.tag_family, other_border, context).empty()) {
+  if (!ids_seen(image, target.tag_family, other_border, options.quad_decimate, context).empty()) {
     return Error::input("the tags in the image have a " + border_name(other_border) +
                             "; the target says " + border_name(border),
                         {}, "set tagBorder: " + std::to_string(other_border));
   }
   if (context.stopped()) return Error::cancelled();
   const GrayImage mirror = mirrored(image);
-  if (!ids_seen(mirror, target.tag_family, border, context).empty() ||
-      !ids_seen(mirror, target.tag_family, other_border, context).empty()) {
+  if (!ids_seen(mirror, target.tag_family, border, options.quad_decimate, context).empty() ||
+      !ids_seen(mirror, target.tag_family, other_border, options.quad_decimate, context).empty()) {
     return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror",
                         {}, "turn off flipping in the camera driver, or print the board again");
   }
@@ -91,7 +93,7 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
     for (const int bits : {1, 2}) {
       if (family == target.tag_family) continue;
       if (context.stopped()) return Error::cancelled();
-      if (ids_seen(image, family, bits, context).empty()) continue;
+      if (ids_seen(image, family, bits, options.quad_decimate, context).empty()) continue;
       return Error::input(
           std::string("tags of family ") + family + " with a " + border_name(bits) +
               " found; the target says " + target.tag_family,

@@ -7,74 +7,24 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "base/statistics.h"
 #include "detection/blurred_tag.h"
+#include "detection/tag_model.h"
 #include "detection/undistorted_patch.h"
 
 namespace lvcalib {
 namespace {
 
-// Order of the unknowns: homography (8), blur, curvature of the response, black level and its
-// slopes, contrast and its slopes.
-constexpr int kHomography = 0, kBlur = 8, kCurve = 9, kBlack = 10, kContrast = 13, kUnknowns = 16;
-using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+constexpr int kUnknowns = TagModel::kUnknowns;
+constexpr int kCurve = TagModel::kCurve;
+using Vector = TagModel::Vector;
 using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-
-const std::array<Eigen::Vector2d, 4> kTagCorners = {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1),
-                                                    Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1)};
-
-Eigen::Vector2d transform(const Eigen::Matrix3d& homography, const Eigen::Vector2d& point) {
-  return (homography * point.homogeneous()).hnormalized();
-}
-
-// Homography that takes the four corners of the tag to four points.
-Eigen::Matrix3d homography_to(const std::array<Eigen::Vector2d, 4>& points) {
-  Eigen::Matrix<double, 8, 8> a;
-  Eigen::Matrix<double, 8, 1> b;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector2d& t = kTagCorners[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)];
-    a.row(2 * i) << t.x(), t.y(), 1, 0, 0, 0, -p.x() * t.x(), -p.x() * t.y();
-    a.row(2 * i + 1) << 0, 0, 0, t.x(), t.y(), 1, -p.y() * t.x(), -p.y() * t.y();
-    b.segment<2>(2 * i) = p;
-  }
-  const Eigen::Matrix<double, 8, 1> h = a.partialPivLu().solve(b);
-  Eigen::Matrix3d out;
-  out << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1.0;
-  return out;
-}
 
 struct TagPixel {
   Eigen::Vector2d plane;
   double gray = 0.0;
 };
-
-struct State {
-  Eigen::Matrix3d tag_from_plane = Eigen::Matrix3d::Identity();
-  double blur_px = 1.0;
-  double curve = 0.0;
-  Eigen::Vector3d black = Eigen::Vector3d::Zero();     // level, slopes by u and v
-  Eigen::Vector3d contrast = Eigen::Vector3d::Zero();  // white − black, likewise
-};
-
-State moved(const State& state, const Vector& step) {
-  State out = state;
-  Eigen::Matrix3d change = Eigen::Matrix3d::Identity();
-  change.row(0) += step.segment<3>(0).transpose();
-  change.row(1) += step.segment<3>(3).transpose();
-  change(2, 0) += step[6];
-  change(2, 1) += step[7];
-  out.tag_from_plane = change * state.tag_from_plane;
-  out.tag_from_plane /= out.tag_from_plane(2, 2);
-  // The area of a pixel alone blurs by √(1/12).
-  out.blur_px = std::clamp(state.blur_px + step[kBlur], 0.29, 10.0);
-  out.curve = std::clamp(state.curve + step[kCurve], -0.95, 0.95);
-  out.black += step.segment<3>(kBlack);
-  out.contrast += step.segment<3>(kContrast);
-  return out;
-}
 
 // The fit of one tag. Pixels are chosen once; the state moves.
 class TagFit {
@@ -85,7 +35,7 @@ class TagFit {
     std::array<Eigen::Vector2d, 4> points;
     std::transform(start.begin(), start.end(), points.begin(),
                    [&](const Eigen::Vector2d& p) { return patch.to_plane(p); });
-    state_.tag_from_plane = homography_to(points).inverse();
+    state_.tag_from_plane = plane_from_tag_corners(points).inverse();
     center_ = 0.25 * (start[0] + start[1] + start[2] + start[3]);
     plane_by_pixel_ = patch.plane_by_pixel(center_);
     choose_pixels(start);
@@ -101,11 +51,9 @@ class TagFit {
   void choose_pixels(const TagCorners& start);
   void find_quadrants(double threshold);
   [[nodiscard]] std::optional<double> gray_near(const Eigen::Vector2d& tag) const;
-  double evaluate(const State& state, const TagPixel& pixel, Vector* jacobian) const;
   Vector accumulate(bool robust);
   void measure_noise();
   [[nodiscard]] double weight(double residual) const { return tukey_weight(residual / noise_); }
-  [[nodiscard]] std::array<Eigen::Vector2d, 4> plane_corners(const State& state) const;
   bool describe_agreement(TagRefinement& out) const;
 
   const GrayImage& image_;
@@ -115,7 +63,7 @@ class TagFit {
   Eigen::Vector2d center_;
   Eigen::Matrix2d plane_by_pixel_;
   std::vector<TagPixel> pixels_;
-  State state_;
+  TagModel state_;
   double noise_ = 0.0;
   std::vector<double> residuals_;
   Matrix information_ = Matrix::Zero();
@@ -150,10 +98,10 @@ void TagFit::choose_pixels(const TagCorners& start) {
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const Eigen::Vector2d plane = patch_.to_plane(Eigen::Vector2d(x, y));
-      const Eigen::Vector2d t = transform(state_.tag_from_plane, plane);
+      const Eigen::Vector2d t = state_.tag_point(plane);
       if (!(t.cwiseAbs().maxCoeff() < rim) || t.cwiseAbs().minCoeff() > 1.0) continue;
       if (!near_edge(t.x()) && !near_edge(t.y()) && (x + 2 * y) % 3 != 0) continue;
-      pixels_.push_back({plane, image_.at(x, y)});
+      if (std::isfinite(image_.at(x, y))) pixels_.push_back({plane, image_.at(x, y)});
     }
   }
   const auto most = static_cast<std::size_t>(std::max(options_.max_pixels, 4 * kUnknowns));
@@ -174,7 +122,7 @@ void TagFit::choose_pixels(const TagCorners& start) {
 bool TagFit::start_levels() {
   std::vector<double> black, white;
   for (const TagPixel& pixel : pixels_) {
-    const Eigen::Vector2d t = transform(state_.tag_from_plane, pixel.plane);
+    const Eigen::Vector2d t = state_.tag_point(pixel.plane);
     (tag_.albedo(t.x(), t.y()) > 0.5 ? white : black).push_back(pixel.gray);
   }
   if (black.size() < kUnknowns || white.size() < kUnknowns) return false;
@@ -186,7 +134,7 @@ bool TagFit::start_levels() {
 }
 
 std::optional<double> TagFit::gray_near(const Eigen::Vector2d& tag) const {
-  const auto pixel = patch_.to_pixel(transform(state_.tag_from_plane.inverse(), tag));
+  const auto pixel = patch_.to_pixel(state_.plane_point(tag));
   if (!pixel) return std::nullopt;
   const int x = static_cast<int>(std::lround(pixel->x()));
   const int y = static_cast<int>(std::lround(pixel->y()));
@@ -201,51 +149,11 @@ void TagFit::find_quadrants(double threshold) {
   }
 }
 
-// Residual of one pixel, image − model, and the model's derivatives.
-double TagFit::evaluate(const State& state, const TagPixel& pixel, Vector* jacobian) const {
-  const Eigen::Matrix3d& h = state.tag_from_plane;
-  const Eigen::Vector3d q = h * pixel.plane.homogeneous();
-  const double u = q.x() / q.z();
-  const double v = q.y() / q.z();
-  Eigen::Matrix2d tag_by_plane;
-  tag_by_plane << h(0, 0) - u * h(2, 0), h(0, 1) - u * h(2, 1), h(1, 0) - v * h(2, 0),
-      h(1, 1) - v * h(2, 1);
-  const Eigen::Matrix2d by_pixel = tag_by_plane * plane_by_pixel_ / q.z();
-  const double g_uu = by_pixel.row(0).squaredNorm();
-  const double g_uv = by_pixel.row(0).dot(by_pixel.row(1));
-  const double g_vv = by_pixel.row(1).squaredNorm();
-  const double s2 = state.blur_px * state.blur_px;
-  const TagSample sample = tag_.sample(u, v, {s2 * g_uu, s2 * g_uv, s2 * g_vv});
-  const double bump = sample.value * (1.0 - sample.value);
-  const double response = sample.value + state.curve * bump;
-  const double contrast = state.contrast[0] + state.contrast[1] * u + state.contrast[2] * v;
-  const double black = state.black[0] + state.black[1] * u + state.black[2] * v;
-  if (jacobian != nullptr) {
-    const double gain = contrast * (1.0 + state.curve * (1.0 - 2.0 * sample.value));
-    const double by_u = gain * sample.by_u;
-    const double by_v = gain * sample.by_v;
-    const double radial = by_u * u + by_v * v;
-    const double by_blur = gain * 2.0 * state.blur_px *
-                           (g_uu * sample.by_uu + g_uv * sample.by_uv + g_vv * sample.by_vv);
-    *jacobian << by_u * u, by_u * v, by_u, by_v * u, by_v * v, by_v, -radial * u, -radial * v,
-        by_blur, contrast * bump, 1.0, u, v, response, response * u, response * v;
-  }
-  return pixel.gray - black - contrast * response;
-}
-
 // Scale of the residuals for Tukey's weights. The model is not exact at the edges, which carry all
 // of the geometry: a few per cent of the contrast are not an outlier.
 void TagFit::measure_noise() {
   const double spread = mad_sigma(residuals_);
   noise_ = std::hypot(spread, 0.02 * state_.contrast[0]);
-}
-
-std::array<Eigen::Vector2d, 4> TagFit::plane_corners(const State& state) const {
-  const Eigen::Matrix3d plane_from_tag = state.tag_from_plane.inverse();
-  std::array<Eigen::Vector2d, 4> out;
-  std::transform(kTagCorners.begin(), kTagCorners.end(), out.begin(),
-                 [&](const Eigen::Vector2d& t) { return transform(plane_from_tag, t); });
-  return out;
 }
 
 // Normal equations, a block of pixels at a time. Returns the gradient.
@@ -264,7 +172,8 @@ Vector TagFit::accumulate(bool robust) {
       values.setZero();
     }
     for (std::size_t i = begin; i < end; ++i) {
-      const double residual = evaluate(state_, pixels_[i], &jacobian);
+      const double residual =
+          pixels_[i].gray - state_.gray(tag_, plane_by_pixel_, pixels_[i].plane, &jacobian);
       residuals_[i] = residual;
       const double root = robust ? std::sqrt(weight(residual)) : 1.0;
       rows.col(static_cast<Eigen::Index>(i - begin)) = root * jacobian;
@@ -289,32 +198,37 @@ double TagFit::iterate(bool robust) {
   const Vector step =
       solver.solve(gradient - prior * prior / 0.25 * state_.curve * Vector::Unit(kCurve));
   if (!step.allFinite()) return -1.0;
-  const auto before = plane_corners(state_);
-  state_ = moved(state_, step);
-  const auto after = plane_corners(state_);
+  const auto before = state_.plane_corners();
+  state_ = state_.moved(step);
+  const auto after = state_.plane_corners();
   double motion = 0.0;
   for (std::size_t k = 0; k < 4; ++k) motion = std::max(motion, (after[k] - before[k]).norm());
   return std::isfinite(motion) && state_.contrast[0] > 0.0 ? motion : -1.0;
 }
 
-// Correlation of image and model over the pixels that agree, and their share.
+// Share and noise of the pixels that agree; correlation of image and model over the data bits, for
+// which the pixels that do not agree count as well: they are what another tag would show.
 bool TagFit::describe_agreement(TagRefinement& out) const {
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, squares = 0;
+  double agreeing = 0, n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, squares = 0;
   for (const TagPixel& pixel : pixels_) {
-    const double residual = evaluate(state_, pixel, nullptr);
-    if (weight(residual) == 0.0) continue;
-    const double model = pixel.gray - residual;
+    const double model = state_.gray(tag_, plane_by_pixel_, pixel.plane);
+    const double residual = pixel.gray - model;
+    if (weight(residual) > 0.0) {
+      agreeing += 1;
+      squares += residual * residual;
+    }
+    const Eigen::Vector2d t = state_.tag_point(pixel.plane);
+    if (t.cwiseAbs().maxCoeff() > tag_.data_edge()) continue;
     n += 1;
     sx += model;
     sy += pixel.gray;
     sxx += model * model;
     sxy += model * pixel.gray;
     syy += pixel.gray * pixel.gray;
-    squares += residual * residual;
   }
-  if (n < 2 * kUnknowns) return false;
-  out.inliers = n / static_cast<double>(pixels_.size());
-  out.noise = std::sqrt(squares / (n - kUnknowns));
+  if (agreeing < 2 * kUnknowns || n < kUnknowns) return false;
+  out.inliers = agreeing / static_cast<double>(pixels_.size());
+  out.noise = std::sqrt(squares / (agreeing - kUnknowns));
   const double variance = (sxx - sx * sx / n) * (syy - sy * sy / n);
   out.correlation = variance > 0.0 ? (sxy - sx * sy / n) / std::sqrt(variance) : 0.0;
   return true;
@@ -328,22 +242,15 @@ std::optional<TagRefinement> TagFit::result() const {
   out.iterations = iterations_;
   // Uniform noise; thinned-out pixels and Tukey's loss of efficiency are in the information.
   const Matrix covariance = out.noise * out.noise * information_.ldlt().solve(Matrix::Identity());
-  const auto corners = plane_corners(state_);
+  const auto corners = state_.plane_corners();
   for (std::size_t k = 0; k < 4; ++k) {
     const auto pixel = patch_.to_pixel(corners[k]);
     if (!pixel) return std::nullopt;
     out.corners[k] = *pixel;
-    const double u = kTagCorners[k].x();
-    const double v = kTagCorners[k].y();
-    Eigen::Matrix<double, 2, 8> tag_by_step;
-    tag_by_step << u, v, 1, 0, 0, 0, -u * u, -u * v, 0, 0, 0, u, v, 1, -u * v, -v * v;
-    const Eigen::Matrix3d& h = state_.tag_from_plane;
-    const double w = h.row(2).dot(corners[k].homogeneous());
-    Eigen::Matrix2d tag_by_plane;
-    tag_by_plane << h(0, 0) - u * h(2, 0), h(0, 1) - u * h(2, 1), h(1, 0) - v * h(2, 0),
-        h(1, 1) - v * h(2, 1);
-    const Eigen::Matrix2d tag_by_pixel = tag_by_plane / w * patch_.plane_by_pixel(*pixel);
-    const Eigen::Matrix<double, 2, 8> pixel_by_step = tag_by_pixel.inverse() * tag_by_step;
+    const Eigen::Matrix2d pixel_by_tag =
+        (state_.tag_by_plane(corners[k]) * patch_.plane_by_pixel(*pixel)).inverse();
+    const Eigen::Matrix<double, 2, 8> pixel_by_step =
+        pixel_by_tag * TagModel::tag_by_homography_step(kTagCorners[k]);
     out.covariance_px2[k] =
         pixel_by_step * covariance.topLeftCorner<8, 8>() * pixel_by_step.transpose();
     if (!out.corners[k].allFinite() || !out.covariance_px2[k].allFinite()) return std::nullopt;

@@ -18,8 +18,9 @@ struct TagRefinementOptions {
   double surround_bits = 0.8;  ///< Width of the white surround that is used, in bits of the tag.
   int max_pixels = 3000;       ///< More pixels are thinned out; the noise then averages less.
   double min_inliers = 0.5;    ///< Smallest share of pixels that must agree with the tag.
-  /// Smallest correlation of the image with the rendered tag.
-  double min_correlation = 0.8;
+  /// Smallest correlation of image and rendered tag over the data bits. Another tag of a family
+  /// whose codes differ in 11 of 36 bits reaches 0.4.
+  double min_correlation = 0.55;
 };
 
 /// A tag's corners after refinement.
@@ -30,7 +31,7 @@ struct TagRefinement {
   double blur_px = 0.0;      ///< Standard deviation of the image's blur, pixel area included.
   double contrast = 0.0;     ///< White minus black, grey levels.
   double noise = 0.0;        ///< Standard deviation of the residuals, grey levels.
-  double correlation = 0.0;  ///< Of image and rendered tag, over the pixels that agree.
+  double correlation = 0.0;  ///< Of image and rendered tag over the data bits, all pixels.
   double inliers = 0.0;      ///< Share of pixels that agree.
   int iterations = 0;
 };

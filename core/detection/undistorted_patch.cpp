@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "detection/undistorted_patch.h"
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
 namespace lvcalib {
 namespace {
 
-using Basis = Eigen::Matrix<double, 10, 1>;
+constexpr int kDegree = 5;
+constexpr int kTerms = 21;
+using Basis = Eigen::Matrix<double, kTerms, 1>;
 
+// x^(d−j) y^j for all degrees d up to five.
 Basis basis(double x, double y) {
+  double px[kDegree + 1] = {1.0};
+  double py[kDegree + 1] = {1.0};
+  for (int i = 1; i <= kDegree; ++i) {
+    px[i] = px[i - 1] * x;
+    py[i] = py[i - 1] * y;
+  }
   Basis out;
-  out << 1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
+  int term = 0;
+  for (int d = 0; d <= kDegree; ++d) {
+    for (int j = 0; j <= d; ++j) out[term++] = px[d - j] * py[j];
+  }
   return out;
 }
 
@@ -31,8 +45,8 @@ bool UndistortedPatch::fit(const Camera& camera) {
   patch_from_camera_ =
       Eigen::Quaterniond::FromTwoVectors(*center, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   scale_ = 0.5 * (camera.fx + camera.fy);
-  constexpr int kSteps = 5;
-  Eigen::Matrix<double, kSteps * kSteps, 10> design;
+  constexpr int kSteps = 7;
+  Eigen::Matrix<double, kSteps * kSteps, kTerms> design;
   Eigen::Matrix<double, kSteps * kSteps, 2> values;
   for (int i = 0; i < kSteps * kSteps; ++i) {
     // Denser towards the rim, as Chebyshev's nodes, against overshoot.
@@ -43,8 +57,8 @@ bool UndistortedPatch::fit(const Camera& camera) {
     design.row(i) = basis(x, y).transpose();
     values.row(i) = plane->transpose();
   }
-  cubic_ = design.householderQr().solve(values).transpose();
-  return cubic_.allFinite();
+  quintic_ = design.householderQr().solve(values).transpose();
+  return quintic_.allFinite();
 }
 
 std::optional<UndistortedPatch> UndistortedPatch::create(const Camera* camera,
@@ -55,8 +69,8 @@ std::optional<UndistortedPatch> UndistortedPatch::create(const Camera* camera,
   patch.center_px_ = center_px;
   patch.radius_px_ = radius_px;
   if (camera == nullptr) {
-    patch.cubic_.col(0) = center_px;
-    patch.cubic_(0, 1) = patch.cubic_(1, 2) = radius_px;
+    patch.quintic_.col(0) = center_px;
+    patch.quintic_(0, 1) = patch.quintic_(1, 2) = radius_px;
     return patch;
   }
   if (!patch.fit(*camera)) return std::nullopt;
@@ -65,17 +79,17 @@ std::optional<UndistortedPatch> UndistortedPatch::create(const Camera* camera,
 
 Eigen::Vector2d UndistortedPatch::to_plane(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d p = (pixel - center_px_) / radius_px_;
-  return cubic_ * basis(p.x(), p.y());
+  return quintic_ * basis(p.x(), p.y());
 }
 
 Eigen::Matrix2d UndistortedPatch::plane_by_pixel(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d p = (pixel - center_px_) / radius_px_;
-  const double x = p.x();
-  const double y = p.y();
-  Eigen::Matrix<double, 10, 2> by;
-  by.col(0) << 0, 1, 0, 2 * x, y, 0, 3 * x * x, 2 * x * y, y * y, 0;
-  by.col(1) << 0, 0, 1, 0, x, 2 * y, 0, x * x, 2 * x * y, 3 * y * y;
-  return cubic_ * by / radius_px_;
+  // Central differences: exact enough for a polynomial on the unit square, and called rarely.
+  constexpr double kStep = 1e-4;
+  Eigen::Matrix2d out;
+  out.col(0) = quintic_ * (basis(p.x() + kStep, p.y()) - basis(p.x() - kStep, p.y()));
+  out.col(1) = quintic_ * (basis(p.x(), p.y() + kStep) - basis(p.x(), p.y() - kStep));
+  return out / (2.0 * kStep * radius_px_);
 }
 
 std::optional<Eigen::Vector2d> UndistortedPatch::to_pixel(const Eigen::Vector2d& plane) const {

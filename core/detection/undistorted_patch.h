@@ -11,8 +11,8 @@ namespace lvcalib {
 
 /// Map between a small part of an image and a plane on which straight lines stay straight: the
 /// plane perpendicular to the patch's central ray, so that it works at any angle off the optical
-/// axis. Pixels go to the plane by a cubic fitted to the camera model, which is exact to some 1e-4
-/// pixels over a tag and a hundred times faster; the way back uses the camera model itself.
+/// axis. Pixels go to the plane by a quintic fitted to the camera model, which is exact to some
+/// 1e-4 pixels over a tag and many times faster; the way back uses the camera model itself.
 class UndistortedPatch {
  public:
   /// A patch around `center` of half width `radius_px`. Without a camera, the identity.
@@ -35,7 +35,8 @@ class UndistortedPatch {
   double radius_px_ = 1.0;
   double scale_ = 1.0;  // plane units per unit of tangent: about one pixel
   Eigen::Matrix3d patch_from_camera_ = Eigen::Matrix3d::Identity();
-  Eigen::Matrix<double, 2, 10> cubic_ = Eigen::Matrix<double, 2, 10>::Zero();
+  static constexpr int kTerms = 21;
+  Eigen::Matrix<double, 2, kTerms> quintic_ = Eigen::Matrix<double, 2, kTerms>::Zero();
 };
 
 }  // namespace lvcalib

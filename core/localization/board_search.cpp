@@ -13,6 +13,11 @@ namespace lvcalib {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+// The four turns of a square board and as many shifts by a tag.
+constexpr std::size_t kMostPosesPerPatch = 8;
+// A patch whose best coarse pose gains less than this share of the best patch's is not looked at
+// again; a board cut in half still gains half.
+constexpr double kLeastGainShare = 0.2;
 
 // A patch with the board poses found in it.
 struct PatchMatches {
@@ -75,6 +80,10 @@ class BoardSearch {
     if (found.size() > static_cast<std::size_t>(options_.max_patches)) {
       found.resize(static_cast<std::size_t>(options_.max_patches));
     }
+    while (by_pattern && found.size() > 1 &&
+           found.back().best_gain() < kLeastGainShare * found.front().best_gain()) {
+      found.pop_back();
+    }
     collect(found, by_pattern, result);
     return result;
   }
@@ -125,6 +134,7 @@ class BoardSearch {
     range.slack_m =
         0.06 * size_.minCoeff() + (patch.open ? 0.6 * patch.extent_m.x() : 0.6 * misfit);
     range.step_m = 0.03 * size_.minCoeff();
+    range.radius_m = 0.5 * size_.norm();
     if (misfit < 0.12 * size_.minCoeff()) {
       for (int quarter = 0; quarter < 4; ++quarter) {
         for (int d = -2; d <= 2; ++d) {
@@ -205,22 +215,46 @@ class BoardSearch {
     const double cell = pyramid_.levels.back().blur_sigma_m();
     const auto cells = average_cells(samples, cell);
     std::vector<PatternMatch> done;
-    for (const PlanarPose& start : starting_poses(item.matches)) {
-      PatternMatch match;
-      match.pose = start;
-      for (const PatternTemplate& level : pyramid_.levels) {
-        match = refine_pattern_pose(cells, level, outline_.center_m(), match.pose);
-      }
-      const bool repeated = std::any_of(done.begin(), done.end(), [&](const PatternMatch& other) {
-        return (other.pose.center_m - match.pose.center_m).norm() < 0.3 * separation_m() &&
-               std::abs(std::remainder(other.pose.angle_rad - match.pose.angle_rad,
-                                       2 * std::numbers::pi)) < 0.2;
-      });
+    for (const PlanarPose& start : promising_poses(samples, item.matches)) {
+      const PatternMatch match =
+          refine_pattern_pose(cells, pyramid_.levels.back(), outline_.center_m(), start);
       result.best_correlation = std::max(result.best_correlation, match.correlation);
-      if (repeated || match.correlation < options_.min_correlation) continue;
+      if (match.correlation < options_.min_correlation || same_place(done, match)) continue;
       done.push_back(match);
       result.candidates.push_back(pattern_candidate(item.patch, match, cell, index));
     }
+  }
+
+  [[nodiscard]] bool same_place(const std::vector<PatternMatch>& done,
+                                const PatternMatch& match) const {
+    return std::any_of(done.begin(), done.end(), [&](const PatternMatch& other) {
+      const double turn =
+          std::remainder(other.pose.angle_rad - match.pose.angle_rad, 2 * std::numbers::pi);
+      return (other.pose.center_m - match.pose.center_m).norm() < 0.3 * separation_m() &&
+             std::abs(turn) < 0.2;
+    });
+  }
+
+  // The starts that survive a refinement on coarse cells: distinct, and not hopeless.
+  [[nodiscard]] std::vector<PlanarPose> promising_poses(
+      const std::vector<PlanarSample>& samples, const std::vector<PatternMatch>& matches) const {
+    const auto cells = average_cells(samples, pyramid_.levels.front().blur_sigma_m());
+    std::vector<PatternMatch> kept;
+    for (const PlanarPose& start : starting_poses(matches)) {
+      const PatternMatch match =
+          refine_pattern_pose(cells, pyramid_.levels.front(), outline_.center_m(), start);
+      // Fine cells may raise a correlation, but not from half of what is needed.
+      if (match.correlation > 0.5 * options_.min_correlation && !same_place(kept, match))
+        kept.push_back(match);
+    }
+    std::stable_sort(kept.begin(), kept.end(), [](const PatternMatch& a, const PatternMatch& b) {
+      return a.gain() > b.gain();
+    });
+    std::vector<PlanarPose> poses;
+    for (const PatternMatch& match : kept) {
+      if (poses.size() < kMostPosesPerPatch) poses.push_back(match.pose);
+    }
+    return poses;
   }
 
   // Every local maximum of the search, and of the best ones every symmetric assignment.

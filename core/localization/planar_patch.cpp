@@ -320,8 +320,10 @@ class PatchFinder {
       farthest = std::max(farthest, (p - seed_point).norm());
     }
     patch.thickness_m = 1.4826 * median(std::move(distance));
-    patch.extent_m = bounding_sides(cloud_, patch);
     patch.open = farthest > 0.97 * reach;
+    // An open patch is at least as large as what was searched.
+    patch.extent_m =
+        patch.open ? Eigen::Vector2d::Constant(2.0 * reach) : bounding_sides(cloud_, patch);
     if (patch.extent_m.y() < options_.smallest_side * short_side_) return;
     patches_.push_back(std::move(patch));
   }

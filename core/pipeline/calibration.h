@@ -42,6 +42,7 @@ struct CalibrationResult {
   SceneConsensus consensus;
   ExtrinsicSolution extrinsic;
   Quality quality = Quality::kFailed;
+  std::string quality_reason;  ///< Why the quality is not good, in words.
   std::vector<std::string> warnings;
   StageTimes times;
 };

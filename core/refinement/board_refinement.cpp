@@ -17,15 +17,28 @@ namespace {
 constexpr double kSmallestFootprint = 0.01;
 constexpr double kLargestFootprint = 1.0;
 constexpr double kFirstFootprint = 0.15;
+// Footprint and noise are re-estimated this often, then kept: with few samples they would go on
+// swapping bins in and out for ever.
+constexpr int kSettlingRounds = 8;
+// From this iteration on steps shrink as 1/2, 1/3, …: a bin that is refused in one round and
+// taken in the next would keep the layout swinging by a fraction of its standard deviation.
+constexpr int kDampedFrom = 12;
+
+// Points on the board, parted into white and black print, whose range noise differs.
+struct BoardPoints {
+  std::vector<Eigen::Vector3f> points_m;
+  std::vector<std::uint8_t> groups;
+};
 
 // Points inside the outline (shrunk, since beams on the edge mix board and background).
-std::vector<Eigen::Vector3f> points_on_board(const Cloud& cloud, const Target& target,
-                                             const Rigid3& lidar_from_board) {
+BoardPoints points_on_board(const Cloud& cloud, const Target& target,
+                            const Rigid3& lidar_from_board) {
   const BoardOutline outline = target.outline();
   const double shrink = 0.02 * outline.size_m().minCoeff();
   const Rigid3 board_from_lidar = lidar_from_board.inverse();
-  std::vector<Eigen::Vector3f> out;
-  out.reserve(cloud.size());
+  BoardPoints out;
+  out.points_m.reserve(cloud.size());
+  out.groups.reserve(cloud.size());
   for (const Eigen::Vector3f& p : cloud.points_m) {
     // Along the ray to the board, so that range noise does not decide.
     const Eigen::Vector3d q = board_from_lidar * p.cast<double>().eval();
@@ -37,7 +50,11 @@ std::vector<Eigen::Vector3f> points_on_board(const Cloud& cloud, const Target& t
         hit.x() < outline.upper_right_m.x() - shrink &&
         hit.y() > outline.lower_left_m.y() + shrink &&
         hit.y() < outline.upper_right_m.y() - shrink) {
-      out.push_back(p);
+      out.points_m.push_back(p);
+      // By geometry: the noisy intensity would sort noise. A checkerboard's place on its board is
+      // not known well enough from the outline.
+      const bool dark = target.has_tags() && target.albedo(hit.head<2>()).value_or(1.0) < 0.5;
+      out.groups.push_back(dark ? 1 : 0);
     }
   }
   return out;
@@ -77,7 +94,7 @@ class NodeRefiner {
     for (const TargetNode& node : nodes_) raw_.push_back(layout_ * node.center_m);
     for (int i = 0; i < options_.max_iterations; ++i) {
       if (context.stopped()) return false;
-      const double update = iterate();
+      const double update = iterate(i);
       // The footprint settles during the first rounds; a still layout before that means nothing.
       if (update < options_.tolerance_m && i >= 2) {
         result_.converged = true;
@@ -93,7 +110,8 @@ class NodeRefiner {
     // Samples that the nodes may still reach while the layout moves.
     const double reach = window_.radius_m + window_.outside_m + 4.0 * options_.max_step_m;
     samples_.resize(nodes_.size());
-    const double gate = 5.0 * result_.plane.sigma_range_m;
+    const auto& sigmas = result_.plane.group_sigma_m;
+    const double gate = 5.0 * std::max(sigmas[0], sigmas[1]);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
       const auto residual = result_.plane.range_residual_m(p);
@@ -108,7 +126,7 @@ class NodeRefiner {
     }
   }
 
-  double iterate() {
+  double iterate(int iteration) {
     IterationRecord record;
     std::vector<std::vector<UnwrappedSample>> unwrapped(nodes_.size());
     std::vector<NodeRecord> records(nodes_.size());
@@ -128,12 +146,12 @@ class NodeRefiner {
       if (fits_.back().record.valid)
         append_centred(unwrapped[n], fits_.back().record.wave_m, centred);
     }
-    if (!centred.empty()) {
+    if (!centred.empty() && iteration < kSettlingRounds) {
       model_.update(centred, kSmallestFootprint * window_.radius_m,
                     kLargestFootprint * window_.radius_m);
     }
     record.transition_sigma_m = model_.mean_sigma_m();
-    record.max_update_m = move_layout();
+    record.max_update_m = move_layout(1.0 / std::max(1, iteration - kDampedFrom + 2));
     for (const NodeFit& fit : fits_) record.nodes.push_back(fit.record);
     result_.history.push_back(std::move(record));
     return result_.history.back().max_update_m;
@@ -149,7 +167,7 @@ class NodeRefiner {
   }
 
   // Projects the step-limited centres to the layout; returns the largest move of a node.
-  double move_layout() {
+  double move_layout(double share) {
     std::vector<Eigen::Vector2d> centers;
     std::vector<Eigen::Vector2d> model;
     std::vector<double> weights;
@@ -157,7 +175,7 @@ class NodeRefiner {
       if (!fits_[n].record.valid) continue;
       Eigen::Vector2d step = fits_[n].record.wave_m.head<2>();
       if (step.norm() > options_.max_step_m) step *= options_.max_step_m / step.norm();
-      centers.push_back(fits_[n].record.center_uv_m + step);
+      centers.push_back(fits_[n].record.center_uv_m + share * step);
       model.push_back(nodes_[n].center_m);
       weights.push_back(1.0 / fits_[n].covariance_m2.topLeftCorner<2, 2>().trace());
     }
@@ -240,9 +258,10 @@ class NodeRefiner {
 // plane puts inside the outline.
 bool fit_board_plane(const Cloud& cloud, const Target& target, BoardRefinement& result) {
   for (int round = 0; round < 2; ++round) {
-    const auto points = points_on_board(cloud, target, result.lidar_from_board);
-    result.board_points = points.size();
-    const auto plane = fit_plane(points, plane_guess(result.lidar_from_board, target));
+    const BoardPoints points = points_on_board(cloud, target, result.lidar_from_board);
+    result.board_points = points.points_m.size();
+    const auto plane =
+        fit_plane(points.points_m, plane_guess(result.lidar_from_board, target), points.groups);
     if (!plane) return false;
     result.plane = *plane;
     // The pose follows the plane: same place and turn, new normal.

@@ -109,13 +109,19 @@ Result<TargetFile> read_target(const std::filesystem::path& path) {
         "target_type '" + *type +
             "' is not known; expected aprilgrid_circles, aprilgrid or checkerboard");
   }
-  if (reader.error()) return *reader.error();
+  std::vector<std::string> warnings = file->unknown_keys(known);
+  if (reader.error()) {
+    // A key that is missing may be there under a misspelt name.
+    Error error = *reader.error();
+    if (error.hint.empty() && !warnings.empty()) error.hint = warnings.front();
+    return error;
+  }
   if (Status status = check(target); !status) {
     Error error = status.error();
     error.where = path.string();
     return error;
   }
-  return TargetFile{target, file->unknown_keys(known)};
+  return TargetFile{target, std::move(warnings)};
 }
 
 std::string to_yaml(const Target& t) {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program on recordings that this project did not make. They are no part of the repository:
+// LVCALIB_SHARED_DATA names their folder.
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/child_process.h"
+#include "cli/good_dataset.h"
+#include "report/result_file.h"
+
+namespace lvcalib::testing {
+namespace {
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+class RealData : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const char* folder = std::getenv("LVCALIB_SHARED_DATA");
+    data_ = folder != nullptr ? fs::path(folder)
+                              : fs::path(LVCALIB_SOURCE_DIR).parent_path() / "shared" / "data";
+    if (!fs::is_directory(data_)) {
+      GTEST_SKIP() << data_ << " not found; set LVCALIB_SHARED_DATA to the data folder";
+    }
+  }
+
+  Outcome calibrate(const std::string& dataset, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> arguments = {"calibrate", data_ / dataset, "-o", output(), "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    Outcome outcome = run_lvcalib(arguments);
+    std::cout << outcome.out << outcome.err << outcome.seconds << " s\n";
+    return outcome;
+  }
+  [[nodiscard]] fs::path output() const { return folder_.path() / "out"; }
+  [[nodiscard]] Rigid3 camera_from_lidar() const {
+    const auto result = read_result(output() / "result.json");
+    EXPECT_TRUE(result.ok()) << result.error().text();
+    return result ? result->camera_from_lidar : Rigid3{};
+  }
+
+  // The owners' own 50 results.
+  void expect_near_the_owners_results() const {
+    const Eigen::Vector3d mean(0.063, 0.004, -0.196);
+    const Eigen::Vector3d sigma(0.004, 0.018, 0.030);
+    const Eigen::Vector3d camera_in_lidar = camera_from_lidar().inverse().translation;
+    std::cout << "camera in the LiDAR frame: " << camera_in_lidar.transpose() << " m\n";
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(camera_in_lidar(axis), mean(axis), 2.0 * sigma(axis)) << "axis " << axis;
+    }
+  }
+
+  fs::path data_;
+  TemporaryFolder folder_{"real"};
+};
+
+TEST_F(RealData, CleanSimulationOfOthersComesNearTheTruth) {
+  EXPECT_EQ(calibrate("simulated/clean-avia").status, 0);
+  const auto result = read_result(output() / "result.json");
+  const auto truth = read_truth(data_ / "simulated" / "clean-avia-truth.json");
+  ASSERT_TRUE(result.ok() && truth.ok());
+  const ExtrinsicError error = compare_extrinsics(*result, *truth);
+  std::cout << error.translation_mm << " mm, " << error.rotation_mrad << " mrad\n";
+  EXPECT_LT(error.translation_mm, 1.5);
+  EXPECT_LT(error.rotation_mrad, 0.6);
+}
+
+TEST_F(RealData, CheckerboardInWholeSweepsAgreesWithItsOwners) {
+  EXPECT_EQ(calibrate("real/vlp16-checkerboard").status, 0);
+  expect_near_the_owners_results();
+}
+
+TEST_F(RealData, CheckerboardCutOutByHandAgreesWithItsOwners) {
+  EXPECT_EQ(calibrate("real/vlp16-checkerboard", {"--crops"}).status, 0);
+  expect_near_the_owners_results();
+}
+
+// The truth holds an effect that the calibration does not model: nobody may take the result for
+// a good one.
+TEST_F(RealData, PlantedEffectIsWarnedAbout) {
+  calibrate("simulated/walk-rosette");
+  const auto json = nlohmann::json::parse(read_file(output() / "result.json"), nullptr, false);
+  ASSERT_TRUE(json.is_object());
+  EXPECT_NE(json["quality"], "good");
+  EXPECT_THAT(json["warnings"], Contains(HasSubstr("an effect is missing")));
+}
+
+}  // namespace
+}  // namespace lvcalib::testing
