@@ -187,6 +187,14 @@ bool read_rows(const nlohmann::json& j, Eigen::Index rows, Eigen::Index columns,
   return out.allFinite();
 }
 
+// The left 3×3 part is a rotation, as far as a file's digits go.
+bool holds_rotation(const Eigen::MatrixXd& m) {
+  constexpr double kTolerance = 1e-3;
+  const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
+  return (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kTolerance &&
+         R.determinant() > 0;
+}
+
 }  // namespace
 
 std::string version() {
@@ -244,6 +252,10 @@ Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {
     return Error::input("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers",
                         path.string());
   }
+  if (!holds_rotation(m)) {
+    return Error::input("the left 3×3 part of T_camera_lidar.matrix is not a rotation",
+                        path.string());
+  }
   StoredExtrinsic out;
   out.camera_from_lidar = Rigid3::from_matrix(Eigen::Matrix4d(m));
   if (j->contains("covariance") && read_rows((*j)["covariance"], 6, 6, m)) out.covariance = m;
@@ -256,6 +268,9 @@ Result<Rigid3> read_truth(const std::filesystem::path& path) {
   Eigen::MatrixXd m;
   if (!j->contains("T_CL") || !read_rows((*j)["T_CL"], 3, 4, m)) {
     return Error::input("T_CL is missing or not 3 rows of 4 numbers", path.string());
+  }
+  if (!holds_rotation(m)) {
+    return Error::input("the left 3×3 part of T_CL is not a rotation", path.string());
   }
   return Rigid3::from_matrix(Eigen::Matrix3d(m.leftCols<3>()), Eigen::Vector3d(m.col(3)));
 }
