@@ -49,6 +49,7 @@ class Solver {
       if (!scenes_[s].use) reasons_[s] = "not used";
     }
     if (Status status = enough_scenes(); !status) return status.error();
+    if (Status status = corners_in_view(); !status) return status.error();
     JointState start;
     start.camera_from_lidar = closed_form_extrinsic(scenes_, target_);
     for (const SceneObservations& scene : scenes_)
@@ -56,8 +57,12 @@ class Solver {
     NoiseScales scales;
     scales.sigma_px = initial_sigma_px();
     JointFit fit = settle(start, scales, mask_);
+    explain_by_single_outliers(fit, scales);
     if (options_.reject_bad_scenes) reject_bad_scenes(fit, scales);
     if (reject_outliers(fit, scales)) fit = settle(fit.state, scales, mask_);
+    if (!fit.state.camera_from_lidar.translation.allFinite() || fit.information.isZero(0.0)) {
+      return Error::untrusted("the joint solve fails on these observations");
+    }
     return report(fit, scales);
   }
 
@@ -70,6 +75,22 @@ class Solver {
           std::to_string(used) +
               " usable scenes; a target without circles needs three or more, differently turned",
           {}, "take scenes with the board tilted left, right, up and down");
+    }
+    return Done{};
+  }
+
+  // A start that puts corners where the camera cannot see them leaves nothing to descend from.
+  Status corners_in_view() const {
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (!mask_.scene[s]) continue;
+      for (const CornerObservation& c : scenes_[s].corners) {
+        if (camera_.project(scenes_[s].camera_from_board *
+                            Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0)))
+          continue;
+        return Error::untrusted(
+            "the board's start pose puts some of its corners where the camera cannot see them",
+            scenes_[s].name, "leave this scene out");
+      }
     }
     return Done{};
   }
@@ -126,6 +147,33 @@ class Solver {
     const int freedom = std::max(1, static_cast<int>(std::lround(group.redundancy)));
     if (chi_square < chi_square_gate(freedom, kTail)) return 1.0;
     return std::max(1.0, std::sqrt(chi_square / group.redundancy));
+  }
+
+  // A few bad nodes explain a misfit more cheaply than a bad scene does: if the rest fits its
+  // stated σ without them, and every scene keeps three quarters of its nodes, they are left out.
+  void explain_by_single_outliers(JointFit& fit, NoiseScales& scales) {
+    if (scales.node <= 1.0 && scales.plane <= 1.0) return;
+    const ObservationMask before = mask_;
+    NoiseScales trial = scales;
+    trial.node = trial.plane = 1.0;
+    if (reject_outliers(fit, trial)) {
+      const JointFit cleaned = settle(fit.state, trial, mask_);
+      if (trial.node <= 1.0 && trial.plane <= 1.0 && most_nodes_kept(before)) {
+        fit = cleaned;
+        scales = trial;
+        return;
+      }
+    }
+    mask_ = before;
+  }
+
+  [[nodiscard]] bool most_nodes_kept(const ObservationMask& before) const {
+    for (std::size_t s = 0; s < mask_.node.size(); ++s) {
+      const auto had = std::count(before.node[s].begin(), before.node[s].end(), true);
+      const auto has = std::count(mask_.node[s].begin(), mask_.node[s].end(), true);
+      if (4 * has < 3 * had) return false;
+    }
+    return true;
   }
 
   // LiDAR misfit of a solution in units of the stated σ.

@@ -13,7 +13,10 @@ namespace lvcalib {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-// The four turns of a square board and as many shifts by a tag.
+// Local maxima taken from the coarse search: the true place and shifts by one tag; how many of
+// them are tried in every symmetric assignment; how many are refined on fine cells.
+constexpr std::size_t kPosesPerPatch = 6;
+constexpr std::size_t kTurnedPoses = 3;
 constexpr std::size_t kMostPosesPerPatch = 8;
 // A patch whose best coarse pose gains less than this share of the best patch's is not looked at
 // again; a board cut in half still gains half.
@@ -153,18 +156,17 @@ class BoardSearch {
         0.06 * size_.minCoeff() + (patch.open ? 0.6 * patch.extent_m.x() : 0.6 * misfit);
     range.step_m = 0.03 * size_.minCoeff();
     range.radius_m = 0.5 * size_.norm();
+    // One turn of the symmetric assignments is enough here: seen this coarsely the others look the
+    // same, and starting_poses() adds them.
+    const int symmetry = target_.outline_symmetry();
     if (misfit < 0.12 * size_.minCoeff()) {
-      for (int quarter = 0; quarter < 4; ++quarter) {
-        for (int d = -2; d <= 2; ++d) {
-          range.angles_rad.push_back(outline.angle_rad + quarter * 90.0 * kDegree +
-                                     3.0 * d * kDegree);
-        }
-      }
+      for (int d = -2; d <= 2; ++d)
+        range.angles_rad.push_back(outline.angle_rad + 3.0 * d * kDegree);
     } else {
-      for (int d = 0; d < 72; ++d) range.angles_rad.push_back(5.0 * d * kDegree);
+      for (int d = 0; d < 72 / symmetry; ++d) range.angles_rad.push_back(5.0 * d * kDegree);
     }
     return search_pattern(samples, pyramid_.levels.front(), outline_.center_m(), range,
-                          separation_m(), 8, context_);
+                          separation_m(), kPosesPerPatch, context_);
   }
 
   // Two poses closer than half a tag pitch are the same local maximum.
@@ -281,7 +283,7 @@ class BoardSearch {
     std::vector<PlanarPose> poses;
     const int symmetry = target_.outline_symmetry();
     for (std::size_t m = 0; m < matches.size(); ++m) {
-      const int turns = m < 2 ? symmetry : 1;
+      const int turns = m < kTurnedPoses ? symmetry : 1;
       for (int turn = 0; turn < turns; ++turn) {
         poses.push_back({matches[m].pose.angle_rad + turn * 360.0 * kDegree / symmetry,
                          matches[m].pose.center_m});
