@@ -61,6 +61,7 @@ class BoardSearch {
     patch_options.plane_tolerance_m = options_.plane_tolerance_m;
     auto patches = find_planar_patches(voxels, patch_options, context_);
 
+    drop_copies(patches);
     std::vector<PatchMatches> found;
     const bool by_pattern = matches_by_pattern(target_, cloud_);
     for (PlanarPatch& patch : patches) {
@@ -99,6 +100,23 @@ class BoardSearch {
     // A quarter larger: stand, cables and neighbours that touch; smaller: partly out of view.
     return patch.extent_m.x() < 1.25 * std::hypot(longer, shorter) &&
            patch.extent_m.y() < 1.25 * longer && patch.extent_m.x() > 0.4 * shorter;
+  }
+
+  // A plane that grows by next to nothing from one connection gap to the next need not be searched
+  // again.
+  void drop_copies(std::vector<PlanarPatch>& patches) const {
+    std::vector<PlanarPatch> kept;
+    for (PlanarPatch& patch : patches) {
+      const auto points = static_cast<double>(patch.voxels.size());
+      const bool copy = std::any_of(kept.begin(), kept.end(), [&](const PlanarPatch& other) {
+        return other.open == patch.open &&
+               (other.center_m - patch.center_m).norm() < 0.02 * size_.minCoeff() &&
+               std::abs(other.normal.dot(patch.normal)) > std::cos(1.0 * kDegree) &&
+               std::abs(static_cast<double>(other.voxels.size()) - points) < 0.01 * points;
+      });
+      if (!copy) kept.push_back(std::move(patch));
+    }
+    patches = std::move(kept);
   }
 
   // The same board seen through different connection gaps gives the same patch twice.

@@ -8,6 +8,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/statistics.h"
+
 namespace lvcalib {
 namespace {
 
@@ -102,6 +104,50 @@ Moments moments_at(const std::vector<LocalSample>& samples, const PatternTemplat
   return m;
 }
 
+double spread(const std::vector<LocalSample>& samples) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const LocalSample& sample : samples) {
+    sum += sample.intensity;
+    squares += static_cast<double>(sample.intensity) * sample.intensity;
+  }
+  const auto n = static_cast<double>(samples.size());
+  return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
+}
+
+// The centres worth a try. Of a plane so large that a board can touch only part of it, those
+// about which the intensities vary more than they do on its plainest quarter.
+std::vector<Eigen::Vector2d> promising_centers(const SampleGrid& grid,
+                                               const PatternSearchRange& range, std::size_t count,
+                                               const RunContext& context) {
+  constexpr double kLively = 2.0;
+  const int reach = static_cast<int>(std::ceil(range.slack_m / range.step_m));
+  std::vector<Eigen::Vector2d> centers;
+  std::vector<double> spreads;
+  std::vector<LocalSample> near;
+  for (int iy = -reach; iy <= reach; ++iy) {
+    if (context.stopped()) return {};
+    for (int ix = -reach; ix <= reach; ++ix) {
+      const Eigen::Vector2d center = range.center_m + range.step_m * Eigen::Vector2d(ix, iy);
+      grid.about(center.cast<float>(), count, near);
+      if (near.size() < kMinInside) continue;
+      centers.push_back(center);
+      spreads.push_back(spread(near));
+    }
+  }
+  // A board changes what is seen from centres up to a diagonal away.
+  const double touched_m2 = 16.0 * range.radius_m * range.radius_m;
+  if (static_cast<double>(centers.size()) * range.step_m * range.step_m < touched_m2) {
+    return centers;
+  }
+  const double plain = quantile(spreads, 0.25);
+  std::vector<Eigen::Vector2d> lively;
+  for (std::size_t k = 0; k < centers.size(); ++k) {
+    if (spreads[k] > kLively * plain) lively.push_back(centers[k]);
+  }
+  return lively;
+}
+
 // A match with its evidence, which takes a logarithm, computed once.
 struct RankedMatch {
   PatternMatch match;
@@ -144,7 +190,6 @@ std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& sample
   // A few samples tell most of the poses that do not match at all.
   constexpr std::size_t kQuickSamples = 60;
   constexpr double kHopeless = 0.15;
-  const int reach = static_cast<int>(std::ceil(range.slack_m / range.step_m));
   const SampleGrid grid(samples, range.radius_m);
   const Eigen::Vector2f outline_center = outline_center_m.cast<float>();
   std::vector<Eigen::Vector2f> turns;
@@ -153,24 +198,20 @@ std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& sample
   }
   std::vector<LocalSample> near;
   std::vector<RankedMatch> all;
-  for (int iy = -reach; iy <= reach; ++iy) {
+  for (const Eigen::Vector2d& center : promising_centers(grid, range, kSearchSamples, context)) {
     if (context.stopped()) return {};
-    for (int ix = -reach; ix <= reach; ++ix) {
-      const Eigen::Vector2d center = range.center_m + range.step_m * Eigen::Vector2d(ix, iy);
-      grid.about(center.cast<float>(), kSearchSamples, near);
-      if (near.size() < kMinInside) continue;
-      const std::size_t quick = std::max<std::size_t>(1, near.size() / kQuickSamples);
-      for (std::size_t t = 0; t < turns.size(); ++t) {
-        const Moments few = moments_at(near, pattern, outline_center, turns[t], quick);
-        if (quick > 1 && few.n >= kMinInside && few.correlation() < kHopeless) continue;
-        const Moments m = moments_at(near, pattern, outline_center, turns[t], 1);
-        RankedMatch ranked;
-        ranked.match.pose = {range.angles_rad[t], center};
-        ranked.match.correlation = m.correlation();
-        ranked.match.inside = static_cast<int>(m.n);
-        ranked.gain = ranked.match.gain();
-        if (ranked.gain > 0) all.push_back(ranked);
-      }
+    grid.about(center.cast<float>(), kSearchSamples, near);
+    const std::size_t quick = std::max<std::size_t>(1, near.size() / kQuickSamples);
+    for (std::size_t t = 0; t < turns.size(); ++t) {
+      const Moments few = moments_at(near, pattern, outline_center, turns[t], quick);
+      if (quick > 1 && few.n >= kMinInside && few.correlation() < kHopeless) continue;
+      const Moments m = moments_at(near, pattern, outline_center, turns[t], 1);
+      RankedMatch ranked;
+      ranked.match.pose = {range.angles_rad[t], center};
+      ranked.match.correlation = m.correlation();
+      ranked.match.inside = static_cast<int>(m.n);
+      ranked.gain = ranked.match.gain();
+      if (ranked.gain > 0) all.push_back(ranked);
     }
   }
   return separated(std::move(all), separation_m, count);
