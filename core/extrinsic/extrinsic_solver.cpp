@@ -49,6 +49,7 @@ class Solver {
       if (!scenes_[s].use) reasons_[s] = "not used";
     }
     if (Status status = enough_scenes(); !status) return status.error();
+    if (Status status = corners_in_view(); !status) return status.error();
     JointState start;
     start.camera_from_lidar = closed_form_extrinsic(scenes_, target_);
     for (const SceneObservations& scene : scenes_)
@@ -58,6 +59,9 @@ class Solver {
     JointFit fit = settle(start, scales, mask_);
     if (options_.reject_bad_scenes) reject_bad_scenes(fit, scales);
     if (reject_outliers(fit, scales)) fit = settle(fit.state, scales, mask_);
+    if (!fit.state.camera_from_lidar.translation.allFinite() || fit.information.isZero(0.0)) {
+      return Error::untrusted("the joint solve fails on these observations");
+    }
     return report(fit, scales);
   }
 
@@ -70,6 +74,22 @@ class Solver {
           std::to_string(used) +
               " usable scenes; a target without circles needs three or more, differently turned",
           {}, "take scenes with the board tilted left, right, up and down");
+    }
+    return Done{};
+  }
+
+  // A start that puts corners where the camera cannot see them leaves nothing to descend from.
+  Status corners_in_view() const {
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (!mask_.scene[s]) continue;
+      for (const CornerObservation& c : scenes_[s].corners) {
+        if (camera_.project(scenes_[s].camera_from_board *
+                            Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0)))
+          continue;
+        return Error::untrusted(
+            "the board's start pose puts some of its corners where the camera cannot see them",
+            scenes_[s].name, "leave this scene out");
+      }
     }
     return Done{};
   }

@@ -134,6 +134,7 @@ class BoardSearch {
     range.slack_m =
         0.06 * size_.minCoeff() + (patch.open ? 0.6 * patch.extent_m.x() : 0.6 * misfit);
     range.step_m = 0.03 * size_.minCoeff();
+    range.radius_m = 0.5 * size_.norm();
     if (misfit < 0.12 * size_.minCoeff()) {
       for (int quarter = 0; quarter < 4; ++quarter) {
         for (int d = -2; d <= 2; ++d) {

@@ -14,6 +14,10 @@ namespace {
 // to one line spacing of the board unseen, so patches measure small rather than large.
 constexpr double kLargestSideError = 0.25;
 
+// A rectangle around the patch that is larger than the smallest one by more stands askew: a small
+// panel set on its corner would pass for a large one.
+constexpr double kLargestExcessArea = 1.15;
+
 }  // namespace
 
 OutlineFit fit_outline(const std::vector<PlanarSample>& samples, const Eigen::Vector2d& size_m) {
@@ -21,8 +25,12 @@ OutlineFit fit_outline(const std::vector<PlanarSample>& samples, const Eigen::Ve
   const std::size_t stride = std::max<std::size_t>(1, samples.size() / 600);
   std::vector<double> x;
   std::vector<double> y;
-  OutlineFit best;
-  double best_cost = 1e300;
+  struct Rectangle {
+    OutlineFit fit;
+    double area;
+    double cost;
+  };
+  std::vector<Rectangle> rectangles;
   for (int a = 0; a < kAngles; ++a) {
     const double angle = std::numbers::pi * a / kAngles;
     const double c = std::cos(angle);
@@ -37,17 +45,24 @@ OutlineFit fit_outline(const std::vector<PlanarSample>& samples, const Eigen::Ve
     const Eigen::Vector2d low(quantile(x, 0.01), quantile(y, 0.01));
     const Eigen::Vector2d high(quantile(x, 0.99), quantile(y, 0.99));
     // One per cent is trimmed at each end.
-    const Eigen::Vector2d error = (high - low) / 0.98 - size_m;
-    const double cost = error.cwiseQuotient(size_m).squaredNorm();
-    if (cost < best_cost) {
-      best_cost = cost;
-      const Eigen::Vector2d middle = 0.5 * (low + high);
-      best.angle_rad = angle;
-      best.center_m = {c * middle.x() - s * middle.y(), s * middle.x() + c * middle.y()};
-      best.side_error_m = error;
-    }
+    const Eigen::Vector2d sides = (high - low) / 0.98;
+    const Eigen::Vector2d middle = 0.5 * (low + high);
+    Rectangle r;
+    r.fit.angle_rad = angle;
+    r.fit.center_m = {c * middle.x() - s * middle.y(), s * middle.x() + c * middle.y()};
+    r.fit.side_error_m = sides - size_m;
+    r.area = sides.prod();
+    r.cost = r.fit.side_error_m.cwiseQuotient(size_m).squaredNorm();
+    rectangles.push_back(r);
   }
-  return best;
+  double smallest = 1e300;
+  for (const Rectangle& r : rectangles) smallest = std::min(smallest, r.area);
+  const Rectangle* best = nullptr;
+  for (const Rectangle& r : rectangles) {
+    if (!(r.area <= kLargestExcessArea * smallest)) continue;
+    if (best == nullptr || r.cost < best->cost) best = &r;
+  }
+  return best == nullptr ? OutlineFit{} : best->fit;
 }
 
 std::vector<PatternMatch> outline_poses(const VoxelCloud& cloud, const PlanarPatch& patch,

@@ -16,7 +16,8 @@ struct OutlineFit {
   Eigen::Vector2d side_error_m = Eigen::Vector2d::Zero();  ///< Patch minus board, width and height.
 };
 
-/// The bounding rectangle whose sides come closest to `size_m` (width, height), over all angles.
+/// Of the bounding rectangles not much larger than the smallest one, that whose sides come closest
+/// to `size_m` (width, height).
 OutlineFit fit_outline(const std::vector<PlanarSample>& samples, const Eigen::Vector2d& size_m);
 
 /// Board poses by outline alone, in every symmetric assignment; none if the patch's sides differ

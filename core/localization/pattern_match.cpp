@@ -38,21 +38,93 @@ double angle_difference(double a, double b) {
   return std::abs(std::remainder(a - b, 2.0 * std::numbers::pi));
 }
 
-// Correlation over (at most) every stride-th sample.
-Moments moments_at(const std::vector<PlanarSample>& samples, const PatternTemplate& pattern,
-                   const Eigen::Vector2d& outline_center, const PlanarPose& pose,
+// A sample as the search sees it: where it is from the tried centre.
+struct LocalSample {
+  float x = 0.0F, y = 0.0F, intensity = 0.0F;
+};
+
+// The samples of a plane in square cells, for those about a place.
+class SampleGrid {
+ public:
+  SampleGrid(const std::vector<PlanarSample>& samples, double radius_m)
+      : samples_(samples), radius_m_(static_cast<float>(radius_m)), cell_m_(0.25F * radius_m_) {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      cells_[key(index(samples[k].uv_m.x()), index(samples[k].uv_m.y()))].push_back(k);
+    }
+  }
+
+  // At most about `count` of the samples within the radius, spread evenly.
+  void about(const Eigen::Vector2f& center, std::size_t count,
+             std::vector<LocalSample>& out) const {
+    out.clear();
+    for (int iy = index(center.y() - radius_m_); iy <= index(center.y() + radius_m_); ++iy) {
+      for (int ix = index(center.x() - radius_m_); ix <= index(center.x() + radius_m_); ++ix) {
+        const auto cell = cells_.find(key(ix, iy));
+        if (cell == cells_.end()) continue;
+        for (const std::size_t k : cell->second) {
+          const Eigen::Vector2f d = samples_[k].uv_m - center;
+          if (d.squaredNorm() > radius_m_ * radius_m_) continue;
+          out.push_back({d.x(), d.y(), samples_[k].intensity});
+        }
+      }
+    }
+    const std::size_t stride = out.size() / count;
+    if (stride < 2) return;
+    for (std::size_t k = 0; k * stride < out.size(); ++k) out[k] = out[k * stride];
+    out.resize((out.size() + stride - 1) / stride);
+  }
+
+ private:
+  [[nodiscard]] int index(float x) const { return static_cast<int>(std::floor(x / cell_m_)); }
+  static std::uint64_t key(int x, int y) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32U |
+           static_cast<std::uint32_t>(y);
+  }
+  const std::vector<PlanarSample>& samples_;
+  float radius_m_;
+  float cell_m_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+};
+
+// Correlation over every stride-th sample, the board turned by (cosine, sine).
+Moments moments_at(const std::vector<LocalSample>& samples, const PatternTemplate& pattern,
+                   const Eigen::Vector2f& outline_center, const Eigen::Vector2f& turn,
                    std::size_t stride) {
-  const auto c = static_cast<float>(std::cos(pose.angle_rad));
-  const auto s = static_cast<float>(std::sin(pose.angle_rad));
-  const Eigen::Vector2f t = pose.center_m.cast<float>();
-  const Eigen::Vector2f b = outline_center.cast<float>();
+  const float c = turn.x();
+  const float s = turn.y();
   Moments m;
   for (std::size_t k = 0; k < samples.size(); k += stride) {
-    const Eigen::Vector2f d = samples[k].uv_m - t;
-    const float v = pattern.value(c * d.x() + s * d.y() + b.x(), -s * d.x() + c * d.y() + b.y());
-    if (v >= 0.0F) m.add(v, samples[k].intensity);
+    const LocalSample& d = samples[k];
+    const float v = pattern.value(c * d.x + s * d.y + outline_center.x(),
+                                  -s * d.x + c * d.y + outline_center.y());
+    if (v >= 0.0F) m.add(v, d.intensity);
   }
   return m;
+}
+
+// A match with its evidence, which takes a logarithm, computed once.
+struct RankedMatch {
+  PatternMatch match;
+  double gain = 0.0;
+};
+
+// The best of the well separated ones.
+std::vector<PatternMatch> separated(std::vector<RankedMatch> all, double separation_m,
+                                    std::size_t count) {
+  std::sort(all.begin(), all.end(),
+            [](const RankedMatch& a, const RankedMatch& b) { return a.gain > b.gain; });
+  std::vector<PatternMatch> best;
+  constexpr double kSeparationAngle = 20.0 * std::numbers::pi / 180.0;
+  for (const auto& [match, gain] : all) {
+    const bool taken = std::any_of(best.begin(), best.end(), [&](const PatternMatch& other) {
+      return (match.pose.center_m - other.pose.center_m).norm() < separation_m &&
+             angle_difference(match.pose.angle_rad, other.pose.angle_rad) < kSeparationAngle;
+    });
+    if (taken) continue;
+    best.push_back(match);
+    if (best.size() == count) break;
+  }
+  return best;
 }
 
 }  // namespace
@@ -69,36 +141,39 @@ std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& sample
                                          const PatternSearchRange& range, double separation_m,
                                          std::size_t count, const RunContext& context) {
   constexpr std::size_t kSearchSamples = 250;
-  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kSearchSamples);
+  // A few samples tell most of the poses that do not match at all.
+  constexpr std::size_t kQuickSamples = 60;
+  constexpr double kHopeless = 0.15;
   const int reach = static_cast<int>(std::ceil(range.slack_m / range.step_m));
-  std::vector<PatternMatch> all;
+  const SampleGrid grid(samples, range.radius_m);
+  const Eigen::Vector2f outline_center = outline_center_m.cast<float>();
+  std::vector<Eigen::Vector2f> turns;
   for (const double angle : range.angles_rad) {
+    turns.push_back(Eigen::Vector2d(std::cos(angle), std::sin(angle)).cast<float>());
+  }
+  std::vector<LocalSample> near;
+  std::vector<RankedMatch> all;
+  for (int iy = -reach; iy <= reach; ++iy) {
     if (context.stopped()) return {};
-    for (int iy = -reach; iy <= reach; ++iy) {
-      for (int ix = -reach; ix <= reach; ++ix) {
-        PatternMatch match;
-        match.pose = {angle, range.center_m + range.step_m * Eigen::Vector2d(ix, iy)};
-        const Moments m = moments_at(samples, pattern, outline_center_m, match.pose, stride);
-        match.correlation = m.correlation();
-        match.inside = static_cast<int>(m.n);
-        if (match.correlation > 0) all.push_back(match);
+    for (int ix = -reach; ix <= reach; ++ix) {
+      const Eigen::Vector2d center = range.center_m + range.step_m * Eigen::Vector2d(ix, iy);
+      grid.about(center.cast<float>(), kSearchSamples, near);
+      if (near.size() < kMinInside) continue;
+      const std::size_t quick = std::max<std::size_t>(1, near.size() / kQuickSamples);
+      for (std::size_t t = 0; t < turns.size(); ++t) {
+        const Moments few = moments_at(near, pattern, outline_center, turns[t], quick);
+        if (quick > 1 && few.n >= kMinInside && few.correlation() < kHopeless) continue;
+        const Moments m = moments_at(near, pattern, outline_center, turns[t], 1);
+        RankedMatch ranked;
+        ranked.match.pose = {range.angles_rad[t], center};
+        ranked.match.correlation = m.correlation();
+        ranked.match.inside = static_cast<int>(m.n);
+        ranked.gain = ranked.match.gain();
+        if (ranked.gain > 0) all.push_back(ranked);
       }
     }
   }
-  std::sort(all.begin(), all.end(),
-            [](const PatternMatch& a, const PatternMatch& b) { return a.gain() > b.gain(); });
-  std::vector<PatternMatch> best;
-  constexpr double kSeparationAngle = 20.0 * std::numbers::pi / 180.0;
-  for (const PatternMatch& match : all) {
-    const bool taken = std::any_of(best.begin(), best.end(), [&](const PatternMatch& other) {
-      return (match.pose.center_m - other.pose.center_m).norm() < separation_m &&
-             angle_difference(match.pose.angle_rad, other.pose.angle_rad) < kSeparationAngle;
-    });
-    if (taken) continue;
-    best.push_back(match);
-    if (best.size() == count) break;
-  }
-  return best;
+  return separated(std::move(all), separation_m, count);
 }
 
 namespace {

@@ -14,13 +14,18 @@ constexpr std::int64_t kKeyOffset = 1LL << (kKeyBits - 1);
 constexpr std::uint64_t kEmpty = ~0ULL;
 constexpr std::size_t kStopCheckInterval = 1U << 16U;
 
-std::uint64_t pack(const Eigen::Vector3f& point, float inverse_size) {
-  const auto part = [](float v) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v)) + kKeyOffset) &
-           ((1ULL << kKeyBits) - 1);
+std::uint64_t pack(const Eigen::Vector3i& cell) {
+  const auto part = [](int v) {
+    return static_cast<std::uint64_t>(v + kKeyOffset) & ((1ULL << kKeyBits) - 1);
   };
+  return part(cell.x()) | part(cell.y()) << kKeyBits | part(cell.z()) << (2 * kKeyBits);
+}
+
+// The range gates keep the numbers far inside an int.
+Eigen::Vector3i cell_number(const Eigen::Vector3f& point, float inverse_size) {
+  const auto number = [](float v) { return static_cast<int>(std::floor(v)); };
   const Eigen::Vector3f scaled = point * inverse_size;
-  return part(scaled.x()) | part(scaled.y()) << kKeyBits | part(scaled.z()) << (2 * kKeyBits);
+  return {number(scaled.x()), number(scaled.y()), number(scaled.z())};
 }
 
 std::uint64_t mix(std::uint64_t key) {
@@ -82,7 +87,7 @@ VoxelCloud::VoxelCloud(const Cloud& cloud, const Options& options, const RunCont
     if (!(range_sq >= min_sq && range_sq <= max_sq)) continue;
     if (region_sq > 0.0F && (p - center).squaredNorm() > region_sq) continue;
     const auto next = static_cast<std::uint32_t>(voxels_.size());
-    const std::uint32_t at = index.find_or_add(pack(p, inverse), next);
+    const std::uint32_t at = index.find_or_add(pack(cell_number(p, inverse)), next);
     if (at == next) voxels_.emplace_back();
     Voxel& voxel = voxels_[at];
     ++voxel.count;
@@ -96,13 +101,15 @@ VoxelCloud::VoxelCloud(const Cloud& cloud, const Options& options, const RunCont
   build_grid();
 }
 
-std::uint64_t VoxelCloud::cell_key(const Eigen::Vector3f& point_m) const {
-  return pack(point_m, static_cast<float>(1.0 / options_.cell_m));
+Eigen::Vector3i VoxelCloud::cell_of(const Eigen::Vector3f& point_m) const {
+  return cell_number(point_m, static_cast<float>(1.0 / options_.cell_m));
 }
 
 void VoxelCloud::build_grid() {
   std::vector<std::uint64_t> keys(voxels_.size());
-  for (std::size_t i = 0; i < voxels_.size(); ++i) keys[i] = cell_key(voxels_[i].mean_m);
+  for (std::size_t i = 0; i < voxels_.size(); ++i) {
+    keys[i] = pack(cell_of(voxels_[i].mean_m));
+  }
   order_.resize(voxels_.size());
   std::iota(order_.begin(), order_.end(), 0U);
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -121,13 +128,12 @@ void VoxelCloud::neighbours(const Eigen::Vector3f& point_m, double radius_m,
   out.clear();
   const int reach = static_cast<int>(std::ceil(radius_m / options_.cell_m));
   const auto radius_sq = static_cast<float>(radius_m * radius_m);
-  const auto cell = static_cast<float>(options_.cell_m);
+  // Whole cell numbers: stepping the coordinate instead would round into a neighbour now and then.
+  const Eigen::Vector3i middle = cell_of(point_m);
   for (int dx = -reach; dx <= reach; ++dx) {
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dz = -reach; dz <= reach; ++dz) {
-        const Eigen::Vector3f shift(static_cast<float>(dx), static_cast<float>(dy),
-                                    static_cast<float>(dz));
-        const auto found = cells_.find(cell_key(point_m + cell * shift));
+        const auto found = cells_.find(pack(middle + Eigen::Vector3i(dx, dy, dz)));
         if (found == cells_.end()) continue;
         for (std::uint32_t k = found->second.first; k < found->second.second; ++k) {
           const std::uint32_t i = order_[k];

@@ -45,7 +45,7 @@ class VoxelCloud {
   [[nodiscard]] std::vector<std::uint32_t> cell_representatives() const;
 
  private:
-  [[nodiscard]] std::uint64_t cell_key(const Eigen::Vector3f& point_m) const;
+  [[nodiscard]] Eigen::Vector3i cell_of(const Eigen::Vector3f& point_m) const;
   void build_grid();
 
   Options options_;

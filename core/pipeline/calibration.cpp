@@ -93,6 +93,8 @@ class Calibration {
     context_.report("localize", 0.7, "comparing scenes");
     auto consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
     if (!consensus) {
+      // Another size costs less to look for than walls do, and gets clearer evidence.
+      if (const auto error = wrong_size()) return *error;
       // Perhaps the board hangs flush on a wall: look on larger planes, everywhere.
       if (Status s = search_again(std::nullopt); !s) return s;
       consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
@@ -153,21 +155,30 @@ class Calibration {
     return text;
   }
 
-  Status not_found() const {
+  // The error to give if the board is there, but in another size.
+  std::optional<Error> wrong_size() {
+    if (looked_for_sizes_) return std::nullopt;
+    looked_for_sizes_ = true;
+    context_.report("localize", 0.7, "other sizes of the board");
+    const auto scale = find_scaled_board(dataset_, request_, result_, context_);
+    if (context_.stopped()) return Error::cancelled();
+    if (!scale) return std::nullopt;
+    const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
+    return Error::untrusted(
+        "LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
+            std::to_string(std::abs(percent)) + " % " + (percent > 0 ? "larger" : "smaller") +
+            " than target.yaml says",
+        result_.dataset, "measure the printed tags and correct tagSize");
+  }
+
+  Status not_found() {
+    if (const auto error = wrong_size()) return *error;
     std::string detail;
     for (const SceneResult& scene : result_.scenes) {
-      if (scene.view)
-        detail += (detail.empty() ? "" : "; ") + scene.name + ": " + search_summary(scene);
+      if (!scene.view) continue;
+      detail += (detail.empty() ? "" : "; ") + scene.name + ": " +
+                (scene.reason.empty() ? search_summary(scene) : scene.reason);
     }
-    if (const auto scale = find_scaled_board(dataset_, request_, result_, context_)) {
-      const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
-      return Error::untrusted(
-          "LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
-              std::to_string(std::abs(percent)) + " % " + (percent > 0 ? "larger" : "smaller") +
-              " than target.yaml says",
-          result_.dataset, "measure the printed tags and correct tagSize");
-    }
-    if (context_.stopped()) return Error::cancelled();
     return Error::untrusted(
         "the board is not found in any cloud (" + detail + ")", result_.dataset,
         "check that the LiDAR sees the whole board and that target.yaml describes it");
@@ -203,7 +214,10 @@ class Calibration {
           scene.name);
     });
     if (context_.stopped()) return Error::cancelled();
-    return Done{};
+    const bool any = std::any_of(result_.scenes.begin(), result_.scenes.end(),
+                                 [](const SceneResult& scene) { return scene.used; });
+    // What was taken for the board was not: on the board some circles would be found.
+    return any ? Status(Done{}) : not_found();
   }
 
   void judge_refinement(SceneResult& scene) const {
@@ -236,6 +250,7 @@ class Calibration {
   const CalibrationRequest& request_;
   const RunContext& context_;
   CalibrationResult result_;
+  bool looked_for_sizes_ = false;
 };
 
 }  // namespace

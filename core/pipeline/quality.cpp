@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/quality.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+
+#include "base/parallel.h"
 
 namespace lvcalib {
 namespace {
@@ -126,29 +130,37 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
 std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
                                         const CalibrationResult& result,
                                         const RunContext& context) {
+  // One scene is enough to try.
+  std::size_t k = 0;
+  while (k < result.scenes.size() && !result.scenes[k].view) ++k;
+  if (k == result.scenes.size()) return std::nullopt;
+  const SceneFiles& files = dataset.scenes[k];
+  const auto cloud =
+      read_cloud(request.use_crops && !files.crop.empty() ? files.crop : files.cloud, context.stop);
+  if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;
   // Wrong units and wrong readings: from half to double in steps that the search bridges.
-  for (const double s : {1.05, 0.95, 1.1, 0.9, 1.16, 0.85, 1.22, 0.8, 1.3, 0.74, 1.4, 0.68, 1.55,
-                         0.6, 1.75, 0.5, 2.0}) {
-    const Target target = scaled(dataset.target, s);
-    const PatternPyramid pyramid(target);
-    for (std::size_t k = 0; k < dataset.scenes.size(); ++k) {
-      if (!result.scenes[k].view) continue;
-      if (context.stopped()) return std::nullopt;
-      const SceneFiles& files = dataset.scenes[k];
-      const auto cloud = read_cloud(
-          request.use_crops && !files.crop.empty() ? files.crop : files.cloud, context.stop);
-      if (!cloud || !matches_by_pattern(target, *cloud)) break;
-      const double distance =
-          s * result.scenes[k].view->camera_from_board.transform.translation.norm();
-      RunContext quiet = context;
-      quiet.progress = {};
-      const auto search = search_board(*cloud, target, pyramid, distance, std::nullopt,
-                                       request.options.localization, quiet);
-      if (!search.candidates.empty()) return s * search.candidates.front().scale;
-      break;  // One scene per size is enough to try.
+  constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9,  0.95, 1.05,
+                                 1.1, 1.16, 1.22, 1.3,  1.4,  1.5,  1.6, 1.72, 1.86, 2.0};
+  std::array<BoardCandidate, kSizes.size()> best;
+  RunContext quiet = context;
+  quiet.progress = {};
+  quiet.threads = 1;
+  parallel_for(kSizes.size(), context.thread_count(), [&](std::size_t i) {
+    if (context.stopped()) return;
+    const Target target = scaled(dataset.target, kSizes[i]);
+    const double distance =
+        kSizes[i] * result.scenes[k].view->camera_from_board.transform.translation.norm();
+    const auto search = search_board(*cloud, target, PatternPyramid(target), distance, std::nullopt,
+                                     request.options.localization, quiet);
+    for (const BoardCandidate& candidate : search.candidates) {
+      if (candidate.correlation > best[i].correlation) best[i] = candidate;
     }
-  }
-  return std::nullopt;
+  });
+  const auto found = std::max_element(best.begin(), best.end(), [](const auto& a, const auto& b) {
+    return a.correlation < b.correlation;
+  });
+  if (found->correlation <= 0) return std::nullopt;
+  return kSizes[static_cast<std::size_t>(found - best.begin())] * found->scale;
 }
 
 }  // namespace lvcalib

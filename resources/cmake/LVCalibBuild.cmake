@@ -25,7 +25,7 @@ target_compile_options(lvcalib_warnings INTERFACE -Wall -Wextra -Wpedantic
   $<$<BOOL:${LVCALIB_WERROR}>:-Werror>)
 # GCC 12 sees overlapping copies in `"text" + std::string` at -O3 that are not there.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(lvcalib_warnings INTERFACE -Wno-restrict)
+  target_compile_options(lvcalib_warnings INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 if(LVCALIB_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
