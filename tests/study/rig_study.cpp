@@ -170,13 +170,17 @@ int main(int argc, char** argv) {
   const std::uint64_t first = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   const std::filesystem::path folder = argc > 3 ? argv[3] : std::filesystem::temp_directory_path();
   std::vector<RigOutcome> all;
-  std::printf("seed,scenes,found,wrong,translation_mm,rotation_mrad,bound_mm,bound_mrad,stated_mm,stated_mrad,quality\n");
+  std::printf(
+      "seed,scenes,found,wrong,translation_mm,rotation_mrad,bound_mm,bound_mrad,stated_mm,stated_"
+      "mrad,quality\n");
   for (int k = 0; k < rigs; ++k) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(k);
     all.push_back(run_rig(k, seed, folder));
     const RigOutcome& o = all.back();
-    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%s\n", static_cast<unsigned long long>(seed),
-                o.scenes, o.found, o.wrong, o.translation_mm, o.rotation_mrad, o.bound_mm, o.bound_mrad, o.stated_mm, o.stated_mrad, o.quality.c_str());
+    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%s\n",
+                static_cast<unsigned long long>(seed), o.scenes, o.found, o.wrong, o.translation_mm,
+                o.rotation_mrad, o.bound_mm, o.bound_mrad, o.stated_mm, o.stated_mrad,
+                o.quality.c_str());
     std::fflush(stdout);
   }
   summarize(all);
