@@ -188,7 +188,8 @@ std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& sample
                                          const Eigen::Vector2d& outline_center_m,
                                          const PatternSearchRange& range, double separation_m,
                                          std::size_t count, const RunContext& context) {
-  constexpr std::size_t kSearchSamples = 250;
+  // About 250 on a square board, which fills 64 % of the circle around it.
+  constexpr std::size_t kSearchSamples = 400;
   // A few samples tell most of the poses that do not match at all.
   constexpr std::size_t kQuickSamples = 60;
   constexpr double kHopeless = 0.15;
