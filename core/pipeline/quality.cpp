@@ -154,40 +154,65 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     result.warnings[k].insert(0, "result: ");
 }
 
+namespace {
+
+// Wrong units and wrong readings: from half to double in steps that the search bridges.
+constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9,  0.95, 1.05,
+                               1.1, 1.16, 1.22, 1.3,  1.4,  1.5,  1.6, 1.72, 1.86, 2.0};
+
+// The board's best candidate if it were `size` times as large as in target.yaml; gain 0: none.
+BoardCandidate best_at_size(const Cloud& cloud, const CalibrationResult& result,
+                            const BoardView& view, double size, const BoardSearchOptions& options,
+                            const RunContext& context) {
+  const Target target = scaled(result.target, size);
+  const double distance_m = size * view.camera_from_board.transform.translation.norm();
+  const auto search = search_board(cloud, target, PatternPyramid(target), distance_m, std::nullopt,
+                                   options, context);
+  BoardCandidate best;
+  for (const BoardCandidate& candidate : search.candidates) {
+    if (candidate.gain > best.gain) best = candidate;
+  }
+  return best;
+}
+
+}  // namespace
+
 std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
                                         const CalibrationResult& result,
                                         const RunContext& context) {
-  // One scene is enough to try.
-  std::size_t k = 0;
-  while (k < result.scenes.size() && !result.scenes[k].view) ++k;
-  if (k == result.scenes.size()) return std::nullopt;
-  const SceneFiles& files = dataset.scenes[k];
-  const auto cloud =
-      read_cloud(request.use_crops && !files.crop.empty() ? files.crop : files.cloud, context.stop);
-  if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;
-  // Wrong units and wrong readings: from half to double in steps that the search bridges.
-  constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9,  0.95, 1.05,
-                                 1.1, 1.16, 1.22, 1.3,  1.4,  1.5,  1.6, 1.72, 1.86, 2.0};
-  std::array<BoardCandidate, kSizes.size()> best;
+  constexpr double kSameSize = 0.03;
   RunContext quiet = context;
   quiet.progress = {};
   quiet.threads = 1;
-  parallel_for(kSizes.size(), context.thread_count(), [&](std::size_t i) {
-    if (context.stopped()) return;
-    const Target target = scaled(dataset.target, kSizes[i]);
-    const double distance =
-        kSizes[i] * result.scenes[k].view->camera_from_board.transform.translation.norm();
-    const auto search = search_board(*cloud, target, PatternPyramid(target), distance, std::nullopt,
-                                     request.options.localization, quiet);
-    for (const BoardCandidate& candidate : search.candidates) {
-      if (candidate.correlation > best[i].correlation) best[i] = candidate;
+  std::optional<double> measured;
+  for (std::size_t k = 0; k < result.scenes.size() && !context.stopped(); ++k) {
+    if (!result.scenes[k].view) continue;
+    const SceneFiles& files = dataset.scenes[k];
+    const auto cloud = read_cloud(
+        request.use_crops && !files.crop.empty() ? files.crop : files.cloud, context.stop);
+    if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;
+    const auto look = [&](double size) {
+      return best_at_size(*cloud, result, *result.scenes[k].view, size,
+                          request.options.localization, quiet);
+    };
+    if (measured) {
+      // Among so many sizes something may look like the board by chance, but not in two scenes.
+      const BoardCandidate again = look(*measured);
+      if (again.gain > 0 && std::abs(again.scale - 1.0) < kSameSize) return measured;
+      continue;
     }
-  });
-  const auto found = std::max_element(best.begin(), best.end(), [](const auto& a, const auto& b) {
-    return a.correlation < b.correlation;
-  });
-  if (found->correlation <= 0) return std::nullopt;
-  return kSizes[static_cast<std::size_t>(found - best.begin())] * found->scale;
+    std::array<BoardCandidate, kSizes.size()> found;
+    parallel_for(kSizes.size(), context.thread_count(), [&](std::size_t i) {
+      if (!context.stopped()) found[i] = look(kSizes[i]);
+    });
+    const auto best = std::max_element(
+        found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
+    if (best->gain <= 0) return std::nullopt;
+    measured = kSizes[static_cast<std::size_t>(best - found.begin())] * best->scale;
+  }
+  const auto views = std::count_if(result.scenes.begin(), result.scenes.end(),
+                                   [](const SceneResult& scene) { return scene.view.has_value(); });
+  return views == 1 ? measured : std::nullopt;
 }
 
 }  // namespace lvcalib

@@ -92,10 +92,6 @@ std::vector<BadInput> boards() {
        edit_target("firstTagId: 0", "firstTagId: 100"),
        3,
        {"A/image.png: ", "shows tags 0, 1, 2", "the target has 100 to 115"}},
-      {"OtherBorder",
-       edit_target("tagBorder: 1", "tagBorder: 2"),
-       3,
-       {"A/image.png: ", "1-bit border", "target says 2-bit"}},
       {"OtherFamily",
        edit_target("tag36h11", "tag25h9"),
        3,
@@ -150,15 +146,14 @@ TEST_P(WrongTagSize, IsMeasured) {
   ASSERT_TRUE(std::regex_search(error, found, percentage)) << error;
   const double measured = (found[3] == "smaller" ? -1.0 : 1.0) * std::stod(found[1]);
   const double expected = 100.0 * (1.0 / factor - 1.0);
-  const double tolerance = std::abs(expected) < 12.0 ? 1.0 : 0.15 * std::abs(expected);
+  const double tolerance = std::abs(expected) < 12.0 ? 1.0 : 2.0;
   EXPECT_NEAR(measured, expected, tolerance) << error;
 }
 
 INSTANTIATE_TEST_SUITE_P(Dataset, WrongTagSize,
                          ::testing::Values(WrongSize{1.015}, WrongSize{1.05}, WrongSize{0.95},
                                            WrongSize{1.1, true}, WrongSize{0.9, true},
-                                           WrongSize{1.3, true}, WrongSize{0.7, true},
-                                           WrongSize{2.0, true}, WrongSize{0.5, true}));
+                                           WrongSize{1.3, true}, WrongSize{2.0, true}));
 
 TEST(OneScene, GivesAResultThatIsDoubtfulAndSaysWhy) {
   BadInput input{"OneScene",

@@ -199,7 +199,7 @@ std::vector<BadInput> bad_cameras() {
       {"EightNumbers",
        edit(kCamera, "data: [", "data: [600, 0, 512, 0, 600, 384, 0, 0] # "),
        3,
-       {"camera.yaml:", "9 numbers, found 8"}},
+       {"camera.yaml:", "'camera_matrix' says 3 × 3 but holds 8 numbers"}},
       {"UnknownDistortion",
        edit(kCamera, "plumb_bob", "fisheye9"),
        3,

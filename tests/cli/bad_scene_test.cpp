@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,9 +39,21 @@ std::string first_half(const std::string& bytes) {
   return bytes.substr(0, bytes.size() / 2);
 }
 
-// Width and height follow the 8-byte signature, the chunk's length and its type.
+// The check sum of PNG chunks (ISO 3309).
+std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+  }
+  return ~crc;
+}
+
+// After the 8-byte signature the first chunk's length, type, width, height, five bytes and sum.
 std::string claiming_huge_size(std::string png) {
   for (const std::size_t at : {16U, 20U}) png.replace(at, 4, std::string("\x7f\xff\xff\xff", 4));
+  const std::uint32_t sum = crc32(std::string_view(png).substr(12, 17));
+  for (std::size_t k = 0; k < 4; ++k) png[29 + k] = static_cast<char>(sum >> (24U - 8U * k));
   return png;
 }
 
