@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 
@@ -141,26 +143,41 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
   // Wrong units and wrong readings: from half to double in steps that the search bridges.
   constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9,  0.95, 1.05,
                                  1.1, 1.16, 1.22, 1.3,  1.4,  1.5,  1.6, 1.72, 1.86, 2.0};
-  std::array<BoardCandidate, kSizes.size()> best;
   RunContext quiet = context;
   quiet.progress = {};
   quiet.threads = 1;
-  parallel_for(kSizes.size(), context.thread_count(), [&](std::size_t i) {
-    if (context.stopped()) return;
-    const Target target = scaled(dataset.target, kSizes[i]);
+  const auto best_at = [&](double size) {
+    const Target target = scaled(dataset.target, size);
     const double distance =
-        kSizes[i] * result.scenes[k].view->camera_from_board.transform.translation.norm();
+        size * result.scenes[k].view->camera_from_board.transform.translation.norm();
     const auto search = search_board(*cloud, target, PatternPyramid(target), distance, std::nullopt,
                                      request.options.localization, quiet);
+    BoardCandidate best;
     for (const BoardCandidate& candidate : search.candidates) {
-      if (candidate.correlation > best[i].correlation) best[i] = candidate;
+      if (candidate.correlation > best.correlation) best = candidate;
     }
-  });
-  const auto found = std::max_element(best.begin(), best.end(), [](const auto& a, const auto& b) {
-    return a.correlation < b.correlation;
-  });
-  if (found->correlation <= 0) return std::nullopt;
-  return kSizes[static_cast<std::size_t>(found - best.begin())] * found->scale;
+    return best;
+  };
+  // The size of the best correlation, and the candidate there.
+  const auto best_of = [&](const std::vector<double>& sizes) {
+    std::vector<BoardCandidate> best(sizes.size());
+    parallel_for(sizes.size(), context.thread_count(), [&](std::size_t i) {
+      if (!context.stopped()) best[i] = best_at(sizes[i]);
+    });
+    const auto found = std::max_element(best.begin(), best.end(), [](const auto& a, const auto& b) {
+      return a.correlation < b.correlation;
+    });
+    return std::pair(sizes[static_cast<std::size_t>(found - best.begin())], *found);
+  };
+  const auto [coarse, first] = best_of({kSizes.begin(), kSizes.end()});
+  if (first.correlation <= 0) return std::nullopt;
+  // Some per cent off, a board set slightly askew fits nearly as well, and measures a wrong scale:
+  // only next to the true size can the measured scale be trusted.
+  std::vector<double> finer;
+  for (int percent = -5; percent <= 5; ++percent) finer.push_back(coarse * (1.0 + 0.01 * percent));
+  const auto [size, candidate] = best_of(finer);
+  if (candidate.correlation <= 0) return std::nullopt;
+  return size * candidate.scale;
 }
 
 }  // namespace lvcalib
