@@ -11,7 +11,7 @@ folder=$(realpath -m "${1:-$root/build/demo}")
 
 cd "$root"
 # Only the programs: tests and benchmarks need more packages.
-cmake --preset release
+cmake --preset release -DLVCALIB_BUILD_TESTS=OFF
 cmake --build build/release --target lvcalib
 
 lvcalib="$root/build/release/bin/lvcalib"

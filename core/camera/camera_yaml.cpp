@@ -202,7 +202,8 @@ Result<CameraFile> read_matrix_style(const YamlFile& file) {
   for (const char* group : {kWidth, kHeight, kMatrix, kCoefficients, kRosOnly, kHarmless}) {
     for (auto& key : words(group)) known.push_back(std::move(key));
   }
-  CameraFile out{{}, file.unknown_keys(known)};
+  CameraFile out;
+  out.warnings = file.unknown_keys(known);
   if (Status s = read_size(file, out.camera); !s) return s.error();
   if (Status s = read_matrix(file, out.camera); !s) return s.error();
   const std::string key = first_present(file, kCoefficients);
@@ -226,7 +227,8 @@ Result<CameraFile> read_kalibr_camera(const YamlFile& file, std::string name) {
   const Keys known = words(
       "camera_model intrinsics distortion_model distortion_coeffs resolution rostopic "
       "cam_overlaps T_cn_cnm1 T_cam_imu T_imu_cam timeshift_cam_imu");
-  CameraFile out{{}, file.unknown_keys(known)};
+  CameraFile out;
+  out.warnings = file.unknown_keys(known);
   Camera& camera = out.camera;
   camera.name = std::move(name);
   const auto model = file.string("camera_model");

@@ -91,6 +91,25 @@ PlaneSystem build_system(std::span<const Eigen::Vector3f> points, const FittedPl
   return system;
 }
 
+// Robust mean residual of each group, with the group's own σ.
+void measure_group_offsets(const std::vector<double>& residuals,
+                           std::span<const std::uint8_t> groups, FittedPlane& plane) {
+  std::array<double, kGroups> weight{};
+  std::array<double, kGroups> sum{};
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (!std::isfinite(residuals[i])) continue;
+    const std::size_t g = group_of(groups, i);
+    const double w = tukey_weight(residuals[i] / plane.group_sigma_m[g], kTukey);
+    weight[g] += w;
+    sum[g] += w * residuals[i];
+  }
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    if (weight[g] < static_cast<double>(kMinPoints)) continue;
+    plane.group_offset_m[g] = sum[g] / weight[g];
+    plane.group_offset_sigma_m[g] = plane.group_sigma_m[g] / std::sqrt(weight[g]);
+  }
+}
+
 void apply(FittedPlane& plane, const Eigen::Vector3d& step) {
   const Eigen::Vector3d normal =
       (plane.normal - step(1) * plane.axis_u - step(2) * plane.axis_v).normalized();
@@ -144,6 +163,7 @@ std::optional<FittedPlane> fit_plane(std::span<const Eigen::Vector3f> points_m,
   system = build_system(points_m, plane, residuals, groups);
   plane.covariance = system.normal.ldlt().solve(Eigen::Matrix3d::Identity());
   plane.inliers = system.inliers;
+  measure_group_offsets(residuals, groups, plane);
   return plane;
 }
 

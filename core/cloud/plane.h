@@ -24,6 +24,9 @@ struct FittedPlane {
   std::array<double, 4> group_sigma_m{};
   double sigma_range_m = 0.0;  ///< The smallest of them that stands for a fair share of the points.
   std::size_t inliers = 0;
+  /// Mean range residual of every group (robust) and its standard deviation; 0 for empty groups.
+  std::array<double, 4> group_offset_m{};
+  std::array<double, 4> group_offset_sigma_m{};
 
   [[nodiscard]] Eigen::Vector2d to_plane(const Eigen::Vector3d& point_m) const {
     const Eigen::Vector3d d = point_m - center_m;

@@ -117,6 +117,9 @@ std::vector<OptionDeclaration> make_declarations() {
       declare("quality.max_noise_scale", "1", 1, 1e6, "optimize",
               "LiDAR residuals this many times their σ make the result doubtful.", &O::quality,
               &Q::max_noise_scale),
+      declare("quality.max_dark_offset_m", "m", 0, 10, "optimize",
+              "Range difference of dark and white print that makes the result doubtful.",
+              &O::quality, &Q::max_dark_offset_m),
       declare("quality.min_margin", "nat", 0, 1e9, "optimize",
               "Evidence by which the board assignment must win.", &O::quality, &Q::min_margin),
   };

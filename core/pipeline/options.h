@@ -21,7 +21,9 @@ struct QualityOptions {
   double scale_failure = 0.01;   ///< And one that makes the result untrustworthy.
   double max_sigma_px = 1.5;     ///< Corner noise above this makes the result doubtful.
   double max_noise_scale = 3.0;  ///< LiDAR residuals this many times their σ make it doubtful.
-  double min_margin = 10.0;      ///< Evidence (nats) by which the assignment must win.
+  double max_dark_offset_m =
+      0.001;                 ///< Range difference of dark and white print that is worth doubt.
+  double min_margin = 10.0;  ///< Evidence (nats) by which the assignment must win.
 };
 
 /// Every option of a calibration.

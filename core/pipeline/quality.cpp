@@ -62,6 +62,32 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
   }
 }
 
+// Dark print that reads nearer or farther than white one pulls every plane, and the extrinsic with
+// it, without showing in the residuals of nodes and planes.
+void judge_dark_offset(const CalibrationResult& result, const QualityOptions& options,
+                       Verdict& verdict) {
+  double weight = 0.0;
+  double sum = 0.0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!scene.used || !scene.refinement) continue;
+    const FittedPlane& plane = scene.refinement->plane;
+    const double variance =
+        std::pow(plane.group_offset_sigma_m[0], 2) + std::pow(plane.group_offset_sigma_m[1], 2);
+    if (plane.group_offset_sigma_m[0] <= 0 || plane.group_offset_sigma_m[1] <= 0) continue;
+    sum += (plane.group_offset_m[1] - plane.group_offset_m[0]) / variance;
+    weight += 1.0 / variance;
+  }
+  if (weight <= 0) return;
+  const double offset = sum / weight;
+  if (std::abs(offset) < options.max_dark_offset_m || std::abs(offset) < 5.0 / std::sqrt(weight))
+    return;
+  verdict.doubtful(formatted("black print reads %.1f ± %.1f mm ", 1e3 * std::abs(offset),
+                             1e3 / std::sqrt(weight)) +
+                   (offset > 0 ? "farther" : "nearer") +
+                   " than white: the LiDAR's range depends on the reflectivity, an effect is "
+                   "missing in the model");
+}
+
 Target scaled(Target t, double s) {
   for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
                          &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
@@ -100,6 +126,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                    " of 6 directions of the extrinsic");
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
+  judge_dark_offset(result, options, verdict);
   if (x.used_scenes == 2)
     verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
