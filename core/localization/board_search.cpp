@@ -155,7 +155,6 @@ class BoardSearch {
     range.slack_m =
         0.06 * size_.minCoeff() + (patch.open ? 0.6 * patch.extent_m.x() : 0.6 * misfit);
     range.step_m = 0.03 * size_.minCoeff();
-    range.radius_m = 0.5 * size_.norm();
     // One turn of the symmetric assignments is enough here: seen this coarsely the others look the
     // same, and starting_poses() adds them.
     const int symmetry = target_.outline_symmetry();

@@ -55,6 +55,8 @@ class SampleGrid {
     }
   }
 
+  [[nodiscard]] double radius_m() const { return radius_m_; }
+
   // At most about `count` of the samples within the radius, spread evenly.
   void about(const Eigen::Vector2f& center, std::size_t count,
              std::vector<LocalSample>& out) const {
@@ -136,7 +138,7 @@ std::vector<Eigen::Vector2d> promising_centers(const SampleGrid& grid,
     }
   }
   // A board changes what is seen from centres up to a diagonal away.
-  const double touched_m2 = 16.0 * range.radius_m * range.radius_m;
+  const double touched_m2 = 16.0 * grid.radius_m() * grid.radius_m();
   if (static_cast<double>(centers.size()) * range.step_m * range.step_m < touched_m2) {
     return centers;
   }
@@ -190,7 +192,7 @@ std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& sample
   // A few samples tell most of the poses that do not match at all.
   constexpr std::size_t kQuickSamples = 60;
   constexpr double kHopeless = 0.15;
-  const SampleGrid grid(samples, range.radius_m);
+  const SampleGrid grid(samples, pattern.radius_m());
   const Eigen::Vector2f outline_center = outline_center_m.cast<float>();
   std::vector<Eigen::Vector2f> turns;
   for (const double angle : range.angles_rad) {

@@ -40,7 +40,6 @@ struct PatternSearchRange {
   double slack_m = 0.1;  ///< Centres within ± this of center_m along both axes.
   std::vector<double> angles_rad;
   double step_m = 0.025;
-  double radius_m = 0.0;  ///< Samples farther from a centre cannot be on the board there; > 0.
 };
 
 /// Best poses over the whole range, best first, at most `count`, each at least half a tag pitch

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,6 +34,10 @@ class PatternTemplate {
   }
 
   [[nodiscard]] double blur_sigma_m() const { return blur_sigma_m_; }
+  /// Half the outline's diagonal.
+  [[nodiscard]] double radius_m() const {
+    return 0.5 * static_cast<double>(std::hypot(max_x_, max_y_) / inverse_step_);
+  }
 
  private:
   double blur_sigma_m_ = 0.0;

@@ -187,12 +187,15 @@ bool read_rows(const nlohmann::json& j, Eigen::Index rows, Eigen::Index columns,
   return out.allFinite();
 }
 
-// The left 3×3 part is a rotation, as far as a file's digits go.
-bool holds_rotation(const Eigen::MatrixXd& m) {
-  constexpr double kTolerance = 1e-3;
-  const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
-  return (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kTolerance &&
-         R.determinant() > 0;
+// A pose that is none would give errors that mean nothing. Tolerant of few digits.
+Result<Rigid3> rigid(const Eigen::MatrixXd& rows, const std::string& key,
+                     const std::filesystem::path& path) {
+  const Eigen::Matrix3d rotation = rows.topLeftCorner<3, 3>();
+  const double error = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm();
+  if (error > 1e-3 || rotation.determinant() < 0) {
+    return Error::input("the left 3×3 part of " + key + " is not a rotation", path.string());
+  }
+  return Rigid3::from_matrix(rotation, Eigen::Vector3d(rows.col(3).head<3>()));
 }
 
 }  // namespace
@@ -252,12 +255,10 @@ Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {
     return Error::input("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers",
                         path.string());
   }
-  if (!holds_rotation(m)) {
-    return Error::input("the left 3×3 part of T_camera_lidar.matrix is not a rotation",
-                        path.string());
-  }
+  const auto transform = rigid(m, "T_camera_lidar.matrix", path);
+  if (!transform) return transform.error();
   StoredExtrinsic out;
-  out.camera_from_lidar = Rigid3::from_matrix(Eigen::Matrix4d(m));
+  out.camera_from_lidar = *transform;
   if (j->contains("covariance") && read_rows((*j)["covariance"], 6, 6, m)) out.covariance = m;
   return out;
 }
@@ -269,10 +270,7 @@ Result<Rigid3> read_truth(const std::filesystem::path& path) {
   if (!j->contains("T_CL") || !read_rows((*j)["T_CL"], 3, 4, m)) {
     return Error::input("T_CL is missing or not 3 rows of 4 numbers", path.string());
   }
-  if (!holds_rotation(m)) {
-    return Error::input("the left 3×3 part of T_CL is not a rotation", path.string());
-  }
-  return Rigid3::from_matrix(Eigen::Matrix3d(m.leftCols<3>()), Eigen::Vector3d(m.col(3)));
+  return rigid(m, "T_CL", path);
 }
 
 ExtrinsicError compare_extrinsics(const StoredExtrinsic& estimate, const Rigid3& truth) {
