@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 
@@ -201,14 +203,26 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
       if (again.gain > 0 && std::abs(again.scale - 1.0) < kSameSize) return measured;
       continue;
     }
-    std::array<BoardCandidate, kSizes.size()> found;
-    parallel_for(kSizes.size(), context.thread_count(), [&](std::size_t i) {
-      if (!context.stopped()) found[i] = look(kSizes[i]);
-    });
-    const auto best = std::max_element(
-        found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
-    if (best->gain <= 0) return std::nullopt;
-    measured = kSizes[static_cast<std::size_t>(best - found.begin())] * best->scale;
+    // The size of the strongest evidence, and the candidate there.
+    const auto best_of = [&](const std::vector<double>& sizes) {
+      std::vector<BoardCandidate> found(sizes.size());
+      parallel_for(sizes.size(), context.thread_count(), [&](std::size_t i) {
+        if (!context.stopped()) found[i] = look(sizes[i]);
+      });
+      const auto best = std::max_element(
+          found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
+      return std::pair(sizes[static_cast<std::size_t>(best - found.begin())], *best);
+    };
+    const auto [coarse, first] = best_of({kSizes.begin(), kSizes.end()});
+    if (first.gain <= 0) return std::nullopt;
+    // Some per cent off, a board set slightly askew fits nearly as well, and measures a wrong
+    // scale: only next to the true size can the measured scale be trusted.
+    std::vector<double> finer;
+    for (int percent = -5; percent <= 5; ++percent)
+      finer.push_back(coarse * (1.0 + 0.01 * percent));
+    const auto [size, candidate] = best_of(finer);
+    if (candidate.gain <= 0) return std::nullopt;
+    measured = size * candidate.scale;
   }
   const auto views = std::count_if(result.scenes.begin(), result.scenes.end(),
                                    [](const SceneResult& scene) { return scene.view.has_value(); });

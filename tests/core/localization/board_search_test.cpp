@@ -154,7 +154,7 @@ TEST(BoardSearch, WithoutIntensityTheOutlineDecides) {
   }));
 }
 
-TEST(BoardSearch, AnotherBoardIsRefused) {
+TEST(BoardSearch, ABoardWithAnotherPrintIsRefused) {
   const SimulationOptions options = test::cloud_only_options(44, LidarKind::kAvia);
   const SimulatedScene scene = test::simulated_scene(options);
   // Same outline, other print.
@@ -166,7 +166,12 @@ TEST(BoardSearch, AnotherBoardIsRefused) {
   const double side = options.target.outline().size_m().x();
   other.margin_m = 0.5 * (side - 2.0 * other.tag_pitch_m() - other.tag_size_m);
   ASSERT_NEAR(other.outline().size_m().x(), side, 1e-9);
-  EXPECT_TRUE(search(scene, other).candidates.empty());
+  // A chance likeness on other panels is possible, with far less evidence than a board has.
+  const Eigen::Vector3d truth = board_center(options.target, scene.lidar_from_board);
+  for (const BoardCandidate& c : search(scene, other).candidates) {
+    EXPECT_GT((board_center(other, c.lidar_from_board.transform) - truth).norm(), 0.5);
+    EXPECT_LT(c.gain, 100.0);
+  }
 }
 
 TEST(BoardSearch, EmptyAndStoppedGiveNothing) {

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/calibration.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/pose_matchers.h"
+#include "support/simulated_dataset.h"
+#include "support/synthetic_observations.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// Within four standard deviations along every direction of the perturbation.
+void expect_within_four_sigma(const CalibrationResult& result, const Rigid3& truth) {
+  const UncertainRigid3& estimate = result.extrinsic.camera_from_lidar;
+  const Vector6d d = se3_log(truth * estimate.transform.inverse());
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_LT(std::abs(d(k)), 4.0 * std::sqrt(estimate.covariance(k, k)))
+        << "component " << k << "; " << test::pose_difference(estimate.transform, truth);
+  }
+}
+
+TEST(Calibrate, FindsTheTruthOnASimulatedDatasetWithoutAnyGuess) {
+  const test::SimulatedDataset data(test::dataset_options(1, 4));
+  std::vector<Progress> reports;
+  RunContext context;
+  context.progress = [&](const Progress& p) { reports.push_back(p); };
+  const auto result = calibrate(data.open(), {}, context);
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(name_of(result->quality), "good")
+      << (result->warnings.empty() ? "" : result->warnings.front());
+  expect_within_four_sigma(*result, data.rig().camera_from_lidar);
+  EXPECT_THAT(result->extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(data.rig().camera_from_lidar, 5.0, 2.0));
+  ASSERT_EQ(result->scenes.size(), 4U);
+  for (std::size_t s = 0; s < 4; ++s) {
+    const SceneResult& scene = result->scenes[s];
+    EXPECT_TRUE(scene.used) << scene.reason;
+    EXPECT_TRUE(scene.reason.empty());
+    ASSERT_TRUE(scene.view && scene.refinement);
+    EXPECT_GT(scene.board_points.size(), 500U);
+    EXPECT_THAT(scene.refinement->lidar_from_board,
+                test::IsNearPose(data.rig().scenes[s].lidar_from_board, 3.0, 4.0));
+  }
+  EXPECT_EQ(result->extrinsic.leave_one_out.size(), 4U);
+  EXPECT_GT(result->times.total_ms, 0.0);
+  EXPECT_GT(result->times.detect_ms, 0.0);
+  // Progress never goes back and ends at one.
+  ASSERT_GT(reports.size(), 8U);
+  for (std::size_t k = 1; k < reports.size(); ++k) {
+    EXPECT_GE(reports[k].fraction, reports[k - 1].fraction - 1e-9) << reports[k].stage;
+  }
+  EXPECT_EQ(reports.back().fraction, 1.0);
+}
+
+TEST(Calibrate, RejectedScenesTakeNoPartAndLeavingThemOutLaterIsTheSame) {
+  const test::SimulatedDataset data(test::dataset_options(3, 3));
+  CalibrationRequest request;
+  const auto all = calibrate(data.open(), request, {});
+  request.rejected = {"B"};
+  const auto rejected = calibrate(data.open(), request, {});
+  ASSERT_TRUE(all.ok() && rejected.ok());
+  EXPECT_FALSE(rejected->scenes[1].used);
+  EXPECT_EQ(rejected->scenes[1].reason, "rejected by the user");
+  EXPECT_FALSE(rejected->scenes[1].view.has_value());
+  EXPECT_EQ(rejected->extrinsic.used_scenes, 2);
+  expect_within_four_sigma(*rejected, data.rig().camera_from_lidar);
+  const auto resolved = resolve_calibration(*all, {true, false, true}, request.options);
+  ASSERT_TRUE(resolved.ok());
+  EXPECT_EQ(resolved->extrinsic.used_scenes, 2);
+  EXPECT_FALSE(resolved->scenes[1].used);
+  EXPECT_THAT(resolved->extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(rejected->extrinsic.camera_from_lidar.transform, 0.01, 0.01));
+  // Taking it back in gives the first result again.
+  const auto again = resolve_calibration(*resolved, {true, true, true}, request.options);
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(again->extrinsic.camera_from_lidar.transform.matrix(),
+            all->extrinsic.camera_from_lidar.transform.matrix());
+  EXPECT_EQ(again->warnings, all->warnings);
+  EXPECT_TRUE(again->scenes[1].used);
+  EXPECT_TRUE(again->scenes[1].reason.empty());
+  // And without any there is no result.
+  const auto none = resolve_calibration(*all, {false, false, false}, request.options);
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().kind, ErrorKind::kUntrusted);
+}
+
+TEST(Calibrate, AnUnknownSceneToRejectIsWrongUsage) {
+  const test::SimulatedDataset data(test::dataset_options(4, 1));
+  CalibrationRequest request;
+  request.rejected = {"Z"};
+  const auto result = calibrate(data.open(), request, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  EXPECT_THAT(result.error().message, HasSubstr("'Z'"));
+  request.rejected = {"A"};
+  const auto none = calibrate(data.open(), request, {});
+  ASSERT_FALSE(none.ok());
+  EXPECT_THAT(none.error().message, HasSubstr("every scene is rejected"));
+}
+
+TEST(Calibrate, ThreadsChangeNothingAndARoughGuessNextToNothing) {
+  const test::SimulatedDataset data(test::dataset_options(5, 2));
+  CalibrationRequest request;
+  RunContext one;
+  one.threads = 1;
+  RunContext three;
+  three.threads = 3;
+  const auto free = calibrate(data.open(), request, one);
+  const auto threads = calibrate(data.open(), request, three);
+  Random random(1);
+  request.guess = test::disturbed(data.rig().camera_from_lidar, random, 0.05, 0.05);
+  const auto guided = calibrate(data.open(), request, {});
+  ASSERT_TRUE(free.ok() && threads.ok() && guided.ok());
+  EXPECT_EQ(free->extrinsic.camera_from_lidar.transform.matrix(),
+            threads->extrinsic.camera_from_lidar.transform.matrix());
+  EXPECT_THAT(guided->extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(free->extrinsic.camera_from_lidar.transform, 1.0, 0.5));
+}
+
+TEST(Calibrate, AStopCancelsAtAnyTime) {
+  const test::SimulatedDataset data(test::dataset_options(6, 2));
+  const Dataset dataset = data.open();
+  for (const char* stage : {"", "detect", "localize", "refine", "optimize"}) {
+    std::stop_source stop;
+    RunContext context;
+    context.stop = stop.get_token();
+    context.progress = [&](const Progress& p) {
+      if (p.stage == stage && p.fraction < 1.0) stop.request_stop();
+    };
+    if (*stage == '\0') stop.request_stop();
+    const auto result = calibrate(dataset, {}, context);
+    if (std::string(stage) == "optimize") continue;  // Milliseconds: either way is right.
+    ASSERT_FALSE(result.ok()) << stage;
+    EXPECT_EQ(result.error().kind, ErrorKind::kCancelled) << stage << result.error().text();
+  }
+}
+
+TEST(Calibrate, UnusableFilesAreNamed) {
+  const test::SimulatedDataset data(test::dataset_options(7, 2));
+  const fs::path cloud = data.path() / "scenes/B/cloud.pcd";
+  const auto size = fs::file_size(cloud);
+  fs::resize_file(cloud, size / 2);
+  auto result = calibrate(data.open(), {}, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(result.error().text(), HasSubstr("B"));
+  std::ofstream(data.path() / "scenes/A/image.png", std::ios::trunc) << "no image";
+  result = calibrate(data.open(), {}, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(result.error().text(), HasSubstr("image.png"));
+}
+
+TEST(Calibrate, ARoomWithoutTheBoardHasNoResult) {
+  auto options = test::dataset_options(8, 1);
+  options.placement.board = false;
+  const test::SimulatedDataset data(options);
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_THAT(result.error().message, HasSubstr("not found in any image"));
+}
+
+TEST(Quality, HasNames) {
+  EXPECT_EQ(name_of(Quality::kGood), "good");
+  EXPECT_EQ(name_of(Quality::kDoubtful), "doubtful");
+  EXPECT_EQ(name_of(Quality::kFailed), "failed");
+}
+
+}  // namespace
+}  // namespace lvcalib

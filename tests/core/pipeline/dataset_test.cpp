@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/dataset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/pose_matchers.h"
+#include "support/synthetic_observations.h"
+#include "support/temporary_folder.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// Files that open_dataset only lists may be empty.
+class DatasetTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("d/target.yaml", to_yaml(Target{}));
+    folder_.write("d/camera.yaml", to_yaml(test::test_camera()));
+    folder_.write("d/scenes/B/image.png", "");
+    folder_.write("d/scenes/B/cloud.pcd", "");
+    folder_.write("d/scenes/A/image.jpg", "");
+    folder_.write("d/scenes/A/cloud.ply", "");
+    folder_.write("d/scenes/A/board.pcd", "");
+  }
+  [[nodiscard]] fs::path path() const { return folder_.path() / "d"; }
+  // The error when one file or folder is taken away.
+  [[nodiscard]] Error without(const std::string& name) const {
+    fs::remove_all(path() / name);
+    const auto dataset = open_dataset(path());
+    EXPECT_FALSE(dataset.ok()) << "without " << name;
+    return dataset.ok() ? Error{} : dataset.error();
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(DatasetTest, ListsItsScenesSortedByName) {
+  const auto dataset = open_dataset(path());
+  ASSERT_TRUE(dataset.ok()) << dataset.error().text();
+  ASSERT_EQ(dataset->scenes.size(), 2U);
+  EXPECT_EQ(dataset->scenes[0].name, "A");
+  EXPECT_EQ(dataset->scenes[0].image.filename(), "image.jpg");
+  EXPECT_EQ(dataset->scenes[0].cloud.filename(), "cloud.ply");
+  EXPECT_EQ(dataset->scenes[0].crop.filename(), "board.pcd");
+  EXPECT_EQ(dataset->scenes[1].name, "B");
+  EXPECT_TRUE(dataset->scenes[1].crop.empty());
+  EXPECT_FALSE(dataset->rough_camera_from_lidar.has_value());
+  EXPECT_TRUE(dataset->warnings.empty());
+  EXPECT_EQ(dataset->camera.fx, test::test_camera().fx);
+}
+
+TEST_F(DatasetTest, MissingTarget) {
+  EXPECT_THAT(without("target.yaml").text(), HasSubstr("target.yaml"));
+}
+
+TEST_F(DatasetTest, MissingCamera) {
+  EXPECT_THAT(without("camera.yaml").text(), HasSubstr("camera.yaml"));
+}
+
+TEST_F(DatasetTest, MissingScenesFolder) {
+  const Error error = without("scenes");
+  EXPECT_EQ(error.kind, ErrorKind::kInput);
+  EXPECT_THAT(error.text(), HasSubstr("scenes"));
+  EXPECT_THAT(error.text(), HasSubstr("one folder per scene"));
+}
+
+TEST_F(DatasetTest, MissingImage) {
+  const Error error = without("scenes/B/image.png");
+  EXPECT_THAT(error.text(), HasSubstr("no image"));
+  EXPECT_THAT(error.where, HasSubstr("B"));
+}
+
+TEST_F(DatasetTest, MissingCloud) {
+  const Error error = without("scenes/B/cloud.pcd");
+  EXPECT_THAT(error.text(), HasSubstr("no cloud"));
+  EXPECT_THAT(error.where, HasSubstr("B"));
+}
+
+TEST_F(DatasetTest, NoScenesAndNoFolder) {
+  fs::remove_all(path() / "scenes/A");
+  EXPECT_THAT(without("scenes/B").text(), HasSubstr("no scenes"));
+  EXPECT_THAT(open_dataset(path() / "nowhere").error().text(), HasSubstr("nowhere"));
+  EXPECT_FALSE(open_dataset(folder_.write("file", "")).ok());
+}
+
+TEST_F(DatasetTest, HiddenFoldersAndLooseFilesAreNoScenes) {
+  folder_.write("d/scenes/.cache/x", "");
+  folder_.write("d/scenes/notes.txt", "");
+  const auto dataset = open_dataset(path());
+  ASSERT_TRUE(dataset.ok());
+  EXPECT_EQ(dataset->scenes.size(), 2U);
+}
+
+TEST_F(DatasetTest, UnknownKeysWarn) {
+  folder_.write("d/target.yaml", to_yaml(Target{}) + "tagSpacin: 3\n");
+  const auto dataset = open_dataset(path());
+  ASSERT_TRUE(dataset.ok());
+  ASSERT_EQ(dataset->warnings.size(), 1U);
+  EXPECT_THAT(dataset->warnings[0], HasSubstr("tagSpacin"));
+}
+
+TEST_F(DatasetTest, ReadsTheRoughExtrinsicBesideIt) {
+  folder_.write("d/rig.yaml", "T_camera_lidar: [0, -1, 0, 0.1, 0, 0, -1, 0.2, 1, 0, 0, 0.3]\n");
+  const auto dataset = open_dataset(path());
+  ASSERT_TRUE(dataset.ok());
+  ASSERT_TRUE(dataset->rough_camera_from_lidar.has_value());
+  EXPECT_EQ(dataset->rough_camera_from_lidar->translation, Eigen::Vector3d(0.1, 0.2, 0.3));
+  folder_.write("d/rig.yaml", "T_camera_lidar: [1, 2]\n");
+  EXPECT_FALSE(open_dataset(path()).ok());
+}
+
+TEST(RoughExtrinsic, AllFormsMeanTheSame) {
+  const test::TemporaryFolder folder;
+  const Rigid3 truth{Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, 0.2, 0.3}};
+  const std::string rows = "[[0, -1, 0, 0.1], [0, 0, -1, 0.2], [1, 0, 0, 0.3]";
+  for (const std::string& text :
+       {"T_camera_lidar: " + rows + "]\n", "T_camera_lidar: " + rows + ", [0, 0, 0, 1]]\n",
+        "T_camera_lidar:\n  matrix: " + rows + "]\n",
+        std::string("T_camera_lidar: {translation_m: [0.1, 0.2, 0.3], quaternion_xyzw: [0.5, -0.5, "
+                    "0.5, 0.5]}\n")}) {
+    const auto rough = read_rough_extrinsic(folder.write("rig.yaml", text));
+    ASSERT_TRUE(rough.ok()) << text << rough.error().text();
+    EXPECT_THAT(*rough, test::IsNearPose(truth, 1e-9, 1e-5)) << text;
+  }
+}
+
+TEST(RoughExtrinsic, RefusesWhatIsNoRigidTransform) {
+  const test::TemporaryFolder folder;
+  for (const std::string text :
+       {"T_camera_lidar: [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 2, 0]]\n",   // a scale
+        "T_camera_lidar: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0]]\n",  // a mirror
+        "T_camera_lidar: [1, 2, 3]\n", "T_camera_lidar: text\n", "T_camera_lidar:\n",
+        "T_lidar_camera: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]\n",
+        "T_camera_lidar: [.nan, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]\n",
+        "T_camera_lidar: {translation_m: [0, 0, 0]}\n",
+        "T_camera_lidar: {translation_m: [0, 0, 0], quaternion_xyzw: [0, 0, 0, 0]}\n",
+        "T_camera_lidar: {translation_m: [0, 0], quaternion_xyzw: [0, 0, 0, 1]}\n"}) {
+    const auto rough = read_rough_extrinsic(folder.write("rig.yaml", text));
+    ASSERT_FALSE(rough.ok()) << text;
+    EXPECT_EQ(rough.error().kind, ErrorKind::kInput);
+    EXPECT_THAT(rough.error().text(), HasSubstr("rig.yaml")) << text;
+  }
+  EXPECT_FALSE(read_rough_extrinsic(folder.path() / "none.yaml").ok());
+}
+
+}  // namespace
+}  // namespace lvcalib

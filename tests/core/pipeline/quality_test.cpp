@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/quality.h"
+
+#include <cmath>
+#include <functional>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/simulated_dataset.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A result of two flawless scenes.
+CalibrationResult flawless() {
+  CalibrationResult result;
+  for (const char* name : {"A", "B", "C"}) {
+    SceneResult scene;
+    scene.name = name;
+    scene.used = true;
+    scene.refinement.emplace();
+    scene.refinement->scale_sigma = 0.0005;
+    result.scenes.push_back(scene);
+  }
+  result.extrinsic.used_scenes = 3;
+  result.extrinsic.sigma_px = 0.1;
+  result.consensus.score = 500.0;
+  return result;
+}
+
+std::string all_warnings(const CalibrationResult& result) {
+  std::string text;
+  for (const std::string& w : result.warnings) text += w + "\n";
+  return text;
+}
+
+// The first "x.xx %" or "x %" in a text.
+double percentage_in(const std::string& text) {
+  std::smatch match;
+  if (!std::regex_search(text, match, std::regex("([0-9]+(\\.[0-9]+)?)[^%]*%"))) return -1.0;
+  return std::stod(match[1]);
+}
+
+TEST(JudgeQuality, AFlawlessResultIsGoodAndSilent) {
+  CalibrationResult result = flawless();
+  judge_quality(result, {});
+  EXPECT_EQ(result.quality, Quality::kGood);
+  EXPECT_TRUE(result.warnings.empty()) << all_warnings(result);
+}
+
+TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
+  struct Case {
+    const char* words;
+    Quality quality;
+    std::function<void(CalibrationResult&)> spoil;
+  };
+  const std::vector<Case> cases{
+      {"only 5 of 6 directions", Quality::kFailed, [](auto& r) { r.extrinsic.rank = 5; }},
+      {"weak as weak", Quality::kDoubtful,
+       [](auto& r) { r.extrinsic.weak_directions = {"weak as weak"}; }},
+      {"only one usable scene", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 1; }},
+      {"two scenes", Quality::kGood, [](auto& r) { r.extrinsic.used_scenes = 2; }},
+      {"miss their model by 3.00 px", Quality::kDoubtful,
+       [](auto& r) { r.extrinsic.sigma_px = 3.0; }},
+      {"4.0 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 4.0; }},
+      {"5.0 times (planes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.plane_scale = 5.0; }},
+      {"nearly as good (margin 2.0)", Quality::kDoubtful,
+       [](auto& r) { r.consensus.runner_up = 498.0; }},
+      {"0.50 ± 0.03 % larger", Quality::kGood,
+       [](auto& r) {
+         for (auto& s : r.scenes) s.refinement->scale = 1.005;
+       }},
+      {"2.00 ± 0.03 % smaller", Quality::kFailed,
+       [](auto& r) {
+         for (auto& s : r.scenes) s.refinement->scale = 0.98;
+       }},
+      {"scene B is not used: too dark", Quality::kGood,
+       [](auto& r) {
+         r.scenes[1].used = false;
+         r.scenes[1].reason = "too dark";
+       }},
+      {"scene C: odd", Quality::kGood, [](auto& r) { r.scenes[2].refinement->warnings = {"odd"}; }},
+  };
+  for (const Case& c : cases) {
+    CalibrationResult result = flawless();
+    c.spoil(result);
+    judge_quality(result, {});
+    EXPECT_EQ(result.quality, c.quality) << c.words << "\n" << all_warnings(result);
+    EXPECT_THAT(all_warnings(result), HasSubstr(c.words));
+    // Judged again, nothing is said twice.
+    const auto once = result.warnings;
+    judge_quality(result, {});
+    EXPECT_EQ(result.warnings, once);
+  }
+}
+
+TEST(JudgeQuality, KeepsWarningsOfOthersAndTheUsersChoicesToItself) {
+  CalibrationResult result = flawless();
+  result.warnings = {"camera.yaml: unknown key"};
+  result.scenes[1].used = false;
+  result.scenes[1].reason = "rejected by the user";
+  judge_quality(result, {});
+  EXPECT_EQ(result.warnings, std::vector<std::string>{"camera.yaml: unknown key"});
+}
+
+TEST(JudgeQuality, AScaleWithinItsUncertaintyIsNoDifference) {
+  CalibrationResult result = flawless();
+  for (SceneResult& scene : result.scenes) {
+    scene.refinement->scale = 1.02;
+    scene.refinement->scale_sigma = 0.02;
+  }
+  judge_quality(result, {});
+  EXPECT_EQ(result.quality, Quality::kGood) << all_warnings(result);
+}
+
+TEST(MeasuredScaleTest, IsTheWeightedMeanOfTheUsedScenes) {
+  CalibrationResult result = flawless();
+  result.scenes[0].refinement->scale = 1.01;
+  result.scenes[0].refinement->scale_sigma = 0.001;
+  result.scenes[1].refinement->scale = 1.04;
+  result.scenes[1].refinement->scale_sigma = 0.002;
+  result.scenes[2].refinement->scale = 3.0;
+  result.scenes[2].used = false;
+  const MeasuredScale scale = measured_scale(result);
+  EXPECT_NEAR(scale.scale, (4 * 1.01 + 1.04) / 5, 1e-12);
+  EXPECT_NEAR(scale.sigma, 1.0 / std::sqrt(1.25e6), 1e-9);
+  EXPECT_EQ(measured_scale({}).sigma, 0.0);
+}
+
+TEST(SizeMismatch, OfAPerCentAndAHalfFailsAndNamesIt) {
+  const test::SimulatedDataset data(test::dataset_options(21, 2));
+  data.scale_target(1.0 / 1.015);
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(result->quality, Quality::kFailed);
+  std::string text;
+  for (const std::string& w : result->warnings) {
+    if (w.find("board's size") != std::string::npos) text = w;
+  }
+  EXPECT_THAT(text, HasSubstr("larger"));
+  EXPECT_NEAR(percentage_in(text), 1.5, 0.5) << text;
+}
+
+TEST(SizeMismatch, OfEightPerCentIsNamedToo) {
+  const test::SimulatedDataset data(test::dataset_options(22, 1));
+  data.scale_target(1.0 / 1.08);
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::kUntrusted);
+  std::string text = result.error().text();
+  const auto at = text.find("board's size");
+  ASSERT_NE(at, std::string::npos) << text;
+  text = text.substr(at);
+  EXPECT_THAT(text, HasSubstr("larger"));
+  EXPECT_NEAR(percentage_in(text), 8.0, 0.5) << text;
+}
+
+}  // namespace
+}  // namespace lvcalib

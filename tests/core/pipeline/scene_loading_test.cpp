@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/scene_loading.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/simulated_dataset.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+
+CalibrationResult prepared(const Dataset& dataset) {
+  CalibrationResult result;
+  result.target = dataset.target;
+  result.camera = dataset.camera;
+  for (const SceneFiles& files : dataset.scenes) {
+    SceneResult scene;
+    scene.name = files.name;
+    result.scenes.push_back(scene);
+  }
+  return result;
+}
+
+TEST(LoadScenes, GivesViewAndCandidatesOfEverySceneNotRejected) {
+  const test::SimulatedDataset data(test::dataset_options(11, 3));
+  const Dataset dataset = data.open();
+  CalibrationResult result = prepared(dataset);
+  result.scenes[1].reason = "rejected by the user";
+  const Status status = load_scenes(dataset, {}, {}, result);
+  ASSERT_TRUE(status.ok()) << status.error().text();
+  for (const std::size_t s : {0U, 2U}) {
+    ASSERT_TRUE(result.scenes[s].view && result.scenes[s].search);
+    EXPECT_FALSE(result.scenes[s].search->candidates.empty());
+    EXPECT_GE(result.scenes[s].view->tag_count, 12);
+  }
+  EXPECT_FALSE(result.scenes[1].view.has_value());
+  EXPECT_FALSE(result.scenes[1].search.has_value());
+  EXPECT_GT(result.times.localize_ms, 0.0);
+}
+
+TEST(LoadScenes, ACropStandsForTheCloudOnlyWhenAskedFor) {
+  const test::SimulatedDataset data(test::dataset_options(12, 1));
+  // An empty room as the crop: used, it hides the board.
+  Cloud few;
+  for (int i = 0; i < 100; ++i) {
+    few.points_m.emplace_back(2.0F, 0.01F * static_cast<float>(i), 0.0F);
+    few.intensity.push_back(10.0F);
+  }
+  ASSERT_TRUE(write_pcd(data.path() / "scenes/A/board.pcd", few).ok());
+  const Dataset dataset = data.open();
+  CalibrationRequest request;
+  CalibrationResult result = prepared(dataset);
+  ASSERT_TRUE(load_scenes(dataset, request, {}, result).ok());
+  EXPECT_FALSE(result.scenes[0].search->candidates.empty());
+  request.use_crops = true;
+  result = prepared(dataset);
+  ASSERT_TRUE(load_scenes(dataset, request, {}, result).ok());
+  EXPECT_TRUE(result.scenes[0].search->candidates.empty());
+}
+
+TEST(LoadScenes, ACloudWithoutIntensityIsNamed) {
+  const test::SimulatedDataset data(test::dataset_options(13, 1));
+  Cloud cloud = data.rig().scenes[0].cloud;
+  cloud.intensity.clear();
+  ASSERT_TRUE(write_pcd(data.path() / "scenes/A/cloud.pcd", cloud).ok());
+  const Dataset dataset = data.open();
+  CalibrationResult result = prepared(dataset);
+  const Status status = load_scenes(dataset, {}, {}, result);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(status.error().text(), HasSubstr("no intensity"));
+  EXPECT_THAT(status.error().where, HasSubstr("cloud.pcd"));
+}
+
+TEST(LoadScenes, AnImageOfAnotherSizeSpoilsAll) {
+  const test::SimulatedDataset data(test::dataset_options(14, 1));
+  Dataset dataset = data.open();
+  dataset.camera.width_px += 2;
+  CalibrationResult result = prepared(dataset);
+  const Status status = load_scenes(dataset, {}, {}, result);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(status.error().where, HasSubstr("image.png"));
+}
+
+TEST(SearchSceneAgain, LooksInTheRegion) {
+  const test::SimulatedDataset data(test::dataset_options(15, 1));
+  const Dataset dataset = data.open();
+  CalibrationResult result = prepared(dataset);
+  ASSERT_TRUE(load_scenes(dataset, {}, {}, result).ok());
+  result.scenes[0].search.reset();
+  const PatternPyramid pyramid(dataset.target);
+  const Eigen::Vector2d c = dataset.target.outline().center_m();
+  BoardSearchRegion region;
+  region.center_m = data.rig().scenes[0].lidar_from_board * Eigen::Vector3d(c.x(), c.y(), 0.0);
+  region.radius_m = 1.0;
+  ASSERT_TRUE(search_scene_again(dataset.scenes[0], {}, region, {}, pyramid, result, 0).ok());
+  ASSERT_TRUE(result.scenes[0].search.has_value());
+  EXPECT_FALSE(result.scenes[0].search->candidates.empty());
+  std::stop_source stop;
+  stop.request_stop();
+  RunContext context;
+  context.stop = stop.get_token();
+  const Status stopped =
+      search_scene_again(dataset.scenes[0], {}, region, context, pyramid, result, 0);
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
+}
+
+}  // namespace
+}  // namespace lvcalib
