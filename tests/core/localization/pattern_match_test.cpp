@@ -41,7 +41,6 @@ class PatternMatchTest : public ::testing::Test {
     PatternSearchRange range;
     range.slack_m = 0.1;
     range.step_m = 0.027;
-    range.radius_m = 0.5 * target_.outline().size_m().norm();
     for (int d = 0; d < 72; ++d) range.angles_rad.push_back(5.0 * d * kDegree);
     return range;
   }
