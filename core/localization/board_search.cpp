@@ -102,14 +102,14 @@ class BoardSearch {
            patch.extent_m.y() < 1.25 * longer && patch.extent_m.x() > 0.4 * shorter;
   }
 
-  // A plane that grows by next to nothing from one connection gap to the next need not be searched
-  // again.
+  // A wall that grows by next to nothing from one connection gap to the next need not be searched
+  // again: that takes long. Of small patches each one is tried, since their planes differ more.
   void drop_copies(std::vector<PlanarPatch>& patches) const {
     std::vector<PlanarPatch> kept;
     for (PlanarPatch& patch : patches) {
       const auto points = static_cast<double>(patch.voxels.size());
       const bool copy = std::any_of(kept.begin(), kept.end(), [&](const PlanarPatch& other) {
-        return other.open == patch.open &&
+        return other.open && patch.open &&
                (other.center_m - patch.center_m).norm() < 0.02 * size_.minCoeff() &&
                std::abs(other.normal.dot(patch.normal)) > std::cos(1.0 * kDegree) &&
                std::abs(static_cast<double>(other.voxels.size()) - points) < 0.01 * points;
