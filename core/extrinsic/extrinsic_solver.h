@@ -34,6 +34,9 @@ struct ExtrinsicOptions {
   double robust_threshold = 4.0;      ///< Huber threshold in standard deviations.
   double rejection_gate = 5.0;        ///< A tag or node farther off (in σ) is left out.
   bool reject_bad_scenes = true;      ///< Leave out scenes that contradict all others.
+  double scene_rejection_gain = 5.0;  ///< So many times better the rest must fit without it.
+  double false_alarm = 0.01;  ///< Chance of widening a stated σ though only noise is at work.
+  double weak_direction_ratio = 10.0;  ///< A direction so many times worse than usual is weak.
   int max_iterations = 50;
 };
 

@@ -20,10 +20,13 @@ struct QualityOptions {
   double scale_warning = 0.003;  ///< Size difference between LiDAR and model worth a warning.
   double scale_failure = 0.01;   ///< And one that makes the result untrustworthy.
   double max_sigma_px = 1.5;     ///< Corner noise above this makes the result doubtful.
-  double max_noise_scale = 3.0;  ///< LiDAR residuals this many times their σ make it doubtful.
+  double max_noise_scale = 2.0;  ///< LiDAR residuals this many times their σ make it doubtful:
+                                 ///< three quarters of their variance are then not noise.
   double max_dark_offset_m =
-      0.001;                 ///< Range difference of dark and white print that is worth doubt.
-  double min_margin = 10.0;  ///< Evidence (nats) by which the assignment must win.
+      0.001;  ///< Range difference of dark and white print that is worth doubt.
+  double max_sigma_translation_m = 0.1;  ///< A position known worse than this is no result.
+  double max_sigma_rotation_rad = 0.05;  ///< A rotation known worse than this is no result.
+  double min_margin = 10.0;              ///< Evidence (nats) by which the assignment must win.
 };
 
 /// Every option of a calibration.

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
+
 #include "base/parallel.h"
 
 namespace lvcalib {
@@ -59,6 +61,27 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
     verdict.failed(text);
   } else {
     verdict.note(text);
+  }
+}
+
+// Standard deviations along the worst axis: of the LiDAR's position and of the rotation. Directions
+// that only noise keeps from being undetermined come out as decimetres or metres.
+void judge_precision(const ExtrinsicSolution& x, const QualityOptions& options, Verdict& verdict) {
+  Eigen::Matrix<double, 3, 6> position;
+  position << Eigen::Matrix3d::Identity(), -skew(x.camera_from_lidar.transform.translation);
+  const Matrix6d& covariance = x.camera_from_lidar.covariance;
+  const auto worst = [](const Eigen::Matrix3d& m) {
+    return std::sqrt(
+        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly)
+                          .eigenvalues()(2)));
+  };
+  const double sigma_m = worst(position * covariance * position.transpose());
+  const double sigma_rad = worst(covariance.bottomRightCorner<3, 3>());
+  if (sigma_m > options.max_sigma_translation_m || sigma_rad > options.max_sigma_rotation_rad) {
+    verdict.failed(
+        formatted("the scenes leave the extrinsic open: ± %.0f mm and ± %.1f mrad along "
+                  "the worst axes; add scenes with the board turned differently",
+                  1e3 * sigma_m, 1e3 * sigma_rad));
   }
 }
 
@@ -124,6 +147,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   if (x.rank < 6)
     verdict.failed("the scenes determine only " + std::to_string(x.rank) +
                    " of 6 directions of the extrinsic");
+  judge_precision(x, options, verdict);
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
   judge_dark_offset(result, options, verdict);

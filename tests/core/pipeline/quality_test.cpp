@@ -60,13 +60,17 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
   };
   const std::vector<Case> cases{
       {"only 5 of 6 directions", Quality::kFailed, [](auto& r) { r.extrinsic.rank = 5; }},
+      {"leave the extrinsic open: ± 300 mm", Quality::kFailed,
+       [](auto& r) { r.extrinsic.camera_from_lidar.covariance(1, 1) = 0.09; }},
+      {"± 80.0 mrad", Quality::kFailed,
+       [](auto& r) { r.extrinsic.camera_from_lidar.covariance(4, 4) = 0.0064; }},
       {"weak as weak", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.weak_directions = {"weak as weak"}; }},
       {"only one usable scene", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 1; }},
       {"two scenes", Quality::kGood, [](auto& r) { r.extrinsic.used_scenes = 2; }},
       {"miss their model by 3.00 px", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.sigma_px = 3.0; }},
-      {"4.0 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 4.0; }},
+      {"2.5 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 2.5; }},
       {"5.0 times (planes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.plane_scale = 5.0; }},
       {"nearly as good (margin 2.0)", Quality::kDoubtful,
        [](auto& r) { r.consensus.runner_up = 498.0; }},
