@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/file_io.h"
 #include "command.h"
 #include "pipeline/calibration.h"
 #include "report/result_file.h"
@@ -55,6 +56,7 @@ std::string summary_of(const CalibrationResult& result, const std::string& outpu
 }
 
 Result<std::string> run(const Options& options, Session& session) {
+  if (Status s = check_folder_usable(options.output); !s) return s.error();
   auto dataset = open_dataset(options.dataset);
   if (!dataset) return dataset.error();
   // Said before anything else: what follows may be their consequence.

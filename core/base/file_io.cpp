@@ -101,4 +101,19 @@ Status create_folder(const fs::path& path) {
   return Done{};
 }
 
+Status check_folder_usable(const fs::path& path) {
+  std::error_code code;
+  fs::path existing = fs::absolute(path, code);
+  while (!existing.empty() && !fs::exists(existing, code) && existing != existing.root_path())
+    existing = existing.parent_path();
+  if (!fs::is_directory(existing, code)) {
+    return Error::output("a file is in the way of this folder: " + existing.string(), path.string(),
+                         "give another folder");
+  }
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+    return Error::output("no right to write here", existing.string(), "give another folder");
+  }
+  return Done{};
+}
+
 }  // namespace lvcalib

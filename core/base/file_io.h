@@ -20,4 +20,8 @@ Status write_file_atomically(const std::filesystem::path& path, std::string_view
 /// Creates a folder and its parents. Error if a file is in the way or it cannot be created.
 Status create_folder(const std::filesystem::path& path);
 
+/// Whether create_folder and writing into it can succeed, as far as names and rights tell; creates
+/// nothing. Asked before long work whose result would be lost.
+Status check_folder_usable(const std::filesystem::path& path);
+
 }  // namespace lvcalib

@@ -36,6 +36,8 @@ bool convert(const YAML::Node& node, YamlValue& out, int depth, int& budget) {
       if (!entry.first.IsScalar()) return false;
       auto& [key, value] = out.map.emplace_back(entry.first.Scalar(), YamlValue{});
       if (!convert(entry.second, value, depth + 1, budget)) return false;
+      // A missing value is marked at whatever follows it.
+      if (value.kind == YamlValue::Kind::kNull) value.line = entry.first.Mark().line + 1;
     }
   }
   return true;
@@ -111,7 +113,7 @@ Result<YamlFile> YamlFile::parse(std::string text, std::string name) {
 Result<YamlFile> YamlFile::section(std::string_view key) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return Error::input("key '" + std::string(key) + "' is missing; expected a map", name_);
+    return missing(key, "a map");
   }
   if (value->kind != YamlValue::Kind::kMap) {
     return error_at(*value, "'" + std::string(key) + "' must be a map, found " + describe(*value));
@@ -126,10 +128,19 @@ Error YamlFile::error_at(const YamlValue& value, std::string message) const {
   return Error::input(std::move(message), name_ + ":" + std::to_string(value.line));
 }
 
+Error YamlFile::missing(std::string_view key, std::string_view expected) const {
+  std::vector<std::string> present;
+  for (const auto& [name, value] : root_.map) present.push_back(name);
+  const std::string near = nearest_word(key, present);
+  return Error::input(
+      "key '" + std::string(key) + "' is missing; expected " + std::string(expected), name_,
+      near.empty() ? "" : "is '" + near + "' a misspelling of it?");
+}
+
 Result<double> YamlFile::number(std::string_view key, double low, double high) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return Error::input("key '" + std::string(key) + "' is missing; expected a number", name_);
+    return missing(key, "a number");
   }
   double number = 0;
   if (value->kind != YamlValue::Kind::kScalar || !parse_number(value->scalar, number)) {
@@ -161,7 +172,7 @@ Result<int> YamlFile::integer(std::string_view key, int low, int high) const {
 Result<std::string> YamlFile::string(std::string_view key) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return Error::input("key '" + std::string(key) + "' is missing; expected a word", name_);
+    return missing(key, "a word");
   }
   if (value->kind != YamlValue::Kind::kScalar) {
     return error_at(*value, "'" + std::string(key) + "' must be a word, found " + describe(*value));
@@ -195,8 +206,7 @@ Result<std::vector<double>> YamlFile::flatten(const YamlValue& value, std::strin
 Result<std::vector<double>> YamlFile::numbers(std::string_view key, std::size_t count) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return Error::input("key '" + std::string(key) + "' is missing; expected a list of numbers",
-                        name_);
+    return missing(key, "a list of numbers");
   }
   auto out = flatten(*value, key);
   if (out && count != 0 && out->size() != count) {

@@ -63,6 +63,8 @@ class YamlFile {
   [[nodiscard]] std::vector<std::string> unknown_keys(const std::vector<std::string>& known) const;
 
   /// An input error at a value of this file.
+  /// The error of a missing key; points to a key that may be a misspelling of it.
+  [[nodiscard]] Error missing(std::string_view key, std::string_view expected) const;
   [[nodiscard]] Error error_at(const YamlValue& value, std::string message) const;
 
   /// Flattens a list value (of lists) into numbers.

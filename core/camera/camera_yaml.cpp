@@ -102,7 +102,7 @@ Result<Done> read_size(const YamlFile& file, Camera& camera) {
 Result<Done> read_matrix(const YamlFile& file, Camera& camera) {
   const std::string key = first_present(file, kMatrix);
   if (key.empty()) {
-    return Error::input("key 'camera_matrix' is missing; expected a 3 × 3 matrix", file.name());
+    return file.missing("camera_matrix", "a 3 × 3 matrix");
   }
   const auto m = matrix_numbers(file, key);
   if (!m) return m.error();
@@ -176,9 +176,7 @@ Status choose_model(const YamlFile& file, std::size_t coefficients, CameraFile& 
   Camera& camera = out.camera;
   if (file.has("distortion_model")) return read_model(file, "distortion_model", camera);
   if (!first_present(file, kRosOnly).empty()) {
-    return Error::input(
-        "key 'distortion_model' is missing; expected plumb_bob, rational_polynomial or equidistant",
-        file.name());
+    return file.missing("distortion_model", "plumb_bob, rational_polynomial or equidistant");
   }
   if (file.has("fisheye_model")) {
     const auto fisheye = file.integer("fisheye_model", 0, 1);
@@ -208,8 +206,7 @@ Result<CameraFile> read_matrix_style(const YamlFile& file) {
   if (Status s = read_matrix(file, out.camera); !s) return s.error();
   const std::string key = first_present(file, kCoefficients);
   if (key.empty()) {
-    return Error::input("key 'distortion_coefficients' is missing; expected a list of numbers",
-                        file.name());
+    return file.missing("distortion_coefficients", "a list of numbers");
   }
   const auto values = matrix_numbers(file, key);
   if (!values) return values.error();
@@ -245,7 +242,7 @@ Result<CameraFile> read_kalibr_camera(const YamlFile& file, std::string name) {
   camera.cx = (*intrinsics)[2];
   camera.cy = (*intrinsics)[3];
   if (!file.has("resolution")) {
-    return Error::input("key 'resolution' is missing; expected [width, height]", file.name());
+    return file.missing("resolution", "[width, height]");
   }
   if (Status s = read_size(file, camera); !s) return s.error();
   const auto distortion = file.string("distortion_model");

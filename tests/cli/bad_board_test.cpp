@@ -96,6 +96,10 @@ std::vector<BadInput> boards() {
        edit_target("tag36h11", "tag25h9"),
        3,
        {"A/image.png: ", "tag36h11", "target says tag25h9"}},
+      {"OtherBorder",
+       edit_target("tagBorder: 1", "tagBorder: 2"),
+       3,
+       {"A/image.png: ", "1-bit border", "set tagBorder: 1"}},
       {"BoardNotInClouds", take_board_out_of_clouds, 1, {"not found in any cloud", "A", "C"}},
   };
 }

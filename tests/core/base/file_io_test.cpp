@@ -92,6 +92,18 @@ TEST_F(FileIo, ReadErrorsSayWhy) {
   EXPECT_THAT(message(read_text_file(folder_ / "big", 10)), HasSubstr("11 bytes"));
 }
 
+TEST_F(FileIo, TellsBeforehandWhetherAFolderCanBeUsed) {
+  const auto root = folder_;
+  EXPECT_TRUE(check_folder_usable(root).ok());
+  EXPECT_TRUE(check_folder_usable(root / "a" / "b").ok());
+  EXPECT_FALSE(std::filesystem::exists(root / "a"));
+  ASSERT_TRUE(write_file_atomically(root / "file", "x").ok());
+  const Status status = check_folder_usable(root / "file" / "b");
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kOutput);
+  EXPECT_NE(status.error().text().find("in the way"), std::string::npos);
+}
+
 TEST_F(FileIo, CreatesFoldersWithTheirParents) {
   EXPECT_TRUE(create_folder(folder_ / "a" / "b").ok());
   EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));

@@ -53,13 +53,20 @@ TEST(YamlFile, ErrorsNameFileLineKeyAndWhatWasFound) {
   EXPECT_EQ(error(file.number("e")), "f.yaml:5: 'e' must be a number, found a list of 2");
   EXPECT_THAT(error(file.number("n")), HasSubstr("found '.nan'"));
   EXPECT_THAT(error(file.number("i")), HasSubstr("found '.inf'"));
-  EXPECT_THAT(error(file.number("z")), HasSubstr("found nothing"));
+  EXPECT_EQ(error(file.number("z")), "f.yaml:8: 'z' must be a number, found nothing");
   EXPECT_THAT(error(file.number("h")), HasSubstr("found '0x10'"));
   EXPECT_EQ(error(file.number("q")), "f.yaml: key 'q' is missing; expected a number");
   EXPECT_THAT(error(file.string("q")), HasSubstr("expected a word"));
   EXPECT_THAT(error(file.numbers("q")), HasSubstr("expected a list"));
   EXPECT_EQ(error(file.section("q")), "f.yaml: key 'q' is missing; expected a map");
   EXPECT_EQ(error(file.section("a")), "f.yaml:1: 'a' must be a map, found 'word'");
+}
+
+TEST(YamlFile, AMissingKeyPointsToItsMisspelling) {
+  const YamlFile file = parsed("distorsion_model: plumb_bob\nother: 1\n");
+  const Error e = file.string("distortion_model").error();
+  EXPECT_THAT(e.text(), HasSubstr("'distorsion_model' a misspelling"));
+  EXPECT_TRUE(file.string("camera_matrix").error().hint.empty());
 }
 
 TEST(YamlFile, RefusesWhatIsNoMapOrNoYaml) {
