@@ -27,8 +27,9 @@ DOORS = {
     "extrinsic": ["base", "target", "camera", "cloud", "detection", "localization", "refinement"],
     "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
                  "extrinsic"],
-    "model": ["base", "target", "camera", "cloud", "extrinsic"],
-    "discovery": ["base", "target", "camera", "cloud", "extrinsic", "model"],
+    "model": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic"],
+    "discovery": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic",
+                  "model"],
     "simulation": ["base", "target", "camera", "cloud"],
 }
 DOORS["pipeline"] = sorted(DOORS)

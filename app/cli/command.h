@@ -31,6 +31,7 @@ struct Command {
 Command add_target_command(CLI::App& app);
 Command add_simulate_command(CLI::App& app);
 Command add_calibrate_command(CLI::App& app);
+Command add_discover_command(CLI::App& app);
 Command add_evaluate_command(CLI::App& app);
 
 }  // namespace lvcalib::cli

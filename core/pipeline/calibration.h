@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "discovery/discovery.h"
 #include "pipeline/dataset.h"
 #include "pipeline/options.h"
 
@@ -33,6 +34,13 @@ struct SceneResult {
 enum class Quality { kGood, kDoubtful, kFailed };
 std::string name_of(Quality quality);
 
+/// An effect in the model of a calibration.
+struct ModelEffect {
+  std::string id;
+  std::vector<ParameterEstimate> parameters;
+  double shape = 0.0;  ///< Its shape number (a period, a decay length); 0 if it has none.
+};
+
 /// A finished calibration.
 struct CalibrationResult {
   std::string dataset;
@@ -41,6 +49,7 @@ struct CalibrationResult {
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
   ExtrinsicSolution extrinsic;
+  std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
   Quality quality = Quality::kFailed;
   std::string quality_reason;  ///< Why the quality is not good, in words.
   std::vector<std::string> warnings;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration_arguments.h"
+
+#include <algorithm>
+
+#include "base/file_io.h"
+
+namespace lvcalib::cli {
+namespace {
+
+Result<CalibrationRequest> make_request(const CalibrationArguments& options, const Dataset& dataset,
+                                        Session& session) {
+  CalibrationRequest request;
+  request.use_crops = options.crops;
+  request.rejected = options.rejected;
+  request.guess = dataset.rough_camera_from_lidar;
+  if (!options.config.empty()) {
+    auto file = read_options(options.config);
+    if (!file) return file.error();
+    for (const std::string& warning : file->warnings) session.warn(warning);
+    request.options = file->options;
+  }
+  if (!options.rough.empty()) {
+    auto rough = read_rough_extrinsic(options.rough);
+    if (!rough) return rough.error();
+    request.guess = *rough;
+  }
+  return request;
+}
+
+}  // namespace
+
+void add_calibration_arguments(CLI::App& command, CalibrationArguments& arguments,
+                               const std::string& output_description) {
+  command
+      .add_option("DATASET", arguments.dataset, "folder with target.yaml, camera.yaml and scenes/")
+      ->required();
+  command.add_option("-o,--output", arguments.output, output_description)->required();
+  command.add_option("--config", arguments.config, "YAML file of options");
+  command.add_option("--init", arguments.rough,
+                     "rig.yaml with a rough T_camera_lidar; narrows the search");
+  command.add_flag("--crops", arguments.crops, "use scenes/NAME/board.pcd where present");
+  command.add_option("--reject", arguments.rejected, "leave out this scene (repeatable)");
+}
+
+Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments, Session& session) {
+  if (Status s = check_folder_usable(arguments.output); !s) return s.error();
+  auto dataset = open_dataset(arguments.dataset);
+  if (!dataset) return dataset.error();
+  // Said before anything else: what follows may be their consequence.
+  for (const std::string& warning : dataset->warnings) session.warn(warning);
+  auto request = make_request(arguments, *dataset, session);
+  if (!request) return request.error();
+  auto result = calibrate(*dataset, *request, session.context);
+  if (!result) return result.error();
+  if (session.context.stopped()) return Error::cancelled();
+  for (const std::string& warning : result->warnings) {
+    const auto& said = dataset->warnings;
+    if (std::find(said.begin(), said.end(), warning) == said.end()) session.warn(warning);
+  }
+  return result;
+}
+
+Error untrusted_result(const CalibrationResult& result, const CalibrationArguments& arguments) {
+  return Error::untrusted("the result cannot be trusted: " + result.quality_reason +
+                              "; written for inspection to " + arguments.output,
+                          arguments.dataset);
+}
+
+}  // namespace lvcalib::cli

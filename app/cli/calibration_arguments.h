@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "pipeline/calibration.h"
+
+namespace lvcalib::cli {
+
+/// Arguments of the commands that calibrate first.
+struct CalibrationArguments {
+  std::string dataset;
+  std::string output;
+  std::string config;
+  std::string rough;
+  bool crops = false;
+  std::vector<std::string> rejected;
+};
+
+void add_calibration_arguments(CLI::App& command, CalibrationArguments& arguments,
+                               const std::string& output_description);
+
+/// Opens the dataset and calibrates; warnings go to the session. Says beforehand if the output
+/// folder cannot be written.
+Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments, Session& session);
+
+/// The error of a result that was written but cannot be trusted.
+Error untrusted_result(const CalibrationResult& result, const CalibrationArguments& arguments);
+
+}  // namespace lvcalib::cli

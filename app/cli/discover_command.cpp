@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+
+#include "base/file_io.h"
+#include "calibration_arguments.h"
+#include "command.h"
+#include "pipeline/model_discovery.h"
+#include "report/discovery_file.h"
+#include "report/result_file.h"
+
+namespace lvcalib::cli {
+namespace {
+
+struct Options {
+  CalibrationArguments calibration;
+  DiscoveryOptions discovery;
+};
+
+std::string summary_of(const Discovery& discovery, const std::string& output) {
+  std::string effects;
+  for (const std::string& id : discovery.selected) effects += (effects.empty() ? "" : ", ") + id;
+  std::string text = effects.empty() ? "nothing is missing in the model" : "missing: " + effects;
+  for (const ChannelSummary& before : discovery.channels) {
+    for (const ChannelSummary& after : discovery.history.back().channels) {
+      if (before.channel != after.channel) continue;
+      char part[96];
+      std::snprintf(part, sizeof part, "; %s %.3g -> %.3g %s", name_of(before.channel), before.rms,
+                    after.rms, unit_of(before.channel));
+      text += part;
+    }
+  }
+  return text + " -> " + output;
+}
+
+Result<std::string> run(const Options& options, Session& session) {
+  const std::string& output = options.calibration.output;
+  auto result = run_calibration(options.calibration, session);
+  if (!result) return result.error();
+  auto discovery = discover(*result, options.discovery, session.context);
+  if (!discovery) {
+    Error error = discovery.error();
+    if (error.where.empty()) error.where = options.calibration.dataset;
+    return error;
+  }
+  const CalibrationResult final = with_model(std::move(*result), *discovery);
+  if (session.context.stopped()) return Error::cancelled();
+  if (Status s = write_results(final, output); !s) return s.error();
+  if (Status s = write_discovery(*discovery, output); !s) return s.error();
+  if (final.quality == Quality::kFailed) return untrusted_result(final, options.calibration);
+  return summary_of(*discovery, output);
+}
+
+}  // namespace
+
+Command add_discover_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("discover", "Find which physical effects the model of a dataset misses");
+  add_calibration_arguments(*command, options->calibration,
+                            "folder for discovery.json, discovery.txt and result.*");
+  command
+      ->add_option("--max-effects", options->discovery.max_effects, "add no more effects than this")
+      ->check(CLI::Range(0, 50));
+  command->add_option("--with", options->discovery.with,
+                      "an effect to have in the model from the start (repeatable)");
+  return {command, [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace lvcalib::cli

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/candidate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <boost/math/distributions/fisher_f.hpp>
+
+namespace lvcalib {
+namespace {
+
+struct MeanAndError {
+  double mean = 0.0;
+  double error = 0.0;  // standard error of the mean
+};
+
+MeanAndError mean_of(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : HUGE_VAL};
+}
+
+// Information about the last `p` global unknowns once all others are integrated out, from the data
+// alone (without their priors).
+Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p) {
+  Eigen::MatrixXd h = fit.prior.information;
+  h.bottomRightCorner(p, p).setZero();
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  const Eigen::Index q = h.rows() - p;
+  return h.bottomRightCorner(p, p) -
+         h.bottomLeftCorner(p, q) * h.topLeftCorner(q, q).ldlt().solve(h.topRightCorner(q, p));
+}
+
+// Wald F test that the last p unknowns are zero. Between-scene effects have no more degrees of
+// freedom than the scenes leave: three of each scene's board pose minus the extrinsic.
+double f_test(const ModelFit& fit, Eigen::Index p) {
+  const Eigen::VectorXd theta = fit.solution.tail(p);
+  const Eigen::MatrixXd s = information_of_last(fit, p);
+  const double f = theta.dot(s * theta) / static_cast<double>(p);
+  const double freedom = std::max(1.0, 3.0 * static_cast<double>(fit.scenes.size()) - 6.0);
+  if (!(f > 0.0) || !std::isfinite(f)) return 1.0;
+  return boost::math::cdf(
+      boost::math::complement(boost::math::fisher_f(static_cast<double>(p), freedom), f));
+}
+
+Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
+  const Eigen::MatrixXd l = m.llt().matrixL();
+  return l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(m.rows(), m.cols()));
+}
+
+}  // namespace
+
+double Candidate::total_gain() const {
+  return std::accumulate(scene_gain.begin(), scene_gain.end(), 0.0);
+}
+
+double Candidate::best_heldout_gain() const {
+  return *std::max_element(heldout_gain.begin(), heldout_gain.end());
+}
+
+void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
+                    ColumnSubset& subset) {
+  for (int k = 0; k < columns.count(); ++k) {
+    subset.columns.push_back(columns.first + k);
+    subset.prior_sigma.push_back(columns.parameters[static_cast<std::size_t>(k)].prior_sigma);
+    subset.prior_mean.push_back(in_use != nullptr ? -(*in_use)(k) : 0.0);
+  }
+}
+
+std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& linear,
+                                                           const ModelFit& fit) {
+  std::vector<std::array<double, kChannels>> out;
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s)
+    out.push_back(squares_at(linear, s, fit.subset, solution_without(fit, s), fit.variances));
+  return out;
+}
+
+Reference make_reference(const Linearization& linear, const ColumnSubset& subset,
+                         const ModelVariances& start, const MixedModelOptions& options) {
+  Reference out;
+  out.subset = subset;
+  out.fit = fit_model(linear, subset, start, options);
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s)
+    out.density.push_back(predictive_log_density(out.fit, s));
+  out.heldout = heldout_squares(linear, out.fit);
+  return out;
+}
+
+Candidate evaluate_candidate(const Linearization& linear, const Reference& reference,
+                             std::size_t columns, const MixedModelOptions& options) {
+  Candidate out;
+  out.columns = columns;
+  const EffectColumns& c = linear.columns.list()[columns];
+  ColumnSubset subset = reference.subset;
+  append_columns(c, nullptr, subset);
+  out.fit = fit_model(linear, subset, reference.fit.variances, options);
+  out.p_value = f_test(out.fit, c.count());
+  std::array<double, kChannels> with{};
+  std::array<double, kChannels> without{};
+  const auto heldout = heldout_squares(linear, out.fit);
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+    out.scene_gain.push_back(predictive_log_density(out.fit, s) - reference.density[s]);
+    for (std::size_t k = 0; k < kChannels; ++k) {
+      with[k] += heldout[s][k];
+      without[k] += reference.heldout[s][k];
+    }
+  }
+  for (std::size_t k = 0; k < kChannels; ++k)
+    out.heldout_gain[k] = without[k] > 0.0 ? 1.0 - with[k] / without[k] : 0.0;
+  const Vector6d move = out.fit.solution.head<6>() - reference.fit.solution.head<6>();
+  const Matrix6d covariance = reference.fit.covariance.topLeftCorner<6, 6>();
+  for (int k = 0; k < 6; ++k) {
+    out.extrinsic_move_sigmas =
+        std::max(out.extrinsic_move_sigmas, std::abs(move(k)) / std::sqrt(covariance(k, k)));
+  }
+  return out;
+}
+
+bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
+                 const DiscoveryOptions& options) {
+  const double searched = static_cast<double>(std::max<std::size_t>(tried, 1));
+  if (candidate.p_value * searched > options.false_alarm) return false;
+  const MeanAndError gain = mean_of(candidate.scene_gain);
+  if (!(gain.mean > gain.error)) return false;
+  // The best of so many would gain this much by chance.
+  if (candidate.total_gain() < std::log(searched)) return false;
+  const auto improved = std::count_if(candidate.scene_gain.begin(), candidate.scene_gain.end(),
+                                      [](double g) { return g > 0.0; });
+  if (static_cast<double>(improved) < options.scenes_improved * static_cast<double>(scenes))
+    return false;
+  const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
+  return candidate.best_heldout_gain() >= least ||
+         candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
+}
+
+double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,
+                      std::size_t b) {
+  const EffectColumns& ca = linear.columns.list()[a];
+  const EffectColumns& cb = linear.columns.list()[b];
+  ColumnSubset subset = reference.subset;
+  append_columns(ca, nullptr, subset);
+  append_columns(cb, nullptr, subset);
+  const ModelFit fit = fit_model(linear, subset, reference.fit.variances, {.rounds = 0});
+  const Eigen::MatrixXd s = information_of_last(fit, ca.count() + cb.count());
+  const Eigen::MatrixXd aa = s.topLeftCorner(ca.count(), ca.count());
+  const Eigen::MatrixXd bb = s.bottomRightCorner(cb.count(), cb.count());
+  if (aa.diagonal().minCoeff() <= 0.0 || bb.diagonal().minCoeff() <= 0.0) return 0.0;
+  const Eigen::MatrixXd ab =
+      inverse_root(aa) * s.topRightCorner(ca.count(), cb.count()) * inverse_root(bb).transpose();
+  if (!ab.allFinite()) return 0.0;
+  return std::min(1.0, Eigen::JacobiSVD<Eigen::MatrixXd>(ab).singularValues()(0));
+}
+
+bool indistinguishable(const Candidate& a, const Candidate& b) {
+  std::vector<double> difference;
+  for (std::size_t s = 0; s < a.scene_gain.size(); ++s)
+    difference.push_back(a.scene_gain[s] - b.scene_gain[s]);
+  const MeanAndError d = mean_of(difference);
+  return std::abs(d.mean) < d.error;
+}
+
+}  // namespace lvcalib

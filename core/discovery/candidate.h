@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "discovery/discovery.h"
+
+namespace lvcalib {
+
+/// One effect at one shape number, tried in addition to the model.
+struct Candidate {
+  std::size_t columns = 0;  ///< Index into the linearisation's list.
+  ModelFit fit;
+  std::vector<double> scene_gain;  ///< Predictive log-density over that without it, per scene.
+  std::array<double, kChannels> heldout_gain{};  ///< Relative fall of squares, per channel.
+  double p_value = 1.0;
+  double extrinsic_move_sigmas = 0.0;
+  [[nodiscard]] double total_gain() const;
+  [[nodiscard]] double best_heldout_gain() const;
+};
+
+/// The model that candidates are compared with.
+struct Reference {
+  ColumnSubset subset;  ///< Effects in use: increments of their parameters.
+  ModelFit fit;
+  std::vector<double> density;                         ///< Per scene.
+  std::vector<std::array<double, kChannels>> heldout;  ///< Squares per scene and channel.
+};
+
+/// Columns of an effect with priors about values in use (zero if none).
+void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
+                    ColumnSubset& subset);
+
+/// Held-out squares of every scene from the solution without it.
+std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& linear,
+                                                           const ModelFit& fit);
+
+Reference make_reference(const Linearization& linear, const ColumnSubset& subset,
+                         const ModelVariances& start, const MixedModelOptions& options);
+
+/// Evaluates one candidate against the reference; variances are re-estimated with it in the model.
+Candidate evaluate_candidate(const Linearization& linear, const Reference& reference,
+                             std::size_t columns, const MixedModelOptions& options);
+
+/// Whether held-out scenes and the test after correction for the search speak for it.
+bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
+                 const DiscoveryOptions& options);
+
+/// Largest canonical correlation of two candidates' effects after all nuisances.
+double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,
+                      std::size_t b);
+
+/// True if held-out scenes do not tell which of the two is better.
+bool indistinguishable(const Candidate& a, const Candidate& b);
+
+}  // namespace lvcalib

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/channel_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/residuals.h"
+
+namespace lvcalib {
+
+std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
+                                               const ModelState& state,
+                                               const std::vector<EffectInUse>& in_use,
+                                               const Reference& reference) {
+  std::vector<ChannelSummary> out;
+  std::size_t parameters = 0;
+  for (const EffectInUse& use : in_use) parameters += static_cast<std::size_t>(use.values.size());
+  for (const Channel channel : kAllChannels) {
+    const ChannelResiduals r = residuals_of(table, state, in_use, channel);
+    if (r.values.empty()) continue;
+    double squares = 0.0;
+    double noise = 0.0;
+    double whitened = 0.0;
+    for (std::size_t k = 0; k < r.values.size(); ++k) {
+      squares += r.values[k] * r.values[k];
+      noise += r.sigma[k] * r.sigma[k];
+      whitened += r.values[k] * r.values[k] / (r.sigma[k] * r.sigma[k]);
+    }
+    const auto n = static_cast<double>(r.values.size());
+    // Poses (or levels) and effects are fitted to these rows.
+    const double fitted =
+        std::min(0.5 * n, static_cast<double>(6 * table.scenes.size() + parameters));
+    const double unit = display_factor(channel);
+    ChannelSummary s;
+    s.channel = channel;
+    s.n = r.values.size();
+    s.rms = unit * std::sqrt(squares / n);
+    s.noise_floor = unit * std::sqrt(noise / n);
+    s.unexplained =
+        std::sqrt(std::max(0.0, s.rms * s.rms * n / (n - fitted) - s.noise_floor * s.noise_floor));
+    double heldout = 0.0;
+    for (const auto& scene : reference.heldout) heldout += scene[static_cast<std::size_t>(channel)];
+    // Held-out squares are over σ²; in the units of the fitted ones.
+    s.heldout_rms = whitened > 0.0 ? s.rms * std::sqrt(heldout / whitened) : 0.0;
+    out.push_back(s);
+  }
+  return out;
+}
+
+}  // namespace lvcalib

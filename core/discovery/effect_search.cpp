@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/effect_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "model/residuals.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr std::size_t kFinalists = 12;  // candidates whose variances are settled fully
+constexpr std::size_t kFewShapes = 8;   // more than these are first sieved on the residuals
+constexpr std::size_t kSievedShapes = 3;
+
+}  // namespace
+
+EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
+                           const DiscoveryOptions& options, const RunContext& context)
+    : table_(table), state_(std::move(state)), options_(options), context_(context) {
+  refit();
+}
+
+EffectColumnsList EffectSearch::own_columns() const {
+  EffectColumnsList columns;
+  for (const EffectInUse& use : in_use_) columns.add(use.effect, use.shape, table_);
+  return columns;
+}
+
+ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
+  ColumnSubset subset;
+  for (std::size_t k = 0; k < in_use_.size(); ++k)
+    append_columns(columns.list()[k], &in_use_[k].values, subset);
+  return subset;
+}
+
+void EffectSearch::add(const EffectPtr& effect, double shape) {
+  const auto parameters = effect->parameters(table_);
+  in_use_.push_back(
+      {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))});
+  refit();
+}
+
+void EffectSearch::remove(std::size_t k) {
+  in_use_.erase(in_use_.begin() + static_cast<std::ptrdiff_t>(k));
+  refit();
+}
+
+void EffectSearch::refit() {
+  constexpr int kSteps = 4;
+  for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
+    const EffectColumnsList columns = own_columns();
+    linear_ = linearize(table_, state_, in_use_, columns, context_);
+    if (context_.stopped()) return;
+    reference_ = make_reference(linear_, own_subset(columns), variances_, {});
+    variances_ = reference_.fit.variances;
+    const Eigen::VectorXd& x = reference_.fit.solution;
+    std::vector<Vector6d> boards;
+    for (const Eigen::VectorXd& local : reference_.fit.local) boards.push_back(local.head<6>());
+    // Displacements below a hundredth of their standard deviations are settled.
+    const Vector6d sigma = reference_.fit.covariance.diagonal().head<6>().cwiseSqrt();
+    const bool settled = (x.head<6>().cwiseAbs().array() < 0.01 * sigma.array()).all();
+    if (settled && step > 0) break;
+    state_ = moved(state_, x.head<6>(), boards);
+    Eigen::Index at = 6;
+    for (EffectInUse& use : in_use_) {
+      use.values += x.segment(at, use.values.size());
+      at += use.values.size();
+    }
+  }
+}
+
+std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) const {
+  std::vector<double> shapes = effect.shapes(table_);
+  if (shapes.size() <= kFewShapes) return shapes;
+  // Least squares of the range residuals on the effect alone, row by row: a periodogram.
+  const ChannelResiduals residuals = residuals_of(table_, state_, in_use_, Channel::kRange);
+  const auto p = effect.parameters(table_).size();
+  const std::size_t stride = std::max<std::size_t>(1, residuals.values.size() / 20000);
+  std::vector<double> power(shapes.size());
+  parallel_for(shapes.size(), context_.thread_count(), [&](std::size_t k) {
+    if (context_.stopped()) return;
+    const auto n = static_cast<Eigen::Index>(p);
+    Eigen::MatrixXd normal = 1e-9 * Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
+    std::vector<Eigen::Vector3d> moves(p);
+    Eigen::VectorXd row(n);
+    for (std::size_t i = 0; i < residuals.values.size(); i += stride) {
+      const BeamPoint& beam = table_.range[residuals.row[i]].beam;
+      effect.lidar(beam, table_, shapes[k], moves);
+      for (Eigen::Index j = 0; j < n; ++j)
+        row(j) = beam.direction.dot(moves[static_cast<std::size_t>(j)]) / residuals.sigma[i];
+      normal.noalias() += row * row.transpose();
+      gradient += residuals.values[i] / residuals.sigma[i] * row;
+    }
+    power[k] = gradient.dot(normal.ldlt().solve(gradient));
+  });
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const bool peak = (k == 0 || power[k] >= power[k - 1]) &&
+                      (k + 1 == shapes.size() || power[k] >= power[k + 1]);
+    if (peak) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
+  std::vector<double> out;
+  for (const std::size_t k : order) {
+    if (out.size() < kSievedShapes) out.push_back(shapes[k]);
+  }
+  return out;
+}
+
+void EffectSearch::append_candidates(EffectColumnsList& columns) const {
+  for (const EffectPtr& effect : effect_catalogue()) {
+    const std::string& id = effect->info().id;
+    const bool used = std::any_of(in_use_.begin(), in_use_.end(), [&](const EffectInUse& use) {
+      return use.effect->info().id == id;
+    });
+    if (used || !why_not_testable(*effect, table_).empty()) continue;
+    for (const double shape : shapes_worth_trying(*effect)) columns.add(effect, shape, table_);
+  }
+}
+
+void EffectSearch::rank() {
+  EffectColumnsList columns = own_columns();
+  const ColumnSubset subset = own_subset(columns);
+  append_candidates(columns);
+  linear_ = linearize(table_, state_, in_use_, columns, context_);
+  candidates_.clear();
+  if (context_.stopped()) return;
+  reference_ = make_reference(linear_, subset, variances_, {});
+  variances_ = reference_.fit.variances;
+  candidates_.resize(columns.list().size() - own_count());
+  const auto evaluate = [&](std::size_t k, const MixedModelOptions& how) {
+    if (!context_.stopped())
+      candidates_[k] = evaluate_candidate(linear_, reference_, own_count() + k, how);
+  };
+  parallel_for(candidates_.size(), context_.thread_count(),
+               [&](std::size_t k) { evaluate(k, {.rounds = 3}); });
+  if (context_.stopped()) return;
+  std::stable_sort(
+      candidates_.begin(), candidates_.end(),
+      [](const Candidate& a, const Candidate& b) { return a.total_gain() > b.total_gain(); });
+  parallel_for(
+      std::min(kFinalists, candidates_.size()), context_.thread_count(), [&](std::size_t k) {
+        if (context_.stopped()) return;
+        candidates_[k] = evaluate_candidate(linear_, reference_, candidates_[k].columns, {});
+      });
+  std::stable_sort(
+      candidates_.begin(), candidates_.end(),
+      [](const Candidate& a, const Candidate& b) { return a.total_gain() > b.total_gain(); });
+}
+
+std::optional<std::size_t> EffectSearch::best() const {
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    if (is_accepted(candidates_[k], candidates_.size(), table_.scenes.size(), options_)) return k;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> EffectSearch::superfluous() {
+  // The model with all effects in use against those with one less.
+  const EffectColumnsList columns = own_columns();
+  const Linearization linear = linearize(table_, state_, in_use_, columns, context_);
+  if (context_.stopped()) return std::nullopt;
+  for (std::size_t k = 0; k < in_use_.size(); ++k) {
+    ColumnSubset others;
+    for (std::size_t j = 0; j < in_use_.size(); ++j) {
+      if (j != k) append_columns(columns.list()[j], &in_use_[j].values, others);
+    }
+    // Without the effect its rows still hold the values in use: the candidate's increment undoes
+    // them, so that the test of "increment equals minus the value" is that of the removal.
+    const Reference with = make_reference(linear, own_subset(columns), variances_, {.rounds = 0});
+    ColumnSubset frozen = others;
+    const EffectColumns& c = columns.list()[k];
+    for (int p = 0; p < c.count(); ++p) {
+      frozen.columns.push_back(c.first + p);
+      // Held at zero effect: increment −value, known exactly.
+      frozen.prior_sigma.push_back(1e-6 * c.parameters[static_cast<std::size_t>(p)].material);
+      frozen.prior_mean.push_back(-in_use_[k].values(p));
+    }
+    const Reference without = make_reference(linear, frozen, variances_, {});
+    double gain = 0.0;
+    for (std::size_t s = 0; s < with.density.size(); ++s)
+      gain += with.density[s] - without.density[s];
+    if (gain < 0.0) return k;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "discovery/candidate.h"
+
+namespace lvcalib {
+
+/// State of the search: effects in use with their values, the poses, and the model about them.
+class EffectSearch {
+ public:
+  EffectSearch(const MeasurementTable& table, ModelState state, const DiscoveryOptions& options,
+               const RunContext& context);
+
+  /// Adds an effect without asking and refits.
+  void add(const EffectPtr& effect, double shape);
+  /// Takes effect number k out and refits.
+  void remove(std::size_t k);
+  /// Gauss–Newton on extrinsic, poses and effects until the extrinsic stands still.
+  void refit();
+  /// Linearises with all candidates that are testable and not in use, and evaluates each.
+  void rank();
+  /// After rank(): index of the best accepted candidate.
+  [[nodiscard]] std::optional<std::size_t> best() const;
+  /// An effect in use whose removal the held-out scenes do not notice.
+  [[nodiscard]] std::optional<std::size_t> superfluous();
+
+  [[nodiscard]] const MeasurementTable& table() const { return table_; }
+  [[nodiscard]] const ModelState& state() const { return state_; }
+  [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
+  [[nodiscard]] const Linearization& linear() const { return linear_; }
+  [[nodiscard]] const Reference& reference() const { return reference_; }
+  [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+
+ private:
+  [[nodiscard]] EffectColumnsList own_columns() const;
+  [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
+  void append_candidates(EffectColumnsList& columns) const;
+  [[nodiscard]] std::vector<double> shapes_worth_trying(const Effect& effect) const;
+  [[nodiscard]] std::size_t own_count() const { return in_use_.size(); }
+
+  const MeasurementTable& table_;
+  ModelState state_;
+  const DiscoveryOptions& options_;
+  const RunContext& context_;
+  std::vector<EffectInUse> in_use_;
+  ModelVariances variances_;
+  Linearization linear_;
+  Reference reference_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace lvcalib

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <set>
+
+#include <Eigen/Cholesky>
+
+namespace lvcalib {
+namespace {
+
+constexpr double kUpper95 = 1.645;
+
+std::string number(const char* format, double a, double b = 0.0) {
+  char text[128];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string out;
+  for (const std::string& w : words) out += (out.empty() ? "" : between) + w;
+  return out;
+}
+
+std::string value_text(const ParameterEstimate& p) {
+  return p.name + " = " + number("%.3g ± %.2g ", p.value / p.unit_in_si, p.sigma / p.unit_in_si) +
+         p.unit;
+}
+
+std::string values_text(const EffectFinding& finding) {
+  constexpr std::size_t kShown = 4;
+  std::vector<std::string> parts;
+  for (const ParameterEstimate& p : finding.parameters) {
+    if (parts.size() == kShown) {
+      parts.emplace_back("…");
+      break;
+    }
+    parts.push_back(value_text(p));
+  }
+  return joined(parts, ", ");
+}
+
+void set_parameters(const EffectColumns& columns, const Eigen::VectorXd& values,
+                    const Eigen::MatrixXd& covariance, EffectFinding& finding) {
+  finding.shape = columns.shape;
+  for (int k = 0; k < columns.count(); ++k) {
+    const EffectParameter& p = columns.parameters[static_cast<std::size_t>(k)];
+    finding.parameters.push_back(
+        {p.name, p.unit, p.unit_in_si, values(k), std::sqrt(std::max(0.0, covariance(k, k)))});
+  }
+}
+
+// Movement of the extrinsic if the last p unknowns of a fit are left out at the values given.
+Vector6d bias_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values, double* kept) {
+  const Eigen::Index p = values.size();
+  Eigen::MatrixXd h = fit.prior.information;
+  h.bottomRightCorner(p, p).setZero();
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  const Eigen::Index q = h.rows() - p;
+  const Eigen::VectorXd cross = h.topRightCorner(q, p) * values;
+  const Eigen::VectorXd move = h.topLeftCorner(q, q).ldlt().solve(cross);
+  if (kept != nullptr) {
+    const double all = values.dot(h.bottomRightCorner(p, p) * values);
+    *kept = all > 0.0 ? std::clamp(1.0 - cross.dot(move) / all, 0.0, 1.0) : 0.0;
+  }
+  return move.head<6>();
+}
+
+void set_move(const Vector6d& move, EffectFinding& finding) {
+  finding.extrinsic_move_mm = 1e3 * move.head<3>().norm();
+  finding.extrinsic_move_mrad = 1e3 * move.tail<3>().norm();
+}
+
+std::string move_text(const EffectFinding& finding) {
+  return number("%.1f mm and %.2f mrad", finding.extrinsic_move_mm, finding.extrinsic_move_mrad);
+}
+
+class Judge {
+ public:
+  Judge(const EffectSearch& search, const std::vector<Selection>& selected,
+        const DiscoveryOptions& options)
+      : search_(search), selected_(selected), options_(options) {}
+
+  std::vector<EffectFinding> run() {
+    for (const Selection& s : selected_) add_selected(s);
+    std::set<std::string> seen;
+    for (const Candidate& c : search_.candidates()) {
+      const std::string& id = columns_of(c).effect->info().id;
+      if (seen.insert(id).second) add_other(c);
+    }
+    for (const EffectPtr& effect : effect_catalogue()) {
+      const std::string reason = why_not_testable(*effect, search_.table());
+      if (!reason.empty()) add_untestable(*effect, reason);
+    }
+    for (std::size_t k = 0; k < out_.size(); ++k) out_[k].rank = static_cast<int>(k) + 1;
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] const EffectColumns& columns_of(const Candidate& c) const {
+    return search_.linear().columns.list()[c.columns];
+  }
+
+  void add_selected(const Selection& s) {
+    const auto& in_use = search_.in_use();
+    const ModelFit& fit = search_.reference().fit;
+    Eigen::Index at = 6;
+    for (std::size_t k = 0; k < in_use.size(); ++k) {
+      const Eigen::Index n = in_use[k].values.size();
+      if (in_use[k].effect->info().id == s.id) {
+        EffectFinding f;
+        f.id = s.id;
+        f.verdict = s.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
+        f.aliases = s.aliases;
+        f.heldout_gain = s.heldout_gain;
+        f.log_density_gain = s.log_density_gain;
+        f.p_value = s.p_value;
+        set_parameters(search_.linear().columns.list()[k], in_use[k].values,
+                       fit.covariance.block(at, at, n, n), f);
+        set_move(bias_of(k, at, n), f);
+        explain_selected(*in_use[k].effect, f);
+        out_.push_back(std::move(f));
+        return;
+      }
+      at += n;
+    }
+  }
+
+  // The extrinsic's bias by an effect in use, from the final model's information.
+  [[nodiscard]] Vector6d bias_of(std::size_t k, Eigen::Index at, Eigen::Index n) const {
+    const ModelFit& fit = search_.reference().fit;
+    Eigen::MatrixXd h = fit.prior.information;
+    for (const SceneTerm& scene : fit.scenes) h += scene.information;
+    std::vector<Eigen::Index> rest;
+    for (Eigen::Index i = 0; i < h.rows(); ++i) {
+      if (i < at || i >= at + n) rest.push_back(i);
+    }
+    const Eigen::MatrixXd hr = h(rest, rest);
+    const Eigen::VectorXd cross = h(rest, Eigen::seqN(at, n)) * search_.in_use()[k].values;
+    return hr.ldlt().solve(cross).head<6>();
+  }
+
+  void explain_selected(const Effect& effect, EffectFinding& f) const {
+    const EffectInfo& info = effect.info();
+    f.explanation = info.physics + " Found: " + values_text(f);
+    if (!effect.shape_name().empty())
+      f.explanation += ", " + effect.shape_name() + number(" %.3g", f.shape);
+    f.explanation += "; leaving it out would move the extrinsic by " + move_text(f) + ".";
+    if (!f.aliases.empty()) {
+      f.explanation += " These scenes cannot tell it from " + joined(f.aliases, " or ") +
+                       "; to tell: " + info.breaker + ".";
+    }
+  }
+
+  void add_other(const Candidate& c) {
+    const EffectColumns& columns = columns_of(c);
+    EffectFinding f;
+    f.id = columns.effect->info().id;
+    f.heldout_gain = c.best_heldout_gain();
+    f.log_density_gain = c.total_gain();
+    f.p_value = c.p_value;
+    const Eigen::Index p = columns.count();
+    const Eigen::VectorXd theta = c.fit.solution.tail(p);
+    const Eigen::MatrixXd covariance = c.fit.covariance.bottomRightCorner(p, p);
+    set_parameters(columns, theta, covariance, f);
+    judge_size(columns, c, f);
+    for (const Selection& s : selected_) {
+      if (std::find(s.aliases.begin(), s.aliases.end(), f.id) == s.aliases.end()) continue;
+      f.verdict = EffectVerdict::kAliased;
+      f.aliases.assign(1, s.id);
+      f.explanation = "Explains the same as " + s.id +
+                      ", which is in the model: these scenes cannot "
+                      "tell the two apart. To tell: " +
+                      columns.effect->info().breaker + ".";
+    }
+    out_.push_back(std::move(f));
+  }
+
+  // Absent if everything that would matter is excluded; not testable if it could not be seen.
+  void judge_size(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
+    const Eigen::Index p = columns.count();
+    Eigen::VectorXd limit(p);
+    bool excluded = true;
+    bool visible = true;
+    for (Eigen::Index k = 0; k < p; ++k) {
+      const ParameterEstimate& e = f.parameters[static_cast<std::size_t>(k)];
+      const double material = columns.parameters[static_cast<std::size_t>(k)].material;
+      limit(k) = std::max(material, std::abs(e.value) + kUpper95 * e.sigma);
+      excluded = excluded && std::abs(e.value) + kUpper95 * e.sigma < material;
+      visible = visible && material > options_.testable * e.sigma;
+    }
+    set_move(bias_if_omitted(c.fit, limit, &f.kept), f);
+    const std::string moved = " would move the extrinsic by " + move_text(f);
+    if (excluded) {
+      f.verdict = EffectVerdict::kAbsent;
+      f.explanation = "Not there: " + values_text(f) + ", below the size that matters.";
+      return;
+    }
+    f.verdict = EffectVerdict::kNotTestable;
+    if (!visible) {
+      f.explanation = "These scenes could not show it: " + values_text(f) +
+                      number("; they keep %.1f %% of its effect after the poses adapt, and it",
+                             100.0 * f.kept) +
+                      moved + ". To see it: " + columns.effect->info().breaker + ".";
+    } else {
+      f.explanation = "Undecided: " + values_text(f) +
+                      " is neither excluded nor confirmed by scenes held out; at its limit it" +
+                      moved + ". To decide: " + columns.effect->info().breaker + ".";
+    }
+  }
+
+  void add_untestable(const Effect& effect, const std::string& reason) {
+    EffectFinding f;
+    f.id = effect.info().id;
+    f.verdict = EffectVerdict::kNotTestable;
+    f.explanation = "Not testable: " + reason + ".";
+    out_.push_back(std::move(f));
+  }
+
+  const EffectSearch& search_;
+  const std::vector<Selection>& selected_;
+  const DiscoveryOptions& options_;
+  std::vector<EffectFinding> out_;
+};
+
+}  // namespace
+
+std::string name_of(EffectVerdict verdict) {
+  switch (verdict) {
+    case EffectVerdict::kPresent:
+      return "present";
+    case EffectVerdict::kAbsent:
+      return "absent";
+    case EffectVerdict::kAliased:
+      return "aliased";
+    case EffectVerdict::kNotTestable:
+      break;
+  }
+  return "not_testable";
+}
+
+std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,
+                                    const DiscoveryOptions& options) {
+  const auto& candidates = search.candidates();
+  const auto& list = search.linear().columns.list();
+  const Candidate& best = candidates[chosen];
+  const std::string& own = list[best.columns].effect->info().id;
+  std::set<std::string> out;
+  for (const Candidate& other : candidates) {
+    const std::string& id = list[other.columns].effect->info().id;
+    if (id == own) continue;
+    const bool alike = correlation_of(search.linear(), search.reference(), best.columns,
+                                      other.columns) > options.alias_correlation;
+    const bool tie = is_accepted(other, candidates.size(), search.table().scenes.size(), options) &&
+                     indistinguishable(best, other);
+    // Where a candidate with more parameters contains the other's pattern, only a tie in prediction
+    // makes them aliases.
+    const bool same_size = list[best.columns].count() == list[other.columns].count();
+    if (tie || (alike && same_size)) out.insert(id);
+  }
+  return {out.begin(), out.end()};
+}
+
+std::vector<EffectFinding> judge_effects(const EffectSearch& search,
+                                         const std::vector<Selection>& selected,
+                                         const DiscoveryOptions& options) {
+  return Judge(search, selected, options).run();
+}
+
+std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
+  std::vector<std::string> out;
+  constexpr std::size_t kMost = 5;
+  // First what is in doubt in the model, then what could spoil the extrinsic most unseen.
+  for (const EffectFinding& f : findings) {
+    if (f.verdict != EffectVerdict::kAliased || f.aliases.empty() || out.size() >= kMost) continue;
+    if (f.parameters.empty()) continue;
+    const EffectPtr effect = find_effect(f.id);
+    const std::string text = "To tell " + f.id + " from " + joined(f.aliases, " and ") +
+                             ", take: " + effect->info().breaker;
+    out.push_back(text);
+  }
+  std::vector<const EffectFinding*> unseen;
+  for (const EffectFinding& f : findings) {
+    if (f.verdict == EffectVerdict::kNotTestable && !f.parameters.empty()) unseen.push_back(&f);
+  }
+  std::stable_sort(unseen.begin(), unseen.end(),
+                   [](const EffectFinding* a, const EffectFinding* b) {
+                     return a->extrinsic_move_mm > b->extrinsic_move_mm;
+                   });
+  for (const EffectFinding* f : unseen) {
+    if (out.size() >= kMost) break;
+    if (f->extrinsic_move_mm < 1.0) continue;
+    out.push_back("To see whether " + f->id + " is there (it could move the extrinsic by " +
+                  move_text(*f) + "), take: " + find_effect(f->id)->info().breaker);
+  }
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "discovery/effect_search.h"
+
+namespace lvcalib {
+
+/// A selected effect as it was when it was added, with those that could not be told from it.
+struct Selection {
+  std::string id;
+  std::vector<std::string> aliases;
+  double heldout_gain = 0.0;
+  double log_density_gain = 0.0;
+  double p_value = 1.0;
+};
+
+/// Ids of accepted candidates that correlate with the one chosen, or that held-out scenes do not
+/// tell from it.
+std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,
+                                    const DiscoveryOptions& options);
+
+/// Verdicts on the whole catalogue from the finished search (rank() must have run on the final
+/// model). Selected effects first, then the rest by their gain.
+std::vector<EffectFinding> judge_effects(const EffectSearch& search,
+                                         const std::vector<Selection>& selected,
+                                         const DiscoveryOptions& options);
+
+/// Scenes worth taking, in words.
+std::vector<std::string> advise(const std::vector<EffectFinding>& findings);
+
+}  // namespace lvcalib

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "model/measurement_table.h"
+
+namespace lvcalib {
+
+/// One linear coefficient of an effect. Values are in SI units (m, rad, s, px, 1).
+struct EffectParameter {
+  std::string name;
+  std::string unit;          ///< For people: "mm", "ppm", "mrad", "px", "1".
+  double unit_in_si = 1.0;   ///< One unit in SI.
+  double material = 0.0;     ///< Size (SI) that matters to users; smaller is as good as absent.
+  double prior_sigma = 0.0;  ///< Standard deviation (SI) of what is believable.
+};
+
+/// What an effect needs besides the channels it acts on.
+struct EffectNeeds {
+  bool time = false;
+  bool line = false;
+  bool circles = false;
+  bool tags = false;
+  bool intensity = false;
+};
+
+/// Description of an effect, the same for every data set.
+struct EffectInfo {
+  std::string id;       ///< "range_walk"
+  std::string group;    ///< "LiDAR range", "LiDAR angle", "beam", "radiometry", "board", "camera",
+                        ///< "time", "user"
+  std::string title;    ///< "Range walk"
+  std::string physics;  ///< One sentence.
+  std::string formula;
+  std::string source;   ///< Literature or manual.
+  std::string breaker;  ///< The scene that tells it from its aliases.
+  EffectNeeds needs;
+};
+
+/// A point of the print: its place, and for a tag's corner the vector from the tag's centre.
+struct PrintPoint {
+  Eigen::Vector2d board_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d from_tag_m = Eigen::Vector2d::Zero();
+};
+
+/// A physical effect. It is linear in its parameters; a shape number (a period, a decay length)
+/// that is not, is chosen among shapes(). Each hook writes, for every parameter, by how much one SI
+/// unit of it moves what is measured; hooks that an effect does not use leave zeros. The model
+/// turns the movements into residuals of the channels.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  Effect() = default;
+  Effect(const Effect&) = delete;
+  Effect& operator=(const Effect&) = delete;
+
+  [[nodiscard]] virtual const EffectInfo& info() const = 0;
+  /// Its parameters on this table (some have one per laser line).
+  [[nodiscard]] virtual std::vector<EffectParameter> parameters(
+      const MeasurementTable& table) const = 0;
+  /// Values of the shape number to try; one zero if the effect has none.
+  [[nodiscard]] virtual std::vector<double> shapes(const MeasurementTable&) const { return {0.0}; }
+  /// Name and unit of the shape number; empty if none.
+  [[nodiscard]] virtual std::string shape_name() const { return {}; }
+  /// True for what no data can tell from the extrinsic itself.
+  [[nodiscard]] virtual bool is_gauge() const { return false; }
+
+  /// Displacement (LiDAR frame, m) of the measured point from the true one.
+  virtual void lidar(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
+                     std::span<Eigen::Vector3d> /*by_parameter*/) const {}
+  /// Displacement (board frame, m) of the board's material at a point of the print.
+  virtual void board(const PrintPoint& /*point*/, const Target& /*target*/, double /*shape*/,
+                     std::span<Eigen::Vector3d> /*by_parameter*/) const {}
+  /// Displacement (px) of a corner's image. normalized: the camera ray's x/z, y/z.
+  virtual void camera(const CornerRow& /*row*/, const Eigen::Vector2d& /*normalized*/,
+                      const Camera& /*camera*/, double /*shape*/,
+                      std::span<Eigen::Vector2d> /*by_parameter*/) const {}
+  /// Outward shift (m) of the mid-level crossing.
+  virtual void edge(const BoundaryRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
+                    std::span<double> /*by_parameter*/) const {}
+  /// Change of the logarithm of the intensity.
+  virtual void intensity(const IntensityRow& /*row*/, const MeasurementTable& /*table*/,
+                         double /*shape*/, std::span<double> /*by_parameter*/) const {}
+};
+
+using EffectPtr = std::shared_ptr<const Effect>;
+
+/// The catalogue: one object of every effect, in a fixed order.
+const std::vector<EffectPtr>& effect_catalogue();
+
+/// An effect by id; nullptr if there is none.
+EffectPtr find_effect(const std::string& id);
+
+/// Why an effect cannot be tested on this table ("no time in these clouds"); empty if it can.
+std::string why_not_testable(const Effect& effect, const MeasurementTable& table);
+
+}  // namespace lvcalib

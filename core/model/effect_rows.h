@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/linear_model.h"
+
+namespace lvcalib {
+
+/// Turns what effects move into what rows measure. Every hook is called for every row; effects
+/// write nothing where they have nothing to say.
+class EffectRows {
+ public:
+  EffectRows(const MeasurementTable& table, const std::vector<EffectColumns>& columns)
+      : table_(table), columns_(columns) {
+    std::size_t most = 1;
+    for (const EffectColumns& c : columns) most = std::max(most, c.parameters.size());
+    moves_.resize(most);
+    board_.resize(most);
+    pixels_.resize(most);
+    scalars_.resize(most);
+  }
+
+  /// Movements of a beam's measured point and of the board under it, projected on the row.
+  template <class Sink>
+  void beam(const BeamPoint& beam, const Eigen::Vector3d& row,
+            const Eigen::Matrix3d& lidar_from_board, Sink&& sink) {
+    for (const EffectColumns& c : columns_) {
+      const std::size_t n = c.parameters.size();
+      reset(n);
+      c.effect->lidar(beam, table_, c.shape, std::span(moves_).first(n));
+      c.effect->board({beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
+                      std::span(board_).first(n));
+      for (std::size_t k = 0; k < n; ++k)
+        scalars_[k] = row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]);
+      sink(c, std::span(scalars_).first(n));
+    }
+  }
+
+  template <class Sink>
+  void edge(const BoundaryRow& r, const Eigen::Vector3d& row,
+            const Eigen::Matrix3d& lidar_from_board, Sink&& sink) {
+    std::vector<double> outward;
+    for (const EffectColumns& c : columns_) {
+      const std::size_t n = c.parameters.size();
+      reset(n);
+      outward.assign(n, 0.0);
+      c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
+      c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
+                      std::span(board_).first(n));
+      c.effect->edge(r, table_, c.shape, outward);
+      for (std::size_t k = 0; k < n; ++k) {
+        scalars_[k] = row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]) + outward[k];
+      }
+      sink(c, std::span(scalars_).first(n));
+    }
+  }
+
+  /// Two rows at once: u and v.
+  template <class Sink>
+  void corner(const CornerRow& r, const Eigen::Vector2d& normalized,
+              const Eigen::Matrix<double, 2, 3>& by_board_move, Sink&& sink) {
+    for (const EffectColumns& c : columns_) {
+      const std::size_t n = c.parameters.size();
+      reset(n);
+      c.effect->board({r.board_m, r.from_tag_m}, table_.target, c.shape,
+                      std::span(board_).first(n));
+      c.effect->camera(r, normalized, table_.camera, c.shape, std::span(pixels_).first(n));
+      for (std::size_t k = 0; k < n; ++k) pixels_[k] += by_board_move * board_[k];
+      sink(c, std::span(pixels_).first(n));
+    }
+  }
+
+  template <class Sink>
+  void intensity(const IntensityRow& r, Sink&& sink) {
+    for (const EffectColumns& c : columns_) {
+      const std::size_t n = c.parameters.size();
+      std::fill_n(scalars_.begin(), n, 0.0);
+      c.effect->intensity(r, table_, c.shape, std::span(scalars_).first(n));
+      sink(c, std::span(scalars_).first(n));
+    }
+  }
+
+ private:
+  void reset(std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) {
+      moves_[k].setZero();
+      board_[k].setZero();
+      pixels_[k].setZero();
+    }
+  }
+
+  const MeasurementTable& table_;
+  const std::vector<EffectColumns>& columns_;
+  std::vector<Eigen::Vector3d> moves_;
+  std::vector<Eigen::Vector3d> board_;
+  std::vector<Eigen::Vector2d> pixels_;
+  std::vector<double> scalars_;
+};
+
+/// A corner's prediction and derivatives.
+struct CornerPrediction {
+  Eigen::Vector2d residual;
+  Eigen::Vector2d normalized;
+  Eigen::Matrix<double, 2, 3> by_board_move;
+  Eigen::Matrix<double, 2, 6> by_pose;
+};
+
+/// Measured minus predicted; nothing if the camera cannot image the corner.
+std::optional<CornerPrediction> predict(const CornerRow& row, const Camera& camera,
+                                        const Rigid3& camera_from_board);
+
+/// Unit vector (LiDAR frame) from the node through a board point.
+Eigen::Vector3d outward_of(const BoundaryRow& row, const Eigen::Vector2d& board_m,
+                           const Eigen::Matrix3d& lidar_from_board);
+
+/// The columns of effects in use, in their order.
+EffectColumnsList columns_in_use(const std::vector<EffectInUse>& in_use,
+                                 const MeasurementTable& table);
+
+}  // namespace lvcalib

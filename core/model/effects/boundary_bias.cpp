@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class BoundaryBias final : public CatalogueEffect {
+ public:
+  BoundaryBias()
+      : CatalogueEffect(
+            {.id = "boundary_bias",
+             .group = "beam",
+             .title = "Boundary bias",
+             .physics =
+                 "The mid-level crossing lies outside or inside the printed edge everywhere.",
+             .formula = "dd = δ0",
+             .source = "LV-Calib, boundary response",
+             .breaker = "measure the printed circles: print growth looks the same",
+             .needs = {.circles = true, .intensity = true}},
+            {{"δ0", "mm", 1e-3, 0.3e-3, 0.02}}) {}
+
+  void edge(const BoundaryRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<double> by) const override {
+    by[0] = 1.0;
+  }
+};
+
+}  // namespace
+
+EffectPtr make_boundary_bias() {
+  return std::make_shared<BoundaryBias>();
+}
+
+}  // namespace lvcalib

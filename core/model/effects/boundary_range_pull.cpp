@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class BoundaryRangePull final : public CatalogueEffect {
+ public:
+  BoundaryRangePull()
+      : CatalogueEffect(
+            {.id = "boundary_range_pull",
+             .group = "LiDAR range",
+             .title = "Range pull at edges",
+             .physics = "Where a beam is cut by an edge, its energy comes from one side of the "
+                        "footprint, which on a slanted board lies nearer or farther.",
+             .formula = "dr = sin θ cos(ψ-α) (σ/cos θ)² I'(d)/I(d)",
+             .source = "derived; compare Laconte 2019",
+             .breaker = "a board turned beyond 40 degrees",
+             .needs = {.circles = true, .intensity = true}},
+            {{"a", "1", 1.0, 0.2, 3.0}}) {}
+
+  void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,
+             std::span<Eigen::Vector3d> by) const override {
+    // Nearest circle; the footprint's width is the circle-independent median of the table.
+    const auto pull = edge_pull(beam, table);
+    by[0] = pull * beam.direction;
+  }
+};
+
+}  // namespace
+
+EffectPtr make_boundary_range_pull() {
+  return std::make_shared<BoundaryRangePull>();
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class ChannelAngleOffset final : public CatalogueEffect {
+ public:
+  ChannelAngleOffset()
+      : CatalogueEffect({.id = "channel_angle_offset",
+                         .group = "LiDAR angle",
+                         .title = "Elevation offset of each line",
+                         .physics = "Every laser points slightly elsewhere than its table says.",
+                         .formula = "del = b(line)",
+                         .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
+                         .breaker = "boards that every line crosses",
+                         .needs = {.line = true}},
+                        {}) {}
+
+  // One parameter per laser line; their common part is another effect and is held by the prior.
+  [[nodiscard]] std::vector<EffectParameter> parameters(
+      const MeasurementTable& table) const override {
+    return one_per_line(table, {"b", "mrad", 1e-3, 0.3e-3, 0.01});
+  }
+
+  void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,
+             std::span<Eigen::Vector3d> by) const override {
+    const auto k = line_index(table, beam.line);
+    if (k < by.size()) by[k] = angle_axes(beam).elevation_m;
+  }
+};
+
+}  // namespace
+
+EffectPtr make_channel_angle_offset() {
+  return std::make_shared<ChannelAngleOffset>();
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class ChannelRangeOffset final : public CatalogueEffect {
+ public:
+  ChannelRangeOffset()
+      : CatalogueEffect({.id = "channel_range_offset",
+                         .group = "LiDAR range",
+                         .title = "Range offset of each line",
+                         .physics = "Every laser has its own delay.",
+                         .formula = "dr = a(line)",
+                         .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
+                         .breaker = "boards that every line crosses at several distances",
+                         .needs = {.line = true}},
+                        {}) {}
+
+  // One parameter per laser line; their common part is another effect and is held by the prior.
+  [[nodiscard]] std::vector<EffectParameter> parameters(
+      const MeasurementTable& table) const override {
+    return one_per_line(table, {"a", "mm", 1e-3, 2e-3, 0.03});
+  }
+
+  void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,
+             std::span<Eigen::Vector3d> by) const override {
+    const auto k = line_index(table, beam.line);
+    if (k < by.size()) by[k] = beam.direction;
+  }
+};
+
+}  // namespace
+
+EffectPtr make_channel_range_offset() {
+  return std::make_shared<ChannelRangeOffset>();
+}
+
+}  // namespace lvcalib

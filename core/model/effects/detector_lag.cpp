@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class DetectorLag final : public CatalogueEffect {
+ public:
+  DetectorLag()
+      : CatalogueEffect(
+            {.id = "detector_lag",
+             .group = "beam",
+             .title = "Lag of the intensity",
+             .physics = "The detector needs time to recover, so that edges move along the scan.",
+             .formula = "dd = v τ cos(scan direction - ψ)",
+             .source = "derived",
+             .breaker = "scans that cross edges in both directions",
+             .needs = {.time = true, .circles = true, .intensity = true}},
+            {{"τ", "µs", 1e-6, 2e-6, 1e-3}}) {}
+
+  void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<double> by) const override {
+    by[0] = row.beam.range_m * row.beam.scan_rad_s.dot(lidar_angle_of(row));
+  }
+};
+
+}  // namespace
+
+EffectPtr make_detector_lag() {
+  return std::make_shared<DetectorLag>();
+}
+
+}  // namespace lvcalib

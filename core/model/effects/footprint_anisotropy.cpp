@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class FootprintAnisotropy final : public CatalogueEffect {
+ public:
+  FootprintAnisotropy()
+      : CatalogueEffect({.id = "footprint_anisotropy",
+                         .group = "beam",
+                         .title = "Elliptic footprint",
+                         .physics = "The footprint is wider along one axis of the LiDAR.",
+                         .formula = "dd = -r² (γh² cos²ψ' + γv² sin²ψ') / 2R",
+                         .source = "Livox Avia manual",
+                         .breaker = "circles far away",
+                         .needs = {.circles = true, .intensity = true}},
+                        {{"γh²", "mrad²", 1e-6, 4e-6, 1e-4}, {"γv²", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
+
+  void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<double> by) const override {
+    const Eigen::Vector2d n = lidar_angle_of(row);
+    const double scale = -row.beam.range_m * row.beam.range_m / (2.0 * row.radius_m);
+    by[0] = scale * n.x() * n.x();
+    by[1] = scale * n.y() * n.y();
+  }
+};
+
+}  // namespace
+
+EffectPtr make_footprint_anisotropy() {
+  return std::make_shared<FootprintAnisotropy>();
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class RangeScale final : public CatalogueEffect {
+ public:
+  RangeScale()
+      : CatalogueEffect(
+            {.id = "range_scale",
+             .group = "LiDAR range",
+             .title = "Range scale",
+             .physics = "Ranges are proportionally off: wrong clock frequency or refractive index.",
+             .formula = "dr = m r",
+             .source = "Lichti and Licht 2006",
+             .breaker = "measure the printed board: a wrong print scale looks the same",
+             .needs = {}},
+            {{"m", "ppm", 1e-6, 500e-6, 5e-3}}) {}
+
+  void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
+             std::span<Eigen::Vector3d> by) const override {
+    by[0] = beam.range_m * beam.direction;
+  }
+};
+
+}  // namespace
+
+EffectPtr make_range_scale() {
+  return std::make_shared<RangeScale>();
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "model/catalogue_effect.h"
+
+namespace lvcalib {
+namespace {
+
+class ScanMotion final : public CatalogueEffect {
+ public:
+  ScanMotion()
+      : CatalogueEffect({.id = "scan_motion",
+                         .group = "time",
+                         .title = "Motion during the scan",
+                         .physics = "The LiDAR or the board moved while the scan was taken.",
+                         .formula = "p += v t",
+                         .source = "derived",
+                         .breaker = "let the rig rest; take a shorter scan",
+                         .needs = {.time = true}},
+                        {{"vx", "mm/s", 1e-3, 5e-3, 1.0},
+                         {"vy", "mm/s", 1e-3, 5e-3, 1.0},
+                         {"vz", "mm/s", 1e-3, 5e-3, 1.0}}) {}
+
+  void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
+             std::span<Eigen::Vector3d> by) const override {
+    for (int k = 0; k < 3; ++k)
+      by[static_cast<std::size_t>(k)] = beam.time_s * Eigen::Vector3d::Unit(k);
+  }
+};
+
+}  // namespace
+
+EffectPtr make_scan_motion() {
+  return std::make_shared<ScanMotion>();
+}
+
+}  // namespace lvcalib

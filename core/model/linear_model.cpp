@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/linear_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "model/effect_rows.h"
+#include "model/scene_geometry.h"
+
+namespace lvcalib {
+namespace {
+
+// A row with few non-zero columns, whitened.
+class SparseRow {
+ public:
+  void clear() {
+    index_.clear();
+    value_.clear();
+  }
+  void set(int column, double value) {
+    if (value == 0.0) return;
+    index_.push_back(column);
+    value_.push_back(value);
+  }
+  // Adds the outer product to the upper triangle; columns were set in growing order.
+  void add_to(Eigen::MatrixXd& products, double weight) const {
+    for (std::size_t a = 0; a < index_.size(); ++a) {
+      const double va = weight * value_[a];
+      for (std::size_t b = 0; b <= a; ++b) products(index_[b], index_[a]) += va * value_[b];
+    }
+  }
+
+ private:
+  std::vector<int> index_;
+  std::vector<double> value_;
+};
+
+// Products of Legendre polynomials up to degree 4 on the board's square; degree 0–1, then 2–4.
+void board_polynomials(const Eigen::Vector2d& unit, std::array<double, 15>& out) {
+  const auto legendre = [](double x) {
+    const double x2 = x * x;
+    return std::array<double, 5>{1.0, x, 0.5 * (3 * x2 - 1), 0.5 * x * (5 * x2 - 3),
+                                 0.125 * (35 * x2 * x2 - 30 * x2 + 3)};
+  };
+  const auto px = legendre(unit.x());
+  const auto py = legendre(unit.y());
+  std::size_t k = 0;
+  for (std::size_t degree = 0; degree <= 4; ++degree) {
+    for (std::size_t j = 0; j <= degree; ++j) out[k++] = px[degree - j] * py[j];
+  }
+}
+
+Eigen::Vector2d unit_point(const Target& target, const Eigen::Vector2d& board_m) {
+  const BoardOutline outline = target.outline();
+  return (board_m - outline.center_m()).cwiseQuotient(0.5 * outline.size_m());
+}
+
+int index_in(const std::vector<int>& list, int value) {
+  const auto at = std::find(list.begin(), list.end(), value);
+  return at == list.end() ? -1 : static_cast<int>(at - list.begin());
+}
+
+// Accumulates one scene.
+class SceneAccumulator {
+ public:
+  SceneAccumulator(const MeasurementTable& table, const ModelState& state,
+                   const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
+                   std::size_t scene)
+      : table_(table),
+        scene_(static_cast<int>(scene)),
+        geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
+        camera_from_board_(state.camera_from_board[scene]),
+        rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
+        in_use_(in_use),
+        in_use_columns_(columns_in_use(in_use, table)),
+        used_rows_(table, in_use_columns_.list()),
+        candidate_rows_(table, columns.list()) {
+    out_.layout.nodes = static_cast<int>(table.scenes[scene].nodes.size());
+    out_.layout.tags =
+        table.target.has_tags() ? static_cast<int>(table.scenes[scene].features.size()) : 0;
+    extrinsic_ = out_.layout.size();
+    effects_ = extrinsic_ + 6;
+    residual_ = effects_ + columns.columns();
+    for (auto& m : out_.products) m.setZero(residual_ + 1, residual_ + 1);
+  }
+
+  SceneProducts run() {
+    for (const RangeRow& row : table_.range) {
+      if (row.beam.scene == scene_) range(row);
+    }
+    for (const BoundaryRow& row : table_.boundary) {
+      if (row.beam.scene == scene_) boundary(row);
+    }
+    for (const CornerRow& row : table_.corner) {
+      if (row.scene == scene_) corner(row);
+    }
+    for (const IntensityRow& row : table_.intensity) {
+      if (row.beam.scene == scene_) intensity(row);
+    }
+    for (auto& m : out_.products) m.triangularView<Eigen::StrictlyLower>() = m.transpose();
+    return std::move(out_);
+  }
+
+ private:
+  void set_pose(const Vector6d& by_pose) {
+    for (int k = 0; k < 6; ++k) row_.set(k, by_pose(k));
+  }
+  void set_extrinsic(const Vector6d& by_pose) {
+    for (int k = 0; k < 6; ++k) row_.set(extrinsic_ + k, -by_pose(k));
+  }
+  double used_sum(const EffectColumns& c, std::span<const double> by) const {
+    const auto& use = in_use_[static_cast<std::size_t>(&c - in_use_columns_.list().data())];
+    double sum = 0.0;
+    for (std::size_t k = 0; k < by.size(); ++k)
+      sum += by[k] * use.values(static_cast<Eigen::Index>(k));
+    return sum;
+  }
+  void finish(Channel channel, double residual, double sigma) {
+    row_.set(residual_, residual);
+    row_.add_to(out_.products[static_cast<std::size_t>(channel)], 1.0 / (sigma * sigma));
+    ++out_.rows[static_cast<std::size_t>(channel)];
+  }
+
+  void range(const RangeRow& r) {
+    const auto predicted = geometry_.range_m(r.beam.direction);
+    if (!predicted) return;
+    const Eigen::Vector3d a = geometry_.range_row(r.beam.direction);
+    const Vector6d by_pose = geometry_.by_board_pose(a, *predicted * r.beam.direction);
+    double residual = r.measured_m - *predicted;
+    used_rows_.beam(r.beam, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
+      residual -= used_sum(c, by);
+    });
+    std::array<double, 15> z{};
+    board_polynomials(unit_point(table_.target, r.beam.board_m), z);
+    row_.clear();
+    set_pose(by_pose);
+    for (int k = 0; k < 15; ++k) row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(k)]);
+    set_extrinsic(by_pose);
+    candidate_rows_.beam(
+        r.beam, a, rotation_,
+        [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
+    finish(Channel::kRange, residual, r.sigma_m);
+  }
+
+  void set_effect(const EffectColumns& c, std::span<const double> by) {
+    for (std::size_t k = 0; k < by.size(); ++k)
+      row_.set(effects_ + c.first + static_cast<int>(k), by[k]);
+  }
+
+  void boundary(const BoundaryRow& r) {
+    const auto range = geometry_.range_m(r.beam.direction);
+    if (!range) return;
+    const Eigen::Vector2d xy = geometry_.board_m(*range * r.beam.direction);
+    const Eigen::Vector3d a = geometry_.edge_row(r.beam.direction, outward_of(r, xy, rotation_));
+    const Vector6d by_pose = geometry_.by_board_pose(a, *range * r.beam.direction);
+    double residual = (xy - r.center_m).norm() - r.radius_m;
+    used_rows_.edge(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
+      residual -= used_sum(c, by);
+    });
+    const int node = index_in(table_.scenes[static_cast<std::size_t>(scene_)].nodes, r.node);
+    row_.clear();
+    set_pose(by_pose);
+    const int z = out_.layout.node_column() + 3 * node;
+    row_.set(z, std::cos(r.psi_rad));
+    row_.set(z + 1, std::sin(r.psi_rad));
+    row_.set(z + 2, 1.0);
+    set_extrinsic(by_pose);
+    candidate_rows_.edge(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
+      set_effect(c, by);
+    });
+    finish(Channel::kBoundary, residual, r.sigma_m);
+  }
+
+  void corner(const CornerRow& r) {
+    const auto p = predict(r, table_.camera, camera_from_board_);
+    if (!p) return;
+    Eigen::Vector2d residual = p->residual;
+    used_rows_.corner(r, p->normalized, p->by_board_move,
+                      [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
+                        const auto& use =
+                            in_use_[static_cast<std::size_t>(&c - in_use_columns_.list().data())];
+                        for (std::size_t k = 0; k < by.size(); ++k)
+                          residual -= by[k] * use.values(static_cast<Eigen::Index>(k));
+                      });
+    const int tag = index_in(table_.scenes[static_cast<std::size_t>(scene_)].features, r.feature);
+    for (int axis = 0; axis < 2; ++axis) {
+      row_.clear();
+      set_pose(p->by_pose.row(axis).transpose());
+      if (table_.target.has_tags()) row_.set(out_.layout.tag_column() + 2 * tag + axis, 1.0);
+      candidate_rows_.corner(r, p->normalized, p->by_board_move,
+                             [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
+                               for (std::size_t k = 0; k < by.size(); ++k)
+                                 row_.set(effects_ + c.first + static_cast<int>(k), by[k](axis));
+                             });
+      finish(Channel::kCorner, residual(axis), r.sigma_px);
+    }
+  }
+
+  void intensity(const IntensityRow& r) {
+    double residual = r.log_intensity - std::log(r.dark ? table_.dark_level : table_.white_level);
+    used_rows_.intensity(r, [&](const EffectColumns& c, std::span<const double> by) {
+      residual -= used_sum(c, by);
+    });
+    std::array<double, 15> z{};
+    board_polynomials(unit_point(table_.target, r.beam.board_m), z);
+    row_.clear();
+    row_.set(LocalLayout::kPose + (r.dark ? 1 : 0), 1.0);
+    const int first = LocalLayout::kFixed + LocalLayout::kLow + LocalLayout::kHigh;
+    for (int k = 0; k < LocalLayout::kIntensityTerms; ++k)
+      row_.set(first + k, z[static_cast<std::size_t>(k + 1)]);
+    candidate_rows_.intensity(
+        r, [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
+    finish(Channel::kIntensity, residual, r.sigma);
+  }
+
+  const MeasurementTable& table_;
+  int scene_;
+  SceneGeometry geometry_;
+  Rigid3 camera_from_board_;
+  Eigen::Matrix3d rotation_;
+  const std::vector<EffectInUse>& in_use_;
+  EffectColumnsList in_use_columns_;
+  EffectRows used_rows_;
+  EffectRows candidate_rows_;
+  SceneProducts out_;
+  SparseRow row_;
+  int extrinsic_ = 0;
+  int effects_ = 0;
+  int residual_ = 0;
+};
+
+}  // namespace
+
+void EffectColumnsList::add(const EffectPtr& effect, double shape, const MeasurementTable& table) {
+  EffectColumns c{effect, shape, effect->parameters(table), columns_};
+  columns_ += c.count();
+  list_.push_back(std::move(c));
+}
+
+std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
+  switch (group) {
+    case VarianceGroup::kRangeLow:
+      return {kFixed, kLow};
+    case VarianceGroup::kRangeHigh:
+      return {kFixed + kLow, kHigh};
+    case VarianceGroup::kNode:
+      return {node_column(), 3 * nodes};
+    case VarianceGroup::kTag:
+      return {tag_column(), 2 * tags};
+    case VarianceGroup::kIntensity:
+      break;
+  }
+  return {kFixed + kLow + kHigh, kIntensityTerms};
+}
+
+Linearization linearize(const MeasurementTable& table, const ModelState& state,
+                        const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
+                        const RunContext& context) {
+  Linearization out;
+  out.columns = columns;
+  out.scenes.resize(table.scenes.size());
+  parallel_for(table.scenes.size(), context.thread_count(), [&](std::size_t s) {
+    if (!context.stopped())
+      out.scenes[s] = SceneAccumulator(table, state, in_use, columns, s).run();
+  });
+  return out;
+}
+
+ModelState moved(const ModelState& state, const Vector6d& extrinsic,
+                 const std::vector<Vector6d>& boards) {
+  ModelState out;
+  out.camera_from_lidar = se3_exp(extrinsic) * state.camera_from_lidar;
+  for (std::size_t s = 0; s < boards.size(); ++s)
+    out.camera_from_board.push_back(se3_exp(boards[s]) * state.camera_from_board[s]);
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/progress.h"
+#include "model/effect.h"
+
+namespace lvcalib {
+
+/// One effect with its shape number and where its parameters stand among the columns.
+struct EffectColumns {
+  EffectPtr effect;
+  double shape = 0.0;
+  std::vector<EffectParameter> parameters;
+  int first = 0;
+  [[nodiscard]] int count() const { return static_cast<int>(parameters.size()); }
+};
+
+/// The candidates of one linearisation, side by side.
+class EffectColumnsList {
+ public:
+  /// Appends an effect (skipping nothing: callers ask why_not_testable first).
+  void add(const EffectPtr& effect, double shape, const MeasurementTable& table);
+  [[nodiscard]] const std::vector<EffectColumns>& list() const { return list_; }
+  [[nodiscard]] int columns() const { return columns_; }
+
+ private:
+  std::vector<EffectColumns> list_;
+  int columns_ = 0;
+};
+
+/// An effect in use with its values.
+struct EffectInUse {
+  EffectPtr effect;
+  double shape = 0.0;
+  Eigen::VectorXd values;  ///< SI
+};
+
+/// Groups of random effects: systematic structure that is not white noise and that no effect
+/// explains. Its size is estimated, so that it is not taken for evidence.
+enum class VarianceGroup {
+  kRangeLow = 0,   ///< Per scene: offset and slopes of the board in the ranges.
+  kRangeHigh = 1,  ///< Per scene: board polynomials of degree 2 to 4 in the ranges.
+  kNode = 2,       ///< Per node: shift in two directions and radius.
+  kTag = 3,        ///< Per tag: shift in the image.
+  kIntensity = 4,  ///< Per scene: polynomials of degree 1 and 2 in the log-intensity.
+};
+constexpr std::size_t kVarianceGroups = 5;
+
+/// Columns that belong to one scene: board pose (6, left perturbation), two intensity levels, then
+/// the random effects.
+struct LocalLayout {
+  static constexpr int kPose = 6;
+  static constexpr int kLevels = 2;
+  static constexpr int kFixed = kPose + kLevels;
+  static constexpr int kLow = 3;
+  static constexpr int kHigh = 12;
+  static constexpr int kIntensityTerms = 5;
+  int nodes = 0;
+  int tags = 0;
+  [[nodiscard]] int node_column() const { return kFixed + kLow + kHigh + kIntensityTerms; }
+  [[nodiscard]] int tag_column() const { return node_column() + 3 * nodes; }
+  [[nodiscard]] int size() const { return tag_column() + 2 * tags; }
+  /// First column and number of columns of a group.
+  [[nodiscard]] std::pair<int, int> columns_of(VarianceGroup group) const;
+};
+
+/// Cross products of one scene's whitened rows: columns are the local ones, the extrinsic (6, left
+/// perturbation), all effect parameters, and the residual. One matrix per channel, upper triangle
+/// filled and mirrored.
+struct SceneProducts {
+  LocalLayout layout;
+  std::array<Eigen::MatrixXd, kChannels> products;
+  std::array<int, kChannels> rows{};
+};
+
+/// The model linearised about a state: residuals = measured − predicted − effects in use.
+struct Linearization {
+  EffectColumnsList columns;
+  std::vector<SceneProducts> scenes;
+  [[nodiscard]] int effect_columns() const { return columns.columns(); }
+};
+
+/// Computes the cross products; scenes in parallel. Cost is linear in rows and in the number of
+/// effects that act on a row. Stops early (empty scenes) when asked to.
+Linearization linearize(const MeasurementTable& table, const ModelState& state,
+                        const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
+                        const RunContext& context);
+
+/// The state moved by left perturbations.
+ModelState moved(const ModelState& state, const Vector6d& extrinsic,
+                 const std::vector<Vector6d>& boards);
+
+}  // namespace lvcalib

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/rigid3.h"
+#include "camera/camera.h"
+#include "model/channel.h"
+#include "refinement/board_refinement.h"
+#include "target/target.h"
+
+namespace lvcalib {
+
+/// The nearest circle's edge, seen from a point of the board.
+struct NearEdge {
+  double distance_m = 0.0;    ///< Outside positive.
+  double psi_rad = 0.0;       ///< Polar angle about the node, board frame.
+  double transition_m = 0.0;  ///< Width σ of the transition along ψ.
+};
+
+/// What is known about the place where one beam meets the board, whatever is measured there.
+/// Effects and plots read it; nothing in it comes from the noisy range or intensity of the point
+/// itself.
+struct BeamPoint {
+  int scene = 0;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< Unit, LiDAR frame, as reported.
+  double range_m = 0.0;                                  ///< Predicted: ray ∩ board.
+  double azimuth_rad = 0.0;
+  double elevation_rad = 0.0;
+  Eigen::Vector2d board_m = Eigen::Vector2d::Zero();  ///< Ray ∩ board, board frame.
+  double incidence_rad = 0.0;                         ///< Between beam and normal, 0…π/2.
+  double slope_rad = 0.0;  ///< α: in-board direction (board frame) in which the range grows.
+  /// Received power as the print and the scene's two levels predict it, on a logarithmic scale
+  /// common to all scenes: 0 for the usual white, 1 for the usual black.
+  double darkness = 0.0;
+  std::optional<NearEdge> edge;  ///< Within a few σ only.
+  double time_s = 0.0;           ///< From the start of the scan; 0 if absent.
+  int line = 0;                  ///< 0 if absent.
+  /// Scan velocity across the beam (azimuth·cos elevation, elevation), rad/s; 0 where unknown.
+  Eigen::Vector2d scan_rad_s = Eigen::Vector2d::Zero();
+};
+
+/// A range measurement on the board.
+struct RangeRow {
+  BeamPoint beam;
+  double measured_m = 0.0;
+  double intensity = 0.0;  ///< Raw.
+  bool dark = false;       ///< By geometry.
+  double sigma_m = 0.0;
+};
+
+/// The mid-level crossing of one angular bin of one node.
+struct BoundaryRow {
+  BeamPoint beam;
+  int node = 0;
+  Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  ///< The node, board frame.
+  double radius_m = 0.0;
+  double psi_rad = 0.0;       ///< Polar angle about the node, board frame.
+  double transition_m = 0.0;  ///< Width σ of the transition in the board, along ψ.
+  /// Gradient of the outward board coordinate by (azimuth·cos elevation, elevation), m/rad: how
+  /// the LiDAR's angles cross the edge.
+  Eigen::Vector2d edge_normal_rad = Eigen::Vector2d::Zero();
+  double log_contrast = 0.0;  ///< ln(outer level / inner level).
+  double sigma_m = 0.0;
+};
+
+/// A corner of a tag or checkerboard: two residuals.
+struct CornerRow {
+  int scene = 0;
+  int feature = 0;
+  int corner = 0;
+  Eigen::Vector2d board_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d from_tag_m = Eigen::Vector2d::Zero();   ///< From the tag's centre; 0: no tag.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();        ///< Measured.
+  Eigen::Vector2d from_tag_px = Eigen::Vector2d::Zero();  ///< From the image of the tag's centre.
+  double sigma_px = 0.0;
+};
+
+/// Intensity of a LiDAR point well inside black or white print.
+struct IntensityRow {
+  BeamPoint beam;
+  bool dark = false;
+  double log_intensity = 0.0;
+  double sigma = 0.0;  ///< Of the logarithm.
+};
+
+/// One scene of the table and its place in the model.
+struct TableScene {
+  std::string name;
+  std::vector<int> features;  ///< Distinct corner features (tags), in order of appearance.
+  std::vector<int> nodes;     ///< Distinct nodes with boundary rows.
+  double clock = 0.0;         ///< 0…1 over the scenes in their order.
+};
+
+/// All measurements that a finished calibration keeps, thinned evenly over the boards, with every
+/// covariate. Rows are grouped by scene.
+struct MeasurementTable {
+  Target target;
+  Camera camera;
+  std::vector<TableScene> scenes;
+  std::vector<RangeRow> range;
+  std::vector<BoundaryRow> boundary;
+  std::vector<CornerRow> corner;
+  std::vector<IntensityRow> intensity;
+  std::vector<int> lines;  ///< Distinct laser lines; empty if the clouds have none.
+  bool has_time = false;
+  bool has_intensity = false;
+  /// Levels of white and black that darkness 0 and 1 stand for (raw intensity).
+  double white_level = 1.0;
+  double dark_level = 1.0;
+
+  [[nodiscard]] std::size_t size(Channel channel) const;
+};
+
+/// State that the measurements are predicted from: extrinsic and a board pose per scene.
+struct ModelState {
+  Rigid3 camera_from_lidar;
+  std::vector<Rigid3> camera_from_board;
+};
+
+}  // namespace lvcalib

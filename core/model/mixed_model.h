@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "model/linear_model.h"
+
+namespace lvcalib {
+
+/// Variances that the mixed model estimates.
+struct ModelVariances {
+  /// Factor on the stated variance of each channel's rows.
+  std::array<double, kChannels> channel{1.0, 1.0, 1.0, 1.0};
+  /// Variance of each group of random effects (m², m², m², px², 1).
+  std::array<double, kVarianceGroups> group{1e-7, 1e-7, 4e-8, 4e-4, 1e-3};
+};
+
+/// What one scene says about the global unknowns (extrinsic and effect parameters) once its own
+/// unknowns are integrated out: log-likelihood = constant + gᵀx − ½ xᵀHx.
+struct SceneTerm {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+  double constant = 0.0;
+};
+
+/// Which effect columns take part, with the Gaussian prior of each increment.
+struct ColumnSubset {
+  std::vector<int> columns;
+  std::vector<double> prior_sigma;
+  std::vector<double> prior_mean;  ///< Of the increment: −(value in use).
+};
+
+/// A fitted mixed model. Global unknowns: extrinsic (6), then the subset's columns.
+struct ModelFit {
+  ColumnSubset subset;
+  Eigen::VectorXd solution;
+  Eigen::MatrixXd covariance;
+  std::vector<SceneTerm> scenes;
+  SceneTerm prior;
+  ModelVariances variances;
+  double log_likelihood = 0.0;         ///< Restricted (REML), up to a constant of the data.
+  std::vector<Eigen::VectorXd> local;  ///< Per scene: pose, levels, random effects.
+  [[nodiscard]] Eigen::VectorXd parameters() const { return solution.tail(solution.size() - 6); }
+  [[nodiscard]] Eigen::MatrixXd parameter_covariance() const {
+    const Eigen::Index p = solution.size() - 6;
+    return covariance.bottomRightCorner(p, p);
+  }
+};
+
+struct MixedModelOptions {
+  int rounds = 12;          ///< Re-estimations of the variances.
+  double tolerance = 0.02;  ///< Done when no log-variance moves by more.
+};
+
+/// Fits extrinsic, poses, levels, effect columns and random effects, and re-estimates all variances
+/// by restricted maximum likelihood (fixed-point updates σ² = uᵀu/γ with γ the number of effects
+/// that the data determine; MacKay 1992, equal to REML at the fixed point).
+ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
+                   const ModelVariances& start, const MixedModelOptions& options);
+
+/// Log of the density that the other scenes predict for a scene, given the fit's variances.
+double predictive_log_density(const ModelFit& fit, std::size_t scene);
+
+/// Solution of the global unknowns from all scenes but one.
+Eigen::VectorXd solution_without(const ModelFit& fit, std::size_t scene);
+
+/// Sums of squared residuals over σ (stated) of a scene, per channel, with given global unknowns
+/// and the scene's pose and levels fitted; random effects are not subtracted.
+std::array<double, kChannels> squares_at(const Linearization& linear, std::size_t scene,
+                                         const ColumnSubset& subset, const Eigen::VectorXd& globals,
+                                         const ModelVariances& variances);
+
+}  // namespace lvcalib

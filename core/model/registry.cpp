@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "model/effect.h"
+#include "model/effects/catalogue.h"
+
+namespace lvcalib {
+
+#define LVCALIB_DECLARE(name) EffectPtr make_##name();
+LVCALIB_EFFECTS(LVCALIB_DECLARE)
+#undef LVCALIB_DECLARE
+
+const std::vector<EffectPtr>& effect_catalogue() {
+#define LVCALIB_MAKE(name) make_##name(),
+  static const std::vector<EffectPtr> catalogue{LVCALIB_EFFECTS(LVCALIB_MAKE)};
+#undef LVCALIB_MAKE
+  return catalogue;
+}
+
+EffectPtr find_effect(const std::string& id) {
+  const auto& all = effect_catalogue();
+  const auto at = std::find_if(all.begin(), all.end(),
+                               [&](const EffectPtr& effect) { return effect->info().id == id; });
+  return at == all.end() ? nullptr : *at;
+}
+
+std::string why_not_testable(const Effect& effect, const MeasurementTable& table) {
+  const EffectNeeds& needs = effect.info().needs;
+  if (needs.time && !table.has_time) return "no time in these clouds";
+  if (needs.line && table.lines.size() < 2) return "no laser lines in these clouds";
+  if (needs.intensity && !table.has_intensity) return "no intensity in these clouds";
+  if (needs.circles && table.boundary.empty()) return "no circles on this board";
+  if (needs.tags && !table.target.has_tags()) return "no tags on this board";
+  if (effect.is_gauge())
+    return "not defined: the same as a turn of the LiDAR frame, which is part of the extrinsic";
+  return {};
+}
+
+}  // namespace lvcalib

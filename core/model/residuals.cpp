@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/residuals.h"
+
+#include <cmath>
+
+#include "model/effect_rows.h"
+#include "model/scene_geometry.h"
+
+namespace lvcalib {
+namespace {
+
+class Collector {
+ public:
+  Collector(const MeasurementTable& table, const ModelState& state,
+            const std::vector<EffectInUse>& in_use)
+      : table_(table),
+        state_(state),
+        in_use_(in_use),
+        columns_(columns_in_use(in_use, table)),
+        rows_(table, columns_.list()) {
+    for (std::size_t s = 0; s < table.scenes.size(); ++s)
+      geometry_.emplace_back(state.camera_from_lidar, state.camera_from_board[s]);
+  }
+
+  ChannelResiduals run(Channel channel) {
+    switch (channel) {
+      case Channel::kCorner:
+        for (std::size_t k = 0; k < table_.corner.size(); ++k) corner(k);
+        break;
+      case Channel::kRange:
+        for (std::size_t k = 0; k < table_.range.size(); ++k) range(k);
+        break;
+      case Channel::kBoundary:
+        for (std::size_t k = 0; k < table_.boundary.size(); ++k) boundary(k);
+        break;
+      case Channel::kIntensity:
+        for (std::size_t k = 0; k < table_.intensity.size(); ++k) intensity(k);
+        break;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] double used(const EffectColumns& c, std::span<const double> by) const {
+    const auto at = static_cast<std::size_t>(&c - columns_.list().data());
+    double sum = 0.0;
+    for (std::size_t k = 0; k < by.size(); ++k)
+      sum += by[k] * in_use_[at].values(static_cast<Eigen::Index>(k));
+    return sum;
+  }
+
+  void push(double value, double sigma, int scene, std::size_t row,
+            const Eigen::Matrix<double, 8, 1>& nuisance) {
+    out_.values.push_back(value);
+    out_.sigma.push_back(sigma);
+    out_.scene.push_back(scene);
+    out_.row.push_back(row);
+    out_.nuisance.push_back(nuisance);
+  }
+
+  void corner(std::size_t k) {
+    const CornerRow& r = table_.corner[k];
+    const auto p =
+        predict(r, table_.camera, state_.camera_from_board[static_cast<std::size_t>(r.scene)]);
+    if (!p) return;
+    Eigen::Vector2d residual = p->residual;
+    rows_.corner(r, p->normalized, p->by_board_move,
+                 [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
+                   const auto at = static_cast<std::size_t>(&c - columns_.list().data());
+                   for (std::size_t j = 0; j < by.size(); ++j)
+                     residual -= by[j] * in_use_[at].values(static_cast<Eigen::Index>(j));
+                 });
+    for (int axis = 0; axis < 2; ++axis) {
+      Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
+      nuisance.head<6>() = p->by_pose.row(axis).transpose();
+      push(residual(axis), r.sigma_px, r.scene, k, nuisance);
+    }
+  }
+
+  void range(std::size_t k) {
+    const RangeRow& r = table_.range[k];
+    const SceneGeometry& g = geometry_[static_cast<std::size_t>(r.beam.scene)];
+    const auto predicted = g.range_m(r.beam.direction);
+    if (!predicted) return;
+    const Eigen::Vector3d a = g.range_row(r.beam.direction);
+    double residual = r.measured_m - *predicted;
+    rows_.beam(
+        r.beam, a, g.lidar_from_board().rotation.toRotationMatrix(),
+        [&](const EffectColumns& c, std::span<const double> by) { residual -= used(c, by); });
+    Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
+    nuisance.head<6>() = g.by_board_pose(a, *predicted * r.beam.direction);
+    push(residual, r.sigma_m, r.beam.scene, k, nuisance);
+  }
+
+  void boundary(std::size_t k) {
+    const BoundaryRow& r = table_.boundary[k];
+    const SceneGeometry& g = geometry_[static_cast<std::size_t>(r.beam.scene)];
+    const auto range = g.range_m(r.beam.direction);
+    if (!range) return;
+    const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
+    const Eigen::Vector2d xy = g.board_m(*range * r.beam.direction);
+    const Eigen::Vector3d a = g.edge_row(r.beam.direction, outward_of(r, xy, rotation));
+    double residual = (xy - r.center_m).norm() - r.radius_m;
+    rows_.edge(r, a, rotation, [&](const EffectColumns& c, std::span<const double> by) {
+      residual -= used(c, by);
+    });
+    Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
+    nuisance.head<6>() = g.by_board_pose(a, *range * r.beam.direction);
+    push(residual, r.sigma_m, r.beam.scene, k, nuisance);
+  }
+
+  void intensity(std::size_t k) {
+    const IntensityRow& r = table_.intensity[k];
+    double residual = r.log_intensity - std::log(r.dark ? table_.dark_level : table_.white_level);
+    rows_.intensity(
+        r, [&](const EffectColumns& c, std::span<const double> by) { residual -= used(c, by); });
+    Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
+    nuisance(r.dark ? 7 : 6) = 1.0;
+    push(residual, r.sigma, r.beam.scene, k, nuisance);
+  }
+
+  const MeasurementTable& table_;
+  const ModelState& state_;
+  const std::vector<EffectInUse>& in_use_;
+  EffectColumnsList columns_;
+  EffectRows rows_;
+  std::vector<SceneGeometry> geometry_;
+  ChannelResiduals out_;
+};
+
+}  // namespace
+
+ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
+                              const std::vector<EffectInUse>& in_use, Channel channel) {
+  return Collector(table, state, in_use).run(channel);
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "model/linear_model.h"
+
+namespace lvcalib {
+
+/// Residuals of a channel's rows (measured − predicted − effects in use; SI and px). Corner rows
+/// give two values each, u and v. For plots and for the search for structure.
+struct ChannelResiduals {
+  std::vector<double> values;
+  std::vector<double> sigma;
+  std::vector<int> scene;
+  std::vector<std::size_t> row;                       ///< Row of the table's channel.
+  std::vector<Eigen::Matrix<double, 8, 1>> nuisance;  ///< Derivative by pose (6) and levels (2).
+};
+ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
+                              const std::vector<EffectInUse>& in_use, Channel channel);
+
+}  // namespace lvcalib

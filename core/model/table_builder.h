@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "detection/board_view.h"
+#include "model/measurement_table.h"
+
+namespace lvcalib {
+
+/// What a finished calibration keeps of one scene.
+struct SceneMeasurements {
+  std::string name;
+  std::vector<CornerObservation> corners;
+  const BoardRefinement* refinement = nullptr;
+  const Cloud* board_points = nullptr;
+};
+
+struct TableOptions {
+  int max_rows_per_scene = 20000;  ///< Range rows, spread evenly over board cells and print.
+  double gate = 6.0;               ///< Points farther off the board (in σ) are not on it.
+  /// Footprint (rad, one σ) where no circles measure it; decides which points see one print only.
+  double footprint_rad = 0.001;
+};
+
+/// Builds the table at a state. Every scene's board pose is in `state` in the same order.
+MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const Target& target,
+                             const Camera& camera, const ModelState& state, double sigma_px,
+                             const TableOptions& options);
+
+/// Standard deviation of the range noise from pairs of neighbours on the board (same line and
+/// print, a few millimetres apart), which no smooth effect can widen: √(median d²/2/0.455).
+/// Zero if there are fewer than `min_pairs`.
+double replicate_sigma(const std::vector<Eigen::Vector2d>& board_m,
+                       const std::vector<double>& values, const std::vector<int>& strata,
+                       double distance_m, int min_pairs);
+
+}  // namespace lvcalib

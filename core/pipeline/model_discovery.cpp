@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/model_discovery.h"
+
+#include <cmath>
+
+#include "base/statistics.h"
+#include "model/residuals.h"
+
+namespace lvcalib {
+namespace {
+
+bool takes_part(const SceneResult& scene) {
+  return scene.used && scene.view && scene.refinement;
+}
+
+const SceneSolution* solution_of(const CalibrationResult& result, const std::string& name) {
+  for (const SceneSolution& s : result.extrinsic.scenes) {
+    if (s.name == name) return &s;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+DiscoveryInput discovery_input(const CalibrationResult& result) {
+  DiscoveryInput input;
+  input.target = result.target;
+  input.camera = result.camera;
+  input.sigma_px = result.extrinsic.sigma_px;
+  input.state.camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
+  for (const SceneResult& scene : result.scenes) {
+    const SceneSolution* solution = solution_of(result, scene.name);
+    if (!takes_part(scene) || solution == nullptr) continue;
+    SceneMeasurements m;
+    m.name = scene.name;
+    for (std::size_t k = 0; k < scene.view->corners.size(); ++k) {
+      // Corners that the joint solve left out as outliers stay out.
+      if (k < solution->corners.size() && solution->corners[k].used)
+        m.corners.push_back(scene.view->corners[k]);
+    }
+    m.refinement = &*scene.refinement;
+    m.board_points = &scene.board_points;
+    input.scenes.push_back(std::move(m));
+    input.state.camera_from_board.push_back(solution->camera_from_board);
+  }
+  return input;
+}
+
+Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptions& options,
+                           const RunContext& context) {
+  return discover_effects(discovery_input(result), options, context);
+}
+
+CalibrationResult with_model(CalibrationResult result, const Discovery& discovery) {
+  result.extrinsic.camera_from_lidar = {discovery.state.camera_from_lidar, discovery.covariance};
+  std::size_t next = 0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!takes_part(scene)) continue;
+    for (SceneSolution& s : result.extrinsic.scenes) {
+      if (s.name == scene.name && next < discovery.state.camera_from_board.size())
+        s.camera_from_board = discovery.state.camera_from_board[next];
+    }
+    ++next;
+  }
+  result.model.clear();
+  for (const EffectFinding& f : discovery.effects) {
+    for (const EffectInUse& use : discovery.model) {
+      if (use.effect->info().id != f.id) continue;
+      result.model.push_back({f.id, f.parameters, use.shape});
+    }
+  }
+  return result;
+}
+
+}  // namespace lvcalib

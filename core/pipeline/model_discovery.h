@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "discovery/discovery.h"
+#include "pipeline/calibration.h"
+
+namespace lvcalib {
+
+/// What discovery starts from, out of a finished calibration: the scenes in use. Points into
+/// `result`, which must outlive it.
+DiscoveryInput discovery_input(const CalibrationResult& result);
+
+/// Looks for effects that the calibration's model misses.
+/// Errors: as discover_effects.
+Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptions& options,
+                           const RunContext& context);
+
+/// The calibration with the effects found in its model: extrinsic, covariance, board poses,
+/// residuals.
+CalibrationResult with_model(CalibrationResult result, const Discovery& discovery);
+
+}  // namespace lvcalib

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/discovery_file.h"
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "base/file_io.h"
+
+namespace lvcalib {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json channel_json(const ChannelSummary& c) {
+  return {{"name", name_of(c.channel)},
+          {"unit", unit_of(c.channel)},
+          {"n", c.n},
+          {"rms", c.rms},
+          {"noise_floor", c.noise_floor},
+          {"unexplained", c.unexplained},
+          {"heldout_rms", c.heldout_rms}};
+}
+
+ordered_json effect_json(const EffectFinding& f) {
+  ordered_json parameters = ordered_json::array();
+  for (const ParameterEstimate& p : f.parameters) {
+    parameters.push_back({{"name", p.name},
+                          {"value", p.value / p.unit_in_si},
+                          {"sigma", p.sigma / p.unit_in_si},
+                          {"unit", p.unit}});
+  }
+  ordered_json j = {{"id", f.id},
+                    {"rank", f.rank},
+                    {"verdict", name_of(f.verdict)},
+                    {"parameters", std::move(parameters)},
+                    {"heldout_gain", f.heldout_gain},
+                    {"log_density_gain", f.log_density_gain},
+                    {"p_value", f.p_value},
+                    {"aliases", f.aliases},
+                    {"extrinsic_move_mm", f.extrinsic_move_mm},
+                    {"extrinsic_move_mrad", f.extrinsic_move_mrad},
+                    {"kept_share", f.kept},
+                    {"explanation", f.explanation}};
+  if (f.shape != 0.0) j["shape"] = f.shape;
+  return j;
+}
+
+ordered_json step_json(const HistoryStep& step, int number) {
+  ordered_json channels = ordered_json::object();
+  ordered_json heldout = ordered_json::object();
+  for (const ChannelSummary& c : step.channels) {
+    channels[name_of(c.channel)] = {{"rms", c.rms}, {"unexplained", c.unexplained}};
+    heldout[name_of(c.channel)] = c.heldout_rms;
+  }
+  const Eigen::Vector3d& t = step.camera_from_lidar.translation;
+  return {{"step", number},
+          {"added", step.added.empty() ? ordered_json(nullptr) : ordered_json(step.added)},
+          {"channels", std::move(channels)},
+          {"heldout_rms", std::move(heldout)},
+          {"translation_m", {t.x(), t.y(), t.z()}}};
+}
+
+std::string line(const char* format, double a, double b, double c, double d) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b, c, d);
+  return text;
+}
+
+std::string channel_lines(const std::vector<ChannelSummary>& channels) {
+  std::string out;
+  for (const ChannelSummary& c : channels) {
+    char text[200];
+    std::snprintf(text, sizeof text, "  %-10s %10.4g %12.4g %12.4g %12.4g %s\n", name_of(c.channel),
+                  c.rms, c.noise_floor, c.unexplained, c.heldout_rms, unit_of(c.channel));
+    out += text;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string discovery_as_json(const Discovery& d) {
+  ordered_json j;
+  j["channels"] = ordered_json::array();
+  for (const ChannelSummary& c : d.channels) j["channels"].push_back(channel_json(c));
+  j["structure"] = ordered_json::array();
+  for (const StructureScore& s : d.structure) {
+    j["structure"].push_back({{"channel", name_of(s.channel)},
+                              {"covariate", s.covariate},
+                              {"score", s.score},
+                              {"amplitude", s.amplitude}});
+  }
+  j["effects"] = ordered_json::array();
+  for (const EffectFinding& f : d.effects) j["effects"].push_back(effect_json(f));
+  j["selected"] = d.selected;
+  j["unknown"] = ordered_json::array();
+  for (const StructureScore& s : d.unknown) {
+    j["unknown"].push_back(
+        {{"channel", name_of(s.channel)}, {"covariates", {s.covariate}}, {"score", s.score}});
+  }
+  j["history"] = ordered_json::array();
+  for (std::size_t k = 0; k < d.history.size(); ++k)
+    j["history"].push_back(step_json(d.history[k], static_cast<int>(k)));
+  j["advice"] = d.advice;
+  return j.dump(2) + "\n";
+}
+
+std::string discovery_summary(const Discovery& d) {
+  const std::string head = "  channel           RMS  noise floor  unexplained     held out\n";
+  std::string out = "Base model\n" + head + channel_lines(d.channels) + "\n";
+  if (d.selected.empty()) {
+    out += "Nothing is missing: no effect of the catalogue predicts held-out scenes better.\n";
+  }
+  for (const std::string& id : d.selected) {
+    for (const EffectFinding& f : d.effects) {
+      if (f.id == id) out += id + ": " + f.explanation + "\n";
+    }
+  }
+  if (!d.selected.empty() && !d.history.empty())
+    out += "\nWith them\n" + head + channel_lines(d.history.back().channels);
+  if (!d.unknown.empty()) {
+    out += "\nStructure that no effect of the catalogue explains\n";
+    for (const StructureScore& s : d.unknown) {
+      out += std::string("  ") + name_of(s.channel) + " against " + s.covariate +
+             line(": %.1f %% of the held-out variance, %.3g ", 100.0 * s.score, s.amplitude, 0, 0) +
+             unit_of(s.channel) + "\n";
+    }
+  }
+  out += "\nThe rest of the catalogue\n";
+  for (const EffectFinding& f : d.effects) {
+    bool chosen = false;
+    for (const std::string& id : d.selected) chosen = chosen || id == f.id;
+    if (!chosen) out += "  " + f.id + ": " + f.explanation + "\n";
+  }
+  if (!d.advice.empty()) out += "\nAdvice\n";
+  for (const std::string& a : d.advice) out += "  " + a + "\n";
+  return out;
+}
+
+Status write_discovery(const Discovery& discovery, const std::filesystem::path& folder) {
+  if (Status s = create_folder(folder); !s) return s.error();
+  if (Status s = write_file_atomically(folder / "discovery.json", discovery_as_json(discovery)); !s)
+    return s.error();
+  return write_file_atomically(folder / "discovery.txt", discovery_summary(discovery));
+}
+
+}  // namespace lvcalib
