@@ -98,7 +98,7 @@ void add_range(CovariateList& list, const MeasurementTable& table) {
   list.add_beam([&](std::size_t r) -> const BeamPoint& { return rows[r].beam; });
   list.add("darkness", "1", [&](auto r, auto) { return rows[r].beam.darkness; });
   list.add(
-      "print", "", [&](auto r, auto) { return rows[r].dark ? 1 : 0; }, true);
+      "print", "", [&](auto r, auto) { return static_cast<int>(rows[r].print); }, true);
   list.add("intensity", "1", [&](auto r, auto) { return rows[r].intensity; });
   list.add("inverse range", "1/m", [&](auto r, auto) { return 1.0 / rows[r].beam.range_m; });
   list.add("distance to edge", "m",
@@ -143,7 +143,8 @@ std::vector<Covariate> covariates_of(const MeasurementTable& table, Channel chan
     case Channel::kIntensity:
       list.add_beam([&](std::size_t r) -> const BeamPoint& { return table.intensity[r].beam; });
       list.add(
-          "print", "", [&](auto r, auto) { return table.intensity[r].dark ? 1 : 0; }, true);
+          "print", "", [&](auto r, auto) { return static_cast<int>(table.intensity[r].print); },
+          true);
       break;
   }
   return list.take();

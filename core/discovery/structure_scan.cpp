@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSplines = 8;
 constexpr int kKnots = kSplines - 3;  // intervals
-constexpr int kNuisance = 8;
+constexpr int kNuisance = LocalLayout::kFixed;
 
 // Cubic B-splines over quantiles of the covariate; categories have one column each.
 class Basis {

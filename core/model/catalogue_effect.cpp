@@ -71,8 +71,9 @@ double edge_pull(const BeamPoint& beam, const MeasurementTable& table) {
   const double sigma = beam.edge->transition_m;
   const double z = beam.edge->distance_m / sigma;
   if (std::abs(z) > 4.0) return 0.0;
-  const double contrast = table.white_level - table.dark_level;
-  const double level = table.dark_level + contrast * normal_cdf(z);
+  const double circle = table.level_of(Print::kCircle);
+  const double contrast = table.level_of(Print::kWhite) - circle;
+  const double level = circle + contrast * normal_cdf(z);
   const double slope = contrast * normal_pdf(z) / sigma;
   // σ is the width in the board along ψ: it already holds the stretching by the incidence.
   return std::sin(beam.incidence_rad) * std::cos(beam.edge->psi_rad - beam.slope_rad) * sigma *

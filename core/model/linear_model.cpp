@@ -199,14 +199,14 @@ class SceneAccumulator {
   }
 
   void intensity(const IntensityRow& r) {
-    double residual = r.log_intensity - std::log(r.dark ? table_.dark_level : table_.white_level);
+    double residual = r.log_intensity - std::log(table_.level_of(r.print));
     used_rows_.intensity(r, [&](const EffectColumns& c, std::span<const double> by) {
       residual -= used_sum(c, by);
     });
     std::array<double, 15> z{};
     board_polynomials(unit_point(table_.target, r.beam.board_m), z);
     row_.clear();
-    row_.set(LocalLayout::kPose + (r.dark ? 1 : 0), 1.0);
+    row_.set(LocalLayout::kPose + static_cast<int>(r.print), 1.0);
     const int first = LocalLayout::kFixed + LocalLayout::kLow + LocalLayout::kHigh;
     for (int k = 0; k < LocalLayout::kIntensityTerms; ++k)
       row_.set(first + k, z[static_cast<std::size_t>(k + 1)]);

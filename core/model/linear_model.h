@@ -51,11 +51,11 @@ enum class VarianceGroup {
 };
 constexpr std::size_t kVarianceGroups = 5;
 
-/// Columns that belong to one scene: board pose (6, left perturbation), two intensity levels, then
+/// Columns that belong to one scene: board pose (6, left perturbation), intensity levels, then
 /// the random effects.
 struct LocalLayout {
   static constexpr int kPose = 6;
-  static constexpr int kLevels = 2;
+  static constexpr int kLevels = static_cast<int>(kPrints);
   static constexpr int kFixed = kPose + kLevels;
   static constexpr int kLow = 3;
   static constexpr int kHigh = 12;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ struct NearEdge {
   double psi_rad = 0.0;       ///< Polar angle about the node, board frame.
   double transition_m = 0.0;  ///< Width σ of the transition along ψ.
 };
+
+/// What a beam hits, by geometry. Circles and tags may be printed with different blacks.
+enum class Print { kWhite = 0, kBlack = 1, kCircle = 2 };
+constexpr std::size_t kPrints = 3;
 
 /// What is known about the place where one beam meets the board, whatever is measured there.
 /// Effects and plots read it; nothing in it comes from the noisy range or intensity of the point
@@ -49,7 +54,7 @@ struct RangeRow {
   BeamPoint beam;
   double measured_m = 0.0;
   double intensity = 0.0;  ///< Raw.
-  bool dark = false;       ///< By geometry.
+  Print print = Print::kWhite;
   double sigma_m = 0.0;
 };
 
@@ -83,7 +88,7 @@ struct CornerRow {
 /// Intensity of a LiDAR point well inside black or white print.
 struct IntensityRow {
   BeamPoint beam;
-  bool dark = false;
+  Print print = Print::kWhite;
   double log_intensity = 0.0;
   double sigma = 0.0;  ///< Of the logarithm.
 };
@@ -109,9 +114,13 @@ struct MeasurementTable {
   std::vector<int> lines;  ///< Distinct laser lines; empty if the clouds have none.
   bool has_time = false;
   bool has_intensity = false;
-  /// Levels of white and black that darkness 0 and 1 stand for (raw intensity).
-  double white_level = 1.0;
-  double dark_level = 1.0;
+  /// Usual raw intensity of each print: medians of the scenes' levels; 1 where there is none.
+  std::array<double, kPrints> level{1.0, 1.0, 1.0};
+  [[nodiscard]] double level_of(Print print) const {
+    return level[static_cast<std::size_t>(print)];
+  }
+  /// ln(white/black): what darkness 1 stands for.
+  double log_contrast = 0.0;
 
   [[nodiscard]] std::size_t size(Channel channel) const;
 };

@@ -49,8 +49,7 @@ class Collector {
     return sum;
   }
 
-  void push(double value, double sigma, int scene, std::size_t row,
-            const Eigen::Matrix<double, 8, 1>& nuisance) {
+  void push(double value, double sigma, int scene, std::size_t row, const NuisanceRow& nuisance) {
     out_.values.push_back(value);
     out_.sigma.push_back(sigma);
     out_.scene.push_back(scene);
@@ -71,7 +70,7 @@ class Collector {
                      residual -= by[j] * in_use_[at].values(static_cast<Eigen::Index>(j));
                  });
     for (int axis = 0; axis < 2; ++axis) {
-      Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
+      NuisanceRow nuisance = NuisanceRow::Zero();
       nuisance.head<6>() = p->by_pose.row(axis).transpose();
       push(residual(axis), r.sigma_px, r.scene, k, nuisance);
     }
@@ -87,7 +86,7 @@ class Collector {
     rows_.beam(
         r.beam, a, g.lidar_from_board().rotation.toRotationMatrix(),
         [&](const EffectColumns& c, std::span<const double> by) { residual -= used(c, by); });
-    Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
+    NuisanceRow nuisance = NuisanceRow::Zero();
     nuisance.head<6>() = g.by_board_pose(a, *predicted * r.beam.direction);
     push(residual, r.sigma_m, r.beam.scene, k, nuisance);
   }
@@ -104,18 +103,18 @@ class Collector {
     rows_.edge(r, a, rotation, [&](const EffectColumns& c, std::span<const double> by) {
       residual -= used(c, by);
     });
-    Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
+    NuisanceRow nuisance = NuisanceRow::Zero();
     nuisance.head<6>() = g.by_board_pose(a, *range * r.beam.direction);
     push(residual, r.sigma_m, r.beam.scene, k, nuisance);
   }
 
   void intensity(std::size_t k) {
     const IntensityRow& r = table_.intensity[k];
-    double residual = r.log_intensity - std::log(r.dark ? table_.dark_level : table_.white_level);
+    double residual = r.log_intensity - std::log(table_.level_of(r.print));
     rows_.intensity(
         r, [&](const EffectColumns& c, std::span<const double> by) { residual -= used(c, by); });
-    Eigen::Matrix<double, 8, 1> nuisance = Eigen::Matrix<double, 8, 1>::Zero();
-    nuisance(r.dark ? 7 : 6) = 1.0;
+    NuisanceRow nuisance = NuisanceRow::Zero();
+    nuisance(LocalLayout::kPose + static_cast<int>(r.print)) = 1.0;
     push(residual, r.sigma, r.beam.scene, k, nuisance);
   }
 

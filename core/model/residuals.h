@@ -7,14 +7,17 @@
 
 namespace lvcalib {
 
+/// A row's derivative by the scene's pose (6) and intensity levels.
+using NuisanceRow = Eigen::Matrix<double, LocalLayout::kFixed, 1>;
+
 /// Residuals of a channel's rows (measured − predicted − effects in use; SI and px). Corner rows
 /// give two values each, u and v. For plots and for the search for structure.
 struct ChannelResiduals {
   std::vector<double> values;
   std::vector<double> sigma;
   std::vector<int> scene;
-  std::vector<std::size_t> row;                       ///< Row of the table's channel.
-  std::vector<Eigen::Matrix<double, 8, 1>> nuisance;  ///< Derivative by pose (6) and levels (2).
+  std::vector<std::size_t> row;       ///< Row of the table's channel.
+  std::vector<NuisanceRow> nuisance;  ///< Derivative by pose and levels.
 };
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
                               const std::vector<EffectInUse>& in_use, Channel channel);

@@ -31,7 +31,7 @@ double transition_along(const BoardRefinement& refinement, const Rigid3& lidar_f
 struct BoardHit {
   std::size_t point = 0;
   BeamPoint beam;
-  bool dark = false;
+  Print print = Print::kWhite;
   bool pure = false;  // sees one print only
   double residual_m = 0.0;
 };
@@ -82,18 +82,12 @@ class SceneBuilder {
 
   // Once the levels of all scenes are known.
   void set_darkness() {
-    const double span = std::log(table_.white_level / table_.dark_level);
-    if (!(span > 0.0) || levels_[0] <= 0.0 || levels_[1] <= 0.0) return;
-    const auto darkness = [&](bool dark, const std::optional<NearEdge>& edge) {
-      double level = levels_[dark ? 1 : 0];
-      if (edge && edge->transition_m > 0.0) {
-        level = levels_[1] +
-                (levels_[0] - levels_[1]) * normal_cdf(edge->distance_m / edge->transition_m);
-      }
-      return std::log(table_.white_level / level) / span;
-    };
+    const double white = table_.level_of(Print::kWhite);
+    if (!(table_.log_contrast > 0.0)) return;
     for (RangeRow& row : table_.range) {
-      if (row.beam.scene == scene_) row.beam.darkness = darkness(row.dark, row.beam.edge);
+      if (row.beam.scene != scene_) continue;
+      const double level = level_at(row.print, row.beam.edge);
+      if (level > 0.0) row.beam.darkness = std::log(white / level) / table_.log_contrast;
     }
   }
 
@@ -114,9 +108,26 @@ class SceneBuilder {
     }
   }
 
-  [[nodiscard]] const std::array<double, 2>& levels() const { return levels_; }
+  [[nodiscard]] const std::array<double, kPrints>& levels() const { return levels_; }
 
  private:
+  // Intensity by the scene's levels, mixed within a circle's transition.
+  [[nodiscard]] double level_at(Print print, const std::optional<NearEdge>& edge) const {
+    const double circle = levels_[static_cast<std::size_t>(Print::kCircle)];
+    const double white = levels_[static_cast<std::size_t>(Print::kWhite)];
+    if (edge && edge->transition_m > 0.0 && circle > 0.0 && white > 0.0)
+      return circle + (white - circle) * normal_cdf(edge->distance_m / edge->transition_m);
+    return levels_[static_cast<std::size_t>(print)];
+  }
+
+  [[nodiscard]] Print print_at(const Eigen::Vector2d& board_m) const {
+    if (table_.target.albedo(board_m).value_or(1.0) >= 0.5) return Print::kWhite;
+    for (const TargetNode& node : nodes_) {
+      if ((board_m - node.center_m).norm() <= table_.target.circle_radius_m) return Print::kCircle;
+    }
+    return Print::kBlack;
+  }
+
   void collect(const Cloud& cloud) {
     const BoardOutline outline = table_.target.outline();
     const double shrink = 0.02 * outline.size_m().minCoeff();
@@ -136,8 +147,8 @@ class SceneBuilder {
       if ((xy.array() < low.array()).any() || (xy.array() > high.array()).any()) continue;
       hit.residual_m = measured - hit.beam.range_m;
       if (std::abs(hit.residual_m) > gate) continue;
-      hit.dark = table_.target.albedo(xy).value_or(1.0) < 0.5;
-      hit.pure = is_pure(hit.beam, hit.dark);
+      hit.print = print_at(xy);
+      hit.pure = is_pure(hit.beam, hit.print);
       if (cloud.has_time()) hit.beam.time_s = cloud.time_s[i];
       if (cloud.has_line()) hit.beam.line = cloud.line[i];
       hit.beam.scan_rad_s = velocities_.empty() ? Eigen::Vector2d::Zero() : velocities_[i];
@@ -147,7 +158,7 @@ class SceneBuilder {
   }
 
   // All prints within two σ of the footprint are alike.
-  [[nodiscard]] bool is_pure(const BeamPoint& beam, bool dark) const {
+  [[nodiscard]] bool is_pure(const BeamPoint& beam, Print print) const {
     const double across = options_.footprint_rad * beam.range_m;
     for (int k = 0; k < 4; ++k) {
       const double psi = 0.5 * k * 3.14159265358979;
@@ -155,7 +166,7 @@ class SceneBuilder {
       if (sigma <= 0.0) sigma = across;
       const Eigen::Vector2d q =
           beam.board_m + 2.0 * sigma * Eigen::Vector2d(std::cos(psi), std::sin(psi));
-      if ((table_.target.albedo(q).value_or(1.0) < 0.5) != dark) return false;
+      if (print_at(q) != print) return false;
     }
     return true;
   }
@@ -176,20 +187,20 @@ class SceneBuilder {
 
   void measure_levels(const Cloud& cloud) {
     if (!cloud.has_intensity()) return;
-    std::array<std::vector<double>, 2> values;
+    std::array<std::vector<double>, kPrints> values;
     for (const BoardHit& hit : hits_) {
-      if (hit.pure) values[hit.dark ? 1 : 0].push_back(cloud.intensity[hit.point]);
+      if (hit.pure)
+        values[static_cast<std::size_t>(hit.print)].push_back(cloud.intensity[hit.point]);
     }
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (values[k].size() >= 10) levels_[k] = median(std::move(values[k]));
+    const double white = values[0].empty() ? 0.0 : median(values[0]);
+    for (std::size_t k = 0; k < kPrints; ++k) {
+      // Black that returns next to nothing has no logarithm: a hundredth of white stands for it.
+      if (values[k].size() >= 10) levels_[k] = std::max(median(std::move(values[k])), 0.01 * white);
     }
-    // Black that returns nothing has no logarithm: a hundredth of white stands for it.
-    if (levels_[0] > 0.0 && values[1].empty()) levels_[1] = std::max(levels_[1], 0.0);
-    if (levels_[0] > 0.0) levels_[1] = std::max(levels_[1], 0.01 * levels_[0]);
   }
 
   void add_range_rows(const Cloud& cloud) {
-    const std::array<double, 2> sigma = noise();
+    const std::array<double, kPrints> sigma = noise();
     const double quota_all = options_.max_rows_per_scene;
     std::map<int, std::vector<std::size_t>> cells;
     for (std::size_t h = 0; h < hits_.size(); ++h) {
@@ -198,7 +209,7 @@ class SceneBuilder {
       const int y = std::clamp(static_cast<int>(unit.y() * kCells), 0, kCells - 1);
       // Mixed prints matter at circles only, where the model knows the mixture.
       if (!hits_[h].pure && !hits_[h].beam.edge) continue;
-      cells[2 * (y * kCells + x) + (hits_[h].dark ? 1 : 0)].push_back(h);
+      cells[3 * (y * kCells + x) + static_cast<int>(hits_[h].print)].push_back(h);
     }
     const auto quota = static_cast<std::size_t>(
         std::max(1.0, quota_all / std::max<double>(1.0, static_cast<double>(cells.size()))));
@@ -209,31 +220,31 @@ class SceneBuilder {
     }
   }
 
-  void add_row(const Cloud& cloud, const BoardHit& hit, const std::array<double, 2>& sigma) {
+  void add_row(const Cloud& cloud, const BoardHit& hit, const std::array<double, kPrints>& sigma) {
     RangeRow row;
     row.beam = hit.beam;
     row.measured_m = cloud.points_m[hit.point].cast<double>().norm();
-    row.dark = hit.dark;
-    row.sigma_m = sigma[hit.dark ? 1 : 0];
+    const auto print = static_cast<std::size_t>(hit.print);
+    row.print = hit.print;
+    row.sigma_m = sigma[print];
     if (cloud.has_intensity()) row.intensity = cloud.intensity[hit.point];
     table_.range.push_back(row);
-    const std::size_t level = hit.dark ? 1 : 0;
-    if (!hit.pure || !(row.intensity > 0.0) || !(levels_[level] > 0.0)) return;
+    if (!hit.pure || !(row.intensity > 0.0) || !(levels_[print] > 0.0)) return;
     table_.intensity.push_back(
-        {hit.beam, hit.dark, std::log(row.intensity), intensity_sigma_[level]});
+        {hit.beam, hit.print, std::log(row.intensity), intensity_sigma_[print]});
   }
 
   // Range noise of white and black from near-replicates; where there are too few, from the plane.
-  std::array<double, 2> noise() {
+  std::array<double, kPrints> noise() {
     constexpr int kPairs = 60;
-    std::array<double, 2> out{};
-    for (int dark = 0; dark < 2; ++dark) {
+    std::array<double, kPrints> out{};
+    for (std::size_t k = 0; k < kPrints; ++k) {
       std::vector<Eigen::Vector2d> at;
       std::vector<double> range;
       std::vector<double> log_intensity;
       std::vector<int> strata;
       for (const BoardHit& hit : hits_) {
-        if (hit.dark != (dark == 1) || !hit.pure) continue;
+        if (hit.print != static_cast<Print>(k) || !hit.pure) continue;
         at.push_back(hit.beam.board_m);
         range.push_back(hit.residual_m);
         strata.push_back(hit.beam.line);
@@ -241,7 +252,6 @@ class SceneBuilder {
             input_.board_points->has_intensity() ? input_.board_points->intensity[hit.point] : 0.0;
         log_intensity.push_back(std::log(std::max(raw, 1e-3)));
       }
-      const auto k = static_cast<std::size_t>(dark);
       for (double distance = 0.003; distance < 0.05 && out[k] == 0.0; distance *= 2.0)
         out[k] = replicate_sigma(at, range, strata, distance, kPairs);
       for (double distance = 0.003; distance < 0.05 && intensity_sigma_[k] == 0.0; distance *= 2.0)
@@ -249,7 +259,9 @@ class SceneBuilder {
       if (intensity_sigma_[k] <= 0.0) intensity_sigma_[k] = 0.1;
       const FittedPlane& plane = input_.refinement->plane;
       if (out[k] == 0.0)
-        out[k] = plane.group_sigma_m[k] > 0.0 ? plane.group_sigma_m[k] : plane.sigma_range_m;
+        out[k] = plane.group_sigma_m[std::min<std::size_t>(k, 1)] > 0.0
+                     ? plane.group_sigma_m[std::min<std::size_t>(k, 1)]
+                     : plane.sigma_range_m;
       out[k] = std::max(out[k], 1e-5);
     }
     return out;
@@ -339,8 +351,8 @@ class SceneBuilder {
   std::vector<Eigen::Vector2d> velocities_;
   std::vector<BoardHit> hits_;
   std::map<std::pair<int, int>, std::vector<std::size_t>> hash_;
-  std::array<double, 2> levels_{};
-  std::array<double, 2> intensity_sigma_{};
+  std::array<double, kPrints> levels_{};
+  std::array<double, kPrints> intensity_sigma_{};
 };
 
 void list_lines(MeasurementTable& table) {
@@ -388,20 +400,22 @@ MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const
   }
   std::vector<SceneBuilder> builders;
   builders.reserve(scenes.size());
-  std::array<std::vector<double>, 2> levels;
+  std::array<std::vector<double>, kPrints> levels;
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     builders.emplace_back(scenes[s], static_cast<int>(s), state, options, table);
     builders.back().add_corners(sigma_px);
     builders.back().add_points();
     builders.back().add_boundary();
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < kPrints; ++k) {
       if (builders.back().levels()[k] > 0.0) levels[k].push_back(builders.back().levels()[k]);
     }
   }
-  if (!levels[0].empty() && !levels[1].empty()) {
-    table.white_level = median(std::move(levels[0]));
-    table.dark_level = median(std::move(levels[1]));
+  for (std::size_t k = 0; k < kPrints; ++k) {
+    if (!levels[k].empty()) table.level[k] = median(levels[k]);
   }
+  const std::size_t black = levels[1].empty() ? 2 : 1;
+  if (!levels[0].empty() && !levels[black].empty())
+    table.log_contrast = std::log(table.level[0] / table.level[black]);
   for (SceneBuilder& builder : builders) builder.set_darkness();
   if (has_line) list_lines(table);
   return table;

@@ -25,7 +25,7 @@ class IntensityNonlinearity final : public CatalogueEffect {
                  std::span<double> by) const override {
     const double weaker =
         std::log(std::cos(row.beam.incidence_rad)) - 2.0 * std::log(row.beam.range_m);
-    by[0] = row.dark ? weaker : 0.0;
+    by[0] = row.print == Print::kWhite ? 0.0 : weaker;
   }
 };
 

@@ -15,16 +15,25 @@ class RangeWalk final : public CatalogueEffect {
              .title = "Range walk",
              .physics = "Weak echoes cross the detection threshold later (or earlier), so that "
                         "dark print reads a different range than white print.",
-             .formula =
-                 "dr = a g(P), g = 0 for the usual white and 1 for the usual black, linear in ln P",
+             .formula = "dr = a g(P), g = 0 for the usual white and 1 for the usual black, a power "
+                        "of 1/P or ln P",
              .source = "Livox HAP and Mid-70 manuals; Laconte 2019",
              .breaker = "boards at two distances with the same print",
              .needs = {.intensity = true}},
             {{"a", "mm", 1e-3, 2e-3, 0.05}}) {}
 
-  void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
+  // g is a power of 1/P or ln P for exponent 0 and in a power of 1/P otherwise.
+  [[nodiscard]] std::vector<double> shapes(const MeasurementTable&) const override {
+    return {0.0, 0.25, 0.5, 1.0};
+  }
+  [[nodiscard]] std::string shape_name() const override { return "exponent"; }
+
+  void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {
-    by[0] = beam.darkness * beam.direction;
+    const double exponent = shape * table.log_contrast;
+    const double g = exponent > 1e-6 ? std::expm1(exponent * beam.darkness) / std::expm1(exponent)
+                                     : beam.darkness;
+    by[0] = g * beam.direction;
   }
 };
 

@@ -27,8 +27,8 @@ class SpecularLobe final : public CatalogueEffect {
   void intensity(const IntensityRow& row, const MeasurementTable& table, double shape,
                  std::span<double> by) const override {
     const double lobe = std::exp(-0.5 * std::pow(row.beam.incidence_rad / shape, 2));
-    // Relative to the white level: black print gains by the contrast more.
-    by[0] = lobe * (row.dark ? table.white_level / table.dark_level : 1.0);
+    // Relative to the white level: black print gains by its contrast more.
+    by[0] = lobe * table.level_of(Print::kWhite) / table.level_of(row.print);
   }
 };
 
