@@ -24,7 +24,9 @@ struct TableOptions {
   double footprint_rad = 0.001;
 };
 
-/// Builds the table at a state. Every scene's board pose is in `state` in the same order.
+/// Builds the table at a state. The corners' noise is measured (see corner_noise in the source);
+/// `sigma_px` stands in where there are too few corners for that.
+/// Every scene's board pose is in `state` in the same order.
 MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const Target& target,
                              const Camera& camera, const ModelState& state, double sigma_px,
                              const TableOptions& options);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/linear_model.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "model/mixed_model.h"
+#include "model/residuals.h"
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+// Every effect of the catalogue, in every channel: the column is the change of the prediction per
+// unit of the parameter.
+class EffectDerivative : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EffectDerivative, ResidualsFallByTheColumnTimesTheValue) {
+  test::TableRecipe recipe;
+  recipe.scenes = 2;
+  recipe.range_rows = 40;
+  const auto made = test::synthetic_table(recipe);
+  const EffectPtr effect = find_effect(GetParam());
+  ASSERT_NE(effect, nullptr);
+  const double shape = effect->shapes(made.table).back();
+  const auto parameters = effect->parameters(made.table);
+  EffectColumnsList columns;
+  columns.add(effect, shape, made.table);
+  const Linearization linear = linearize(made.table, made.truth, {}, columns, {});
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    EffectInUse use{effect, shape,
+                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
+    const double step = parameters[p].material;
+    use.values(static_cast<Eigen::Index>(p)) = step;
+    for (const Channel channel : kAllChannels) {
+      const auto before = residuals_of(made.table, made.truth, {}, channel);
+      const auto after = residuals_of(made.table, made.truth, {use}, channel);
+      // Σ (change/σ)² must be step² times the column's entry in the cross products.
+      double squares = 0.0;
+      for (std::size_t k = 0; k < before.values.size(); ++k)
+        squares += std::pow((before.values[k] - after.values[k]) / before.sigma[k], 2);
+      double expected = 0.0;
+      for (const SceneProducts& scene : linear.scenes) {
+        const auto at = scene.layout.size() + 6 + static_cast<int>(p);
+        expected += step * step * scene.products[static_cast<std::size_t>(channel)](at, at);
+      }
+      EXPECT_NEAR(squares, expected, 1e-6 * expected + 1e-12) << name_of(channel);
+    }
+  }
+}
+
+TEST_P(EffectDerivative, ActsOnSomething) {
+  test::TableRecipe recipe;
+  recipe.scenes = 3;
+  recipe.range_rows = 200;
+  auto made = test::synthetic_table(recipe);
+  for (RangeRow& row : made.table.range) row.beam.edge = NearEdge{0.002, 0.4, 0.01};
+  const EffectPtr effect = find_effect(GetParam());
+  EffectColumnsList columns;
+  columns.add(effect, effect->shapes(made.table).front(), made.table);
+  const Linearization linear = linearize(made.table, made.truth, {}, columns, {});
+  for (int p = 0; p < columns.columns(); ++p) {
+    double information = 0.0;
+    for (const SceneProducts& scene : linear.scenes) {
+      for (const auto& m : scene.products) {
+        information += m(scene.layout.size() + 6 + p, scene.layout.size() + 6 + p);
+      }
+    }
+    EXPECT_GT(information, 0.0) << "parameter " << p;
+  }
+}
+
+std::vector<std::string> all_ids() {
+  std::vector<std::string> ids;
+  for (const EffectPtr& effect : effect_catalogue()) ids.push_back(effect->info().id);
+  return ids;
+}
+INSTANTIATE_TEST_SUITE_P(Catalogue, EffectDerivative, ::testing::ValuesIn(all_ids()),
+                         [](const auto& info) { return info.param; });
+
+TEST(Linearize, PoseColumnsAreTheDerivativesOfTheResiduals) {
+  test::TableRecipe recipe;
+  recipe.scenes = 1;
+  recipe.range_rows = 60;
+  const auto made = test::synthetic_table(recipe);
+  for (const Channel channel : {Channel::kCorner, Channel::kRange, Channel::kBoundary}) {
+    const auto base = residuals_of(made.table, made.truth, {}, channel);
+    for (int k = 0; k < 6; ++k) {
+      Vector6d xi = Vector6d::Zero();
+      xi(k) = 1e-6;
+      const auto step = residuals_of(made.table, moved(made.truth, Vector6d::Zero(), {xi}), {},
+                                     channel);
+      for (std::size_t r = 0; r < base.values.size(); ++r) {
+        const double numeric = (base.values[r] - step.values[r]) / 1e-6;
+        EXPECT_NEAR(base.nuisance[r](k), numeric, 2e-3 * (1.0 + std::abs(numeric)))
+            << name_of(channel) << " row " << r << " direction " << k;
+      }
+    }
+  }
+}
+
+TEST(Linearize, CountsRowsAndDoesNotDependOnThreads) {
+  test::TableRecipe recipe;
+  recipe.scenes = 3;
+  recipe.range_rows = 100;
+  const auto made = test::synthetic_table(recipe);
+  EffectColumnsList columns;
+  columns.add(find_effect("range_offset"), 0.0, made.table);
+  RunContext one;
+  one.threads = 1;
+  RunContext two;
+  two.threads = 2;
+  const Linearization a = linearize(made.table, made.truth, {}, columns, one);
+  const Linearization b = linearize(made.table, made.truth, {}, columns, two);
+  ASSERT_EQ(a.scenes.size(), 3U);
+  for (std::size_t s = 0; s < 3; ++s) {
+    EXPECT_EQ(a.scenes[s].rows[static_cast<std::size_t>(Channel::kRange)], 100);
+    EXPECT_EQ(a.scenes[s].rows[static_cast<std::size_t>(Channel::kBoundary)], 9 * 24);
+    EXPECT_EQ(a.scenes[s].rows[static_cast<std::size_t>(Channel::kCorner)], 2 * 64);
+    for (std::size_t c = 0; c < kChannels; ++c) EXPECT_EQ(a.scenes[s].products[c], b.scenes[s].products[c]);
+  }
+}
+
+}  // namespace
+}  // namespace lvcalib

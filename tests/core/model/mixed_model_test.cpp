@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/mixed_model.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/statistics.h"
+#include "support/pose_matchers.h"
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+ModelFit fit(const test::SyntheticTable& made, const std::vector<std::string>& ids,
+             const MixedModelOptions& options = {}) {
+  EffectColumnsList columns;
+  ColumnSubset subset;
+  for (const std::string& id : ids) {
+    columns.add(find_effect(id), 0.0, made.table);
+    const EffectColumns& c = columns.list().back();
+    for (int k = 0; k < c.count(); ++k) {
+      subset.columns.push_back(c.first + k);
+      subset.prior_sigma.push_back(c.parameters[static_cast<std::size_t>(k)].prior_sigma);
+      subset.prior_mean.push_back(0.0);
+    }
+  }
+  return fit_model(linearize(made.table, made.truth, {}, columns, {}), subset, {}, options);
+}
+
+// The stated covariances hold extrinsic and parameter as often as they say: 60 draws at 95 %, four
+// standard deviations of the binomial are ±6.8.
+TEST(MixedModel, CoversExtrinsicAndParameter) {
+  int extrinsic = 0;
+  int parameter = 0;
+  constexpr int kDraws = 60;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    test::TableRecipe recipe;
+    recipe.scenes = 5;
+    recipe.range_rows = 300;
+    recipe.seed = 100 + static_cast<std::uint64_t>(draw);
+    test::Disturbance wrong;
+    wrong.range_m = [](const BeamPoint& beam) { return 0.006 * beam.darkness; };
+    const ModelFit f = fit(test::synthetic_table(recipe, wrong), {"range_walk"});
+    const Vector6d x = f.solution.head<6>();
+    const Matrix6d c = f.covariance.topLeftCorner<6, 6>();
+    extrinsic += x.dot(c.ldlt().solve(x)) < chi_square_gate(6, 0.05) ? 1 : 0;
+    const double sigma = std::sqrt(f.parameter_covariance()(0, 0));
+    parameter += std::abs(f.parameters()(0) - 0.006) < 1.96 * sigma ? 1 : 0;
+  }
+  EXPECT_GE(extrinsic, 57 - 7);
+  EXPECT_GE(parameter, 57 - 7);
+}
+
+TEST(MixedModel, NoiseScalesAreThoseOfTheRows) {
+  test::TableRecipe recipe;
+  auto made = test::synthetic_table(recipe);
+  for (RangeRow& row : made.table.range) row.sigma_m *= 0.5;  // stated too small
+  const ModelFit f = fit(made, {});
+  EXPECT_NEAR(f.variances.channel[static_cast<std::size_t>(Channel::kRange)], 4.0, 0.3);
+  EXPECT_NEAR(f.variances.channel[static_cast<std::size_t>(Channel::kCorner)], 1.0, 0.25);
+  EXPECT_NEAR(f.variances.channel[static_cast<std::size_t>(Channel::kBoundary)], 1.0, 0.2);
+}
+
+// Tags that are each shifted as a whole are put down to the tags, not to the corners' noise.
+TEST(MixedModel, StructurePerTagIsMeasured) {
+  test::Disturbance wrong;
+  wrong.corner_px = [](const CornerRow& row) {
+    Random random(static_cast<std::uint64_t>(1000 * row.scene + row.feature + 1));
+    return test::random_2d(random, 0.3);
+  };
+  const ModelFit f = fit(test::synthetic_table({}, wrong), {});
+  const double sigma = std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kTag)]);
+  EXPECT_NEAR(sigma, 0.3, 0.05);
+  EXPECT_NEAR(f.variances.channel[static_cast<std::size_t>(Channel::kCorner)], 1.0, 0.3);
+}
+
+TEST(MixedModel, WithoutStructureTheGroupsVanish) {
+  const ModelFit f = fit(test::synthetic_table({}), {});
+  EXPECT_LT(std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kTag)]), 0.02);
+  EXPECT_LT(std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kRangeLow)]), 5e-4);
+}
+
+TEST(MixedModel, ATrueEffectRaisesThePredictionOfHeldOutScenes) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.004 * beam.darkness; };
+  const auto made = test::synthetic_table({}, wrong);
+  const ModelFit without = fit(made, {});
+  const ModelFit with = fit(made, {"range_walk"});
+  for (std::size_t s = 0; s < made.table.scenes.size(); ++s)
+    EXPECT_GT(predictive_log_density(with, s), predictive_log_density(without, s)) << s;
+}
+
+TEST(MixedModel, SquaresWithoutEffectsAreThoseOfTheNoise) {
+  const auto made = test::synthetic_table({});
+  const Linearization linear = linearize(made.table, made.truth, {}, {}, {});
+  const ModelFit f = fit_model(linear, {}, {}, {});
+  const auto squares = squares_at(linear, 0, {}, f.solution, f.variances);
+  const double rows = linear.scenes[0].rows[static_cast<std::size_t>(Channel::kRange)];
+  EXPECT_NEAR(squares[static_cast<std::size_t>(Channel::kRange)], rows, 5.0 * std::sqrt(2.0 * rows));
+}
+
+TEST(MixedModel, SolutionWithoutASceneIgnoresIt) {
+  auto made = test::synthetic_table({});
+  const ModelFit before = fit(made, {}, {.rounds = 0});
+  for (BoundaryRow& row : made.table.boundary) {
+    if (row.beam.scene == 2) row.center_m.x() += 0.01;
+  }
+  const ModelFit after = fit(made, {}, {.rounds = 0});
+  EXPECT_LT((solution_without(before, 2) - solution_without(after, 2)).norm(), 1e-9);
+  EXPECT_GT((before.solution - after.solution).norm(), 1e-5);
+}
+
+}  // namespace
+}  // namespace lvcalib
