@@ -19,7 +19,8 @@ constexpr int kEdgeSamples = 5;       // Along either side of a half pixel that 
 // Viewing rays of a camera in the LiDAR frame: solved on a coarse grid, bilinear in between.
 class RayGrid {
  public:
-  RayGrid(const Camera& camera, const Rigid3& camera_from_lidar, std::stop_token stop)
+  RayGrid(const Camera& camera, const CameraDisturbance& disturbance,
+          const Rigid3& camera_from_lidar, std::stop_token stop)
       : columns_((camera.width_px + 2 * kGrid) / kGrid + 2),
         rows_((camera.height_px + 2 * kGrid) / kGrid + 2) {
     const Eigen::Matrix3d lidar_from_camera =
@@ -27,7 +28,9 @@ class RayGrid {
     rays_.reserve(static_cast<std::size_t>(columns_ * rows_));
     for (int j = 0; j < rows_ && !stop.stop_requested(); ++j) {
       for (int i = 0; i < columns_; ++i) {
-        const auto ray = camera.unproject(Eigen::Vector2d((i - 1) * kGrid, (j - 1) * kGrid));
+        const Eigen::Vector2d pixel((i - 1) * kGrid, (j - 1) * kGrid);
+        const auto ray =
+            disturbance.bends_rays() ? disturbance.unproject(pixel) : camera.unproject(pixel);
         // No ray: beyond the model's reach, left black.
         rays_.push_back(ray ? Eigen::Vector3d(lidar_from_camera * *ray)
                             : Eigen::Vector3d(Eigen::Vector3d::Constant(NAN)));
@@ -58,12 +61,13 @@ class RayGrid {
 class Renderer {
  public:
   Renderer(const ImageOptions& options, const Camera& camera, const Rigid3& camera_from_lidar,
-           const Room& room, std::stop_token stop)
+           const Room& room, std::stop_token stop, const CameraDisturbance& disturbance)
       : options_(options),
         camera_(camera),
+        disturbance_(disturbance),
         camera_from_lidar_(camera_from_lidar),
         caster_(room, camera_from_lidar.inverse().translation),
-        rays_(camera, camera_from_lidar, stop),
+        rays_(camera, disturbance, camera_from_lidar, stop),
         stop_(std::move(stop)) {
     for (std::size_t i = 0; i < room.surfaces.size(); ++i) {
       const Surface& surface = room.surfaces[i];
@@ -129,7 +133,8 @@ class Renderer {
       }
     }
     if (low.x() > high.x()) return {};
-    const int border = margin + 3 + static_cast<int>(std::ceil(4.0 * options_.blur_px));
+    const int border = margin + 3 + static_cast<int>(std::ceil(4.0 * options_.blur_px)) +
+                       static_cast<int>(std::ceil(disturbance_.reach_px()));
     const double edge = 1e5;
     const cv::Point first(static_cast<int>(std::clamp(low.x(), -edge, edge)) - border,
                           static_cast<int>(std::clamp(low.y(), -edge, edge)) - border);
@@ -189,6 +194,21 @@ class Renderer {
     return hit.surface < 0 ? 0.0 : caster_.reflectivity(hit) * shade_[index(hit.surface)];
   }
 
+  // Radiance at a point of the image into which black or white bleeds from around it.
+  [[nodiscard]] double bleeding_radiance(double x, double y,
+                                         std::span<const std::uint8_t> candidates) const {
+    constexpr int kRim = 12;
+    const double bleed = disturbance_.bleed_px();
+    double light = radiance(rays_.at(x, y), candidates);
+    for (int i = 0; i < kRim && bleed != 0.0; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kRim;
+      const double other =
+          radiance(rays_.at(x + bleed * std::cos(angle), y + bleed * std::sin(angle)), candidates);
+      light = bleed > 0.0 ? std::min(light, other) : std::max(light, other);
+    }
+    return light;
+  }
+
   // Mean radiance of a square of side `step` px.
   [[nodiscard]] double area_radiance(double x, double y, double step,
                                      std::span<const std::uint8_t> candidates) const {
@@ -199,7 +219,7 @@ class Renderer {
       for (int i = 0; i < kEdgeSamples; ++i) {
         const double dx = step * ((i + 0.5) / kEdgeSamples - 0.5);
         const double dy = step * ((j + 0.5) / kEdgeSamples - 0.5);
-        sum += radiance(rays_.at(x + dx, y + dy), candidates);
+        sum += bleeding_radiance(x + dx, y + dy, candidates);
       }
     }
     return sum / (kEdgeSamples * kEdgeSamples);
@@ -211,8 +231,11 @@ class Renderer {
     if (hit.surface < 0) return false;
     const Surface& board = caster_.room().surfaces[index(board_)];
     // Half a diagonal with room for the lens stretching its corners.
-    const double angle = step / std::min(camera_.fx, camera_.fy);
-    const double reach = 0.9 * angle * hit.range_m / std::max(0.02, hit.cos_incidence);
+    const double focal = std::min(camera_.fx, camera_.fy);
+    const double angle = step / focal;
+    const double bleed_angle = 1.3 * std::abs(disturbance_.bleed_px()) / focal;
+    const double reach =
+        (0.9 * angle + bleed_angle) * hit.range_m / std::max(0.02, hit.cos_incidence);
     if (std::abs(hit.u_m) > board.half_u_m + reach || std::abs(hit.v_m) > board.half_v_m + reach)
       return false;
     const Eigen::Vector2d point = caster_.on_board(hit);
@@ -221,6 +244,7 @@ class Renderer {
 
   const ImageOptions& options_;
   const Camera& camera_;
+  const CameraDisturbance& disturbance_;
   const Rigid3& camera_from_lidar_;
   RayCaster caster_;
   RayGrid rays_;
@@ -249,9 +273,9 @@ void expose(const cv::Mat& image, const ImageOptions& options, Random& random,
 
 SimulatedImage photograph(const ImageOptions& options, const Camera& camera,
                           const Rigid3& camera_from_lidar, const Room& room, Random random,
-                          std::stop_token stop) {
+                          std::stop_token stop, const CameraDisturbance& disturbance) {
   SimulatedImage image{camera.width_px, camera.height_px, {}};
-  Renderer renderer(options, camera, camera_from_lidar, room, stop);
+  Renderer renderer(options, camera, camera_from_lidar, room, stop, disturbance);
   if (stop.stop_requested()) return image;
   const cv::Mat grey = renderer.render();
   if (grey.empty() || stop.stop_requested()) return image;
