@@ -27,6 +27,7 @@ RayCaster::RayCaster(const Room& room, const Eigen::Vector3d& origin_m) : room_(
     face.radius = surface.radius_m();
     const bool bent = surface.board != nullptr && !surface.board->shape().is_flat();
     face.bent = bent ? surface.board : nullptr;
+    has_bent_face_ = has_bent_face_ || bent;
     face.always = far <= surface.radius_m();
     face.axis = face.always ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : to_center / far;
     face.cone_rad = face.always ? std::numbers::pi : std::asin(surface.radius_m() / far);
@@ -60,7 +61,6 @@ Hit RayCaster::meet(const Face& face, int surface, const Eigen::Vector3d& direct
   const double slope = face.normal.dot(direction);
   const double distance =
       start_m == nullptr ? face.distance : face.distance - face.normal.dot(*start_m);
-  // Same sign: the plane lies ahead. Written so that a ray without direction (NaN) hits nothing.
   if (!(slope * distance > 0.0)) return {};
   Hit hit{surface, distance / slope, 0.0, 0.0, std::abs(slope)};
   hit.u_m = face.u.dot(direction) * hit.range_m - face.offset_u;
@@ -100,6 +100,28 @@ void RayCaster::follow_shape(const Face& face, const Eigen::Vector3d& direction,
 
 Hit RayCaster::cast(const Eigen::Vector3d& direction, std::span<const std::uint8_t> candidates,
                     const Eigen::Vector3d* start_m) const {
+  if (start_m != nullptr || has_bent_face_) return cast_any(direction, candidates, start_m);
+  Hit hit;
+  hit.range_m = std::numeric_limits<double>::max();
+  for (const std::uint8_t index : candidates) {
+    const Face& face = faces_[index];
+    const double slope = face.normal.dot(direction);
+    // Same sign: the plane lies ahead. Written so that a ray without direction (NaN) hits nothing.
+    if (!(slope * face.distance > 0.0)) continue;
+    const double range = face.distance / slope;
+    if (range >= hit.range_m) continue;
+    const double u = face.u.dot(direction) * range - face.offset_u;
+    if (std::abs(u) > face.half_u) continue;
+    const double v = face.v.dot(direction) * range - face.offset_v;
+    if (std::abs(v) > face.half_v) continue;
+    hit = {index, range, u, v, std::abs(slope)};
+  }
+  return hit;
+}
+
+// As cast(), for starts beside the origin and faces that are not flat.
+Hit RayCaster::cast_any(const Eigen::Vector3d& direction, std::span<const std::uint8_t> candidates,
+                        const Eigen::Vector3d* start_m) const {
   Hit nearest;
   nearest.range_m = std::numeric_limits<double>::max();
   for (const std::uint8_t index : candidates) {

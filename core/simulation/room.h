@@ -93,12 +93,16 @@ class RayCaster {
     const PrintedBoard* bent;  // A board that is not flat.
     bool always;               // the origin is inside the bounding sphere
   };
+  [[nodiscard]] Hit cast_any(const Eigen::Vector3d& direction,
+                             std::span<const std::uint8_t> candidates,
+                             const Eigen::Vector3d* start_m) const;
   [[nodiscard]] Hit meet(const Face& face, int surface, const Eigen::Vector3d& direction,
                          const Eigen::Vector3d* start_m) const;
   void follow_shape(const Face& face, const Eigen::Vector3d& direction, Hit& hit) const;
 
   const Room* room_;
   std::vector<Face> faces_;
+  bool has_bent_face_ = false;
   Eigen::Vector2d board_center_m_ = Eigen::Vector2d::Zero();
 };
 
