@@ -164,6 +164,7 @@ double scanned_edge_mm(const Effects& effects, LidarKind kind, bool vertical) {
   options.intensity_scale = 1e4;
   options.incidence_exponent = 0.0;
   options.range_exponent = 0.0;
+  if (kind == LidarKind::kSpinning) options.points *= 5;  // Columns that fall between others.
   const ScanPattern pattern(options, Random(7));
   const Cloud cloud = scan(options, pattern, caster, Random(8), {}, plant(effects, kind));
   constexpr double kWidth = 0.04;

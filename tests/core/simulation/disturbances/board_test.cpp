@@ -66,12 +66,13 @@ TEST(BoardDisturbance, RaysMeetTheBentFace) {
     Surface surface = facing_board(3.0, board);
     surface.u = Eigen::Vector3d(std::sin(tilt), -std::cos(tilt), 0.0);
     const Room room{{surface}, Eigen::Vector3d::UnitZ()};
-    for (const Eigen::Vector3d& start : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0.1, 0.05)}) {
+    for (const Eigen::Vector3d& start :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.02, 0.05, 0.05)}) {
       const RayCaster caster(room, Eigen::Vector3d::Zero());
       const RayCaster moved(room, start);
       RayCaster::Candidates storage;
-      for (double z = -0.3; z < 0.31; z += 0.1) {
-        const Eigen::Vector3d direction = Eigen::Vector3d(3.0, 0.7 * z, z).normalized();
+      for (double z = -0.3; z < 0.31; z += 0.05) {
+        const Eigen::Vector3d direction = Eigen::Vector3d(3.0, 0.3 * z, z).normalized();
         const auto candidates = caster.candidates(direction, 0.0, storage, start.norm());
         const Hit hit = caster.cast(direction, candidates, &start);
         ASSERT_EQ(hit.surface, 0);
