@@ -124,6 +124,39 @@ TEST(CameraDisturbance, CornerBiasGrowsBlackByAPartOfAPixel) {
   EXPECT_NEAR(darkening_px2({{"corner_bias", -0.4}}), -19.74, 0.6);
 }
 
+// Centroid of the darkness of the board's middle node.
+Eigen::Vector2d disc_px(const Effects& effects) {
+  int width = 0;
+  const auto grey = shoot(effects, width);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double weight = 0.0;
+  for (int y = 225 - 16; y < 225 + 16; ++y) {
+    for (int x = 360 - 16; x < 360 + 16; ++x) {
+      if (std::hypot(x - 359.5, y - 224.5) > 15.0) continue;
+      const double dark = 205.0 - grey[static_cast<std::size_t>(y * width + x)];
+      sum += dark * Eigen::Vector2d(x, y);
+      weight += dark;
+    }
+  }
+  return sum / weight;
+}
+
+TEST(CameraDisturbance, PhotographsShowIt) {
+  EXPECT_LT((disc_px({}) - Eigen::Vector2d(359.5, 224.5)).norm(), 0.01);
+  // Half way down the image, half of the shutter's shift.
+  EXPECT_LT((disc_px({{"rolling_shutter", 2}}) - Eigen::Vector2d(360.5, 224.5)).norm(), 0.02);
+  Camera camera;
+  camera.width_px = 720;
+  camera.height_px = 450;
+  camera.fx = camera.fy = 500.0;
+  SimulationOptions options;
+  options.effects = {{"intrinsics_error", 2000}};
+  const auto details = plant_effects(options, camera).details;
+  const auto& shift = details.at("intrinsics_error").at("principal_point_px");
+  const Eigen::Vector2d expected(359.5 + shift[0], 224.5 + shift[1]);
+  EXPECT_LT((disc_px(options.effects) - expected).norm(), 0.02);
+}
+
 TEST(CameraDisturbance, CameraSeesInkGain) {
   // 2 mm are 0.5 px at 2 m: π(11.75² − 11.25²) = 36.13 px²; eight rim points give 95 % of it.
   EXPECT_NEAR(darkening_px2({{"ink_gain", 2.0}}), 35.2, 1.2);
