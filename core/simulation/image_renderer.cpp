@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <opencv2/imgproc.hpp>
+
+#include "simulation/disturbances/corner_shift.h"
 
 namespace lvcalib::simulation {
 namespace {
@@ -74,6 +77,10 @@ class Renderer {
       shade_.push_back(shade(surface));
       if (surface.board != nullptr) board_ = static_cast<int>(i);
     }
+    if (board_ >= 0) {
+      corner_shift_ = CornerShift(board().target(), disturbance_.corner_bias_px(),
+                                  [this](const Eigen::Vector2d& point) { return pixel_of(point); });
+    }
     const double white = PrintedBoard::kWhite * (board_ >= 0 ? shade_[index(board_)] : 1.0);
     exposure_ = options.white_level / white;
   }
@@ -100,6 +107,18 @@ class Renderer {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  [[nodiscard]] const PrintedBoard& board() const {
+    return *caster_.room().surfaces[index(board_)].board;
+  }
+
+  // Where the calibrated camera has a point of the board.
+  [[nodiscard]] std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& on_board_m) const {
+    const Surface& surface = caster_.room().surfaces[index(board_)];
+    const Eigen::Vector2d from_center = on_board_m - board().outline().center_m();
+    return camera_.project(camera_from_lidar_ * (surface.center_m + from_center.x() * surface.u +
+                                                 from_center.y() * surface.v));
+  }
 
   static void blur(cv::Mat& image, double sigma) {
     if (sigma <= 0.0) return;
@@ -191,22 +210,12 @@ class Renderer {
   [[nodiscard]] double radiance(const Eigen::Vector3d& ray,
                                 std::span<const std::uint8_t> candidates) const {
     const Hit hit = caster_.cast(ray, candidates);
-    return hit.surface < 0 ? 0.0 : caster_.reflectivity(hit) * shade_[index(hit.surface)];
-  }
-
-  // Radiance at a point of the image into which black or white bleeds from around it.
-  [[nodiscard]] double bleeding_radiance(double x, double y,
-                                         std::span<const std::uint8_t> candidates) const {
-    constexpr int kRim = 12;
-    const double bleed = disturbance_.bleed_px();
-    double light = radiance(rays_.at(x, y), candidates);
-    for (int i = 0; i < kRim && bleed != 0.0; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / kRim;
-      const double other =
-          radiance(rays_.at(x + bleed * std::cos(angle), y + bleed * std::sin(angle)), candidates);
-      light = bleed > 0.0 ? std::min(light, other) : std::max(light, other);
+    if (hit.surface < 0) return 0.0;
+    if (corner_shift_.active() && hit.surface == board_) {
+      const Eigen::Vector2d shown = corner_shift_.shown_at(caster_.on_board(hit));
+      return board().reflectivity(shown.x(), shown.y()) * shade_[index(board_)];
     }
-    return light;
+    return caster_.reflectivity(hit) * shade_[index(hit.surface)];
   }
 
   // Mean radiance of a square of side `step` px.
@@ -219,7 +228,7 @@ class Renderer {
       for (int i = 0; i < kEdgeSamples; ++i) {
         const double dx = step * ((i + 0.5) / kEdgeSamples - 0.5);
         const double dy = step * ((j + 0.5) / kEdgeSamples - 0.5);
-        sum += bleeding_radiance(x + dx, y + dy, candidates);
+        sum += radiance(rays_.at(x + dx, y + dy), candidates);
       }
     }
     return sum / (kEdgeSamples * kEdgeSamples);
@@ -233,9 +242,9 @@ class Renderer {
     // Half a diagonal with room for the lens stretching its corners.
     const double focal = std::min(camera_.fx, camera_.fy);
     const double angle = step / focal;
-    const double bleed_angle = 1.3 * std::abs(disturbance_.bleed_px()) / focal;
+    const double shift_angle = 1.5 * std::abs(disturbance_.corner_bias_px()) / focal;
     const double reach =
-        (0.9 * angle + bleed_angle) * hit.range_m / std::max(0.02, hit.cos_incidence);
+        (0.9 * angle + shift_angle) * hit.range_m / std::max(0.02, hit.cos_incidence);
     if (std::abs(hit.u_m) > board.half_u_m + reach || std::abs(hit.v_m) > board.half_v_m + reach)
       return false;
     const Eigen::Vector2d point = caster_.on_board(hit);
@@ -245,6 +254,7 @@ class Renderer {
   const ImageOptions& options_;
   const Camera& camera_;
   const CameraDisturbance& disturbance_;
+  CornerShift corner_shift_;
   const Rigid3& camera_from_lidar_;
   RayCaster caster_;
   RayGrid rays_;

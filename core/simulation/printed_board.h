@@ -40,6 +40,7 @@ class PrintedBoard {
   /// A lower bound of the distance to the nearest edge of the print or of the board; 0 outside.
   [[nodiscard]] double clearance_m(double x_m, double y_m) const;
 
+  [[nodiscard]] const Target& target() const { return target_; }
   [[nodiscard]] const BoardOutline& outline() const { return outline_; }
   /// The shape of the board's face.
   [[nodiscard]] const BoardDisturbance& shape() const { return disturbance_; }

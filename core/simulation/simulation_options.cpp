@@ -89,6 +89,10 @@ Status check(const SimulationOptions& options) {
   check_placement(options.placement, range);
   if (Status status = range.status(); !status) return status;
   if (Status status = check(options.target); !status) return status;
+  if (options.effects.contains("corner_bias") && !options.target.has_tags()) {
+    return Error::usage("effect 'corner_bias' acts on tags, but this board has none",
+                        "simulation options");
+  }
   return check_effects(options.effects, line_count(options.lidar));
 }
 

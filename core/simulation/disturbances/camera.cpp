@@ -16,7 +16,7 @@ Eigen::Vector2d random_direction(Random& random) {
 
 CameraDisturbance::CameraDisturbance(EffectPlan& plan, const Camera& nominal)
     : camera_(nominal),
-      bleed_px_(plan.si("corner_bias") / std::numbers::sqrt2),
+      corner_bias_px_(plan.si("corner_bias")),
       radial_px_(plan.si("distortion_residual")),
       corner_px_(0.5 * std::hypot(nominal.width_px, nominal.height_px)),
       shutter_px_(plan.si("rolling_shutter")) {
@@ -44,7 +44,7 @@ CameraDisturbance::CameraDisturbance(EffectPlan& plan, const Camera& nominal)
 
   bends_rays_ = share != 0.0 || radial_px_ != 0.0 || !flaw_px_.isZero(0.0) || shutter_px_ != 0.0;
   reach_px_ = std::abs(share) * (nominal.width_px + nominal.fx) + 2.0 * std::abs(radial_px_) +
-              flaw_px_.norm() + 2.0 * std::abs(shutter_px_) + std::abs(bleed_px_);
+              flaw_px_.norm() + 2.0 * std::abs(shutter_px_) + std::abs(corner_bias_px_);
 }
 
 Eigen::Vector2d CameraDisturbance::displacement_px(const Eigen::Vector2d& pixel) const {

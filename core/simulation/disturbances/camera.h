@@ -17,8 +17,7 @@ namespace lvcalib::simulation {
 /// corner), and decentring of 30 % of it. Lens flaw: a Gaussian patch, 6 % of the image width wide,
 /// that displaces the image. Rolling shutter: the camera turns to the left at an even rate from
 /// the first row, in which the scene's pose is true, to the last.
-/// Corner bias: white and black bleed into each other, so that every edge moves by 1/√2 of the
-/// value and the corner of a square by the value.
+/// Corner bias: see CornerShift.
 class CameraDisturbance {
  public:
   CameraDisturbance() = default;
@@ -32,8 +31,8 @@ class CameraDisturbance {
   /// More than any point of the board moves in the image.
   [[nodiscard]] double reach_px() const { return reach_px_; }
 
-  /// How far black grows over white in the image; negative if it shrinks.
-  [[nodiscard]] double bleed_px() const { return bleed_px_; }
+  /// How far a tag's corners are seen outside their place.
+  [[nodiscard]] double corner_bias_px() const { return corner_bias_px_; }
 
  private:
   [[nodiscard]] Eigen::Vector2d displacement_px(const Eigen::Vector2d& pixel) const;
@@ -41,7 +40,7 @@ class CameraDisturbance {
   Camera camera_;  // With its true intrinsics.
   bool bends_rays_ = false;
   double reach_px_ = 0.0;
-  double bleed_px_ = 0.0;
+  double corner_bias_px_ = 0.0;
   double radial_px_ = 0.0;
   double corner_px_ = 1.0;
   Eigen::Vector2d decentring_px_ = Eigen::Vector2d::Zero();

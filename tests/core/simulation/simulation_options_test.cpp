@@ -73,6 +73,15 @@ TEST(SimulationOptions, RefusesEffectsOutOfRangeOrWithoutLines) {
               o.effects["channel_range_offset"] = 10.0;
             }),
             ErrorKind::kUsage);
+  SimulationOptions board;
+  board.target.type = TargetType::kCheckerboard;
+  board.target.corner_columns = 6;
+  board.target.corner_rows = 5;
+  board.target.column_spacing_m = board.target.row_spacing_m = 0.1;
+  board.target.board_width_m = board.target.board_height_m = 0.8;
+  EXPECT_TRUE(check(board).ok());
+  board.effects["corner_bias"] = 0.2;
+  EXPECT_FALSE(check(board).ok());
   SimulationOptions options;
   for (const std::string& id : plantable_effects()) options.effects[id] = 0.3;
   EXPECT_TRUE(check(options).ok());

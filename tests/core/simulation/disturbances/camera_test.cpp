@@ -117,13 +117,6 @@ double darkening_px2(const Effects& effects) {
   return sum / (205.0 * (1.0 - 7.0 / 85.0));
 }
 
-TEST(CameraDisturbance, CornerBiasGrowsBlackByAPartOfAPixel) {
-  // A disc of 0.045 m at 2 m has a radius of 11.25 px; its edge moves out by 0.4/√2 px:
-  // π(11.5328² − 11.25²) = 20.24 px².
-  EXPECT_NEAR(darkening_px2({{"corner_bias", 0.4}}), 20.24, 0.6);
-  EXPECT_NEAR(darkening_px2({{"corner_bias", -0.4}}), -19.74, 0.6);
-}
-
 // Centroid of the darkness of the board's middle node.
 Eigen::Vector2d disc_px(const Effects& effects) {
   int width = 0;
