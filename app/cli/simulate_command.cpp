@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <iomanip>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 #include "base/yaml_file.h"
 #include "command.h"
 #include "simulation/dataset_writer.h"
+#include "simulation/disturbances/registry.h"
 #include "simulation/simulator.h"
 #include "target/target.h"
 
@@ -87,7 +90,9 @@ Status read_effects(const std::vector<std::string>& texts, std::map<std::string,
       return Error::usage("'" + text + "' is no effect, expected ID=VALUE with a number",
                           "--effect");
     }
-    effects[parts->first] = value;
+    if (!effects.emplace(parts->first, value).second) {
+      return Error::usage("'" + parts->first + "' is given twice", "--effect");
+    }
   }
   return Done{};
 }
@@ -170,6 +175,18 @@ void add_sensor_options(CLI::App& command, Options& options) {
   command.add_option("--blur", image.blur_px, "lens blur, px, one sigma")->capture_default_str();
 }
 
+// Ids, units and meanings of the disturbances, for the help text.
+std::string effect_table() {
+  std::ostringstream table;
+  table << "EFFECTS (id, unit of the value, typical value, what it is):\n";
+  for (const simulation::Disturbance& disturbance : simulation::disturbances()) {
+    table << "  " << std::left << std::setw(23) << disturbance.id << std::setw(5)
+          << disturbance.unit << std::setw(6) << disturbance.typical << disturbance.sentence
+          << '\n';
+  }
+  return table.str();
+}
+
 }  // namespace
 
 Command add_simulate_command(CLI::App& app) {
@@ -186,11 +203,9 @@ Command add_simulate_command(CLI::App& app) {
       ->capture_default_str();
   add_sensor_options(*command, *options);
   add_scene_options(*command, *options);
-  std::string known;
-  for (const std::string& id : simulation::plantable_effects()) known += " " + id;
-  command->add_option(
-      "--effect", options->effects,
-      "ID=VALUE, a disturbance to plant; known:" + (known.empty() ? " none" : known));
+  command->add_option("--effect", options->effects,
+                      "ID=VALUE, a disturbance to plant; once for each, ids and units below");
+  command->footer(effect_table());
   command->add_flag("--force", options->force, "replace an earlier simulated dataset");
   return {command, [options](Session& session) { return run(*options, session); }};
 }

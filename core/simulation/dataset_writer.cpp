@@ -30,6 +30,21 @@ ordered_json rows(const Rigid3& transform) {
   return out;
 }
 
+ordered_json details(const EffectDetails& effects) {
+  ordered_json out = ordered_json::object();
+  for (const auto& [id, parameters] : effects) {
+    for (const auto& [name, values] : parameters) {
+      ordered_json& entry = out[id][name];
+      if (values.size() == 1) {
+        entry = values.front();
+      } else {
+        entry = values;
+      }
+    }
+  }
+  return out;
+}
+
 // DATASET without a trailing slash, absolute, so that its name and neighbours are well defined.
 fs::path clean(const fs::path& dataset) {
   std::error_code code;
@@ -93,6 +108,7 @@ DatasetWriter::DatasetWriter(const SimulatedRig& rig, fs::path dataset, fs::path
                              fs::path temporary)
     : options_(rig.options),
       camera_from_lidar_(rig.camera_from_lidar),
+      effect_details_(rig.effect_details),
       dataset_(std::move(dataset)),
       truth_(std::move(truth)),
       temporary_(std::move(temporary)) {}
@@ -100,6 +116,7 @@ DatasetWriter::DatasetWriter(const SimulatedRig& rig, fs::path dataset, fs::path
 DatasetWriter::DatasetWriter(DatasetWriter&& other) noexcept
     : options_(std::move(other.options_)),
       camera_from_lidar_(other.camera_from_lidar_),
+      effect_details_(std::move(other.effect_details_)),
       dataset_(std::move(other.dataset_)),
       truth_(std::move(other.truth_)),
       temporary_(std::exchange(other.temporary_, {})),
@@ -153,6 +170,7 @@ std::string DatasetWriter::truth_text() const {
   truth["case"] = dataset_.filename().string();
   truth["effects"] = ordered_json::object();
   for (const auto& [id, value] : options_.effects) truth["effects"][id] = value;
+  if (!effect_details_.empty()) truth["effect_details"] = details(effect_details_);
   truth["scenes"] = ordered_json::object();
   for (const auto& [name, scene] : scenes_) {
     ordered_json entry = ordered_json::object();

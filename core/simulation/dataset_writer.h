@@ -11,8 +11,9 @@
 namespace lvcalib::simulation {
 
 /// Writes a simulated dataset scene by scene: DATASET/target.yaml, camera.yaml,
-/// scenes/NAME/{image.png, cloud.pcd} and, beside the folder, DATASET-truth.json with T_CL and,
-/// per scene, T_CB and T_LB (3×4 rows).
+/// scenes/NAME/{image.png, cloud.pcd} and, beside the folder, DATASET-truth.json with T_CL, the
+/// planted effects (id → value as asked for; effect_details: what else they do) and, per scene,
+/// T_CB and T_LB (3×4 rows).
 ///
 /// Everything goes to a hidden folder beside DATASET, which takes the name only in finish(); a
 /// writer that is destroyed before leaves nothing behind.
@@ -51,6 +52,7 @@ class DatasetWriter {
   };
   SimulationOptions options_;
   Rigid3 camera_from_lidar_;
+  EffectDetails effect_details_;
   std::filesystem::path dataset_;
   std::filesystem::path truth_;
   std::filesystem::path temporary_;  // Empty once moved into place or moved from.

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <opencv2/imgproc.hpp>
+
+#include "simulation/disturbances/corner_shift.h"
 
 namespace lvcalib::simulation {
 namespace {
@@ -19,7 +22,8 @@ constexpr int kEdgeSamples = 5;       // Along either side of a half pixel that 
 // Viewing rays of a camera in the LiDAR frame: solved on a coarse grid, bilinear in between.
 class RayGrid {
  public:
-  RayGrid(const Camera& camera, const Rigid3& camera_from_lidar, std::stop_token stop)
+  RayGrid(const Camera& camera, const CameraDisturbance& disturbance,
+          const Rigid3& camera_from_lidar, std::stop_token stop)
       : columns_((camera.width_px + 2 * kGrid) / kGrid + 2),
         rows_((camera.height_px + 2 * kGrid) / kGrid + 2) {
     const Eigen::Matrix3d lidar_from_camera =
@@ -27,7 +31,9 @@ class RayGrid {
     rays_.reserve(static_cast<std::size_t>(columns_ * rows_));
     for (int j = 0; j < rows_ && !stop.stop_requested(); ++j) {
       for (int i = 0; i < columns_; ++i) {
-        const auto ray = camera.unproject(Eigen::Vector2d((i - 1) * kGrid, (j - 1) * kGrid));
+        const Eigen::Vector2d pixel((i - 1) * kGrid, (j - 1) * kGrid);
+        const auto ray =
+            disturbance.bends_rays() ? disturbance.unproject(pixel) : camera.unproject(pixel);
         // No ray: beyond the model's reach, left black.
         rays_.push_back(ray ? Eigen::Vector3d(lidar_from_camera * *ray)
                             : Eigen::Vector3d(Eigen::Vector3d::Constant(NAN)));
@@ -58,17 +64,22 @@ class RayGrid {
 class Renderer {
  public:
   Renderer(const ImageOptions& options, const Camera& camera, const Rigid3& camera_from_lidar,
-           const Room& room, std::stop_token stop)
+           const Room& room, std::stop_token stop, const CameraDisturbance& disturbance)
       : options_(options),
         camera_(camera),
+        disturbance_(disturbance),
         camera_from_lidar_(camera_from_lidar),
         caster_(room, camera_from_lidar.inverse().translation),
-        rays_(camera, camera_from_lidar, stop),
+        rays_(camera, disturbance, camera_from_lidar, stop),
         stop_(std::move(stop)) {
     for (std::size_t i = 0; i < room.surfaces.size(); ++i) {
       const Surface& surface = room.surfaces[i];
       shade_.push_back(shade(surface));
       if (surface.board != nullptr) board_ = static_cast<int>(i);
+    }
+    if (board_ >= 0) {
+      corner_shift_ = CornerShift(board().target(), disturbance_.corner_bias_px(),
+                                  [this](const Eigen::Vector2d& point) { return pixel_of(point); });
     }
     const double white = PrintedBoard::kWhite * (board_ >= 0 ? shade_[index(board_)] : 1.0);
     exposure_ = options.white_level / white;
@@ -96,6 +107,18 @@ class Renderer {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  [[nodiscard]] const PrintedBoard& board() const {
+    return *caster_.room().surfaces[index(board_)].board;
+  }
+
+  // Where the calibrated camera has a point of the board.
+  [[nodiscard]] std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& on_board_m) const {
+    const Surface& surface = caster_.room().surfaces[index(board_)];
+    const Eigen::Vector2d from_center = on_board_m - board().outline().center_m();
+    return camera_.project(camera_from_lidar_ * (surface.center_m + from_center.x() * surface.u +
+                                                 from_center.y() * surface.v));
+  }
 
   static void blur(cv::Mat& image, double sigma) {
     if (sigma <= 0.0) return;
@@ -129,7 +152,8 @@ class Renderer {
       }
     }
     if (low.x() > high.x()) return {};
-    const int border = margin + 3 + static_cast<int>(std::ceil(4.0 * options_.blur_px));
+    const int border = margin + 3 + static_cast<int>(std::ceil(4.0 * options_.blur_px)) +
+                       static_cast<int>(std::ceil(disturbance_.reach_px()));
     const double edge = 1e5;
     const cv::Point first(static_cast<int>(std::clamp(low.x(), -edge, edge)) - border,
                           static_cast<int>(std::clamp(low.y(), -edge, edge)) - border);
@@ -186,7 +210,12 @@ class Renderer {
   [[nodiscard]] double radiance(const Eigen::Vector3d& ray,
                                 std::span<const std::uint8_t> candidates) const {
     const Hit hit = caster_.cast(ray, candidates);
-    return hit.surface < 0 ? 0.0 : caster_.reflectivity(hit) * shade_[index(hit.surface)];
+    if (hit.surface < 0) return 0.0;
+    if (corner_shift_.active() && hit.surface == board_) {
+      const Eigen::Vector2d shown = corner_shift_.shown_at(caster_.on_board(hit));
+      return board().reflectivity(shown.x(), shown.y()) * shade_[index(board_)];
+    }
+    return caster_.reflectivity(hit) * shade_[index(hit.surface)];
   }
 
   // Mean radiance of a square of side `step` px.
@@ -211,8 +240,11 @@ class Renderer {
     if (hit.surface < 0) return false;
     const Surface& board = caster_.room().surfaces[index(board_)];
     // Half a diagonal with room for the lens stretching its corners.
-    const double angle = step / std::min(camera_.fx, camera_.fy);
-    const double reach = 0.9 * angle * hit.range_m / std::max(0.02, hit.cos_incidence);
+    const double focal = std::min(camera_.fx, camera_.fy);
+    const double angle = step / focal;
+    const double shift_angle = 1.5 * std::abs(disturbance_.corner_bias_px()) / focal;
+    const double reach =
+        (0.9 * angle + shift_angle) * hit.range_m / std::max(0.02, hit.cos_incidence);
     if (std::abs(hit.u_m) > board.half_u_m + reach || std::abs(hit.v_m) > board.half_v_m + reach)
       return false;
     const Eigen::Vector2d point = caster_.on_board(hit);
@@ -221,6 +253,8 @@ class Renderer {
 
   const ImageOptions& options_;
   const Camera& camera_;
+  const CameraDisturbance& disturbance_;
+  CornerShift corner_shift_;
   const Rigid3& camera_from_lidar_;
   RayCaster caster_;
   RayGrid rays_;
@@ -249,9 +283,9 @@ void expose(const cv::Mat& image, const ImageOptions& options, Random& random,
 
 SimulatedImage photograph(const ImageOptions& options, const Camera& camera,
                           const Rigid3& camera_from_lidar, const Room& room, Random random,
-                          std::stop_token stop) {
+                          std::stop_token stop, const CameraDisturbance& disturbance) {
   SimulatedImage image{camera.width_px, camera.height_px, {}};
-  Renderer renderer(options, camera, camera_from_lidar, room, stop);
+  Renderer renderer(options, camera, camera_from_lidar, room, stop, disturbance);
   if (stop.stop_requested()) return image;
   const cv::Mat grey = renderer.render();
   if (grey.empty() || stop.stop_requested()) return image;

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/rigid3.h"
 #include "camera/camera.h"
+#include "simulation/disturbances/camera.h"
 #include "simulation/room.h"
 #include "simulation/simulation_options.h"
 
@@ -26,9 +27,10 @@ struct SimulatedImage {
 /// exposed so that white paper facing the lamp's mean has the white level. Around the board every
 /// pixel is integrated over its area: on a grid of half pixels, each one sample where it lies on a
 /// plain piece, 5 × 5 where an edge crosses it. The lens blur is applied on that grid too. Then
-/// shot noise (√electrons) and read noise, and rounding to 8 bits.
+/// shot noise (√electrons) and read noise, and rounding to 8 bits. `disturbance` says how the
+/// camera that takes the photograph differs from `camera`.
 SimulatedImage photograph(const ImageOptions& options, const Camera& camera,
                           const Rigid3& camera_from_lidar, const Room& room, Random random,
-                          std::stop_token stop);
+                          std::stop_token stop, const CameraDisturbance& disturbance = {});
 
 }  // namespace lvcalib::simulation

@@ -2,6 +2,7 @@
 #include "simulation/printed_board.h"
 
 #include <algorithm>
+#include <array>
 
 #include <opencv2/imgproc.hpp>
 
@@ -28,7 +29,8 @@ std::vector<std::uint8_t> bits_of_tag(const Target& target, int id, int side) {
 
 }  // namespace
 
-PrintedBoard::PrintedBoard(const Target& target) : target_(target), outline_(target.outline()) {
+PrintedBoard::PrintedBoard(const Target& target, const BoardDisturbance& disturbance)
+    : target_(target), disturbance_(disturbance), outline_(target.outline()) {
   if (target_.has_tags()) {
     pitch_m_ = target_.tag_pitch_m();
     bit_m_ = target_.tag_bit_m();
@@ -50,6 +52,34 @@ bool PrintedBoard::checkerboard_is_white(double x_m, double y_m) const {
 }
 
 bool PrintedBoard::is_white(double x_m, double y_m) const {
+  const bool as_drawn = !disturbance_.moves_print() && disturbance_.ink_gain_m() == 0.0;
+  return as_drawn ? drawn_white(x_m, y_m) : is_white_beyond(0.0, {x_m, y_m});
+}
+
+// Black grows by a disc: a point is black if anything black lies within the radius. Eight points of
+// the rim tell, as everything printed is wider than the disc.
+bool PrintedBoard::is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m) const {
+  constexpr double kDiagonal = 0.70710678118654752;
+  constexpr std::array<std::array<double, 2>, 8> kRim{{{1, 0},
+                                                       {0, 1},
+                                                       {-1, 0},
+                                                       {0, -1},
+                                                       {kDiagonal, kDiagonal},
+                                                       {-kDiagonal, kDiagonal},
+                                                       {-kDiagonal, -kDiagonal},
+                                                       {kDiagonal, -kDiagonal}}};
+  if (disturbance_.moves_print()) point_m = disturbance_.on_drawing(point_m);
+  const double growth = edge_shift_m + disturbance_.ink_gain_m();
+  const bool white = drawn_white(point_m.x(), point_m.y());
+  // Growing black can only darken white, shrinking black only whiten black.
+  if (growth == 0.0 || white != (growth > 0.0)) return white;
+  for (const auto& [dx, dy] : kRim) {
+    if (drawn_white(point_m.x() + growth * dx, point_m.y() + growth * dy) != white) return !white;
+  }
+  return white;
+}
+
+bool PrintedBoard::drawn_white(double x_m, double y_m) const {
   if (!target_.has_tags()) return checkerboard_is_white(x_m, y_m);
   const int column = whole_below(x_m / pitch_m_);
   const int row = whole_below(y_m / pitch_m_);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "simulation/disturbances/board.h"
 #include "target/target.h"
 
 namespace lvcalib::simulation {
@@ -15,16 +16,20 @@ namespace lvcalib::simulation {
 /// nearest edge is, so that footprints and pixels on a plain part need one look-up only.
 class PrintedBoard {
  public:
-  explicit PrintedBoard(const Target& target);
+  explicit PrintedBoard(const Target& target, const BoardDisturbance& disturbance = {});
 
   /// Reflectivities of the print in LiDAR and camera light.
   static constexpr double kBlack = 0.07;
   static constexpr double kWhite = 0.85;
 
-  /// Reflectivity at a point of the board plane that lies within the outline.
-  [[nodiscard]] double reflectivity(double x_m, double y_m) const {
-    return is_white(x_m, y_m) ? kWhite : kBlack;
+  /// Reflectivity at a point of the board plane that lies within the outline; with black edges
+  /// further out by `edge_shift_m` than they are printed.
+  [[nodiscard]] double reflectivity(double x_m, double y_m, double edge_shift_m = 0.0) const {
+    const bool white =
+        edge_shift_m == 0.0 ? is_white(x_m, y_m) : is_white_beyond(edge_shift_m, {x_m, y_m});
+    return white ? kWhite : kBlack;
   }
+  /// Whether the print, as it came out, is white there.
   [[nodiscard]] bool is_white(double x_m, double y_m) const;
 
   [[nodiscard]] bool inside(double x_m, double y_m) const {
@@ -35,13 +40,19 @@ class PrintedBoard {
   /// A lower bound of the distance to the nearest edge of the print or of the board; 0 outside.
   [[nodiscard]] double clearance_m(double x_m, double y_m) const;
 
+  [[nodiscard]] const Target& target() const { return target_; }
   [[nodiscard]] const BoardOutline& outline() const { return outline_; }
+  /// The shape of the board's face.
+  [[nodiscard]] const BoardDisturbance& shape() const { return disturbance_; }
 
  private:
+  [[nodiscard]] bool drawn_white(double x_m, double y_m) const;
+  [[nodiscard]] bool is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m) const;
   [[nodiscard]] bool checkerboard_is_white(double x_m, double y_m) const;
   void map_edges();
 
   Target target_;
+  BoardDisturbance disturbance_;
   BoardOutline outline_;
   double pitch_m_ = 0.0;
   double bit_m_ = 0.0;

@@ -53,15 +53,17 @@ class RayCaster {
 
   RayCaster(const Room& room, const Eigen::Vector3d& origin_m);
 
-  /// Surfaces that a ray within `margin_rad` of the unit direction may meet.
+  /// Surfaces that a ray within `margin_rad` of the unit direction may meet,
+  /// from anywhere within `start_m` of the origin.
   std::span<const std::uint8_t> candidates(const Eigen::Vector3d& direction, double margin_rad,
-                                           Candidates& storage) const;
+                                           Candidates& storage, double start_m = 0.0) const;
 
-  /// The nearest hit along a unit direction among the candidates.
-  [[nodiscard]] Hit cast(const Eigen::Vector3d& direction,
-                         std::span<const std::uint8_t> candidates) const;
+  /// The nearest hit along a unit direction among the candidates. The ray starts at the origin, or
+  /// at `start_m` from it.
+  [[nodiscard]] Hit cast(const Eigen::Vector3d& direction, std::span<const std::uint8_t> candidates,
+                         const Eigen::Vector3d* start_m = nullptr) const;
 
-  /// Where the ray meets the surface's plane, whether within the rectangle or not.
+  /// Where the ray meets the surface, whether within the rectangle or not.
   [[nodiscard]] Hit meet_plane(const Eigen::Vector3d& direction, int surface) const;
 
   [[nodiscard]] const Room& room() const { return *room_; }
@@ -69,7 +71,11 @@ class RayCaster {
   [[nodiscard]] bool encloses_origin(int surface) const {
     return faces_[static_cast<std::size_t>(surface)].always;
   }
-  [[nodiscard]] double reflectivity(const Hit& hit) const;
+  /// With black edges of the board's print further out by `edge_shift_m`.
+  [[nodiscard]] double reflectivity(const Hit& hit, double edge_shift_m = 0.0) const;
+  [[nodiscard]] bool is_board(const Hit& hit) const {
+    return room_->surfaces[static_cast<std::size_t>(hit.surface)].board != nullptr;
+  }
   /// Board coordinates of a hit on the board.
   [[nodiscard]] Eigen::Vector2d on_board(const Hit& hit) const {
     return board_center_m_ + Eigen::Vector2d(hit.u_m, hit.v_m);
@@ -83,10 +89,20 @@ class RayCaster {
     double half_u, half_v;
     Eigen::Vector3d axis;  // of the bounding cone
     double cone_rad;
-    bool always;  // the origin is inside the bounding sphere
+    double far, radius;        // of the bounding sphere
+    const PrintedBoard* bent;  // A board that is not flat.
+    bool always;               // the origin is inside the bounding sphere
   };
+  [[nodiscard]] Hit cast_any(const Eigen::Vector3d& direction,
+                             std::span<const std::uint8_t> candidates,
+                             const Eigen::Vector3d* start_m) const;
+  [[nodiscard]] Hit meet(const Face& face, int surface, const Eigen::Vector3d& direction,
+                         const Eigen::Vector3d* start_m) const;
+  void follow_shape(const Face& face, const Eigen::Vector3d& direction, Hit& hit) const;
+
   const Room* room_;
   std::vector<Face> faces_;
+  bool has_bent_face_ = false;
   Eigen::Vector2d board_center_m_ = Eigen::Vector2d::Zero();
 };
 

@@ -19,7 +19,6 @@ constexpr double kFirstPrismShare = 0.505;
 
 constexpr double kRosetteRateHz = 100'000.0;
 constexpr double kAviaRateHz = 240'000.0;
-constexpr std::size_t kAviaLines = 6;
 // 77.2° by 70.4°: six fields of 70.4° spread over the difference.
 constexpr double kAviaLineStep = (77.2 - 70.4) / 5.0 * kDegree;
 
@@ -31,12 +30,10 @@ constexpr double kRevolutionS = 0.1;
 ScanPattern::ScanPattern(const LidarOptions& options, Random random)
     : kind_(options.kind),
       size_(static_cast<std::size_t>(point_count(options))),
-      lines_(1),
+      lines_(static_cast<std::size_t>(line_count(options))),
       half_fov_rad_(0.5 * options.fov_deg * kDegree),
       phase_first_rad_(random.uniform(0.0, kTurn)),
       phase_second_rad_(random.uniform(0.0, kTurn)) {
-  if (kind_ == LidarKind::kAvia) lines_ = kAviaLines;
-  if (kind_ == LidarKind::kSpinning) lines_ = static_cast<std::size_t>(options.lines);
   const double step = kind_ == LidarKind::kSpinning
                           ? kSpinningElevation / (static_cast<double>(lines_) - 1.0)
                           : kAviaLineStep;
@@ -60,19 +57,32 @@ Shot ScanPattern::rosette_shot(std::size_t index) const {
   shot.line = static_cast<std::uint16_t>(index % lines_);
   const double rate_hz = kind_ == LidarKind::kAvia ? kAviaRateHz : kRosetteRateHz;
   shot.time_s = static_cast<double>(index) / rate_hz;
-  const double first = kTurn * kFirstPrismHz * shot.time_s + phase_first_rad_;
-  const double second = kTurn * kSecondPrismHz * shot.time_s + phase_second_rad_;
+  shot.direction = rosette_direction(shot.line, shot.time_s);
+  return shot;
+}
+
+Eigen::Vector3d ScanPattern::rosette_direction(std::size_t line, double time_s) const {
+  const double first = kTurn * kFirstPrismHz * time_s + phase_first_rad_;
+  const double second = kTurn * kSecondPrismHz * time_s + phase_second_rad_;
   const double share = kFirstPrismShare;
   const double y = half_fov_rad_ * (share * std::cos(first) + (1.0 - share) * std::cos(second));
   const double z = half_fov_rad_ * (share * std::sin(first) + (1.0 - share) * std::sin(second));
   const double angle = std::hypot(y, z);
   const double scale = angle > 0.0 ? std::sin(angle) / angle : 1.0;
   const Eigen::Vector3d fan(std::cos(angle), scale * y, scale * z);
-  const double elevation = line_elevation_rad_[shot.line];
+  const double elevation = line_elevation_rad_[line];
   const double c = std::cos(elevation);
   const double s = std::sin(elevation);
-  shot.direction = {c * fan.x() - s * fan.z(), fan.y(), s * fan.x() + c * fan.z()};
-  return shot;
+  return {c * fan.x() - s * fan.z(), fan.y(), s * fan.x() + c * fan.z()};
+}
+
+Eigen::Vector3d ScanPattern::direction_at(const Shot& shot, double time_s) const {
+  if (kind_ != LidarKind::kSpinning) return rosette_direction(shot.line, time_s);
+  const double turn = -kTurn * (time_s - shot.time_s) / kRevolutionS;
+  const double c = std::cos(turn);
+  const double s = std::sin(turn);
+  return {c * shot.direction.x() - s * shot.direction.y(),
+          s * shot.direction.x() + c * shot.direction.y(), shot.direction.z()};
 }
 
 Shot ScanPattern::spinning_shot(std::size_t index) const {

@@ -37,12 +37,16 @@ class ScanPattern {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] Shot shot(std::size_t index) const;
 
+  /// Where the line of a shot points at another time.
+  [[nodiscard]] Eigen::Vector3d direction_at(const Shot& shot, double time_s) const;
+
   /// Whether a direction of the LiDAR frame lies in the field of view of at least one line.
   [[nodiscard]] bool in_field(const Eigen::Vector3d& direction) const;
 
  private:
   [[nodiscard]] Shot rosette_shot(std::size_t index) const;
   [[nodiscard]] Shot spinning_shot(std::size_t index) const;
+  [[nodiscard]] Eigen::Vector3d rosette_direction(std::size_t line, double time_s) const;
 
   LidarKind kind_;
   std::size_t size_;

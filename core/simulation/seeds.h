@@ -9,7 +9,16 @@ namespace lvcalib::simulation {
 
 /// What a stream of random numbers is for. One stream per scene and purpose, so that neither the
 /// order of scenes nor the number of threads nor a change in one part moves another.
-enum class Purpose : std::uint64_t { kCamera, kMount, kPlacement, kRoom, kScan, kBeam, kImage };
+enum class Purpose : std::uint64_t {
+  kCamera,
+  kMount,
+  kPlacement,
+  kRoom,
+  kScan,
+  kBeam,
+  kImage,
+  kEffect
+};
 
 /// SplitMix64 (Steele, Lea, Flood 2014): spreads neighbouring numbers over all 64 bits.
 inline std::uint64_t spread(std::uint64_t x) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "simulation/disturbances/registry.h"
 #include "simulation/scan_pattern.h"
 
 namespace lvcalib::simulation {
@@ -69,25 +70,14 @@ void check_placement(const PlacementOptions& o, RangeCheck& check) {
              "a board that is absent can be neither partly visible nor on a wall");
 }
 
-Status check_effects(const std::map<std::string, double>& effects) {
-  if (effects.empty()) return Done{};
-  std::string known;
-  for (const std::string& id : plantable_effects()) known += (known.empty() ? "" : ", ") + id;
-  for (const auto& [id, value] : effects) {
-    bool found = false;
-    for (const std::string& candidate : plantable_effects()) found = found || candidate == id;
-    if (found && std::isfinite(value)) continue;
-    if (found) return Error::usage("effect '" + id + "' has no finite value");
-    return Error::usage("effect '" + id + "' cannot be planted; known effects: " +
-                        (known.empty() ? "none in this version" : known));
-  }
-  return Done{};
-}
-
 }  // namespace
 
 const std::vector<std::string>& plantable_effects() {
-  static const std::vector<std::string> ids;
+  static const std::vector<std::string> ids = [] {
+    std::vector<std::string> list;
+    for (const Disturbance& disturbance : disturbances()) list.push_back(disturbance.id);
+    return list;
+  }();
   return ids;
 }
 
@@ -99,7 +89,11 @@ Status check(const SimulationOptions& options) {
   check_placement(options.placement, range);
   if (Status status = range.status(); !status) return status;
   if (Status status = check(options.target); !status) return status;
-  return check_effects(options.effects);
+  if (options.effects.contains("corner_bias") && !options.target.has_tags()) {
+    return Error::usage("effect 'corner_bias' acts on tags, but this board has none",
+                        "simulation options");
+  }
+  return check_effects(options.effects, line_count(options.lidar));
 }
 
 int point_count(const LidarOptions& options) {
@@ -113,6 +107,18 @@ int point_count(const LidarOptions& options) {
       return 5 * ScanPattern::kColumnsPerRevolution * options.lines;
   }
   return 0;
+}
+
+int line_count(const LidarOptions& options) {
+  switch (options.kind) {
+    case LidarKind::kRosette:
+      return 1;
+    case LidarKind::kAvia:
+      return 6;
+    case LidarKind::kSpinning:
+      return options.lines;
+  }
+  return 1;
 }
 
 }  // namespace lvcalib::simulation

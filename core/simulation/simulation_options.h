@@ -79,17 +79,21 @@ struct SimulationOptions {
   LidarOptions lidar;
   ImageOptions image;
   PlacementOptions placement;
-  std::map<std::string, double> effects;  ///< Effects to plant, by id, in SI units.
+  /// Effects to plant: id → value in the unit that disturbances() (disturbances/registry.h) states.
+  std::map<std::string, double> effects;
 };
 
-/// Ids of the effects that can be planted.
+/// Ids of the effects that can be planted; disturbances() says what they are.
 const std::vector<std::string>& plantable_effects();
 
-/// kUsage for a value outside its range or an unknown effect (naming the known ones);
+/// kUsage for a value outside its range or an unknown effect (naming the nearest);
 /// the target's own error for an impossible board.
 Status check(const SimulationOptions& options);
 
 /// Points per scene with the kind's default filled in.
 int point_count(const LidarOptions& options);
+
+/// Lines that the kind has.
+int line_count(const LidarOptions& options);
 
 }  // namespace lvcalib::simulation

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "simulation/beam.h"
 #include "simulation/board_placement.h"
+#include "simulation/disturbances/planted_effects.h"
 #include "simulation/printed_board.h"
 #include "simulation/rig.h"
 #include "simulation/room_builder.h"
@@ -17,12 +18,14 @@
 
 namespace lvcalib::simulation {
 
-Simulator::Simulator(const SimulationOptions& options)
-    : board_(std::make_shared<const PrintedBoard>(options.target)) {
+Simulator::Simulator(const SimulationOptions& options) {
   rig_.options = options;
   rig_.target = options.target;
   rig_.camera = random_camera(options.image, random_for(options.seed, -1, Purpose::kCamera));
   rig_.camera_from_lidar = random_mount(random_for(options.seed, -1, Purpose::kMount));
+  planted_ = std::make_shared<const PlantedEffects>(plant_effects(options, rig_.camera));
+  rig_.effect_details = planted_->details;
+  board_ = std::make_shared<const PrintedBoard>(options.target, planted_->board);
 }
 
 Result<Simulator> Simulator::create(const SimulationOptions& options) {
@@ -58,10 +61,11 @@ Result<SimulatedScene> Simulator::simulate_scene(int scene, const RunContext& co
   const Room room =
       build_room(options, *board_, out.lidar_from_board, camera_in_lidar, random(Purpose::kRoom));
   const RayCaster caster(room, Eigen::Vector3d::Zero());
-  out.cloud = scan(options.lidar, pattern, caster, random(Purpose::kBeam), context.stop);
+  out.cloud = scan(options.lidar, pattern, caster, random(Purpose::kBeam), context.stop, *planted_,
+                   scene * RangeDisturbance::kSceneIntervalS);
   if (context.stopped()) return Error::cancelled();
   out.image = photograph(options.image, rig_.camera, rig_.camera_from_lidar, room,
-                         random(Purpose::kImage), context.stop);
+                         random(Purpose::kImage), context.stop, planted_->camera);
   if (context.stopped()) return Error::cancelled();
   return out;
 }

@@ -11,6 +11,7 @@
 #include "base/rigid3.h"
 #include "camera/camera.h"
 #include "cloud/cloud.h"
+#include "simulation/disturbances/effect_plan.h"
 #include "simulation/image_renderer.h"
 #include "simulation/simulation_options.h"
 #include "target/target.h"
@@ -18,6 +19,7 @@
 namespace lvcalib::simulation {
 
 class PrintedBoard;
+struct PlantedEffects;
 
 /// One scene as the sensors see it, with its truth.
 struct SimulatedScene {
@@ -29,12 +31,14 @@ struct SimulatedScene {
   Rigid3 camera_from_board;
 };
 
-/// A rig with its scenes and its truth.
+/// A rig with its scenes and its truth. Target and camera are what their files say: effects that
+/// are planted in them show in the data only. camera_from_lidar is the physical pose.
 struct SimulatedRig {
   SimulationOptions options;
   Target target;
   Camera camera;
   Rigid3 camera_from_lidar;
+  EffectDetails effect_details;  ///< Of the options' effects.
   std::vector<SimulatedScene> scenes;
 };
 
@@ -58,6 +62,7 @@ class Simulator {
  private:
   explicit Simulator(const SimulationOptions& options);
   SimulatedRig rig_;
+  std::shared_ptr<const PlantedEffects> planted_;
   std::shared_ptr<const PrintedBoard> board_;
 };
 

@@ -157,6 +157,11 @@ TEST_F(AnyCommand, SimulateRefusesAFolderThatIsNotItsOwn) {
   expect_error({"simulate", "-o", "new", "--scenes", "0"}, 2, {"scenes"});
   expect_error({"simulate", "-o", "new", "--lidar", "radar"}, 2, {"--lidar", "avia"});
   expect_error({"simulate", "-o", "new", "--effect", "magic=1"}, 2, {"magic"});
+  expect_error({"simulate", "-o", "new", "--effect", "range_wlak=1"}, 2, {"'range_walk'"});
+  expect_error({"simulate", "-o", "new", "--effect", "range_walk=900"}, 2, {"-100 to 100 mm"});
+  expect_error({"simulate", "-o", "new", "--effect", "range_walk"}, 2, {"ID=VALUE"});
+  expect_error({"simulate", "-o", "new", "--effect", "range_walk=1", "--effect", "range_walk=2"}, 2,
+               {"given twice"});
   expect_error({"simulate", "-o", "new", "--target", "no.yaml"}, 3, {"no.yaml: file not found"});
 }
 

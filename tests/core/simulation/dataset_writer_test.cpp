@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulation/dataset_writer.h"
 
+#include <algorithm>
 #include <fstream>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/file_io.h"
 #include "camera/camera.h"
 #include "cloud/cloud.h"
 
@@ -90,6 +93,38 @@ TEST_F(DatasetFolder, TruthHasTheTransforms) {
     }
   }
   EXPECT_TRUE(scene.contains("T_CB"));
+}
+
+TEST_F(DatasetFolder, TruthHasTheEffectsAndTheFilesDoNot) {
+  ASSERT_TRUE(write_dataset(rig(), folder / "plain").ok());
+  options.effects = {{"range_walk", 12.5}, {"print_scale", 3000.0}, {"intrinsics_error", 1000.0}};
+  ASSERT_TRUE(write_dataset(rig(), folder / "set").ok());
+  const auto json = truth();
+  EXPECT_EQ(json["effects"].size(), 3U);
+  EXPECT_EQ(json["effects"]["range_walk"], 12.5);
+  EXPECT_EQ(json["effects"]["print_scale"], 3000.0);
+  const auto& details = json["effect_details"];
+  EXPECT_TRUE(details["range_walk"]["pulse_width_mm"].is_number());
+  EXPECT_EQ(details["intrinsics_error"]["principal_point_px"].size(), 2U);
+  for (const char* name : {"camera.yaml", "target.yaml"}) {
+    EXPECT_EQ(*read_text_file(folder / "set" / name, 1U << 20U),
+              *read_text_file(folder / "plain" / name, 1U << 20U));
+  }
+}
+
+TEST_F(DatasetFolder, CloudsOfSeveralLinesCarryLineAndTime) {
+  options.scenes = 1;
+  for (const LidarKind kind : {LidarKind::kAvia, LidarKind::kSpinning}) {
+    options.lidar.kind = kind;
+    ASSERT_TRUE(write_dataset(rig(), folder / "set", true).ok());
+    const auto cloud = read_cloud(folder / "set/scenes/A/cloud.pcd");
+    ASSERT_TRUE(cloud.ok());
+    ASSERT_TRUE(cloud->has_time() && cloud->has_line());
+    const std::set<std::uint16_t> lines(cloud->line.begin(), cloud->line.end());
+    EXPECT_EQ(lines.size(), kind == LidarKind::kAvia ? 6U : 128U);
+    EXPECT_TRUE(std::is_sorted(cloud->time_s.begin(), cloud->time_s.end()));
+    EXPECT_GT(cloud->time_s.back(), cloud->time_s.front());
+  }
 }
 
 TEST_F(DatasetFolder, AbsentBoardHasNoPose) {

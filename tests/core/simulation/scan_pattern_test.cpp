@@ -85,5 +85,20 @@ TEST(ScanPattern, SpinningHasLevelLinesAndShiftedRevolutions) {
   EXPECT_TRUE(pattern.in_field({-1.0, 0.3, 0.0}));
 }
 
+TEST(ScanPattern, DirectionAtAnotherTimeIsThatOfTheShotThen) {
+  for (const auto kind : {LidarKind::kRosette, LidarKind::kAvia, LidarKind::kSpinning}) {
+    const ScanPattern pattern = pattern_of(kind, 50'000);
+    // Shots of the same line, two rounds of all lines apart.
+    const std::size_t lines = kind == LidarKind::kRosette ? 1 : kind == LidarKind::kAvia ? 6 : 64;
+    for (std::size_t i = 600; i < 40'000; i += 1'357) {
+      const Shot shot = pattern.shot(i);
+      const Shot later = pattern.shot(i + 2 * lines);
+      ASSERT_EQ(shot.line, later.line);
+      EXPECT_LT((pattern.direction_at(shot, later.time_s) - later.direction).norm(), 1e-9);
+      EXPECT_LT((pattern.direction_at(shot, shot.time_s) - shot.direction).norm(), 1e-15);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lvcalib::simulation

@@ -66,6 +66,37 @@ TEST(SimulationOptions, RefusesUnknownEffectsByName) {
   EXPECT_NE(status.error().message.find("known effects"), std::string::npos);
 }
 
+TEST(SimulationOptions, RefusesEffectsOutOfRangeOrWithoutLines) {
+  EXPECT_EQ(refusal([](auto& o) { o.effects["range_walk"] = 1000.0; }), ErrorKind::kUsage);
+  EXPECT_EQ(refusal([](auto& o) {
+              o.lidar.kind = LidarKind::kRosette;
+              o.effects["channel_range_offset"] = 10.0;
+            }),
+            ErrorKind::kUsage);
+  SimulationOptions board;
+  board.target.type = TargetType::kCheckerboard;
+  board.target.corner_columns = 6;
+  board.target.corner_rows = 5;
+  board.target.column_spacing_m = board.target.row_spacing_m = 0.1;
+  board.target.board_width_m = board.target.board_height_m = 0.8;
+  EXPECT_TRUE(check(board).ok());
+  board.effects["corner_bias"] = 0.2;
+  EXPECT_FALSE(check(board).ok());
+  SimulationOptions options;
+  for (const std::string& id : plantable_effects()) options.effects[id] = 0.3;
+  EXPECT_TRUE(check(options).ok());
+}
+
+TEST(SimulationOptions, LineCountFollowsTheKind) {
+  LidarOptions lidar;
+  EXPECT_EQ(line_count(lidar), 6);
+  lidar.kind = LidarKind::kSpinning;
+  lidar.lines = 64;
+  EXPECT_EQ(line_count(lidar), 64);
+  lidar.kind = LidarKind::kRosette;
+  EXPECT_EQ(line_count(lidar), 1);
+}
+
 TEST(SimulationOptions, PointCountFollowsTheKind) {
   LidarOptions lidar;
   EXPECT_EQ(point_count(lidar), 240'000);
