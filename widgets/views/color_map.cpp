@@ -16,12 +16,8 @@ struct Stop {
 };
 
 // Anchors at equal distances; in between colours are interpolated.
-constexpr std::array<Stop, 6> kSequential{{{68, 13, 96},
-                                           {60, 77, 138},
-                                           {38, 130, 142},
-                                           {48, 180, 122},
-                                           {152, 216, 62},
-                                           {250, 231, 60}}};
+constexpr std::array<Stop, 6> kSequential{
+    {{68, 13, 96}, {60, 77, 138}, {38, 130, 142}, {48, 180, 122}, {152, 216, 62}, {250, 231, 60}}};
 constexpr std::array<Stop, 5> kDiverging{
     {{33, 82, 170}, {120, 170, 220}, {225, 225, 225}, {235, 145, 110}, {178, 24, 43}}};
 
@@ -35,9 +31,9 @@ std::array<QRgb, kTableSize> make_table(const std::array<Stop, N>& stops) {
     const auto k = std::min(static_cast<std::size_t>(place), N - 2);
     const double t = place - static_cast<double>(k);
     const auto mix = [t](double a, double b) { return static_cast<int>(a + t * (b - a) + 0.5); };
-    table[static_cast<std::size_t>(i)] = qRgb(mix(stops[k].red, stops[k + 1].red),
-                                              mix(stops[k].green, stops[k + 1].green),
-                                              mix(stops[k].blue, stops[k + 1].blue));
+    table[static_cast<std::size_t>(i)] =
+        qRgb(mix(stops[k].red, stops[k + 1].red), mix(stops[k].green, stops[k + 1].green),
+             mix(stops[k].blue, stops[k + 1].blue));
   }
   return table;
 }
@@ -60,7 +56,8 @@ QRgb ColorScale::color(double value) const {
 
 ColorScale scale_for(std::span<const float> values, ColorMap map, std::size_t samples) {
   std::vector<double> seen;
-  const std::size_t step = std::max<std::size_t>(1, values.size() / std::max<std::size_t>(1, samples));
+  const std::size_t step =
+      std::max<std::size_t>(1, values.size() / std::max<std::size_t>(1, samples));
   for (std::size_t i = 0; i < values.size(); i += step) {
     if (std::isfinite(values[i])) seen.push_back(static_cast<double>(values[i]));
   }

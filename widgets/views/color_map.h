@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
-
 #include <QColor>
 #include <QRgb>
+#include <span>
 
 namespace lvcalib::widgets {
 

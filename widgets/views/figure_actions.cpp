@@ -55,7 +55,7 @@ void FigureActions::choose(const QString& suffix, const QString& filter) {
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().toLower() != suffix) path += "." + suffix;
   if (const Status saved = save(path); !saved) {
-    emit failed(QString::fromStdString(saved.error().text()));
+    Q_EMIT failed(QString::fromStdString(saved.error().text()));
   }
 }
 

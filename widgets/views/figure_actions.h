@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
-
 #include <QByteArray>
 #include <QImage>
 #include <QObject>
 #include <QString>
+#include <functional>
 
 #include "base/error.h"
 
@@ -49,7 +48,7 @@ class FigureActions : public QObject {
   /// Saves by the file's suffix: png, pdf or csv. Errors: kOutput; kUsage for another suffix.
   [[nodiscard]] Status save(const QString& path) const;
 
- signals:
+ Q_SIGNALS:
   /// What went wrong when a menu's save failed, for the user.
   void failed(const QString& message);
 

@@ -16,9 +16,8 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent), colors_(PlotColors::o
   setFocusPolicy(Qt::StrongFocus);
   setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   setMinimumSize(90, 70);
-  actions_ = new FigureActions(
-      this, {"figure", [this] { return toPixmap(0, 0, 2.0).toImage(); }, [this] { return pdf(); },
-             [this] { return csv(); }});
+  actions_ = new FigureActions(this, {"figure", [this] { return toPixmap(0, 0, 2.0).toImage(); },
+                                      [this] { return pdf(); }, [this] { return csv(); }});
   applyColors();
 }
 
@@ -79,7 +78,7 @@ void PlotView::keyPressEvent(QKeyEvent* event) {
     yAxis->scaleRange(factor);
     replot();
   } else if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space) {
-    emit clicked(QPointF(0.5 * width(), 0.5 * height()));
+    Q_EMIT clicked(QPointF(0.5 * width(), 0.5 * height()));
   } else {
     QCustomPlot::keyPressEvent(event);
   }
@@ -94,7 +93,7 @@ void PlotView::mouseReleaseEvent(QMouseEvent* event) {
   QCustomPlot::mouseReleaseEvent(event);
   if (event->button() == Qt::LeftButton &&
       (event->position() - pressed_).manhattanLength() < QApplication::startDragDistance()) {
-    emit clicked(event->position());
+    Q_EMIT clicked(event->position());
   }
 }
 

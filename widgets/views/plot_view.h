@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
 #include <QStringList>
+#include <vector>
 
 #include <qcustomplot.h>
 
@@ -25,11 +24,11 @@ class PlotView : public QCustomPlot {
   [[nodiscard]] QByteArray csv() const;
   [[nodiscard]] const PlotColors& colors() const { return colors_; }
 
- public slots:
+ public Q_SLOTS:
   /// Back to the whole range.
   void resetView();
 
- signals:
+ Q_SIGNALS:
   /// A plain click (not a drag) on the figure.
   void clicked(const QPointF& place);
 
