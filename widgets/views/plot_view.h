@@ -4,8 +4,7 @@
 #include <QStringList>
 #include <vector>
 
-#include <qcustomplot.h>
-
+#include "views/custom_plot.h"
 #include "views/figure_actions.h"
 #include "views/plot_colors.h"
 
