@@ -209,7 +209,7 @@ void ScenePage::selectTag(int id) {
   for (const ImageOverlay::Corner& c : overlay.corners) {
     if (c.feature_id != id || !c.has_prediction) continue;
     const QPointF r = c.detected - c.predicted;
-    residuals.push_back(tr("(%1, %2)").arg(r.x(), 0, 'f', 2).arg(r.y(), 0, 'f', 2));
+    residuals.push_back(tr("(%1, %2)").arg(r.x(), 0, 'f', 3).arg(r.y(), 0, 'f', 3));
   }
   std::vector<std::uint32_t> inside;
   if (scene && !scene->pixels.empty() && !edge.isEmpty()) {
@@ -227,7 +227,7 @@ void ScenePage::selectTag(int id) {
   image_->view()->overlay().setHighlights({}, id);
   QString text = tr("Tag %1").arg(id);
   if (!residuals.isEmpty()) text += tr(": corner residuals %1 px").arg(residuals.join(", "));
-  if (!inside.empty()) text += tr("; %n LiDAR point(s) on it", "", static_cast<int>(inside.size()));
+  if (!inside.empty()) text += tr("; LiDAR points on it: %1").arg(inside.size());
   selection_->setText(text);
 }
 

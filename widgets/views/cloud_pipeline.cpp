@@ -210,7 +210,7 @@ CloudPipeline::~CloudPipeline() {
 
 bool CloudPipeline::initialize() {
   vtk_->createWindow();
-  vtk_->ready = vtk_->window->GetState() != nullptr && vtk_->window->SupportsOpenGL() != 0;
+  vtk_->ready = vtk_->window->GetState() != nullptr;
   vtk_->applyBox();
   return vtk_->ready;
 }
