@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QSlider>
 #include <QSplitter>
-#include <QStyle>
 #include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -106,7 +105,7 @@ QWidget* RefinementPage::createReplay() {
   layout->setContentsMargins(0, 0, 0, 0);
   play_ = new QToolButton(bar);
   play_->setObjectName("play");
-  play_->setIcon(style()->standardIcon(QStyle::SP_MediaPlay));
+  play_->setText(QString(QChar(0x25B6)));  // Takes the palette's colour, unlike the style's icon.
   play_->setToolTip(tr("Replay the iterations from the first"));
   play_->setAccessibleName(tr("Replay"));
   play_->setShortcut(QKeySequence(Qt::Key_P));

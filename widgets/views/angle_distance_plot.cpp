@@ -129,7 +129,9 @@ void AngleDistancePlot::drawSamples() {
   for (std::size_t level = 0; level < kIntensityLevels; ++level) {
     if (angles[level].isEmpty()) continue;
     QCPGraph* graph = addGraph();
-    const double share = static_cast<double>(level) / (kIntensityLevels - 1);
+    // The end of the scale that would vanish into the ground is left out.
+    const double along = static_cast<double>(level) / (kIntensityLevels - 1);
+    const double share = colors().dark ? 0.22 + 0.78 * along : 0.92 * along;
     const QColor color = QColor::fromRgb(map_color(scale.map, share));
     graph->setLineStyle(QCPGraph::lsNone);
     graph->setAdaptiveSampling(false);

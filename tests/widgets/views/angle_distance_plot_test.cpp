@@ -50,7 +50,8 @@ TEST(AngleDistancePlot, DrawsSamplesWaveBinsAndRefusals) {
     EXPECT_EQ(colors.dark, dark);
     EXPECT_TRUE(test::shows(plot, colors.fit));
     EXPECT_TRUE(test::shows(plot, colors.refused));
-    EXPECT_TRUE(test::shows(plot, QColor::fromRgb(map_color(ColorMap::kSequential, 1.0))));
+    const double bright = dark ? 1.0 : 0.92;
+    EXPECT_TRUE(test::shows(plot, QColor::fromRgb(map_color(ColorMap::kSequential, bright))));
     EXPECT_TRUE(test::shows(plot, colors.background));
   }
 }
