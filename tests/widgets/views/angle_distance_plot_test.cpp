@@ -34,7 +34,7 @@ AngleDistanceData example() {
   for (int k = 0; k < 400; ++k) {
     const double distance = -0.018 + 0.036 * (k % 40) / 40.0;
     data.samples.push_back(
-        {-3.1 + 0.0155 * k, distance, distance > 0 ? 120.0 : 20.0, static_cast<std::uint32_t>(k)});
+        {-3.1 + 0.0155 * k, distance, distance > 0 ? 130.0 : 10.0, static_cast<std::uint32_t>(k)});
   }
   return data;
 }

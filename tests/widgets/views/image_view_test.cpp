@@ -97,11 +97,11 @@ TEST_F(ImageViewTest, PartsCanBeSwitchedOff) {
   view_.overlay().setParts({false, true, false, false});
   QImage shot = view_.viewport()->grab().toImage();
   const QPoint middle = at(199 + 25, 100);
-  EXPECT_GT(qRed(shot.pixel(middle)), 200);
+  EXPECT_GT(qRed(shot.pixel(middle)), 150);
   EXPECT_LT(qGreen(shot.pixel(middle)), 120);
   view_.overlay().setResidualFactor(5.0);
   shot = view_.viewport()->grab().toImage();
-  EXPECT_EQ(qRed(shot.pixel(middle)), 90);
+  EXPECT_NEAR(qRed(shot.pixel(middle)), 90, 1);
 }
 
 TEST_F(ImageViewTest, LevelsChangeWhatIsShown) {
