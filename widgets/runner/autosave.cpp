@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "runner/autosave.h"
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <cerrno>
 #include <filesystem>
 #include <utility>
+
+#include <signal.h>
+#include <unistd.h>
 
 #include "base/file_io.h"
 
@@ -70,8 +70,8 @@ void Autosave::write() {
 QList<Recovery> Autosave::find(const QString& folder) {
   QList<Recovery> found;
   const QDir dir(folder);
-  const auto files = dir.entryInfoList({QStringLiteral("autosave-*.lvcalib")}, QDir::Files,
-                                       QDir::Time);
+  const auto files =
+      dir.entryInfoList({QStringLiteral("autosave-*.lvcalib")}, QDir::Files, QDir::Time);
   for (const QFileInfo& info : files) {
     if (is_running(info.completeBaseName().section(QLatin1Char('-'), 1).toLongLong())) continue;
     const auto text = read_text_file(to_path(info.absoluteFilePath()), kMaxBytes);

@@ -93,7 +93,8 @@ quint64 Runner::start(Work work) {
       error = QStringLiteral("exception of unknown type");
     }
     work = {};  // What the job held goes before the thread counts as ended.
-    mailbox->post([this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
+    mailbox->post(
+        [this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
     const std::lock_guard lock(workers().mutex);
     --workers().count;
     workers().ended.notify_all();
@@ -112,8 +113,7 @@ void Runner::cancel() {
   });
 }
 
-void Runner::take(const std::shared_ptr<Task>& task, const Deliver& deliver,
-                  const QString& error) {
+void Runner::take(const std::shared_ptr<Task>& task, const Deliver& deliver, const QString& error) {
   if (task != task_) return;  // Abandoned.
   const bool stopped = task->stop.stop_requested();
   task_.reset();

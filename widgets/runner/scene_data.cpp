@@ -46,8 +46,8 @@ void SceneLoader::load_thumbnails(const std::vector<SceneFiles>& scenes) {
           if (context.stopped()) break;
           const auto image = read_scene_image(files.image);
           if (!image) continue;  // Said when the scene is opened or run.
-          const QImage small = image->scaled(kThumbnailWidth, kThumbnailHeight,
-                                             Qt::KeepAspectRatio, Qt::SmoothTransformation);
+          const QImage small = image->scaled(kThumbnailWidth, kThumbnailHeight, Qt::KeepAspectRatio,
+                                             Qt::SmoothTransformation);
           const QString name = QString::fromStdString(files.name);
           post([this, name, small] { Q_EMIT thumbnail(name, small); });
         }
