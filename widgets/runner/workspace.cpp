@@ -78,6 +78,10 @@ Workspace::Workspace(const QString& data_folder, QObject* parent)
         false);
   });
   connect(&undo_, &QUndoStack::cleanChanged, this, [this](bool clean) { set_dirty(!clean); });
+  connect(&autosave_, &Autosave::written, this, [this] {
+    if (taken_up_ && taken_up_->file != autosave_.file()) Autosave::discard(*taken_up_);
+    taken_up_.reset();
+  });
   connect(&autosave_, &Autosave::failed, this,
           [this](const QString& message) { Q_EMIT logged(tr("Autosave: %1").arg(message)); });
 }
@@ -154,6 +158,7 @@ void Workspace::open_recovery(const Recovery& recovery) {
     return;
   }
   opening.opened = std::move(*opened);
+  taken_up_ = recovery;
   take_opened(std::move(opening));
 }
 
@@ -197,7 +202,7 @@ void Workspace::take_opened(Opening opening) {
   }
   if (opening.opened.dataset_moved) {
     const QString path = to_qt(opening.project.dataset.string());
-    waiting_ = std::move(opening);
+    waiting_ = std::make_unique<Opening>(std::move(opening));
     Q_EMIT dataset_moved(path);
     return;
   }
@@ -223,6 +228,8 @@ Status Workspace::save(const QString& path) {
   const QString absolute = to_qt(absolute_path(path).string());
   if (Status s = write_project(absolute_path(path), project()); !s) return s;
   project_path_ = absolute;
+  if (taken_up_) Autosave::discard(*taken_up_);
+  taken_up_.reset();
   unsaved_recovery_ = false;
   undo_.setClean();
   set_dirty(false);

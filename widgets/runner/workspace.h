@@ -50,7 +50,8 @@ class Workspace : public QObject {
   /// Opens in the background; opened(), dataset_moved() or failed() follows.
   void open_dataset(const QString& path);
   void open_project(const QString& path);
-  /// Opens what an autosave held; it counts as unsaved.
+  /// Opens what an autosave held; it counts as unsaved. The old autosave goes once there is a new
+  /// one.
   void open_recovery(const Recovery& recovery);
   /// After dataset_moved(): opens the same project with its dataset elsewhere.
   void open_moved(const QString& dataset_path);
@@ -110,7 +111,8 @@ class Workspace : public QObject {
   Decisions decisions_;
   QStringList missing_;
   QString project_path_;
-  std::optional<Opening> waiting_;  // A project whose dataset has moved.
+  std::unique_ptr<Opening> waiting_;  // A project whose dataset has moved.
+  std::optional<Recovery> taken_up_;  // Its file is still the only copy.
   SessionState state_;
   bool up_to_date_ = false;
   bool dirty_ = false;
