@@ -69,7 +69,7 @@ MainWindow::~MainWindow() {
 
 void MainWindow::restore_window() {
   resize(1500, 940);
-  resizeDocks({scenes_, parameters_}, {430, 430}, Qt::Horizontal);
+  resizeDocks({scenes_, parameters_}, {470, 470}, Qt::Horizontal);
   resizeDocks({log_}, {140}, Qt::Vertical);
   restoreGeometry(settings_.geometry());
   restoreState(settings_.window_state());
@@ -170,6 +170,7 @@ void MainWindow::connect_workspace() {
     update_actions();
   });
   connect(w, &Workspace::progressed, status_, &StatusLine::show_progress);
+  connect(w, &Workspace::board_found, pages_, &PageStack::show_board_points);
   connect(w, &Workspace::iterated, pages_, &PageStack::show_iteration);
   connect(w, &Workspace::run_ended, this, [this](const QString& message) {
     status_->show_idle(message);
@@ -223,7 +224,7 @@ void MainWindow::take_opened() {
   model_.set_scenes(dataset, workspace_->missing_scenes());
   loader_.load_thumbnails(dataset.scenes);
   scene_.clear();
-  pages_->set_scene(-1, std::nullopt);
+  pages_->start(dataset.target);
   pages_->show_pages();
   if (!dataset.scenes.empty()) scenes_->select(scene_name(0));
   update_title();

@@ -4,14 +4,10 @@
 #include <QEvent>
 #include <QTabWidget>
 
-#include "start/welcome_page.h"
-#if __has_include("pages/extrinsic_page.h")
 #include "pages/extrinsic_page.h"
 #include "pages/refinement_page.h"
 #include "pages/scene_page.h"
-#else
-#include "workbench/placeholder_pages.h"
-#endif
+#include "start/welcome_page.h"
 
 namespace lvcalib::widgets {
 
@@ -34,6 +30,8 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::cropCleared, this,
           [this](int scene) { Q_EMIT crop_wanted(scene, std::nullopt); });
   connect(scene_, &ScenePage::failed, this, &PageStack::failed);
+  connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
+  connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
   retranslate();
 }
@@ -54,6 +52,12 @@ int PageStack::tab_count() const {
   return tabs_->count();
 }
 
+void PageStack::start(const Target& target) {
+  set_result(nullptr);
+  refinement_->setTarget(target);
+  set_scene(-1, std::nullopt);
+}
+
 void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& result) {
   scene_->setResult(result);
   refinement_->setResult(result);
@@ -61,6 +65,7 @@ void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& resul
 }
 
 void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {
+  current_ = scene;
   scene_->setScene(scene);
   refinement_->setScene(scene);
   set_crop_box(box);
@@ -72,6 +77,11 @@ void PageStack::set_crop_box(const std::optional<CropBox>& box) {
 
 void PageStack::set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image) {
   scene_->setSceneData(cloud, image);
+  extrinsic_->setSceneData(current_, cloud, image);
+}
+
+void PageStack::show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points) {
+  if (scene == current_) refinement_->setLivePoints(scene, board_points);
 }
 
 void PageStack::show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial) {

@@ -30,10 +30,14 @@ class PageStack : public QStackedWidget {
   void show_tab(int tab);
   [[nodiscard]] int tab_count() const;
 
+  /// Another dataset: nothing of the one before stays.
+  void start(const Target& target);
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
   void set_scene(int scene, const std::optional<CropBox>& box);
   void set_crop_box(const std::optional<CropBox>& box);
+  /// Of the scene last set.
   void set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image);
+  void show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points);
   void show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial);
 
  Q_SIGNALS:
@@ -47,6 +51,7 @@ class PageStack : public QStackedWidget {
  private:
   void retranslate();
 
+  int current_ = -1;
   WelcomePage* welcome_;
   QTabWidget* tabs_;
   ScenePage* scene_;

@@ -237,6 +237,7 @@ class Calibration {
       key = refinement_key(search, *scene.chosen, request_.options);
       if (const auto* kept = stages.refinement.find(key)) return *kept;
     }
+    if (observer_.board_points) observer_.board_points(s, scene.board_points);
     RefinementObserver each;
     if (observer_.iteration) each = [&](const auto& so_far) { observer_.iteration(s, so_far); };
     auto refinement =

@@ -70,6 +70,8 @@ Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationReq
 /// Sees a calibration while it runs. Called from worker threads, for different scenes perhaps at
 /// the same time; the references hold during the call only.
 struct CalibrationObserver {
+  /// Before a scene's refinement: the points it will work on.
+  std::function<void(std::size_t scene, const Cloud& board_points)> board_points;
   /// After each iteration of a scene's refinement.
   std::function<void(std::size_t scene, const BoardRefinement& so_far)> iteration;
 };

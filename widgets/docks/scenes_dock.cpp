@@ -45,7 +45,7 @@ void ScenesDock::make_view(SceneModel& model) {
   view_->setSortingEnabled(true);
   view_->sortByColumn(SceneModel::kName, Qt::AscendingOrder);
   view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  view_->setIconSize(QSize(64, 40));
+  view_->setIconSize(QSize(48, 30));
   view_->setContextMenuPolicy(Qt::ActionsContextMenu);
   QHeaderView* header = view_->header();
   header->setStretchLastSection(true);

@@ -130,7 +130,11 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kName && !row.missing) return row.use ? Qt::Checked : Qt::Unchecked;
       return {};
     case Qt::DecorationRole:
-      if (index.column() == kState) return mark_icon(mark_of(row), QGuiApplication::palette());
+      if (index.column() == kState) {
+        // A pixmap keeps its size; an icon would take that of the thumbnails.
+        return mark_icon(mark_of(row), QGuiApplication::palette())
+            .pixmap(QSize(16, 16), qApp->devicePixelRatio());
+      }
       if (index.column() == kName) return thumbnails_.value(row.name);
       return {};
     case Qt::TextAlignmentRole:

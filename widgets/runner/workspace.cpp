@@ -326,6 +326,11 @@ void Workspace::run() {
   start([this, dataset = dataset_, decisions = decisions_, state = state_](
             const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
     CalibrationObserver observer;
+    observer.board_points = [this, &post](std::size_t scene, const Cloud& points) {
+      post([this, scene, copy = std::make_shared<const Cloud>(points)] {
+        Q_EMIT board_found(static_cast<int>(scene), copy);
+      });
+    };
     observer.iteration = [this, &post](std::size_t scene, const BoardRefinement& so_far) {
       post([this, scene, copy = std::make_shared<const BoardRefinement>(so_far)] {
         Q_EMIT iterated(static_cast<int>(scene), copy);

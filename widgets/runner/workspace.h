@@ -84,6 +84,8 @@ class Workspace : public QObject {
   void dirty_changed(bool dirty);
   void run_started();
   void progressed(const QString& stage, double fraction, const QString& text);
+  /// Live: the points that a scene's refinement is about to work on.
+  void board_found(int scene, const std::shared_ptr<const lvcalib::Cloud>& board_points);
   /// Live: a scene's refinement after one more iteration.
   void iterated(int scene, const std::shared_ptr<const lvcalib::BoardRefinement>& partial);
   void result_changed();
