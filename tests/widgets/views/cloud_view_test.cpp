@@ -115,6 +115,7 @@ TEST_F(CloudViewTest, AClickPicksThePointUnderIt) {
 
 TEST_F(CloudViewTest, DraggingTurnsAndKeysReset) {
   view_.setScene(scene_of(wall(50'000)));
+  QTest::qWait(50);  // The legend takes its place beside the canvas.
   ASSERT_TRUE(settle());
   const Eigen::Matrix4d start = view_.canvas()->pipeline().clipFromWorld();
   QTest::mousePress(view_.canvas(), Qt::LeftButton, {}, middle());
