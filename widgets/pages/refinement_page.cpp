@@ -45,6 +45,7 @@ RefinementPage::RefinementPage(QWidget* parent) : QWidget(parent) {
   layout->addWidget(createReplay());
   player_.setInterval(kReplayStep_ms);
   connect(&player_, &QTimer::timeout, this, &RefinementPage::advance);
+  setTarget(Target());
   display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
 }
 
@@ -143,7 +144,10 @@ void RefinementPage::setTarget(const Target& target) {
                     target.tag_rows == target_.tag_rows;
   target_ = target;
   map_->setTarget(target);
-  if (!same || plots_.empty()) rebuildGrid();
+  if (!same || plots_.empty()) {
+    rebuildGrid();
+    updatePlots();
+  }
 }
 
 void RefinementPage::setLivePoints(int scene, std::shared_ptr<const Cloud> board_points) {

@@ -187,9 +187,11 @@ void CloudCanvas::forward(CanvasMouse::Kind kind, CanvasMouse::Button button, co
 }
 
 void CloudCanvas::applyPalette() {
-  const QColor ground = palette().color(QPalette::Base);
-  pipeline_->setBackground(ground.redF(), ground.greenF(), ground.blueF(),
-                           ground.lightness() < 128);
+  QColor ground = palette().color(QPalette::Base);
+  const bool dark = ground.lightness() < 128;
+  // Bright points do not stand out from white.
+  if (!dark) ground = ground.darker(118);
+  pipeline_->setBackground(ground.redF(), ground.greenF(), ground.blueF(), dark);
 }
 
 }  // namespace lvcalib::widgets
