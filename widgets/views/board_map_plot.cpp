@@ -165,17 +165,19 @@ void BoardMapPlot::drawEllipse(const CenterPath& path, const QPen& pen) {
 }
 
 void BoardMapPlot::drawCaption() {
+  QString caption;
+  if (!paths_.empty()) {
+    caption = tr("paths enlarged ×%1").arg(enlargement_, 0, 'g', 6);
+  } else if (!target_.has_circles()) {
+    caption = tr("no circles");
+  }
   auto* text = new QCPItemText(this);
   text->position->setType(QCPItemPosition::ptAxisRectRatio);
   text->position->setCoords(0.02, 0.02);
   text->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
   text->setColor(colors().text);
   text->setFont(font());
-  if (!paths_.empty()) {
-    text->setText(tr("paths enlarged ×%1").arg(enlargement_, 0, 'g', 6));
-  } else if (!target_.has_circles()) {
-    text->setText(tr("no circles"));
-  }
+  text->setText(caption);
 }
 
 void BoardMapPlot::fillTable() {

@@ -80,6 +80,8 @@ QSize CloudCanvas::deviceSize() const {
 
 void CloudCanvas::initializeGL() {
   usable_ = pipeline_->initialize();
+  // A new context does not always bring a resize with it.
+  resizeGL(width(), height());
   // A widget that gets another window gets another context.
   connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
     makeCurrent();
