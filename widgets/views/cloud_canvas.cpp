@@ -36,7 +36,11 @@ CloudCanvas::CloudCanvas(QWidget* parent) : QOpenGLWidget(parent) {
   setUpdateBehavior(QOpenGLWidget::PartialUpdate);
   statistics_.points_per_ms = kFirstPointsPerMs;
   CloudPipeline::Hooks hooks;
-  hooks.make_current = [this] { makeCurrent(); };
+  // makeCurrent() also binds the widget's framebuffer, behind the back of VTK's record of what is
+  // bound: it must not be called in the middle of a frame.
+  hooks.make_current = [this] {
+    if (QOpenGLContext::currentContext() != context()) makeCurrent();
+  };
   hooks.view_changed = [this] { viewMoved(); };
   hooks.box_edited = [this](const CropBox& box) { Q_EMIT boxEdited(box); };
   pipeline_ = std::make_unique<CloudPipeline>(std::move(hooks));
