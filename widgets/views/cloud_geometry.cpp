@@ -21,8 +21,9 @@ ViewerPose viewer_pose(CloudViewpoint viewpoint, const Eigen::Vector3d& focus_m)
       pose.up = Eigen::Vector3d::UnitX();
       break;
     case CloudViewpoint::kWhole: {
-      const Eigen::Vector3d ahead =
-          focus_m.norm() > 1e-6 ? focus_m.normalized() : Eigen::Vector3d::UnitX();
+      // Straight above or below the sensor any direction along the floor is as good.
+      Eigen::Vector3d ahead = focus_m.normalized();
+      if (!(ahead.head<2>().norm() > 0.3)) ahead = Eigen::Vector3d::UnitX();
       pose.eye_m = focus_m - ahead + Eigen::Vector3d(0.35 * ahead.y(), -0.35 * ahead.x(), 0.45);
       break;
     }
