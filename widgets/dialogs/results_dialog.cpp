@@ -30,6 +30,7 @@ QString row(const QString& title, const QStringList& values, const QString& unit
   QString out = QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td>").arg(title);
   for (const QString& value : values)
     out += QStringLiteral("<td align='right'>&nbsp;%1</td>").arg(value);
+  for (qsizetype i = values.size(); i < 4; ++i) out += QStringLiteral("<td></td>");
   return out + QStringLiteral("<td>&nbsp;%1</td></tr>").arg(unit);
 }
 
