@@ -240,8 +240,13 @@ Status Workspace::save(const QString& path) {
 
 void Workspace::set_use(const QStringList& scenes, bool use) {
   Decisions after = decisions_;
-  for (const QString& scene : scenes) after.scenes[scene.toStdString()].use = use;
-  if (after.scenes == decisions_.scenes) return;
+  bool any = false;
+  for (const QString& scene : scenes) {
+    if (decision_of(decisions_, scene.toStdString()).use == use) continue;
+    after.scenes[scene.toStdString()].use = use;
+    any = true;
+  }
+  if (!any) return;
   decide(use ? tr("accept %1").arg(scenes.join(QStringLiteral(", ")))
              : tr("reject %1").arg(scenes.join(QStringLiteral(", "))),
          std::move(after));
@@ -254,9 +259,9 @@ void Workspace::set_crop(const QString& scene, const std::optional<CropBox>& box
       return;
     }
   }
+  if (decision_of(decisions_, scene.toStdString()).crop == box) return;
   Decisions after = decisions_;
   after.scenes[scene.toStdString()].crop = box;
-  if (after.scenes == decisions_.scenes) return;
   decide(box ? tr("crop %1").arg(scene) : tr("uncrop %1").arg(scene), std::move(after),
          box ? QStringLiteral("crop ") + scene : QString());
 }

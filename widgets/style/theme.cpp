@@ -21,6 +21,7 @@ QPalette palette_of(const QColor& window, const QColor& button, const QColor& ba
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
     p.setColor(QPalette::Disabled, role, disabled);
   }
+  p.setColor(QPalette::Disabled, QPalette::Button, window);
   p.setColor(QPalette::PlaceholderText, disabled);
   p.setColor(QPalette::Highlight, accent);
   p.setColor(QPalette::HighlightedText, Qt::white);
@@ -35,8 +36,8 @@ QPalette light_palette() {
 }
 
 QPalette dark_palette() {
-  return palette_of(QColor(0x2a, 0x2d, 0x31), QColor(0x50, 0x55, 0x5c), QColor(0x1e, 0x20, 0x23),
-                    QColor(0xe6, 0xe8, 0xea), QColor(0x3d, 0x8f, 0xd6), QColor(0x85, 0x8b, 0x92));
+  return palette_of(QColor(0x33, 0x36, 0x3b), QColor(0x50, 0x55, 0x5c), QColor(0x1e, 0x20, 0x23),
+                    QColor(0xe6, 0xe8, 0xea), QColor(0x3d, 0x8f, 0xd6), QColor(0x8f, 0x95, 0x9c));
 }
 
 }  // namespace
