@@ -77,7 +77,11 @@ Workspace::Workspace(const QString& data_folder, QObject* parent)
                          dataset_.path.string(), "what was open is still there; try again"),
         false);
   });
-  connect(&undo_, &QUndoStack::cleanChanged, this, [this](bool clean) { set_dirty(!clean); });
+  // After the stack has moved: while a command runs, it still has its old index.
+  connect(&undo_, &QUndoStack::indexChanged, this, [this] {
+    set_dirty(!undo_.isClean() || unsaved_recovery_);
+    keep_or_clear_autosave();
+  });
   connect(&autosave_, &Autosave::written, this, [this] {
     if (taken_up_ && taken_up_->file != autosave_.file()) Autosave::discard(*taken_up_);
     taken_up_.reset();
@@ -315,8 +319,6 @@ void Workspace::apply(const Decisions& decisions) {
     Q_EMIT opened();
   }
   up_to_date_ = false;
-  set_dirty(!undo_.isClean() || unsaved_recovery_);
-  keep_or_clear_autosave();
   Q_EMIT decisions_changed();
   if (state_.latest) schedule(options_changed ? kSettleMs : 0);
 }

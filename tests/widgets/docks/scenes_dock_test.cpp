@@ -45,11 +45,11 @@ TEST_F(ScenesDockTest, ActionsAreForTheSelectedScenesThatExist) {
 }
 
 TEST_F(ScenesDockTest, SpaceTicksAndArrowsChangeTheSceneLookedAt) {
+  dock_.select("A");
   QSignalSpy activated(&dock_, &ScenesDock::scene_activated);
   QSignalSpy use(&dock_, &ScenesDock::use_wanted);
-  dock_.select("A");
   QTest::keyClick(view_, Qt::Key_Down);
-  ASSERT_EQ(activated.count(), 2);
+  ASSERT_EQ(activated.count(), 1);
   EXPECT_EQ(activated.last().first().toString(), "B");
   QTest::keyClick(view_, Qt::Key_Space);
   ASSERT_EQ(use.count(), 1);

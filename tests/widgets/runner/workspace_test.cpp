@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "runner/workspace.h"
 
+#include <QDir>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QTest>
 
 #include <gtest/gtest.h>
 
@@ -75,6 +77,16 @@ TEST_F(WorkspaceTest, WhatChangesNothingIsNoStepAndNonsenseIsRefused) {
   EXPECT_FALSE(workspace_->add_scene_folders({"/nowhere"}).ok());
   EXPECT_EQ(workspace_->undo_stack().count(), 0);
   EXPECT_FALSE(decision_of(decisions(), "A").crop.has_value());
+}
+
+TEST_F(WorkspaceTest, TheFirstDecisionIsAutosavedAndTakingItBackRemovesIt) {
+  const auto files = [this] {
+    return QDir(folder_.filePath("data")).entryList({"autosave-*"}).size();
+  };
+  workspace_->set_use({"A"}, false);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return files() == 1; }, 5000));
+  workspace_->undo_stack().undo();
+  EXPECT_EQ(files(), 0);
 }
 
 TEST_F(WorkspaceTest, SavingMakesCleanAndUndoingThenMakesDirty) {
