@@ -3,6 +3,7 @@
 
 #include <QImage>
 #include <QStackedWidget>
+#include <QTimer>
 #include <memory>
 #include <optional>
 
@@ -38,6 +39,7 @@ class PageStack : public QStackedWidget {
   /// Of the scene last set.
   void set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image);
   void show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points);
+  /// Shown a few times a second, and only while the page is seen.
   void show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial);
 
  Q_SIGNALS:
@@ -50,8 +52,11 @@ class PageStack : public QStackedWidget {
 
  private:
   void retranslate();
+  void show_latest();
 
   int current_ = -1;
+  std::shared_ptr<const BoardRefinement> latest_;  // Of the current scene, not shown yet.
+  QTimer live_;
   WelcomePage* welcome_;
   QTabWidget* tabs_;
   ScenePage* scene_;
