@@ -24,7 +24,7 @@ CloudPane::CloudPane(QWidget* parent) : QWidget(parent) {
   layout->addWidget(bar_);
   layout->addWidget(view_, 1);
   layout->addWidget(crop_form_);
-  connect(builder_, &CloudSceneBuilder::ready, this, &CloudPane::show);
+  connect(builder_, &CloudSceneBuilder::ready, this, &CloudPane::display);
 }
 
 void CloudPane::createToolBar() {
@@ -130,7 +130,7 @@ void CloudPane::rebuild() {
   builder_->request(std::move(input));
 }
 
-void CloudPane::show(const std::shared_ptr<const CloudScene>& scene) {
+void CloudPane::display(const std::shared_ptr<const CloudScene>& scene) {
   view_->setScene(scene);
   view_->setLines(lines_);
   updateCount();

@@ -52,7 +52,7 @@ class CloudPane : public QWidget {
   void createToolBar();
   void createCrop();
   void rebuild();
-  void show(const std::shared_ptr<const CloudScene>& scene);
+  void display(const std::shared_ptr<const CloudScene>& scene);
   void editCrop(const CropBox& box);
   void toggleCrop(bool shown);
   void updateCount();

@@ -45,7 +45,8 @@ RefinementPage::RefinementPage(QWidget* parent) : QWidget(parent) {
   layout->addWidget(createReplay());
   player_.setInterval(kReplayStep_ms);
   connect(&player_, &QTimer::timeout, this, &RefinementPage::advance);
-  show(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
+  setTarget(Target());
+  display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
 }
 
 RefinementPage::~RefinementPage() = default;
@@ -143,7 +144,10 @@ void RefinementPage::setTarget(const Target& target) {
                     target.tag_rows == target_.tag_rows;
   target_ = target;
   map_->setTarget(target);
-  if (!same || plots_.empty()) rebuildGrid();
+  if (!same || plots_.empty()) {
+    rebuildGrid();
+    updatePlots();
+  }
 }
 
 void RefinementPage::setLivePoints(int scene, std::shared_ptr<const Cloud> board_points) {
@@ -153,22 +157,22 @@ void RefinementPage::setLivePoints(int scene, std::shared_ptr<const Cloud> board
 
 void RefinementPage::showResult() {
   if (!result_ || scene_ < 0 || scene_ >= static_cast<int>(result_->scenes.size())) {
-    show(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
+    display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
     return;
   }
   const SceneResult& scene = result_->scenes[static_cast<std::size_t>(scene_)];
   if (!scene.refinement) {
     const QString reason = QString::fromStdString(scene.reason);
-    show(nullptr, nullptr,
-         reason.isEmpty() ? tr("This scene was not refined.")
-                          : tr("This scene was not refined: %1").arg(reason));
+    display(nullptr, nullptr,
+            reason.isEmpty() ? tr("This scene was not refined.")
+                             : tr("This scene was not refined: %1").arg(reason));
     return;
   }
   if (scene.refinement->nodes.empty()) {
-    show(nullptr, nullptr, tr("This board has no circles: there is nothing to refine."));
+    display(nullptr, nullptr, tr("This board has no circles: there is nothing to refine."));
     return;
   }
-  show({result_, &*scene.refinement}, {result_, &scene.board_points}, {});
+  display({result_, &*scene.refinement}, {result_, &scene.board_points}, {});
 }
 
 void RefinementPage::showIteration(int scene, std::shared_ptr<const BoardRefinement> partial) {
@@ -176,11 +180,11 @@ void RefinementPage::showIteration(int scene, std::shared_ptr<const BoardRefinem
   std::shared_ptr<const Cloud> points = points_;
   if (live_points_ && live_points_scene_ == scene) points = live_points_;
   player_.stop();
-  show(std::move(partial), std::move(points), {});
+  display(std::move(partial), std::move(points), {});
 }
 
-void RefinementPage::show(std::shared_ptr<const BoardRefinement> refinement,
-                          std::shared_ptr<const Cloud> points, const QString& message) {
+void RefinementPage::display(std::shared_ptr<const BoardRefinement> refinement,
+                             std::shared_ptr<const Cloud> points, const QString& message) {
   refinement_ = std::move(refinement);
   points_ = std::move(points);
   message_ = message;

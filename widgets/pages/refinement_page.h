@@ -55,8 +55,8 @@ class RefinementPage : public QWidget {
  private:
   QWidget* createDetail();
   QWidget* createReplay();
-  void show(std::shared_ptr<const BoardRefinement> refinement, std::shared_ptr<const Cloud> points,
-            const QString& message);
+  void display(std::shared_ptr<const BoardRefinement> refinement,
+               std::shared_ptr<const Cloud> points, const QString& message);
   void showResult();
   void rebuildGrid();
   void updatePlots();

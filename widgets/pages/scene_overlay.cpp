@@ -124,7 +124,10 @@ void add_points(ImageOverlay& overlay, const CloudScene& cloud) {
   overlay.points.clear();
   overlay.point_colors.clear();
   if (cloud.pixels.empty()) return;
-  for (std::size_t k = 0; k < cloud.size(); ++k) {
+  // The beginning of the order is a fair thinning; more dots than this cannot be told apart.
+  constexpr std::size_t kMost = 150'000;
+  const std::size_t count = std::min(cloud.size(), kMost);
+  for (std::size_t k = 0; k < count; ++k) {
     const Eigen::Vector2f& pixel = cloud.pixels[cloud.order[k]];
     if (!std::isfinite(pixel.x())) continue;
     overlay.points.emplace_back(static_cast<double>(pixel.x()), static_cast<double>(pixel.y()));

@@ -21,7 +21,8 @@ bool has_extrinsic(const CalibrationResult& result);
 /// What the image view shows of a scene, without LiDAR points.
 ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& scene);
 
-/// Adds the drawn points of a cloud that the camera sees, in their colours.
+/// Adds the drawn points of a cloud that the camera sees, in their colours; of very many a
+/// thinning.
 void add_points(ImageOverlay& overlay, const CloudScene& cloud);
 
 /// Lines of the cloud view: the board as the LiDAR sees it (orange), and as camera and extrinsic

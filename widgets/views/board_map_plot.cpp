@@ -35,6 +35,11 @@ BoardMapPlot::BoardMapPlot(QWidget* parent) : PlotView(parent) {
          "the last iteration, enlarged. Ellipse: twice the standard deviation of the "
          "refined centre, enlarged alike. Cross: where the model has it."));
   connect(this, &PlotView::clicked, this, &BoardMapPlot::emitNodeAt);
+  connect(this, &QCustomPlot::afterLayout, this, [this] {
+    if (axisRect()->size() == fitted_to_) return;
+    fitted_to_ = axisRect()->size();
+    fit();
+  });
 }
 
 void BoardMapPlot::setTarget(const Target& target) {
@@ -63,11 +68,6 @@ void BoardMapPlot::setIteration(int iteration) {
 void BoardMapPlot::setChosenNode(int id) {
   chosen_ = id;
   rebuild();
-}
-
-void BoardMapPlot::resizeEvent(QResizeEvent* event) {
-  PlotView::resizeEvent(event);
-  fit();
 }
 
 // The board in the middle, with equal scales along both axes.
@@ -165,14 +165,19 @@ void BoardMapPlot::drawEllipse(const CenterPath& path, const QPen& pen) {
 }
 
 void BoardMapPlot::drawCaption() {
+  QString caption;
+  if (!paths_.empty()) {
+    caption = tr("paths enlarged ×%1").arg(enlargement_, 0, 'g', 6);
+  } else if (!target_.has_circles()) {
+    caption = tr("no circles");
+  }
   auto* text = new QCPItemText(this);
   text->position->setType(QCPItemPosition::ptAxisRectRatio);
   text->position->setCoords(0.02, 0.02);
   text->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
   text->setColor(colors().text);
   text->setFont(font());
-  text->setText(paths_.empty() ? tr("no circles")
-                               : tr("paths enlarged ×%1").arg(enlargement_, 0, 'g', 6));
+  text->setText(caption);
 }
 
 void BoardMapPlot::fillTable() {

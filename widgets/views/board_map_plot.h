@@ -32,7 +32,6 @@ class BoardMapPlot : public PlotView {
 
  protected:
   void rebuild() override;
-  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void drawBoard();
@@ -48,6 +47,7 @@ class BoardMapPlot : public PlotView {
   int iteration_ = -1;
   int chosen_ = -1;
   double enlargement_ = 1.0;
+  QSize fitted_to_;
 };
 
 }  // namespace lvcalib::widgets

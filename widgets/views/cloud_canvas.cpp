@@ -36,7 +36,11 @@ CloudCanvas::CloudCanvas(QWidget* parent) : QOpenGLWidget(parent) {
   setUpdateBehavior(QOpenGLWidget::PartialUpdate);
   statistics_.points_per_ms = kFirstPointsPerMs;
   CloudPipeline::Hooks hooks;
-  hooks.make_current = [this] { makeCurrent(); };
+  // makeCurrent() also binds the widget's framebuffer, behind the back of VTK's record of what is
+  // bound: it must not be called in the middle of a frame.
+  hooks.make_current = [this] {
+    if (QOpenGLContext::currentContext() != context()) makeCurrent();
+  };
   hooks.view_changed = [this] { viewMoved(); };
   hooks.box_edited = [this](const CropBox& box) { Q_EMIT boxEdited(box); };
   pipeline_ = std::make_unique<CloudPipeline>(std::move(hooks));
@@ -80,6 +84,8 @@ QSize CloudCanvas::deviceSize() const {
 
 void CloudCanvas::initializeGL() {
   usable_ = pipeline_->initialize();
+  // A new context does not always bring a resize with it.
+  resizeGL(width(), height());
   // A widget that gets another window gets another context.
   connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
     makeCurrent();
@@ -187,9 +193,11 @@ void CloudCanvas::forward(CanvasMouse::Kind kind, CanvasMouse::Button button, co
 }
 
 void CloudCanvas::applyPalette() {
-  const QColor ground = palette().color(QPalette::Base);
-  pipeline_->setBackground(ground.redF(), ground.greenF(), ground.blueF(),
-                           ground.lightness() < 128);
+  QColor ground = palette().color(QPalette::Base);
+  const bool dark = ground.lightness() < 128;
+  // Bright points do not stand out from white.
+  if (!dark) ground = ground.darker(118);
+  pipeline_->setBackground(ground.redF(), ground.greenF(), ground.blueF(), dark);
 }
 
 }  // namespace lvcalib::widgets

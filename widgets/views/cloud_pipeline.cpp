@@ -194,7 +194,6 @@ CloudPipeline::CloudPipeline(Hooks hooks) : vtk_(std::make_unique<Vtk>()) {
   vtk_->createInteraction();
   vtk_->line_actor->GetProperty()->SetLineWidth(2.0F);
   vtk_->line_actor->GetProperty()->LightingOff();
-  vtk_->highlight_actor->GetProperty()->SetPointSize(11.0F);
   vtk_->highlight_actor->GetProperty()->LightingOff();
   vtk_->point_property->LightingOff();
   vtk_->line_actor->SetVisibility(0);
@@ -306,11 +305,15 @@ void CloudPipeline::setHighlights(const std::vector<Eigen::Vector3d>& points_m) 
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   vtk_->highlight_actor->SetMapper(mapper);
+  constexpr std::size_t kFew = 20;
+  vtk_->highlight_actor->GetProperty()->SetPointSize(points_m.size() <= kFew ? 11.0F : 4.0F);
   vtk_->highlight_actor->SetVisibility(points_m.empty() ? 0 : 1);
 }
 
 void CloudPipeline::setBackground(double red, double green, double blue, bool dark) {
   vtk_->renderer->SetBackground(red, green, blue);
+  // Else the window's own background would be added to the picture.
+  vtk_->renderer->SetBackgroundAlpha(1.0);
   const double edge = dark ? 0.95 : 0.1;
   vtk_->box->GetOutlineProperty()->SetColor(edge, edge, edge);
   vtk_->box->GetOutlineProperty()->SetLineWidth(1.5F);
@@ -353,7 +356,8 @@ void CloudPipeline::look(CloudViewpoint viewpoint) {
     }
     camera->SetViewAngle(30.0);
     vtk_->renderer->ResetCamera(vtk_->bounds.data());
-    camera->Zoom(1.0);
+    // ResetCamera() makes room for the sphere about the points; they fill less of it.
+    camera->Dolly(1.35);
   }
   vtk_->looked = true;
 }

@@ -23,6 +23,9 @@ constexpr double kPickRadius_px = 7.0;
 
 bool opengl_available() {
   static const bool available = [] {
+    // These platforms create contexts, but cannot show them in a widget.
+    const QStringList without_widgets{"offscreen", "minimal", "vnc", "linuxfb"};
+    if (without_widgets.contains(QGuiApplication::platformName())) return false;
     QOpenGLContext context;
     if (!context.create()) return false;
     QOffscreenSurface surface;
@@ -172,9 +175,17 @@ void CloudView::keyPressEvent(QKeyEvent* event) {
       canvas_->pipeline().zoom(1.0 / kZoom);
       break;
     default:
-      return QWidget::keyPressEvent(event);
+      return triggerByKey(event);
   }
   canvas_->viewMoved();
+}
+
+// A window that is not active gets keys but no shortcuts.
+void CloudView::triggerByKey(QKeyEvent* event) {
+  for (QAction* action : view_actions_) {
+    if (action->shortcut() == QKeySequence(event->keyCombination())) return action->trigger();
+  }
+  QWidget::keyPressEvent(event);
 }
 
 // A right click without a drag asks for the menu; with one it zooms.

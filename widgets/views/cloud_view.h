@@ -60,6 +60,7 @@ class CloudView : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void triggerByKey(QKeyEvent* event);
   void createCanvas();
   void createActions();
   void pickAt(const QPointF& place);

@@ -19,6 +19,7 @@ const QColor kChosenColor(0, 190, 255);
 
 // More dots cannot be told apart and make painting slow.
 constexpr std::size_t kMostPoints = 60'000;
+constexpr std::size_t kPaintedTogether = 2000;
 
 QPen cosmetic(const QColor& color, double width) {
   QPen pen(color, width);
@@ -99,17 +100,25 @@ void OverlayItem::paint(QPainter* painter, const QStyleOptionGraphicsItem* optio
 
 void OverlayItem::paintPoints(QPainter& painter, const QRectF& visible) const {
   const std::size_t step = std::max<std::size_t>(1, overlay_.points.size() / kMostPoints);
+  painter.setRenderHint(QPainter::Antialiasing, false);
   std::map<QRgb, QList<QPointF>> by_color;
+  std::size_t collected = 0;
+  const auto flush = [&] {
+    for (const auto& [color, places] : by_color) {
+      painter.setPen(cosmetic(QColor::fromRgb(color), 2.0));
+      painter.drawPoints(places.constData(), static_cast<int>(places.size()));
+    }
+    by_color.clear();
+    collected = 0;
+  };
   for (std::size_t i = 0; i < overlay_.points.size(); i += step) {
     if (!visible.contains(overlay_.points[i])) continue;
     // Five bits a channel: few pens, and no eye sees the difference.
     by_color[overlay_.point_colors[i] | 0x00070707U].push_back(overlay_.points[i]);
+    // In portions, so that where points crowd no colour always comes out on top.
+    if (++collected == kPaintedTogether) flush();
   }
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  for (const auto& [color, places] : by_color) {
-    painter.setPen(cosmetic(QColor::fromRgb(color), 2.0));
-    painter.drawPoints(places.constData(), static_cast<int>(places.size()));
-  }
+  flush();
   painter.setRenderHint(QPainter::Antialiasing);
 }
 
