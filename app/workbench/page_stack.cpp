@@ -78,10 +78,13 @@ void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {
   latest_.reset();
   scene_->setScene(scene);
   refinement_->setScene(scene);
-  set_crop_box(box);
+  crop_ = box;
+  scene_->setCropBox(box);
 }
 
 void PageStack::set_crop_box(const std::optional<CropBox>& box) {
+  if (box == crop_) return;
+  crop_ = box;
   scene_->setCropBox(box);
 }
 

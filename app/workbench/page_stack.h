@@ -35,6 +35,7 @@ class PageStack : public QStackedWidget {
   void start(const Target& target);
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
   void set_scene(int scene, const std::optional<CropBox>& box);
+  /// The box in force; a box that is being edited stays unless this one is another than before.
   void set_crop_box(const std::optional<CropBox>& box);
   /// Of the scene last set.
   void set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image);
@@ -55,6 +56,7 @@ class PageStack : public QStackedWidget {
   void show_latest();
 
   int current_ = -1;
+  std::optional<CropBox> crop_;
   std::shared_ptr<const BoardRefinement> latest_;  // Of the current scene, not shown yet.
   QTimer live_;
   WelcomePage* welcome_;
