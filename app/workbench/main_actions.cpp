@@ -10,6 +10,7 @@
 #include <QToolBar>
 #include <QUndoStack>
 
+#include "style/marks.h"
 #include "style/theme.h"
 #include "workbench/language.h"
 
@@ -37,11 +38,6 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack) : QObject(
   guide = add(help_, "guide", QKeySequence::HelpContents);
   about = add(help_, "about", {});
   const QStyle* style = QApplication::style();
-  run->setIcon(style->standardIcon(QStyle::SP_MediaPlay));
-  cancel->setIcon(style->standardIcon(QStyle::SP_MediaStop));
-  undo->setIcon(style->standardIcon(QStyle::SP_ArrowBack));
-  redo->setIcon(style->standardIcon(QStyle::SP_ArrowForward));
-  results->setIcon(style->standardIcon(QStyle::SP_FileDialogDetailedView));
   save->setIcon(style->standardIcon(QStyle::SP_DialogSaveButton));
   open_dataset->setIcon(style->standardIcon(QStyle::SP_DirOpenIcon));
   tool_bar = window.addToolBar(QString());
@@ -52,7 +48,16 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack) : QObject(
   tool_bar->addActions({undo, redo});
   tool_bar->addSeparator();
   tool_bar->addActions({run, cancel, results});
+  repaint_icons(window.palette());
   retranslate();
+}
+
+void MainActions::repaint_icons(const QPalette& palette) {
+  run->setIcon(tool_icon(ToolIcon::kRun, palette));
+  cancel->setIcon(tool_icon(ToolIcon::kStop, palette));
+  undo->setIcon(tool_icon(ToolIcon::kUndo, palette));
+  redo->setIcon(tool_icon(ToolIcon::kRedo, palette));
+  results->setIcon(tool_icon(ToolIcon::kTable, palette));
 }
 
 QAction* MainActions::add(QMenu* menu, const char* name, const QKeySequence& keys) {

@@ -22,6 +22,8 @@ class MainActions : public QObject {
   MainActions(QMainWindow& window, QUndoStack& undo_stack);
   /// Texts in the present language.
   void retranslate();
+  /// Icons in the colours of a palette.
+  void repaint_icons(const QPalette& palette);
   /// Adds what shows and hides docks and tool bars to the View menu.
   void add_view_toggles(const QList<QAction*>& toggles);
   void set_recent(const QStringList& paths);

@@ -65,6 +65,7 @@ MainWindow::~MainWindow() {
   // Nothing may be told to parts that are already gone.
   workspace_->disconnect(this);
   workspace_->undo_stack().disconnect(this);
+  delete scenes_;  // Before the model that it shows; other children go after the members.
 }
 
 void MainWindow::restore_window() {
@@ -382,6 +383,8 @@ void MainWindow::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) {
     actions_->retranslate();
     update_title();
+  } else if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
+    actions_->repaint_icons(palette());
   }
   QMainWindow::changeEvent(event);
 }

@@ -71,7 +71,7 @@ class MainWindow : public QMainWindow {
   SceneLoader loader_;
   SceneModel model_;
   QString scene_;  // The one looked at.
-  MainActions* actions_;
+  MainActions* actions_ = nullptr;
   ScenesDock* scenes_;
   ParametersDock* parameters_;
   LogDock* log_;

@@ -10,6 +10,11 @@
 #include "start/welcome_page.h"
 
 namespace lvcalib::widgets {
+namespace {
+
+constexpr int kLiveIntervalMs = 150;
+
+}  // namespace
 
 PageStack::PageStack(QWidget* parent)
     : QStackedWidget(parent),
@@ -33,6 +38,9 @@ PageStack::PageStack(QWidget* parent)
   connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
+  live_.setSingleShot(true);
+  live_.setInterval(kLiveIntervalMs);
+  connect(&live_, &QTimer::timeout, this, &PageStack::show_latest);
   retranslate();
 }
 
@@ -59,6 +67,7 @@ void PageStack::start(const Target& target) {
 }
 
 void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& result) {
+  latest_.reset();  // A finished run has more to show.
   scene_->setResult(result);
   refinement_->setResult(result);
   extrinsic_->setResult(result);
@@ -66,12 +75,16 @@ void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& resul
 
 void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {
   current_ = scene;
+  latest_.reset();
   scene_->setScene(scene);
   refinement_->setScene(scene);
-  set_crop_box(box);
+  crop_ = box;
+  scene_->setCropBox(box);
 }
 
 void PageStack::set_crop_box(const std::optional<CropBox>& box) {
+  if (box == crop_) return;
+  crop_ = box;
   scene_->setCropBox(box);
 }
 
@@ -85,7 +98,14 @@ void PageStack::show_board_points(int scene, const std::shared_ptr<const Cloud>&
 }
 
 void PageStack::show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial) {
-  refinement_->showIteration(scene, partial);
+  if (scene != current_) return;
+  latest_ = partial;
+  if (!live_.isActive()) live_.start();
+}
+
+void PageStack::show_latest() {
+  if (latest_ && refinement_->isVisible()) refinement_->showIteration(current_, latest_);
+  latest_.reset();
 }
 
 void PageStack::changeEvent(QEvent* event) {

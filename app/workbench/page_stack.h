@@ -3,6 +3,7 @@
 
 #include <QImage>
 #include <QStackedWidget>
+#include <QTimer>
 #include <memory>
 #include <optional>
 
@@ -34,10 +35,12 @@ class PageStack : public QStackedWidget {
   void start(const Target& target);
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
   void set_scene(int scene, const std::optional<CropBox>& box);
+  /// The box in force; a box that is being edited stays unless this one is another than before.
   void set_crop_box(const std::optional<CropBox>& box);
   /// Of the scene last set.
   void set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image);
   void show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points);
+  /// Shown a few times a second, and only while the page is seen.
   void show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial);
 
  Q_SIGNALS:
@@ -50,8 +53,12 @@ class PageStack : public QStackedWidget {
 
  private:
   void retranslate();
+  void show_latest();
 
   int current_ = -1;
+  std::optional<CropBox> crop_;
+  std::shared_ptr<const BoardRefinement> latest_;  // Of the current scene, not shown yet.
+  QTimer live_;
   WelcomePage* welcome_;
   QTabWidget* tabs_;
   ScenePage* scene_;

@@ -22,14 +22,11 @@
 namespace lvcalib::widgets {
 namespace {
 
-QString words(const char* text) {
-  return ResultsDialog::tr(text);
-}
-
 QString row(const QString& title, const QStringList& values, const QString& unit) {
   QString out = QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td>").arg(title);
   for (const QString& value : values)
     out += QStringLiteral("<td align='right'>&nbsp;%1</td>").arg(value);
+  for (qsizetype i = values.size(); i < 4; ++i) out += QStringLiteral("<td></td>");
   return out + QStringLiteral("<td>&nbsp;%1</td></tr>").arg(unit);
 }
 
@@ -45,17 +42,18 @@ QString pose_table(const UncertainRigid3& pose) {
   const RollPitchYaw angles = roll_pitch_yaw(pose);
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   QString out = QStringLiteral("<table cellpadding='2'>");
-  out += row(words("Translation x y z"), numbers(1e3 * pose.transform.translation, 3),
+  out += row(ResultsDialog::tr("Translation x y z"), numbers(1e3 * pose.transform.translation, 3),
              QStringLiteral("mm"));
-  out += row(words("± one standard deviation"), numbers(1e3 * sigma.head<3>(), 3),
+  out += row(ResultsDialog::tr("± one standard deviation"), numbers(1e3 * sigma.head<3>(), 3),
              QStringLiteral("mm"));
-  out += row(words("Quaternion x y z w"), numbers(pose.transform.rotation.coeffs(), 7), QString());
-  out +=
-      row(words("Roll, pitch, yaw"), numbers(kDegrees * angles.angles_rad, 4), QStringLiteral("°"));
-  out += row(words("± one standard deviation"), numbers(kDegrees * angles.sigmas_rad, 4),
+  out += row(ResultsDialog::tr("Quaternion x y z w"), numbers(pose.transform.rotation.coeffs(), 7),
+             QString());
+  out += row(ResultsDialog::tr("Roll, pitch, yaw"), numbers(kDegrees * angles.angles_rad, 4),
              QStringLiteral("°"));
-  out += row(words("Rotation about camera x y z, ± σ"), numbers(1e3 * sigma.tail<3>(), 3),
-             QStringLiteral("mrad"));
+  out += row(ResultsDialog::tr("± one standard deviation"),
+             numbers(kDegrees * angles.sigmas_rad, 4), QStringLiteral("°"));
+  out += row(ResultsDialog::tr("Rotation about camera x y z, ± σ"),
+             numbers(1e3 * sigma.tail<3>(), 3), QStringLiteral("mrad"));
   return out + QStringLiteral("</table>");
 }
 
@@ -71,16 +69,16 @@ QString quality_line(const CalibrationResult& result) {
   const auto [color, text] = [&]() -> std::pair<QColor, QString> {
     switch (result.quality) {
       case Quality::kGood:
-        return {colors.good, words("good")};
+        return {colors.good, ResultsDialog::tr("good")};
       case Quality::kDoubtful:
-        return {colors.doubtful, words("doubtful")};
+        return {colors.doubtful, ResultsDialog::tr("doubtful")};
       case Quality::kFailed:
         break;
     }
-    return {colors.bad, words("failed")};
+    return {colors.bad, ResultsDialog::tr("failed")};
   }();
   QString line = QStringLiteral("<h2 style='color:%1'>%2</h2>")
-                     .arg(color.name(), words("Quality: %1").arg(text));
+                     .arg(color.name(), ResultsDialog::tr("Quality: %1").arg(text));
   if (!result.quality_reason.empty()) {
     line += QStringLiteral("<p>%1</p>")
                 .arg(QString::fromStdString(result.quality_reason).toHtmlEscaped());
@@ -104,19 +102,20 @@ QString results_html(const CalibrationResult& result) {
   const ExtrinsicSolution& x = result.extrinsic;
   QString out = quality_line(result);
   out += QStringLiteral("<p>%1</p>")
-             .arg(words("T_camera_lidar from %1 of %2 scenes; %3 px at the tag corners, %4 mm at "
-                        "the LiDAR nodes (root mean square).")
+             .arg(ResultsDialog::tr(
+                      "T_camera_lidar from %1 of %2 scenes; %3 px at the tag corners, %4 mm at "
+                      "the LiDAR nodes (root mean square).")
                       .arg(x.used_scenes)
                       .arg(result.scenes.size())
                       .arg(x.rms_px, 0, 'f', 3)
                       .arg(x.rms_mm, 0, 'f', 3));
   out += pose_table(x.camera_from_lidar);
   if (!x.weak_directions.empty()) {
-    out += QStringLiteral("<h3>%1</h3>").arg(words("Weakly determined"));
+    out += QStringLiteral("<h3>%1</h3>").arg(ResultsDialog::tr("Weakly determined"));
     out += list(x.weak_directions);
   }
-  out += QStringLiteral("<h3>%1</h3>").arg(words("Warnings"));
-  out += result.warnings.empty() ? QStringLiteral("<p>%1</p>").arg(words("None."))
+  out += QStringLiteral("<h3>%1</h3>").arg(ResultsDialog::tr("Warnings"));
+  out += result.warnings.empty() ? QStringLiteral("<p>%1</p>").arg(ResultsDialog::tr("None."))
                                  : list(result.warnings);
   return out;
 }

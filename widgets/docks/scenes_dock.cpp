@@ -51,6 +51,8 @@ void ScenesDock::make_view(SceneModel& model) {
   header->setStretchLastSection(true);
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
   header->setSectionResizeMode(SceneModel::kState, QHeaderView::Interactive);
+  header->setMinimumSectionSize(28);
+  header->resizeSection(SceneModel::kState, 60);
   connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
           &ScenesDock::update_actions);
   connect(&model, &QAbstractItemModel::modelReset, this, &ScenesDock::update_actions);

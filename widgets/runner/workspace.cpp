@@ -77,7 +77,11 @@ Workspace::Workspace(const QString& data_folder, QObject* parent)
                          dataset_.path.string(), "what was open is still there; try again"),
         false);
   });
-  connect(&undo_, &QUndoStack::cleanChanged, this, [this](bool clean) { set_dirty(!clean); });
+  // After the stack has moved: while a command runs, it still has its old index.
+  connect(&undo_, &QUndoStack::indexChanged, this, [this] {
+    set_dirty(!undo_.isClean() || unsaved_recovery_);
+    keep_or_clear_autosave();
+  });
   connect(&autosave_, &Autosave::written, this, [this] {
     if (taken_up_ && taken_up_->file != autosave_.file()) Autosave::discard(*taken_up_);
     taken_up_.reset();
@@ -240,8 +244,13 @@ Status Workspace::save(const QString& path) {
 
 void Workspace::set_use(const QStringList& scenes, bool use) {
   Decisions after = decisions_;
-  for (const QString& scene : scenes) after.scenes[scene.toStdString()].use = use;
-  if (after.scenes == decisions_.scenes) return;
+  bool any = false;
+  for (const QString& scene : scenes) {
+    if (decision_of(decisions_, scene.toStdString()).use == use) continue;
+    after.scenes[scene.toStdString()].use = use;
+    any = true;
+  }
+  if (!any) return;
   decide(use ? tr("accept %1").arg(scenes.join(QStringLiteral(", ")))
              : tr("reject %1").arg(scenes.join(QStringLiteral(", "))),
          std::move(after));
@@ -254,9 +263,9 @@ void Workspace::set_crop(const QString& scene, const std::optional<CropBox>& box
       return;
     }
   }
+  if (decision_of(decisions_, scene.toStdString()).crop == box) return;
   Decisions after = decisions_;
   after.scenes[scene.toStdString()].crop = box;
-  if (after.scenes == decisions_.scenes) return;
   decide(box ? tr("crop %1").arg(scene) : tr("uncrop %1").arg(scene), std::move(after),
          box ? QStringLiteral("crop ") + scene : QString());
 }
@@ -310,8 +319,6 @@ void Workspace::apply(const Decisions& decisions) {
     Q_EMIT opened();
   }
   up_to_date_ = false;
-  set_dirty(!undo_.isClean() || unsaved_recovery_);
-  keep_or_clear_autosave();
   Q_EMIT decisions_changed();
   if (state_.latest) schedule(options_changed ? kSettleMs : 0);
 }

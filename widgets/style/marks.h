@@ -16,6 +16,12 @@ enum class Mark {
   kMissing,   ///< Question mark.
 };
 
+/// Signs of tools.
+enum class ToolIcon { kRun, kStop, kUndo, kRedo, kTable };
+
+/// A tool's sign in the text colour of a palette, greyed when disabled.
+QIcon tool_icon(ToolIcon tool, const QPalette& palette);
+
 /// A mark in the colours of a palette.
 QIcon mark_icon(Mark mark, const QPalette& palette);
 

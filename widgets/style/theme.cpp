@@ -7,9 +7,9 @@
 namespace lvcalib::widgets {
 namespace {
 
-QPalette palette_of(const QColor& window, const QColor& base, const QColor& text,
-                    const QColor& accent, const QColor& disabled) {
-  QPalette p(window);
+QPalette palette_of(const QColor& window, const QColor& button, const QColor& base,
+                    const QColor& text, const QColor& accent, const QColor& disabled) {
+  QPalette p(button, window);  // Edges follow the button colour.
   p.setColor(QPalette::Window, window);
   p.setColor(QPalette::Base, base);
   p.setColor(QPalette::AlternateBase, window);
@@ -21,6 +21,7 @@ QPalette palette_of(const QColor& window, const QColor& base, const QColor& text
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
     p.setColor(QPalette::Disabled, role, disabled);
   }
+  p.setColor(QPalette::Disabled, QPalette::Button, window);
   p.setColor(QPalette::PlaceholderText, disabled);
   p.setColor(QPalette::Highlight, accent);
   p.setColor(QPalette::HighlightedText, Qt::white);
@@ -30,13 +31,13 @@ QPalette palette_of(const QColor& window, const QColor& base, const QColor& text
 }
 
 QPalette light_palette() {
-  return palette_of(QColor(0xf4, 0xf5, 0xf6), Qt::white, QColor(0x1c, 0x1f, 0x23),
-                    QColor(0x1f, 0x6f, 0xb5), QColor(0x7d, 0x84, 0x8c));
+  return palette_of(QColor(0xf4, 0xf5, 0xf6), QColor(0xec, 0xee, 0xf0), Qt::white,
+                    QColor(0x1c, 0x1f, 0x23), QColor(0x1f, 0x6f, 0xb5), QColor(0x7d, 0x84, 0x8c));
 }
 
 QPalette dark_palette() {
-  return palette_of(QColor(0x2a, 0x2d, 0x31), QColor(0x1e, 0x20, 0x23), QColor(0xe6, 0xe8, 0xea),
-                    QColor(0x3d, 0x8f, 0xd6), QColor(0x85, 0x8b, 0x92));
+  return palette_of(QColor(0x33, 0x36, 0x3b), QColor(0x50, 0x55, 0x5c), QColor(0x1e, 0x20, 0x23),
+                    QColor(0xe6, 0xe8, 0xea), QColor(0x3d, 0x8f, 0xd6), QColor(0x8f, 0x95, 0x9c));
 }
 
 }  // namespace

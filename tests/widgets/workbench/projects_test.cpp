@@ -214,6 +214,7 @@ TEST(Victim, DISABLED_WaitsToBeKilled) {
   window.open(arguments.last());
   ASSERT_TRUE(wait_until([&] { return window.workspace().is_open(); }));
   test::click_scene(window, "B", true);
+  ASSERT_TRUE(window.workspace().dirty());
   const QString file =
       settings.data_folder() + QStringLiteral("/autosave-%1.lvcalib").arg(::getpid());
   ASSERT_TRUE(wait_until([&] { return QFile::exists(file); }, 10'000));
