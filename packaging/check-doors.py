@@ -3,7 +3,8 @@
 """Checks the architecture's doors and the licence lines.
 
 Reads the #include lines of core/, widgets/ and app/ and fails if
-- a room of core/ includes a room it has no door to,
+- a room of core/ or a folder of widgets/ includes one it has no door to,
+- widgets/ includes app/, or a header of widgets/ includes VTK,
 - anything in core/ includes widgets/, app/, Qt or VTK,
 - a header in core/ includes a library that must stay in source files,
 - a source file's first lines lack the SPDX line of its folder.
@@ -34,6 +35,18 @@ DOORS = {
 }
 DOORS["pipeline"] = sorted(DOORS)
 DOORS["report"] = sorted(DOORS)
+
+# Which folders of widgets/ a folder may include, besides itself.
+WIDGET_DOORS = {
+    "style": [],
+    "runner": [],
+    "models": ["style", "runner"],
+    "views": ["style"],
+    "pages": ["style", "views"],
+    "dialogs": ["style"],
+    "docks": ["style", "models"],
+    "start": ["style"],
+}
 
 # Headers of cloud/ that the simulator may use: it writes clouds and shares no estimation code.
 SIMULATION_CLOUD_HEADERS = {"cloud/cloud.h"}
@@ -72,6 +85,32 @@ def check_core_include(room, path, header):
     return None
 
 
+def check_widgets_include(folder, path, header):
+    """The complaint about one include in widgets/, or nothing."""
+    other = header.split("/")[0]
+    if other in {"app", "workbench", "cli"}:
+        return f"widgets may not include app/: {header}"
+    if path.suffix == ".h" and re.match(r"^vtk\w*\.h$", header):
+        return f"{header} must stay in source files, out of headers"
+    if other in WIDGET_DOORS and "/" in header and other not in [folder, *WIDGET_DOORS[folder]]:
+        return f"there is no door from {folder} to {other}: {header}"
+    return None
+
+
+def check_widgets(root):
+    for path in sorted((root / "widgets").rglob("*")):
+        if path.suffix not in {".h", ".hpp", ".cpp", ".cc"}:
+            continue
+        parts = path.relative_to(root / "widgets").parts
+        if len(parts) < 2 or parts[0] not in WIDGET_DOORS:
+            yield f"{path.relative_to(root)}: not in a folder of widgets/"
+            continue
+        for line, header in includes(path):
+            complaint = check_widgets_include(parts[0], path, header)
+            if complaint:
+                yield f"{path.relative_to(root)}:{line}: {complaint}"
+
+
 def check_doors(root):
     for path in sorted((root / "core").rglob("*")):
         if path.suffix not in {".h", ".hpp", ".cpp", ".cc"}:
@@ -85,12 +124,6 @@ def check_doors(root):
             complaint = check_core_include(room, path, header)
             if complaint:
                 yield f"{path.relative_to(root)}:{line}: {complaint}"
-    for path in sorted((root / "widgets").rglob("*")):
-        if path.suffix not in {".h", ".hpp", ".cpp", ".cc"}:
-            continue
-        for line, header in includes(path):
-            if header.split("/")[0] in {"app", "workbench", "cli"}:
-                yield f"{path.relative_to(root)}:{line}: widgets may not include app/: {header}"
 
 
 def check_licences(root):
@@ -111,7 +144,7 @@ def main():
     if not (root / "core").is_dir():
         print(f"{root}: no folder core/", file=sys.stderr)
         return 2
-    complaints = [*check_doors(root), *check_licences(root)]
+    complaints = [*check_doors(root), *check_widgets(root), *check_licences(root)]
     for complaint in complaints:
         print(complaint)
     print(f"doors and licences: {len(complaints)} complaints")

@@ -31,6 +31,30 @@ double mad_sigma(std::vector<double> values) {
   return 1.4826 * median(std::move(values));
 }
 
+BoxSummary box_summary(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  BoxSummary box;
+  box.count = values.size();
+  if (values.empty()) return box;
+  std::sort(values.begin(), values.end());
+  box.lower_quartile = quantile(values, 0.25);
+  box.median = quantile(values, 0.5);
+  box.upper_quartile = quantile(values, 0.75);
+  const double reach = 1.5 * (box.upper_quartile - box.lower_quartile);
+  // Whiskers end at values, and never inside the box.
+  box.lower_whisker = box.lower_quartile;
+  box.upper_whisker = box.upper_quartile;
+  for (const double v : values) {
+    if (v < box.lower_quartile - reach || v > box.upper_quartile + reach) {
+      box.outliers.push_back(v);
+    } else {
+      box.lower_whisker = std::min(box.lower_whisker, v);
+      box.upper_whisker = std::max(box.upper_whisker, v);
+    }
+  }
+  return box;
+}
+
 double rms(std::span<const double> values) {
   if (values.empty()) return 0.0;
   double sum = 0.0;

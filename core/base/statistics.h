@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,19 @@ double median(std::vector<double> values);
 /// 1.4826 · median |x − median(x)|: the standard deviation of Gaussian data, robust to 50 %
 /// outliers. NaN for no values.
 double mad_sigma(std::vector<double> values);
+
+/// What a box plot shows (Tukey 1977): quartiles, whiskers to the last values within 1.5
+/// interquartile ranges of the box, and the values beyond.
+struct BoxSummary {
+  double lower_whisker = 0.0;
+  double lower_quartile = 0.0;
+  double median = 0.0;
+  double upper_quartile = 0.0;
+  double upper_whisker = 0.0;
+  std::vector<double> outliers;  ///< Sorted.
+  std::size_t count = 0;         ///< 0: nothing to draw, all else 0. NaN are left out.
+};
+BoxSummary box_summary(std::vector<double> values);
 
 /// Root mean square; 0 for no values.
 double rms(std::span<const double> values);

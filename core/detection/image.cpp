@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <opencv2/core.hpp>
@@ -7,6 +8,7 @@
 
 #include "base/file_io.h"
 #include "detection/board_view.h"
+#include "detection/color_image.h"
 #include "detection/image_header.h"
 
 namespace lvcalib {
@@ -48,9 +50,25 @@ Result<GrayImage> to_gray(const cv::Mat& mat, const std::string& where) {
   return image;
 }
 
-}  // namespace
+// Red, green, blue in whole grey levels of 0…255.
+template <class Sample>
+void copy_color(const cv::Mat& mat, int divisor, std::vector<std::uint8_t>& rgb) {
+  const int channels = mat.channels();
+  std::uint8_t* out = rgb.data();
+  const auto level = [&](Sample value) {
+    return static_cast<std::uint8_t>((value + divisor / 2) / divisor);
+  };
+  for (int y = 0; y < mat.rows; ++y) {
+    const Sample* in = mat.ptr<Sample>(y);
+    for (int x = 0; x < mat.cols; ++x, in += channels, out += 3) {
+      out[0] = level(in[channels < 3 ? 0 : 2]);
+      out[1] = level(in[channels < 3 ? 0 : 1]);
+      out[2] = level(in[0]);
+    }
+  }
+}
 
-Result<GrayImage> read_image(const std::filesystem::path& path) {
+Result<cv::Mat> decode(const std::filesystem::path& path) {
   const std::string where = path.string();
   const auto bytes = read_text_file(path, kMaxFileBytes);
   if (!bytes) return bytes.error();
@@ -67,20 +85,42 @@ Result<GrayImage> read_image(const std::filesystem::path& path) {
                             std::to_string(kMaxPixels) + " in all",
                         where);
   }
+  const Error damaged = Error::input("the image cannot be decoded: its data are damaged", where,
+                                     "copy or save the image again");
   try {
     const cv::Mat raw(1, static_cast<int>(bytes->size()), CV_8U,
                       const_cast<char*>(bytes->data()));  // imdecode only reads
-    const cv::Mat mat = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
-    if (mat.empty()) {
-      return Error::input("the image cannot be decoded: its data are damaged", where,
-                          "copy or save the image again");
-    }
-    return to_gray(mat, where);
+    cv::Mat mat = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
+    if (mat.empty()) return damaged;
+    return mat;
   } catch (const std::exception&) {
     // The decoder's own text names source lines of OpenCV, which help nobody here.
-    return Error::input("the image cannot be decoded: its data are damaged", where,
-                        "copy or save the image again");
+    return damaged;
   }
+}
+
+}  // namespace
+
+Result<GrayImage> read_image(const std::filesystem::path& path) {
+  const auto mat = decode(path);
+  if (!mat) return mat.error();
+  return to_gray(*mat, path.string());
+}
+
+Result<ColorImage> read_color_image(const std::filesystem::path& path) {
+  const auto mat = decode(path);
+  if (!mat) return mat.error();
+  ColorImage image{mat->cols, mat->rows, {}};
+  image.rgb.resize(3 * mat->total());
+  if (mat->depth() == CV_8U) {
+    copy_color<unsigned char>(*mat, 1, image.rgb);
+  } else if (mat->depth() == CV_16U) {
+    copy_color<unsigned short>(*mat, 257, image.rgb);
+  } else {
+    return Error::input("the image has neither 8 nor 16 bits per channel", path.string(),
+                        "save it as 8 or 16 bit png");
+  }
+  return image;
 }
 
 }  // namespace lvcalib

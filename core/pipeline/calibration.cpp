@@ -35,13 +35,20 @@ std::vector<SceneHypotheses> hypotheses(const CalibrationResult& result) {
 
 class Calibration {
  public:
-  Calibration(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context)
-      : dataset_(dataset), request_(request), context_(context) {}
+  Calibration(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context,
+              StageCache* cache, const CalibrationObserver& observer)
+      : dataset_(dataset),
+        request_(request),
+        context_(context),
+        cache_(cache),
+        observer_(observer) {
+    if (cache_ != nullptr) cache_->prepare(dataset);
+  }
 
   Result<CalibrationResult> run() {
     const auto start = Clock::now();
     if (Status s = prepare(); !s) return s.error();
-    if (Status s = load_scenes(dataset_, request_, context_, result_); !s) return s.error();
+    if (Status s = load_scenes(dataset_, request_, context_, result_, cache_); !s) return s.error();
     if (Status s = some_view(); !s) return s.error();
     if (Status s = agree(); !s) return s.error();
     if (Status s = refine(); !s) return s.error();
@@ -57,12 +64,13 @@ class Calibration {
     result_.target = dataset_.target;
     result_.camera = dataset_.camera;
     result_.warnings = dataset_.warnings;
+    looked_twice_.assign(dataset_.scenes.size(), 0);
     for (const SceneFiles& files : dataset_.scenes) {
       SceneResult scene;
       scene.name = files.name;
       if (std::find(request_.rejected.begin(), request_.rejected.end(), files.name) !=
           request_.rejected.end()) {
-        scene.reason = "rejected by the user";
+        scene.reason = kRejectedByUser;
       }
       result_.scenes.push_back(std::move(scene));
     }
@@ -81,7 +89,7 @@ class Calibration {
       if (scene.view) return Done{};
     }
     for (const SceneResult& scene : result_.scenes) {
-      if (!scene.reason.empty() && scene.reason != "rejected by the user") {
+      if (!scene.reason.empty() && scene.reason != kRejectedByUser) {
         return Error::input("the board is not found in any image; scene " + scene.name + ": " +
                             scene.reason);
       }
@@ -130,7 +138,8 @@ class Calibration {
     const Eigen::Vector2d c = outline.center_m();
     for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
       SceneResult& scene = result_.scenes[s];
-      if (!scene.view || (camera_from_lidar && result_.consensus.chosen[s])) continue;
+      if (!scene.view || !scene.reason.empty()) continue;
+      if (camera_from_lidar && result_.consensus.chosen[s]) continue;
       BoardSearchRegion region;
       if (camera_from_lidar) {
         region.center_m = camera_from_lidar->inverse() * (scene.view->camera_from_board.transform *
@@ -138,9 +147,10 @@ class Calibration {
         region.radius_m = 0.75 * outline.size_m().norm();
       }
       if (Status status = search_scene_again(dataset_.scenes[s], request_, region, context_,
-                                             pyramid, result_, s);
+                                             pyramid, result_, s, cache_);
           !status)
         return status;
+      looked_twice_[s] = 1;
     }
     return Done{};
   }
@@ -192,12 +202,7 @@ class Calibration {
       SceneResult& scene = result_.scenes[s];
       if (!scene.chosen || context_.stopped()) return;
       const auto start = Clock::now();
-      const BoardCandidate& candidate = scene.search->candidates[*scene.chosen];
-      scene.board_points = std::move(scene.search->patch_points[candidate.patch]);
-      scene.search->patch_points.clear();
-      auto refinement =
-          refine_board(scene.board_points, result_.target, candidate.lidar_from_board.transform,
-                       request_.options.refinement, context_);
+      auto refinement = refine_scene(s);
       const double elapsed = ms_since(start);
       const std::lock_guard lock(mutex);
       result_.times.refine_ms += elapsed;
@@ -220,8 +225,31 @@ class Calibration {
     return any ? Status(Done{}) : not_found();
   }
 
+  Result<BoardRefinement> refine_scene(std::size_t s) {
+    SceneResult& scene = result_.scenes[s];
+    const BoardCandidate& candidate = scene.search->candidates[*scene.chosen];
+    scene.board_points = std::move(scene.search->patch_points[candidate.patch]);
+    scene.search->patch_points.clear();
+    std::string key;
+    if (cache_ != nullptr) {
+      const SceneStages& stages = cache_->scene(scene.name);
+      const std::string& search = looked_twice_[s] ? stages.second_look.key : stages.search.key;
+      key = refinement_key(search, *scene.chosen, request_.options);
+      if (const auto* kept = stages.refinement.find(key)) return *kept;
+    }
+    if (observer_.board_points) observer_.board_points(s, scene.board_points);
+    RefinementObserver each;
+    if (observer_.iteration) each = [&](const auto& so_far) { observer_.iteration(s, so_far); };
+    auto refinement =
+        refine_board(scene.board_points, result_.target, candidate.lidar_from_board.transform,
+                     request_.options.refinement, context_, each);
+    if (refinement && cache_ != nullptr)
+      cache_->scene(scene.name).refinement.keep(key, *refinement);
+    return refinement;
+  }
+
   void judge_refinement(SceneResult& scene) const {
-    if (result_.target.has_circles() && scene.refinement->valid_nodes() < 3) {
+    if (!can_be_used(scene, result_.target)) {
       std::string detail;
       for (const RefinedNode& node : scene.refinement->nodes) {
         if (!node.valid && detail.empty())
@@ -249,7 +277,10 @@ class Calibration {
   const Dataset& dataset_;
   const CalibrationRequest& request_;
   const RunContext& context_;
+  StageCache* cache_;
+  CalibrationObserver observer_;
   CalibrationResult result_;
+  std::vector<char> looked_twice_;  ///< Per scene; not bool, scenes run in parallel.
   bool looked_for_sizes_ = false;
 };
 
@@ -269,7 +300,18 @@ std::string name_of(Quality quality) {
 
 Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
                                     const RunContext& context) {
-  return Calibration(dataset, request, context).run();
+  return Calibration(dataset, request, context, nullptr, CalibrationObserver()).run();
+}
+
+Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
+                                    const RunContext& context, StageCache& cache,
+                                    const CalibrationObserver& observer) {
+  return Calibration(dataset, request, context, &cache, observer).run();
+}
+
+bool can_be_used(const SceneResult& scene, const Target& target) {
+  return scene.view && scene.refinement &&
+         (!target.has_circles() || scene.refinement->valid_nodes() >= 3);
 }
 
 Result<CalibrationResult> resolve_calibration(CalibrationResult result,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,8 +10,10 @@
 
 #include "base/progress.h"
 #include "discovery/discovery.h"
+#include "pipeline/crop_box.h"
 #include "pipeline/dataset.h"
 #include "pipeline/options.h"
+#include "pipeline/stage_cache.h"
 
 namespace lvcalib {
 
@@ -62,6 +66,8 @@ struct CalibrationRequest {
   std::optional<Rigid3> guess;  ///< Rough T_camera_lidar; narrows the search.
   bool use_crops = false;       ///< Take scenes/NAME/board.pcd instead of cloud.pcd where present.
   std::vector<std::string> rejected;  ///< Scenes to leave out.
+  /// By scene: only the cloud's points inside the box are looked at.
+  std::map<std::string, CropBox> crop_boxes;
 };
 
 /// The whole calibration: load, detect, localize, refine, optimise.
@@ -69,6 +75,28 @@ struct CalibrationRequest {
 /// the scenes do not determine an extrinsic, kCancelled.
 Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
                                     const RunContext& context);
+
+/// Sees a calibration while it runs. Called from worker threads, for different scenes perhaps at
+/// the same time; the references hold during the call only.
+struct CalibrationObserver {
+  /// Before a scene's refinement: the points it will work on.
+  std::function<void(std::size_t scene, const Cloud& board_points)> board_points;
+  /// After each iteration of a scene's refinement.
+  std::function<void(std::size_t scene, const BoardRefinement& so_far)> iteration;
+};
+
+/// The same, taking from `cache` what was made from the same things before and keeping there what
+/// is new, also when it is cancelled or fails.
+Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
+                                    const RunContext& context, StageCache& cache,
+                                    const CalibrationObserver& observer = {});
+
+/// True if a scene's features can take part in a solve: a view, a refinement and, on boards with
+/// circles, three usable ones.
+bool can_be_used(const SceneResult& scene, const Target& target);
+
+/// Why a scene is left out that the user does not want.
+inline constexpr const char* kRejectedByUser = "rejected by the user";
 
 /// Solves again from kept features with other scenes in use (`use` per scene). Milliseconds.
 Result<CalibrationResult> resolve_calibration(CalibrationResult result,

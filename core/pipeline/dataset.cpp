@@ -20,23 +20,6 @@ fs::path first_existing(const fs::path& folder, const std::vector<std::string>& 
   return {};
 }
 
-Result<SceneFiles> open_scene(const fs::path& folder) {
-  SceneFiles scene;
-  scene.name = folder.filename().string();
-  scene.image = first_existing(
-      folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
-  if (scene.image.empty()) {
-    return Error::input("no image in this scene; expected image.png, .jpg, .bmp or .tiff",
-                        folder.string());
-  }
-  scene.cloud = first_existing(folder, {"cloud.pcd", "cloud.ply"});
-  if (scene.cloud.empty()) {
-    return Error::input("no cloud in this scene; expected cloud.pcd or cloud.ply", folder.string());
-  }
-  scene.crop = first_existing(folder, {"board.pcd", "board.ply"});
-  return scene;
-}
-
 Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
   std::error_code code;
   if (!fs::is_directory(folder, code)) {
@@ -65,6 +48,23 @@ Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
 }
 
 }  // namespace
+
+Result<SceneFiles> open_scene(const fs::path& folder) {
+  SceneFiles scene;
+  scene.name = folder.filename().string();
+  scene.image = first_existing(
+      folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
+  if (scene.image.empty()) {
+    return Error::input("no image in this scene; expected image.png, .jpg, .bmp or .tiff",
+                        folder.string());
+  }
+  scene.cloud = first_existing(folder, {"cloud.pcd", "cloud.ply"});
+  if (scene.cloud.empty()) {
+    return Error::input("no cloud in this scene; expected cloud.pcd or cloud.ply", folder.string());
+  }
+  scene.crop = first_existing(folder, {"board.pcd", "board.ply"});
+  return scene;
+}
 
 Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
   auto file = YamlFile::load(path);

@@ -31,6 +31,10 @@ struct Dataset {
   std::vector<std::string> warnings;
 };
 
+/// One scene folder: its image and its cloud (and board.pcd), which are not opened.
+/// Errors say which is missing.
+Result<SceneFiles> open_scene(const std::filesystem::path& folder);
+
 /// Reads the descriptions and lists the scenes; images and clouds are not opened.
 /// Errors name what is missing and what was expected.
 Result<Dataset> open_dataset(const std::filesystem::path& path);

@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/parallel.h"
+#include "pipeline/scene_loading.h"
 
 namespace lvcalib {
 namespace {
@@ -169,7 +170,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                                result.consensus.margin()));
   }
   for (const SceneResult& scene : result.scenes) {
-    if (!scene.used && !scene.reason.empty() && scene.reason != "rejected by the user") {
+    if (!scene.used && !scene.reason.empty() && scene.reason != kRejectedByUser) {
       verdict.note("scene " + scene.name + " is not used: " + scene.reason);
     }
     if (!scene.refinement || !scene.used) continue;
@@ -214,8 +215,7 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
   for (std::size_t k = 0; k < result.scenes.size() && !context.stopped(); ++k) {
     if (!result.scenes[k].view) continue;
     const SceneFiles& files = dataset.scenes[k];
-    const auto cloud = read_cloud(
-        request.use_crops && !files.crop.empty() ? files.crop : files.cloud, context.stop);
+    const auto cloud = read_scene_cloud(files, request, context.stop);
     if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;
     const auto look = [&](double size) {
       return best_at_size(*cloud, result, *result.scenes[k].view, size,

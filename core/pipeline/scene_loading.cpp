@@ -27,11 +27,12 @@ double board_distance(const BoardView& view, const Target& target) {
 class SceneLoader {
  public:
   SceneLoader(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context,
-              CalibrationResult& result)
+              CalibrationResult& result, StageCache* cache)
       : dataset_(dataset),
         request_(request),
         context_(context),
         result_(result),
+        cache_(cache),
         pyramid_(dataset.target) {}
 
   Status run() {
@@ -66,6 +67,13 @@ class SceneLoader {
 
   void look_at_image(std::size_t s) {
     const SceneFiles& files = dataset_.scenes[s];
+    const std::string key = cache_ ? detection_key(dataset_, files, request_.options) : "";
+    if (const SeenBoard* seen = cache_ ? cache_->scene(files.name).seen.find(key) : nullptr) {
+      const std::lock_guard lock(mutex_);
+      result_.scenes[s].view = seen->view;
+      result_.scenes[s].reason = seen->reason;
+      return;
+    }
     auto start = Clock::now();
     auto image = read_image(files.image);
     const double load = ms_since(start);
@@ -82,6 +90,7 @@ class SceneLoader {
     result_.times.load_ms += load;
     result_.times.detect_ms += detect;
     if (view) {
+      if (cache_) cache_->scene(files.name).seen.keep(key, {*view, {}});
       result_.scenes[s].view = std::move(*view);
       return;
     }
@@ -90,7 +99,11 @@ class SceneLoader {
     if (error.where.empty()) error.where = files.image.string();
     result_.scenes[s].reason = error.text();
     // A size that contradicts the intrinsics spoils every scene alike.
-    if (size_differs(*image)) failure_ = error;
+    if (size_differs(*image)) {
+      failure_ = error;
+    } else if (cache_) {
+      cache_->scene(files.name).seen.keep(key, {{}, error.text()});
+    }
   }
 
   [[nodiscard]] bool size_differs(const GrayImage& image) const {
@@ -100,14 +113,25 @@ class SceneLoader {
 
   void look_at_cloud(std::size_t s) {
     const SceneFiles& files = dataset_.scenes[s];
-    const auto& path = request_.use_crops && !files.crop.empty() ? files.crop : files.cloud;
+    const std::string key = cache_ ? search_key(dataset_, files, request_) : "";
+    if (const BoardSearchResult* kept =
+            cache_ ? cache_->scene(files.name).search.find(key) : nullptr) {
+      const std::lock_guard lock(mutex_);
+      result_.scenes[s].search = *kept;
+      return;
+    }
     auto start = Clock::now();
-    auto cloud = read_cloud(path, context_.stop);
+    auto cloud = read_scene_cloud(files, request_, context_.stop);
     const double load = ms_since(start);
     if (!cloud) return fail(cloud.error());
+    if (cloud->size() == 0 && request_.crop_boxes.contains(files.name)) {
+      const std::lock_guard lock(mutex_);
+      result_.scenes[s].reason = "the crop box holds no points";
+      return;
+    }
     if (dataset_.target.has_circles() && !cloud->has_intensity()) {
       return fail(Error::input("the cloud has no intensity, which the board's circles need",
-                               path.string(), "record it with intensity or reflectivity"));
+                               files.cloud.string(), "record it with intensity or reflectivity"));
     }
     start = Clock::now();
     RunContext quiet = context_;
@@ -117,10 +141,12 @@ class SceneLoader {
     auto search = search_board(*cloud, dataset_.target, pyramid_,
                                board_distance(*result_.scenes[s].view, dataset_.target), region,
                                request_.options.localization, quiet);
+    if (context_.stopped()) return;  // Half a search is not to be kept.
     const double localize = ms_since(start);
     const std::lock_guard lock(mutex_);
     result_.times.load_ms += load;
     result_.times.localize_ms += localize;
+    if (cache_) cache_->scene(files.name).search.keep(key, search);
     result_.scenes[s].search = std::move(search);
   }
 
@@ -153,6 +179,7 @@ class SceneLoader {
   const CalibrationRequest& request_;
   const RunContext& context_;
   CalibrationResult& result_;
+  StageCache* cache_;
   PatternPyramid pyramid_;
   std::mutex mutex_;
   std::optional<Error> failure_;
@@ -161,25 +188,45 @@ class SceneLoader {
 
 }  // namespace
 
+Result<Cloud> read_scene_cloud(const SceneFiles& files, const CalibrationRequest& request,
+                               std::stop_token stop) {
+  const auto& path = request.use_crops && !files.crop.empty() ? files.crop : files.cloud;
+  auto cloud = read_cloud(path, std::move(stop));
+  if (!cloud) return cloud.error();
+  const auto box = request.crop_boxes.find(files.name);
+  if (box == request.crop_boxes.end()) return cloud;
+  if (Status s = check(box->second); !s) return s.error();
+  return crop(*cloud, box->second);
+}
+
 Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
-                   const RunContext& context, CalibrationResult& result) {
-  return SceneLoader(dataset, request, context, result).run();
+                   const RunContext& context, CalibrationResult& result, StageCache* cache) {
+  return SceneLoader(dataset, request, context, result, cache).run();
 }
 
 Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,
                           const BoardSearchRegion& region, const RunContext& context,
                           const PatternPyramid& pyramid, CalibrationResult& result,
-                          std::size_t index) {
-  const auto& path = request.use_crops && !files.crop.empty() ? files.crop : files.cloud;
-  auto cloud = read_cloud(path, context.stop);
+                          std::size_t index, StageCache* cache) {
+  SceneResult& scene = result.scenes[index];
+  std::string key;
+  if (cache != nullptr) {
+    // The first look came before, so its key stands for files and options.
+    key = second_look_key(cache->scene(files.name).search.key, region);
+    if (const auto* kept = cache->scene(files.name).second_look.find(key)) {
+      scene.search = *kept;
+      return Done{};
+    }
+  }
+  auto cloud = read_scene_cloud(files, request, context.stop);
   if (!cloud) return cloud.error();
   BoardSearchOptions options = request.options.localization;
   options.search_walls = true;
-  SceneResult& scene = result.scenes[index];
   auto search =
       search_board(*cloud, result.target, pyramid, board_distance(*scene.view, result.target),
                    region.radius_m > 0 ? std::optional(region) : std::nullopt, options, context);
   if (context.stopped()) return Error::cancelled();
+  if (cache != nullptr) cache->scene(files.name).second_look.keep(key, search);
   scene.search = std::move(search);
   return Done{};
 }

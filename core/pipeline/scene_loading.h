@@ -2,20 +2,28 @@
 #pragma once
 
 #include "pipeline/calibration.h"
+#include "pipeline/stage_cache.h"
 
 namespace lvcalib {
+
+/// A scene's cloud as the request wants it: board.pcd or cloud.pcd, cut by its crop box.
+Result<Cloud> read_scene_cloud(const SceneFiles& files, const CalibrationRequest& request,
+                               std::stop_token stop);
 
 /// The stages that look at one scene alone: image → board view, cloud → board candidates. Runs
 /// all scenes, images first, on the context's threads; keeps only the points about the
 /// candidates, so that no more clouds than threads are in memory at once.
+/// With a `cache` (prepared for the dataset), stages made from the same things are not run again.
 /// Errors: the first unusable file.
 Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
-                   const RunContext& context, CalibrationResult& result);
+                   const RunContext& context, CalibrationResult& result,
+                   StageCache* cache = nullptr);
 
 /// Reads one scene's cloud (or crop) and searches the board in it once more, in a region.
+/// The result has taken the place of scenes[index].search.
 Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,
                           const BoardSearchRegion& region, const RunContext& context,
                           const PatternPyramid& pyramid, CalibrationResult& result,
-                          std::size_t index);
+                          std::size_t index, StageCache* cache = nullptr);
 
 }  // namespace lvcalib

@@ -90,11 +90,12 @@ class NodeRefiner {
     collect_samples(cloud);
   }
 
-  bool run(const RunContext& context) {
+  bool run(const RunContext& context, const RefinementObserver& on_iteration) {
     for (const TargetNode& node : nodes_) raw_.push_back(layout_ * node.center_m);
     for (int i = 0; i < options_.max_iterations; ++i) {
       if (context.stopped()) return false;
       const double update = iterate(i);
+      if (on_iteration) on_iteration(result_);
       // The footprint settles during the first rounds; a still layout before that means nothing.
       if (update < options_.tolerance_m && i >= 2) {
         result_.converged = true;
@@ -313,7 +314,8 @@ int BoardRefinement::valid_nodes() const {
 
 Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& target,
                                      const Rigid3& lidar_from_board,
-                                     const RefinementOptions& options, const RunContext& context) {
+                                     const RefinementOptions& options, const RunContext& context,
+                                     const RefinementObserver& on_iteration) {
   BoardRefinement result;
   result.lidar_from_board = lidar_from_board;
   if (!fit_board_plane(board_points, target, result)) {
@@ -330,7 +332,7 @@ Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& ta
                         "record the cloud with intensity (or reflectivity)");
   }
   NodeRefiner refiner(board_points, target, options, result);
-  if (!refiner.run(context)) return Error::cancelled();
+  if (!refiner.run(context, on_iteration)) return Error::cancelled();
   if (!result.converged)
     result.warnings.push_back("refinement did not settle within its iterations");
   return result;

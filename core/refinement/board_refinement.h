@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,9 @@ struct BoardRefinement {
   [[nodiscard]] int valid_nodes() const;
 };
 
+/// Sees a refinement while it runs; called from the thread that refines.
+using RefinementObserver = std::function<void(const BoardRefinement& so_far)>;
+
 /// Angle–distance refinement of the circular nodes (LV-Calib, section III-B): plane; samples by
 /// ray ∩ plane; per node and angular bin the mid-level crossing d*; the first-order wave
 /// d* = Δc_u cos ψ + Δc_v sin ψ + Δr by weighted least squares; projection of all centres to the
@@ -111,8 +115,10 @@ struct BoardRefinement {
 ///
 /// For targets without circles only the plane is fitted and `nodes` stays empty.
 /// Errors (kInput): fewer than ten points on the plane; a cloud without intensity for circles.
+/// `on_iteration` sees the refinement so far after each iteration: its plane and history.
 Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& target,
                                      const Rigid3& lidar_from_board,
-                                     const RefinementOptions& options, const RunContext& context);
+                                     const RefinementOptions& options, const RunContext& context,
+                                     const RefinementObserver& on_iteration = {});
 
 }  // namespace lvcalib

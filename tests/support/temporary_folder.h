@@ -10,13 +10,16 @@
 
 namespace lvcalib::test {
 
-/// A folder of its own for the running test, removed at its end.
+/// A folder of its own for the running test (or suite of tests), removed at its end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name =
-        std::string(info->test_suite_name()) + "-" + info->name() + "-" + std::to_string(getpid());
+    const auto* unit = ::testing::UnitTest::GetInstance();
+    const auto* info = unit->current_test_info();
+    std::string name = info != nullptr
+                           ? std::string(info->test_suite_name()) + "-" + info->name()
+                           : std::string(unit->current_test_suite()->name());
+    name += "-" + std::to_string(getpid());
     for (char& c : name) c = c == '/' ? '-' : c;
     path_ = std::filesystem::temp_directory_path() / ("lvcalib-test-" + name);
     std::filesystem::remove_all(path_);

@@ -34,6 +34,29 @@ TEST(Statistics, MadSigmaIsTheStandardDeviationAndIgnoresOutliers) {
   EXPECT_NEAR(mad_sigma(values), 2.0, 0.35);
 }
 
+TEST(Statistics, BoxSummaryOfKnownValues) {
+  const BoxSummary box = box_summary({9, 2, 1, 3, 4, 5, 6, 7, 8, 100, NAN});
+  EXPECT_EQ(box.count, 10U);
+  EXPECT_NEAR(box.median, 5.5, 1e-12);
+  EXPECT_NEAR(box.lower_quartile, 3.25, 1e-12);
+  EXPECT_NEAR(box.upper_quartile, 7.75, 1e-12);
+  EXPECT_EQ(box.lower_whisker, 1);
+  EXPECT_EQ(box.upper_whisker, 9);
+  EXPECT_EQ(box.outliers, std::vector<double>{100});
+  EXPECT_EQ(box_summary({}).count, 0U);
+  EXPECT_EQ(box_summary({2}).upper_whisker, 2);
+}
+
+// Of Gaussian values 0.7 % lie beyond the whiskers.
+TEST(Statistics, BoxSummaryOfGaussianValues) {
+  Random random(2);
+  std::vector<double> values;
+  for (int i = 0; i < 50'000; ++i) values.push_back(random.normal());
+  const BoxSummary box = box_summary(values);
+  EXPECT_NEAR(box.upper_quartile, 0.6745, 0.02);
+  EXPECT_NEAR(static_cast<double>(box.outliers.size()) / 50'000.0, 0.00698, 0.0015);
+}
+
 TEST(Statistics, RmsOfKnownValues) {
   const std::vector<double> values{3, -4};
   EXPECT_NEAR(rms(values), std::sqrt(12.5), 1e-15);

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "detection/board_view.h"
+#include "detection/color_image.h"
 #include "support/rendered_board.h"
 
 namespace lvcalib {
@@ -143,6 +144,34 @@ TEST(SharedImages, PaletteIsRead) {
   const auto image = read_image(*data / "real/vlp16-checkerboard/scenes/pose01/image.png");
   ASSERT_TRUE(image.ok()) << image.error().text();
   EXPECT_EQ(image->width_px, 1920);
+}
+
+TEST_F(ImageFile, ColoursAreKeptForLookingAt) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3}) {
+    cv::Mat mat = ramp(type);
+    // Red where OpenCV keeps it: last of blue, green, red.
+    if (mat.channels() >= 3) {
+      for (int y = 0; y < mat.rows; ++y) {
+        for (int x = 0; x < mat.cols; ++x) {
+          if (mat.depth() == CV_8U)
+            mat.ptr<unsigned char>(y)[x * mat.channels() + 2] = 250;
+          else
+            mat.ptr<unsigned short>(y)[x * mat.channels() + 2] = 257 * 250;
+        }
+      }
+    }
+    cv::imwrite(path("color.png"), mat);
+    const auto image = read_color_image(path("color.png"));
+    ASSERT_TRUE(image.ok()) << image.error().text();
+    ASSERT_EQ(image->width_px, 30);
+    ASSERT_EQ(image->rgb.size(), 3U * 30U * 20U);
+    const std::uint8_t* pixel = image->rgb.data() + 3 * (5 * 30 + 7);
+    EXPECT_EQ(pixel[0], mat.channels() >= 3 ? 250 : 61) << type;
+    EXPECT_EQ(pixel[1], 61) << type;
+    EXPECT_EQ(pixel[2], 61) << type;
+  }
+  EXPECT_FALSE(read_color_image(path("none.png")).ok());
+  EXPECT_FALSE(read_color_image(write("text.png", "no image")).ok());
 }
 
 }  // namespace

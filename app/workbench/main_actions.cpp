@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/main_actions.h"
+
+#include <QApplication>
+#include <QDir>
+#include <QFileInfo>
+#include <QMainWindow>
+#include <QMenuBar>
+#include <QStyle>
+#include <QToolBar>
+#include <QUndoStack>
+
+#include "style/marks.h"
+#include "style/theme.h"
+#include "workbench/language.h"
+
+namespace lvcalib::widgets {
+
+MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack) : QObject(&window) {
+  QMenuBar* bar = window.menuBar();
+  file_ = bar->addMenu(QString());
+  edit_ = bar->addMenu(QString());
+  run_menu_ = bar->addMenu(QString());
+  view_ = bar->addMenu(QString());
+  help_ = bar->addMenu(QString());
+  make_file_menu(window);
+  undo = undo_stack.createUndoAction(this);
+  undo->setShortcut(QKeySequence::Undo);
+  redo = undo_stack.createRedoAction(this);
+  redo->setShortcut(QKeySequence::Redo);
+  edit_->addActions({undo, redo});
+  run = add(run_menu_, "run", Qt::Key_F5);
+  cancel = add(run_menu_, "cancel", Qt::Key_Escape);
+  run_menu_->addSeparator();
+  use_crops = add(run_menu_, "use_crops", {});
+  use_crops->setCheckable(true);
+  make_view_menu(window);
+  guide = add(help_, "guide", QKeySequence::HelpContents);
+  about = add(help_, "about", {});
+  const QStyle* style = QApplication::style();
+  save->setIcon(style->standardIcon(QStyle::SP_DialogSaveButton));
+  open_dataset->setIcon(style->standardIcon(QStyle::SP_DirOpenIcon));
+  tool_bar = window.addToolBar(QString());
+  tool_bar->setObjectName(QStringLiteral("tool_bar"));
+  tool_bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  tool_bar->addActions({open_dataset, save});
+  tool_bar->addSeparator();
+  tool_bar->addActions({undo, redo});
+  tool_bar->addSeparator();
+  tool_bar->addActions({run, cancel, results});
+  repaint_icons(window.palette());
+  retranslate();
+}
+
+void MainActions::repaint_icons(const QPalette& palette) {
+  run->setIcon(tool_icon(ToolIcon::kRun, palette));
+  cancel->setIcon(tool_icon(ToolIcon::kStop, palette));
+  undo->setIcon(tool_icon(ToolIcon::kUndo, palette));
+  redo->setIcon(tool_icon(ToolIcon::kRedo, palette));
+  results->setIcon(tool_icon(ToolIcon::kTable, palette));
+}
+
+QAction* MainActions::add(QMenu* menu, const char* name, const QKeySequence& keys) {
+  auto* action = new QAction(this);
+  action->setObjectName(QString::fromLatin1(name));
+  action->setShortcut(keys);
+  menu->addAction(action);
+  return action;
+}
+
+void MainActions::make_file_menu(QMainWindow& window) {
+  open_dataset = add(file_, "open_dataset", QKeySequence::Open);
+  open_project = add(file_, "open_project", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
+  recent_ = file_->addMenu(QString());
+  demo = add(file_, "demo", {});
+  file_->addSeparator();
+  save = add(file_, "save", QKeySequence::Save);
+  save_as = add(file_, "save_as", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S));
+  file_->addSeparator();
+  results = add(file_, "results", QKeySequence(Qt::CTRL | Qt::Key_E));
+  file_->addSeparator();
+  quit = add(file_, "quit", QKeySequence::Quit);
+  quit->setMenuRole(QAction::QuitRole);
+  connect(quit, &QAction::triggered, &window, &QWidget::close);
+}
+
+void MainActions::make_view_menu(QMainWindow& window) {
+  theme_menu_ = view_->addMenu(QString());
+  language_menu_ = view_->addMenu(QString());
+  before_toggles_ = view_->addSeparator();
+  themes = new QActionGroup(&window);
+  for (const Theme theme : {Theme::kSystem, Theme::kLight, Theme::kDark}) {
+    QAction* action = add(theme_menu_, "theme", {});
+    action->setData(name_of(theme));
+    action->setCheckable(true);
+    themes->addAction(action);
+  }
+  languages = new QActionGroup(&window);
+  for (const auto& [code, name] : widgets::languages()) {
+    QAction* action = add(language_menu_, "language", {});
+    action->setText(name);  // Each in its own language, whatever the present one.
+    action->setData(code);
+    action->setCheckable(true);
+    languages->addAction(action);
+  }
+}
+
+void MainActions::add_view_toggles(const QList<QAction*>& toggles) {
+  view_->addActions(toggles);
+}
+
+void MainActions::set_recent(const QStringList& paths) {
+  recent_->clear();
+  for (const QString& path : paths) {
+    QAction* action = recent_->addAction(QDir::toNativeSeparators(path));
+    connect(action, &QAction::triggered, this, [this, path] { Q_EMIT recent_wanted(path); });
+  }
+  recent_->setEnabled(!paths.isEmpty());
+}
+
+void MainActions::retranslate() {
+  file_->setTitle(tr("&File"));
+  edit_->setTitle(tr("&Edit"));
+  run_menu_->setTitle(tr("&Run"));
+  view_->setTitle(tr("&View"));
+  help_->setTitle(tr("&Help"));
+  recent_->setTitle(tr("Open &recent"));
+  theme_menu_->setTitle(tr("&Colours"));
+  language_menu_->setTitle(tr("&Language"));
+  tool_bar->setWindowTitle(tr("Tool bar"));
+  const auto describe = [](QAction* action, const QString& text, const QString& tip) {
+    action->setText(text);
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));
+    action->setStatusTip({});
+  };
+  describe(open_dataset, tr("&Open dataset…"), tr("Open a dataset folder"));
+  describe(open_project, tr("Open &project…"), tr("Open a .lvcalib file"));
+  describe(demo, tr("Try the &demo"), tr("Simulate three scenes and open them"));
+  describe(save, tr("&Save"), tr("Save the decisions as a project"));
+  describe(save_as, tr("Save &as…"), tr("Save the project under another name"));
+  describe(results, tr("R&esults…"), tr("Show and export the result"));
+  describe(quit, tr("&Quit"), tr("Leave the program"));
+  describe(run, tr("&Run all"), tr("Run everything that is not up to date"));
+  describe(cancel, tr("&Cancel"), tr("Stop what is running"));
+  describe(use_crops, tr("Use board.pcd &files"),
+           tr("Take a scene's board.pcd instead of its whole cloud where there is one"));
+  describe(guide, tr("&Guide"), tr("From the printed board to a result"));
+  describe(about, tr("&About"), tr("Version and licence"));
+  const QStringList names = {tr("As the &system"), tr("&Light"), tr("&Dark")};
+  for (int i = 0; i < names.size(); ++i) themes->actions().at(i)->setText(names.at(i));
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDir>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QShortcut>
+#include <QToolBar>
+
+#include "dialogs/error_dialog.h"
+#include "dialogs/guide_dialog.h"
+#include "dialogs/results_dialog.h"
+#include "docks/log_dock.h"
+#include "docks/parameters_dock.h"
+#include "docks/scenes_dock.h"
+#include "report/result_file.h"
+#include "runner/demo.h"
+#include "start/welcome_page.h"
+#include "workbench/language.h"
+#include "workbench/main_actions.h"
+#include "workbench/page_stack.h"
+#include "workbench/status_line.h"
+
+namespace lvcalib::widgets {
+
+MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
+    : QMainWindow(parent),
+      settings_(settings),
+      choices_(choices),
+      demo_(demo_options()),
+      workspace_(std::make_unique<Workspace>(settings.data_folder())),
+      actions_(new MainActions(*this, workspace_->undo_stack())),
+      scenes_(new ScenesDock(model_, this)),
+      parameters_(new ParametersDock(this)),
+      log_(new LogDock(this)),
+      pages_(new PageStack(this)),
+      status_(new StatusLine(this)) {
+  setObjectName(QStringLiteral("main_window"));
+  setAcceptDrops(true);
+  setCentralWidget(pages_);
+  setStatusBar(status_);
+  addDockWidget(Qt::LeftDockWidgetArea, scenes_);
+  addDockWidget(Qt::LeftDockWidgetArea, parameters_);
+  addDockWidget(Qt::BottomDockWidgetArea, log_);
+  log_->hide();
+  actions_->add_view_toggles({scenes_->toggleViewAction(), parameters_->toggleViewAction(),
+                              log_->toggleViewAction(), actions_->tool_bar->toggleViewAction()});
+  connect_actions();
+  connect_appearance();
+  connect_docks();
+  connect_workspace();
+  connect_pages();
+  restore_window();
+  pages_->welcome().set_recent(settings_.recent());
+  actions_->set_recent(settings_.recent());
+  update_actions();
+  update_title();
+}
+
+MainWindow::~MainWindow() {
+  // Nothing may be told to parts that are already gone.
+  workspace_->disconnect(this);
+  workspace_->undo_stack().disconnect(this);
+  delete scenes_;  // Before the model that it shows; other children go after the members.
+}
+
+void MainWindow::restore_window() {
+  resize(1500, 940);
+  resizeDocks({scenes_, parameters_}, {470, 470}, Qt::Horizontal);
+  resizeDocks({log_}, {140}, Qt::Vertical);
+  restoreGeometry(settings_.geometry());
+  restoreState(settings_.window_state());
+}
+
+void MainWindow::connect_actions() {
+  const auto on = [this](QAction* action, auto what) {
+    connect(action, &QAction::triggered, this, what);
+  };
+  const auto open_dataset = [this] {
+    const QString path = choices_.dataset_to_open(this, settings_.last_folder());
+    if (!path.isEmpty()) open(path);
+  };
+  const auto open_project = [this] {
+    const QString path = choices_.project_to_open(this, settings_.last_folder());
+    if (!path.isEmpty()) open(path);
+  };
+  const auto demo = [this] {
+    if (may_drop_decisions()) workspace_->open_demo(demo_);
+  };
+  const auto guide = [this] { (new GuideDialog(this))->show(); };
+  on(actions_->open_dataset, open_dataset);
+  on(actions_->open_project, open_project);
+  on(actions_->demo, demo);
+  on(actions_->guide, guide);
+  on(actions_->about, [this] { show_about(); });
+  on(actions_->save, [this] { save(false); });
+  on(actions_->save_as, [this] { save(true); });
+  on(actions_->results, [this] { show_results(); });
+  on(actions_->run, [this] { workspace_->run(); });
+  on(actions_->cancel, [this] { workspace_->cancel(); });
+  on(actions_->use_crops, [this](bool use) { workspace_->set_use_crops(use); });
+  connect(actions_, &MainActions::recent_wanted, this, &MainWindow::open);
+  const WelcomePage& welcome = pages_->welcome();
+  connect(&welcome, &WelcomePage::open_dataset_wanted, this, open_dataset);
+  connect(&welcome, &WelcomePage::open_project_wanted, this, open_project);
+  connect(&welcome, &WelcomePage::demo_wanted, this, demo);
+  connect(&welcome, &WelcomePage::guide_wanted, this, guide);
+  connect(&welcome, &WelcomePage::recent_wanted, this, &MainWindow::open);
+  for (int tab = 0; tab < pages_->tab_count(); ++tab) {
+    auto* keys = new QShortcut(QKeySequence(static_cast<int>(Qt::CTRL) | (Qt::Key_1 + tab)), this);
+    connect(keys, &QShortcut::activated, this, [this, tab] { pages_->show_tab(tab); });
+  }
+}
+
+void MainWindow::connect_appearance() {
+  for (QAction* action : actions_->themes->actions())
+    action->setChecked(action->data().toString() == name_of(settings_.theme()));
+  const QString code = settings_.language().isEmpty() ? use_language({}) : settings_.language();
+  for (QAction* action : actions_->languages->actions())
+    action->setChecked(action->data().toString() == code);
+  connect(actions_->themes, &QActionGroup::triggered, this, [this](const QAction* action) {
+    settings_.set_theme(theme_named(action->data().toString()));
+    apply_theme(*qApp, settings_.theme());
+  });
+  connect(actions_->languages, &QActionGroup::triggered, this, [this](const QAction* action) {
+    settings_.set_language(action->data().toString());
+    use_language(settings_.language());
+  });
+}
+
+void MainWindow::connect_docks() {
+  connect(scenes_, &ScenesDock::scene_activated, this, &MainWindow::look_at);
+  connect(scenes_, &ScenesDock::use_wanted, workspace_.get(), &Workspace::set_use);
+  connect(scenes_, &ScenesDock::run_again_wanted, workspace_.get(), &Workspace::run_again);
+  connect(scenes_, &ScenesDock::uncrop_wanted, this, [this](const QStringList& scenes) {
+    for (const QString& scene : scenes) workspace_->set_crop(scene, std::nullopt);
+  });
+  connect(scenes_, &ScenesDock::add_wanted, this, [this] {
+    const QStringList folders = choices_.scenes_to_add(this, settings_.last_folder());
+    if (folders.isEmpty()) return;
+    if (Status s = workspace_->add_scene_folders(folders); !s) show_error(s.error());
+  });
+  connect(parameters_, &ParametersDock::option_wanted, workspace_.get(), &Workspace::set_option);
+  connect(parameters_, &ParametersDock::reset_all_wanted, workspace_.get(),
+          &Workspace::reset_options);
+}
+
+void MainWindow::connect_workspace() {
+  const Workspace* w = workspace_.get();
+  connect(w, &Workspace::opened, this, &MainWindow::take_opened);
+  connect(w, &Workspace::dataset_moved, this, [this](const QString& old_path) {
+    const QString path = choices_.moved_dataset(this, old_path);
+    if (!path.isEmpty()) workspace_->open_moved(path);
+  });
+  connect(w, &Workspace::decisions_changed, this, [this] {
+    const Decisions& decisions = workspace_->decisions();
+    model_.set_decisions(decisions);
+    parameters_->set_options(decisions.options);
+    pages_->set_crop_box(decision_of(decisions, scene_.toStdString()).crop);
+    actions_->use_crops->setChecked(decisions.use_crops);
+    status_->show_quality(workspace_->result(), workspace_->up_to_date());
+    update_actions();
+  });
+  connect(w, &Workspace::result_changed, this, &MainWindow::take_result);
+  connect(w, &Workspace::run_started, this, [this] {
+    status_->show_progress({}, 0.0, {});
+    update_actions();
+  });
+  connect(w, &Workspace::progressed, status_, &StatusLine::show_progress);
+  connect(w, &Workspace::board_found, pages_, &PageStack::show_board_points);
+  connect(w, &Workspace::iterated, pages_, &PageStack::show_iteration);
+  connect(w, &Workspace::run_ended, this, [this](const QString& message) {
+    status_->show_idle(message);
+    update_actions();
+  });
+  connect(w, &Workspace::failed, this, [this](const Error& error, bool modest) {
+    if (!modest) show_error(error);  // Else the status line says it.
+  });
+  connect(w, &Workspace::logged, log_, &LogDock::append);
+  connect(w, &Workspace::dirty_changed, this, &MainWindow::update_title);
+}
+
+void MainWindow::connect_pages() {
+  connect(&loader_, &SceneLoader::thumbnail, &model_, &SceneModel::set_thumbnail);
+  connect(&loader_, &SceneLoader::loaded, this,
+          [this](const QString& scene, const auto& cloud, const QImage& image) {
+            if (scene == scene_) pages_->set_scene_data(cloud, image);
+          });
+  connect(&loader_, &SceneLoader::failed, this, [this](const QString&, const QString& message) {
+    log_->append(message);
+    status_->show_idle(message);
+  });
+  connect(pages_, &PageStack::crop_wanted, this,
+          [this](int scene, const std::optional<CropBox>& box) {
+            workspace_->set_crop(scene_name(scene), box);
+          });
+  connect(pages_, &PageStack::scene_wanted, this,
+          [this](int scene) { scenes_->select(scene_name(scene)); });
+  connect(pages_, &PageStack::failed, this,
+          [this](const QString& message) { show_error(Error::output(message.toStdString())); });
+}
+
+void MainWindow::open(const QString& path) {
+  if (!may_drop_decisions()) return;
+  if (QFileInfo(path).isDir()) {
+    workspace_->open_dataset(path);
+  } else {
+    workspace_->open_project(path);
+  }
+}
+
+void MainWindow::take_opened() {
+  const Dataset& dataset = workspace_->dataset();
+  const QString path = workspace_->project_path().isEmpty()
+                           ? QString::fromStdString(dataset.path.string())
+                           : workspace_->project_path();
+  settings_.add_recent(path);
+  settings_.set_last_folder(QFileInfo(path).absolutePath());
+  actions_->set_recent(settings_.recent());
+  pages_->welcome().set_recent(settings_.recent());
+  model_.set_scenes(dataset, workspace_->missing_scenes());
+  loader_.load_thumbnails(dataset.scenes);
+  scene_.clear();
+  pages_->start(dataset.target);
+  pages_->show_pages();
+  if (!dataset.scenes.empty()) scenes_->select(scene_name(0));
+  update_title();
+  update_actions();
+}
+
+void MainWindow::take_result() {
+  model_.set_result(workspace_->result());
+  pages_->set_result(workspace_->result());
+  status_->show_quality(workspace_->result(), workspace_->up_to_date());
+  update_actions();
+}
+
+void MainWindow::look_at(const QString& scene) {
+  const int index = scene_index(scene);
+  if (index < 0 || scene == scene_) return;
+  scene_ = scene;
+  pages_->set_scene(index, decision_of(workspace_->decisions(), scene.toStdString()).crop);
+  loader_.load(workspace_->dataset().scenes[static_cast<std::size_t>(index)]);
+}
+
+QString MainWindow::scene_name(int index) const {
+  const auto& scenes = workspace_->dataset().scenes;
+  if (index < 0 || static_cast<std::size_t>(index) >= scenes.size()) return {};
+  return QString::fromStdString(scenes[static_cast<std::size_t>(index)].name);
+}
+
+int MainWindow::scene_index(const QString& name) const {
+  const auto& scenes = workspace_->dataset().scenes;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    if (scenes[s].name == name.toStdString()) return static_cast<int>(s);
+  }
+  return -1;
+}
+
+void MainWindow::offer_recovery() {
+  for (const Recovery& recovery : Autosave::find(settings_.data_folder())) {
+    if (workspace_->is_open()) return;  // The others wait for the next start.
+    if (choices_.recover(this, QString::fromStdString(recovery.project.dataset.string()))) {
+      workspace_->open_recovery(recovery);
+    } else {
+      Autosave::discard(recovery);
+    }
+  }
+}
+
+bool MainWindow::may_drop_decisions() {
+  if (!workspace_->dirty()) return true;
+  const QString name =
+      QFileInfo(QString::fromStdString(workspace_->dataset().path.string())).fileName();
+  switch (choices_.unsaved(this, name)) {
+    case UnsavedAnswer::kSave:
+      return save(false);
+    case UnsavedAnswer::kDiscard:
+      return true;
+    case UnsavedAnswer::kCancel:
+      break;
+  }
+  return false;
+}
+
+bool MainWindow::save(bool ask_for_path) {
+  if (!workspace_->is_open()) return false;
+  QString path = workspace_->project_path();
+  if (ask_for_path || path.isEmpty()) {
+    const QString dataset = QString::fromStdString(workspace_->dataset().path.string());
+    path =
+        choices_.project_to_save(this, path.isEmpty() ? dataset + QLatin1String(".lvcalib") : path);
+  }
+  if (path.isEmpty()) return false;
+  if (Status s = workspace_->save(path); !s) {
+    show_error(s.error());
+    return false;
+  }
+  settings_.add_recent(workspace_->project_path());
+  actions_->set_recent(settings_.recent());
+  update_title();
+  return true;
+}
+
+void MainWindow::show_error(const Error& error) {
+  log_->append(QString::fromStdString(error.text()));
+  (new ErrorDialog(error, this))->show();
+}
+
+void MainWindow::show_results() {
+  if (!workspace_->result()) return;
+  auto* dialog = new ResultsDialog(workspace_->result(), choices_, settings_.last_folder(), this);
+  connect(dialog, &ResultsDialog::failed, this, &MainWindow::show_error);
+  connect(dialog, &ResultsDialog::exported, this, [this](const QString& path) {
+    settings_.set_last_folder(QFileInfo(path).absolutePath());
+    log_->append(tr("Exported %1.").arg(path));
+    status_->show_idle(tr("Exported %1").arg(QFileInfo(path).fileName()));
+  });
+  dialog->show();
+}
+
+void MainWindow::show_about() {
+  auto* box = new QMessageBox(QMessageBox::Information, tr("About"),
+                              tr("LV-Calib Workbench %1\n\nLiDAR–camera calibration with a printed "
+                                 "board.\nGPL-3.0-or-later "
+                                 "(core library: BSD-3-Clause)")
+                                  .arg(QString::fromStdString(version())),
+                              QMessageBox::Close, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setModal(false);
+  box->show();
+}
+
+void MainWindow::update_actions() {
+  const bool open = workspace_->is_open();
+  const bool busy = workspace_->busy();
+  actions_->run->setEnabled(open && !busy);
+  actions_->cancel->setEnabled(busy);
+  actions_->save->setEnabled(open);
+  actions_->save_as->setEnabled(open);
+  actions_->use_crops->setEnabled(open);
+  actions_->results->setEnabled(workspace_->result() != nullptr);
+  parameters_->widget()->setEnabled(open);
+}
+
+void MainWindow::update_title() {
+  QString name = QFileInfo(workspace_->project_path()).completeBaseName();
+  if (name.isEmpty())
+    name = QFileInfo(QString::fromStdString(workspace_->dataset().path.string())).fileName();
+  const QString program = tr("LV-Calib Workbench");
+  setWindowTitle(name.isEmpty() ? program : QStringLiteral("%1[*] – %2").arg(name, program));
+  setWindowModified(workspace_->dirty());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!may_drop_decisions()) {
+    event->ignore();
+    return;
+  }
+  settings_.set_window(saveGeometry(), saveState());
+  workspace_->cancel();
+  loader_.clear();
+  event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  const auto urls = event->mimeData()->urls();
+  if (urls.size() == 1 && urls.first().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  const auto urls = event->mimeData()->urls();
+  if (urls.size() != 1 || !urls.first().isLocalFile()) return;
+  event->acceptProposedAction();
+  open(urls.first().toLocalFile());
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange) {
+    actions_->retranslate();
+    update_title();
+  } else if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
+    actions_->repaint_icons(palette());
+  }
+  QMainWindow::changeEvent(event);
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QMainWindow>
+#include <memory>
+
+#include "base/error.h"
+#include "dialogs/choices.h"
+#include "models/scene_model.h"
+#include "runner/scene_data.h"
+#include "runner/workspace.h"
+#include "start/app_settings.h"
+
+namespace lvcalib::widgets {
+
+class LogDock;
+class MainActions;
+class PageStack;
+class ParametersDock;
+class ScenesDock;
+class StatusLine;
+
+/// The window: puts the parts together and connects them, nothing else.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  /// `settings` and `choices` must outlive the window.
+  MainWindow(AppSettings& settings, Choices& choices, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  /// Opens a dataset folder or a project file, after asking about unsaved decisions.
+  void open(const QString& path);
+  /// What the demo simulates; tests take something smaller.
+  void set_demo(const simulation::SimulationOptions& options) { demo_ = options; }
+  /// Offers decisions that an earlier program did not save.
+  void offer_recovery();
+
+  [[nodiscard]] Workspace& workspace() { return *workspace_; }
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void connect_actions();
+  void connect_appearance();
+  void connect_docks();
+  void connect_workspace();
+  void connect_pages();
+  void restore_window();
+  bool may_drop_decisions();
+  bool save(bool ask_for_path);
+  void show_error(const Error& error);
+  void show_results();
+  void show_about();
+  void take_opened();
+  void take_result();
+  void look_at(const QString& scene);
+  void update_actions();
+  void update_title();
+  [[nodiscard]] QString scene_name(int index) const;
+  [[nodiscard]] int scene_index(const QString& name) const;
+
+  AppSettings& settings_;
+  Choices& choices_;
+  simulation::SimulationOptions demo_;
+  std::unique_ptr<Workspace> workspace_;
+  SceneLoader loader_;
+  SceneModel model_;
+  QString scene_;  // The one looked at.
+  MainActions* actions_ = nullptr;
+  ScenesDock* scenes_;
+  ParametersDock* parameters_;
+  LogDock* log_;
+  PageStack* pages_;
+  StatusLine* status_;
+};
+
+}  // namespace lvcalib::widgets

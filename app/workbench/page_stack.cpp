@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/page_stack.h"
+
+#include <QEvent>
+#include <QTabWidget>
+
+#include "pages/extrinsic_page.h"
+#include "pages/refinement_page.h"
+#include "pages/scene_page.h"
+#include "start/welcome_page.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr int kLiveIntervalMs = 150;
+
+}  // namespace
+
+PageStack::PageStack(QWidget* parent)
+    : QStackedWidget(parent),
+      welcome_(new WelcomePage(this)),
+      tabs_(new QTabWidget(this)),
+      scene_(new ScenePage(tabs_)),
+      refinement_(new RefinementPage(tabs_)),
+      extrinsic_(new ExtrinsicPage(tabs_)) {
+  tabs_->setObjectName(QStringLiteral("pages"));
+  tabs_->setDocumentMode(true);
+  tabs_->addTab(scene_, {});
+  tabs_->addTab(refinement_, {});
+  tabs_->addTab(extrinsic_, {});
+  addWidget(welcome_);
+  addWidget(tabs_);
+  connect(scene_, &ScenePage::cropChanged, this,
+          [this](int scene, const CropBox& box) { Q_EMIT crop_wanted(scene, box); });
+  connect(scene_, &ScenePage::cropCleared, this,
+          [this](int scene) { Q_EMIT crop_wanted(scene, std::nullopt); });
+  connect(scene_, &ScenePage::failed, this, &PageStack::failed);
+  connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
+  connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
+  connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
+  live_.setSingleShot(true);
+  live_.setInterval(kLiveIntervalMs);
+  connect(&live_, &QTimer::timeout, this, &PageStack::show_latest);
+  retranslate();
+}
+
+void PageStack::show_welcome() {
+  setCurrentWidget(welcome_);
+}
+
+void PageStack::show_pages() {
+  setCurrentWidget(tabs_);
+}
+
+void PageStack::show_tab(int tab) {
+  tabs_->setCurrentIndex(tab);
+}
+
+int PageStack::tab_count() const {
+  return tabs_->count();
+}
+
+void PageStack::start(const Target& target) {
+  set_result(nullptr);
+  refinement_->setTarget(target);
+  set_scene(-1, std::nullopt);
+}
+
+void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& result) {
+  latest_.reset();  // A finished run has more to show.
+  scene_->setResult(result);
+  refinement_->setResult(result);
+  extrinsic_->setResult(result);
+}
+
+void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {
+  current_ = scene;
+  latest_.reset();
+  scene_->setScene(scene);
+  refinement_->setScene(scene);
+  crop_ = box;
+  scene_->setCropBox(box);
+}
+
+void PageStack::set_crop_box(const std::optional<CropBox>& box) {
+  if (box == crop_) return;
+  crop_ = box;
+  scene_->setCropBox(box);
+}
+
+void PageStack::set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image) {
+  scene_->setSceneData(cloud, image);
+  extrinsic_->setSceneData(current_, cloud, image);
+}
+
+void PageStack::show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points) {
+  if (scene == current_) refinement_->setLivePoints(scene, board_points);
+}
+
+void PageStack::show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial) {
+  if (scene != current_) return;
+  latest_ = partial;
+  if (!live_.isActive()) live_.start();
+}
+
+void PageStack::show_latest() {
+  if (latest_ && refinement_->isVisible()) refinement_->showIteration(current_, latest_);
+  latest_.reset();
+}
+
+void PageStack::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange) retranslate();
+  QStackedWidget::changeEvent(event);
+}
+
+void PageStack::retranslate() {
+  tabs_->setTabText(0, tr("Scene"));
+  tabs_->setTabText(1, tr("Refinement"));
+  tabs_->setTabText(2, tr("Extrinsic"));
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QImage>
+#include <QStackedWidget>
+#include <QTimer>
+#include <memory>
+#include <optional>
+
+#include "pipeline/calibration.h"
+
+class QTabWidget;
+
+namespace lvcalib::widgets {
+
+class ExtrinsicPage;
+class RefinementPage;
+class ScenePage;
+class WelcomePage;
+
+/// The middle of the window: the welcome page, or the pages of what is open, one per tab.
+/// Scenes are counted as in the dataset.
+class PageStack : public QStackedWidget {
+  Q_OBJECT
+
+ public:
+  explicit PageStack(QWidget* parent = nullptr);
+  [[nodiscard]] WelcomePage& welcome() const { return *welcome_; }
+  void show_welcome();
+  void show_pages();
+  void show_tab(int tab);
+  [[nodiscard]] int tab_count() const;
+
+  /// Another dataset: nothing of the one before stays.
+  void start(const Target& target);
+  void set_result(const std::shared_ptr<const CalibrationResult>& result);
+  void set_scene(int scene, const std::optional<CropBox>& box);
+  /// The box in force; a box that is being edited stays unless this one is another than before.
+  void set_crop_box(const std::optional<CropBox>& box);
+  /// Of the scene last set.
+  void set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image);
+  void show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points);
+  /// Shown a few times a second, and only while the page is seen.
+  void show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial);
+
+ Q_SIGNALS:
+  void crop_wanted(int scene, const std::optional<lvcalib::CropBox>& box);
+  void scene_wanted(int scene);
+  void failed(const QString& message);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void retranslate();
+  void show_latest();
+
+  int current_ = -1;
+  std::optional<CropBox> crop_;
+  std::shared_ptr<const BoardRefinement> latest_;  // Of the current scene, not shown yet.
+  QTimer live_;
+  WelcomePage* welcome_;
+  QTabWidget* tabs_;
+  ScenePage* scene_;
+  RefinementPage* refinement_;
+  ExtrinsicPage* extrinsic_;
+};
+
+}  // namespace lvcalib::widgets

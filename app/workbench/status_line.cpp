@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/status_line.h"
+
+#include <QLabel>
+#include <QProgressBar>
+
+#include "style/marks.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr int kSteps = 1000;
+
+}  // namespace
+
+StatusLine::StatusLine(QWidget* parent)
+    : QStatusBar(parent),
+      stage_(new QLabel(this)),
+      bar_(new QProgressBar(this)),
+      text_(new QLabel(this)),
+      mark_(new QLabel(this)),
+      quality_(new QLabel(this)) {
+  stage_->setObjectName(QStringLiteral("stage"));
+  bar_->setObjectName(QStringLiteral("progress"));
+  text_->setObjectName(QStringLiteral("status"));
+  quality_->setObjectName(QStringLiteral("quality"));
+  bar_->setRange(0, kSteps);
+  bar_->setFormat(QStringLiteral("%p %"));
+  bar_->setFixedWidth(220);
+  text_->setTextFormat(Qt::PlainText);
+  // A long message must not widen the window.
+  text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  addWidget(stage_);
+  addWidget(bar_);
+  addWidget(text_, 1);
+  addPermanentWidget(mark_);
+  addPermanentWidget(quality_);
+  show_idle({});
+}
+
+void StatusLine::show_progress(const QString& stage, double fraction, const QString& text) {
+  // Stages have names of their own in the core; these are for people.
+  const std::pair<const char*, QString> names[] = {
+      {"load", tr("Reading")},       {"detect", tr("Looking at images")},
+      {"localize", tr("Searching")}, {"refine", tr("Refining")},
+      {"optimize", tr("Solving")},   {"simulate", tr("Simulating")}};
+  QString name = stage;
+  for (const auto& [key, words] : names) {
+    if (stage == QLatin1String(key)) name = words;
+  }
+  stage_->setText(name);
+  stage_->show();
+  bar_->setValue(static_cast<int>(kSteps * fraction));
+  bar_->show();
+  text_->setText(text);
+}
+
+void StatusLine::show_idle(const QString& message) {
+  stage_->hide();
+  bar_->hide();
+  text_->setText(message);
+  text_->setToolTip(message);
+}
+
+void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& result,
+                              bool up_to_date) {
+  mark_->setVisible(result != nullptr);
+  quality_->setVisible(result != nullptr);
+  if (!result) return;
+  const Mark mark = !up_to_date                             ? Mark::kIdle
+                    : result->quality == Quality::kGood     ? Mark::kGood
+                    : result->quality == Quality::kDoubtful ? Mark::kDoubtful
+                                                            : Mark::kBad;
+  mark_->setPixmap(mark_icon(mark, palette()).pixmap(16, 16));
+  const QString word = result->quality == Quality::kGood       ? tr("good")
+                       : result->quality == Quality::kDoubtful ? tr("doubtful")
+                                                               : tr("failed");
+  quality_->setText(up_to_date ? word : tr("%1 (out of date)").arg(word));
+  quality_->setToolTip(QString::fromStdString(result->quality_reason));
+}
+
+QString StatusLine::text() const {
+  return text_->text();
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QStatusBar>
+#include <memory>
+
+#include "pipeline/calibration.h"
+
+class QLabel;
+class QProgressBar;
+
+namespace lvcalib::widgets {
+
+/// Stage, fraction and text of what runs; quality of what is there.
+class StatusLine : public QStatusBar {
+  Q_OBJECT
+
+ public:
+  explicit StatusLine(QWidget* parent = nullptr);
+  void show_progress(const QString& stage, double fraction, const QString& text);
+  /// Nothing runs; `message` stays as the text.
+  void show_idle(const QString& message);
+  void show_quality(const std::shared_ptr<const CalibrationResult>& result, bool up_to_date);
+  [[nodiscard]] QString text() const;
+
+ private:
+  QLabel* stage_;
+  QProgressBar* bar_;
+  QLabel* text_;
+  QLabel* mark_;
+  QLabel* quality_;
+};
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/project_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include <yaml-cpp/yaml.h>
+
+#include "base/file_io.h"
+#include "base/yaml_file.h"
+
+namespace lvcalib {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string number(double value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+void emit_list(YAML::Emitter& out, const char* key, const Eigen::Ref<const Eigen::VectorXd>& v) {
+  out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const double x : v) out << number(x);
+  out << YAML::EndSeq;
+}
+
+// Relative where both are on one file system, so that a folder with both can be moved.
+std::string relative_path(const fs::path& path, const fs::path& folder) {
+  std::error_code code;
+  const fs::path relative = fs::proximate(path, folder, code);
+  return (code || relative.empty() ? path : relative).generic_string();
+}
+
+void emit_options(YAML::Emitter& out, const CalibrationOptions& options) {
+  out << YAML::Key << "options" << YAML::Value << YAML::BeginMap;
+  for (const OptionDeclaration& d : option_declarations()) {
+    if (d.get(options) == d.default_value()) continue;  // Later defaults may be better ones.
+    out << YAML::Key << d.key << YAML::Value << number(d.get(options));
+  }
+  out << YAML::EndMap;
+}
+
+void emit_scenes(YAML::Emitter& out, const Decisions& decisions) {
+  out << YAML::Key << "scenes" << YAML::Value << YAML::BeginMap;
+  for (const auto& [name, scene] : decisions.scenes) {
+    out << YAML::Key << name << YAML::Value << YAML::BeginMap;
+    out << YAML::Key << "use" << YAML::Value << (scene.use ? "true" : "false");
+    if (scene.crop) {
+      out << YAML::Key << "crop" << YAML::Value << YAML::BeginMap;
+      emit_list(out, "center_m", scene.crop->center_m);
+      emit_list(out, "half_size_m", scene.crop->half_size_m);
+      emit_list(out, "quaternion_xyzw", scene.crop->rotation.coeffs());
+      out << YAML::EndMap;
+    }
+    out << YAML::EndMap;
+  }
+  out << YAML::EndMap;
+}
+
+Result<bool> flag(const YamlFile& file, const std::string& key, bool otherwise) {
+  if (!file.has(key)) return otherwise;
+  auto text = file.string(key);
+  if (!text) return text.error();
+  if (*text == "true") return true;
+  if (*text == "false") return false;
+  return file.error_at(*file.root().find(key), "'" + key + "' must be true or false");
+}
+
+Result<Rigid3> pose(const YamlFile& file) {
+  auto t = file.numbers("translation_m", 3);
+  if (!t) return t.error();
+  auto q = file.numbers("quaternion_xyzw", 4);
+  if (!q) return q.error();
+  const Eigen::Quaterniond rotation(Eigen::Vector4d(q->data()));
+  if (std::abs(rotation.norm() - 1.0) > 1e-3)
+    return file.error_at(file.root(), "quaternion_xyzw must have length 1");
+  return Rigid3{rotation, Eigen::Vector3d(t->data())};
+}
+
+Result<CropBox> crop_box(const YamlFile& file) {
+  auto center = file.numbers("center_m", 3);
+  if (!center) return center.error();
+  auto half_size = file.numbers("half_size_m", 3);
+  if (!half_size) return half_size.error();
+  auto q = file.numbers("quaternion_xyzw", 4);
+  if (!q) return q.error();
+  const CropBox box{Eigen::Vector3d(center->data()), Eigen::Vector3d(half_size->data()),
+                    Eigen::Quaterniond(Eigen::Vector4d(q->data()))};
+  if (Status s = check(box); !s) return file.error_at(file.root(), s.error().message);
+  return box;
+}
+
+class Reader {
+ public:
+  Reader(const YamlFile& file, const fs::path& path)
+      : file_(file), folder_(fs::absolute(path).parent_path()) {}
+
+  Result<ProjectFile> read() {
+    for (const auto step :
+         {&Reader::header, &Reader::paths, &Reader::guess, &Reader::options, &Reader::scenes}) {
+      if (Status s = (this->*step)(); !s) return s.error();
+    }
+    auto unknown = file_.unknown_keys({"format", "version", "dataset", "use_crops", "guess",
+                                       "options", "added_scenes", "scenes"});
+    out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
+    return std::move(out_);
+  }
+
+ private:
+  Status header() {
+    auto format = file_.has("format") ? file_.string("format") : Result<std::string>(std::string());
+    if (!format || *format != "lvcalib-project") {
+      return Error::input("is not a project; expected 'format: lvcalib-project'", file_.name());
+    }
+    auto version = file_.integer("version", 1, 1'000'000);
+    if (!version) return version.error();
+    if (*version > kProjectVersion) {
+      return Error::input("the project has format version " + std::to_string(*version) +
+                              ", this program knows up to " + std::to_string(kProjectVersion),
+                          file_.name(), "open it with a newer release; it was not changed");
+    }
+    return Done{};
+  }
+
+  Status paths() {
+    auto dataset = file_.string("dataset");
+    if (!dataset) return dataset.error();
+    if (dataset->empty()) return Error::input("'dataset' is empty", file_.name());
+    out_.project.dataset = absolute(*dataset);
+    auto crops = flag(file_, "use_crops", false);
+    if (!crops) return crops.error();
+    decisions().use_crops = *crops;
+    const YamlValue* added = file_.root().find("added_scenes");
+    if (added == nullptr || added->kind == YamlValue::Kind::kNull) return Done{};
+    if (added->kind != YamlValue::Kind::kList)
+      return file_.error_at(*added, "'added_scenes' must be a list of folders");
+    for (const YamlValue& item : added->list) {
+      if (item.kind != YamlValue::Kind::kScalar || item.scalar.empty())
+        return file_.error_at(item, "'added_scenes' must be a list of folders");
+      decisions().added_scenes.push_back(absolute(item.scalar));
+    }
+    return Done{};
+  }
+
+  Status guess() {
+    if (!file_.has("guess")) return Done{};
+    auto section = file_.section("guess");
+    if (!section) return section.error();
+    auto value = pose(*section);
+    if (!value) return value.error();
+    decisions().guess = *value;
+    return Done{};
+  }
+
+  Status options() {
+    const YamlValue* values = map_or_null("options");
+    if (values == nullptr) return Done{};
+    if (values->kind != YamlValue::Kind::kMap)
+      return file_.error_at(*values, "'options' must hold 'name: value' entries");
+    for (const auto& [key, value] : values->map) {
+      double x = 0;
+      if (value.kind != YamlValue::Kind::kScalar || !parse_number(value.scalar, x))
+        return file_.error_at(value, "'" + key + "' must be a number");
+      if (Status s = set_option(decisions().options, key, x); !s) {
+        if (s.error().kind != ErrorKind::kUsage) return file_.error_at(value, s.error().message);
+        out_.warnings.push_back(file_.name() + ":" + std::to_string(value.line) + ": " +
+                                s.error().text());
+      }
+    }
+    return Done{};
+  }
+
+  Status scenes() {
+    if (map_or_null("scenes") == nullptr) return Done{};
+    auto all = file_.section("scenes");
+    if (!all) return all.error();
+    for (const auto& entry : all->root().map) {
+      auto section = all->section(entry.first);
+      if (!section) return section.error();
+      auto use = flag(*section, "use", true);
+      if (!use) return use.error();
+      SceneDecision decision{*use, {}};
+      if (section->has("crop")) {
+        auto inner = section->section("crop");
+        if (!inner) return inner.error();
+        auto box = crop_box(*inner);
+        if (!box) return box.error();
+        decision.crop = *box;
+      }
+      const auto unknown = section->unknown_keys({"use", "crop"});
+      out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
+      decisions().scenes[entry.first] = decision;
+    }
+    return Done{};
+  }
+
+  [[nodiscard]] const YamlValue* map_or_null(const char* key) const {
+    const YamlValue* value = file_.root().find(key);
+    return value == nullptr || value->kind == YamlValue::Kind::kNull ? nullptr : value;
+  }
+  [[nodiscard]] fs::path absolute(const std::string& path) const {
+    return (folder_ / path).lexically_normal();
+  }
+  Decisions& decisions() { return out_.project.decisions; }
+
+  const YamlFile& file_;
+  fs::path folder_;
+  ProjectFile out_;
+};
+
+}  // namespace
+
+std::string project_as_text(const Project& project, const fs::path& folder) {
+  const Decisions& d = project.decisions;
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  out << YAML::Key << "format" << YAML::Value << "lvcalib-project";
+  out << YAML::Key << "version" << YAML::Value << kProjectVersion;
+  out << YAML::Key << "dataset" << YAML::Value << YAML::DoubleQuoted
+      << relative_path(project.dataset, folder) << YAML::Auto;
+  out << YAML::Key << "use_crops" << YAML::Value << (d.use_crops ? "true" : "false");
+  if (d.guess) {
+    out << YAML::Key << "guess" << YAML::Value << YAML::BeginMap;
+    emit_list(out, "translation_m", d.guess->translation);
+    emit_list(out, "quaternion_xyzw", d.guess->rotation.coeffs());
+    out << YAML::EndMap;
+  }
+  emit_options(out, d.options);
+  out << YAML::Key << "added_scenes" << YAML::Value << YAML::BeginSeq;
+  for (const fs::path& path : d.added_scenes)
+    out << YAML::DoubleQuoted << relative_path(path, folder) << YAML::Auto;
+  out << YAML::EndSeq;
+  emit_scenes(out, d);
+  out << YAML::EndMap;
+  return std::string("# LV-Calib Workbench project; paths are relative to this file.\n") +
+         out.c_str() + "\n";
+}
+
+Status write_project(const fs::path& path, const Project& project) {
+  return write_file_atomically(path, project_as_text(project, fs::absolute(path).parent_path()));
+}
+
+Result<ProjectFile> read_project(const fs::path& path) {
+  auto file = YamlFile::load(path);
+  if (!file) return file.error();
+  return Reader(*file, path).read();
+}
+
+Result<ProjectFile> project_from_text(const std::string& text, const fs::path& path) {
+  auto file = YamlFile::parse(text, path.string());
+  if (!file) return file.error();
+  return Reader(*file, path).read();
+}
+
+Result<OpenedProject> open_project_dataset(const Project& project) {
+  OpenedProject opened;
+  std::error_code code;
+  if (!fs::is_directory(project.dataset, code)) {
+    opened.dataset_moved = true;
+    return opened;
+  }
+  auto dataset = open_dataset(project.dataset);
+  if (!dataset) return dataset.error();
+  opened.dataset = std::move(*dataset);
+  for (const fs::path& folder : project.decisions.added_scenes) {
+    if (Status s = add_scenes(opened.dataset, {folder}); !s) {
+      opened.warnings.push_back(s.error().text());
+      opened.missing_scenes.push_back(folder.filename().string());
+    }
+  }
+  for (const auto& entry : project.decisions.scenes) {
+    const auto& scenes = opened.dataset.scenes;
+    const bool found = std::any_of(scenes.begin(), scenes.end(), [&](const SceneFiles& files) {
+      return files.name == entry.first;
+    });
+    auto& missing = opened.missing_scenes;
+    if (!found && std::find(missing.begin(), missing.end(), entry.first) == missing.end())
+      missing.push_back(entry.first);
+  }
+  return opened;
+}
+
+}  // namespace lvcalib

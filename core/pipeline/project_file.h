@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "pipeline/session.h"
+
+namespace lvcalib {
+
+/// A project: where the dataset is and what the user decided about it. Stored as YAML text with
+/// paths relative to the project file.
+struct Project {
+  std::filesystem::path dataset;  ///< Absolute.
+  Decisions decisions;
+};
+
+/// A project read from a file.
+struct ProjectFile {
+  Project project;
+  std::vector<std::string> warnings;  ///< Unknown keys and options.
+};
+
+/// Format version that this program writes; files of a newer one are refused.
+inline constexpr int kProjectVersion = 1;
+
+/// The project as text; `folder` is what its paths are relative to.
+std::string project_as_text(const Project& project, const std::filesystem::path& folder);
+
+/// Writes a project atomically.
+Status write_project(const std::filesystem::path& path, const Project& project);
+
+/// Reads a project; neither it nor the dataset is touched.
+/// Errors (kInput): not a project; a newer version; a value of the wrong type or range.
+Result<ProjectFile> read_project(const std::filesystem::path& path);
+
+/// Reads text as if it stood in a file `path`.
+Result<ProjectFile> project_from_text(const std::string& text, const std::filesystem::path& path);
+
+/// How a project meets its dataset.
+struct OpenedProject {
+  /// The folder is not where the project says: ask for it. `dataset` is empty then.
+  bool dataset_moved = false;
+  Dataset dataset;                          ///< With the added scenes that are there.
+  std::vector<std::string> missing_scenes;  ///< Decided about in the project, not found on disk.
+  std::vector<std::string> warnings;
+};
+
+/// Opens the project's dataset. Errors: as open_dataset(), if the folder is there.
+Result<OpenedProject> open_project_dataset(const Project& project);
+
+}  // namespace lvcalib

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/session.h"
+
+#include <algorithm>
+
+namespace lvcalib {
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool same_guess(const std::optional<Rigid3>& a, const std::optional<Rigid3>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->translation == b->translation && a->rotation.coeffs() == b->rotation.coeffs();
+}
+
+std::vector<std::string> names_of(const Dataset& dataset) {
+  std::vector<std::string> names;
+  for (const SceneFiles& files : dataset.scenes) names.push_back(files.name);
+  return names;
+}
+
+// True if the kept features answer the request: only scenes are left out or taken back in, and
+// every wanted scene took part in the last whole run.
+bool solving_is_enough(const Dataset& dataset, const CalibrationRequest& request,
+                       const SessionState& state) {
+  if (!state.whole || state.scene_names != names_of(dataset) ||
+      state.whole->dataset != dataset.path.string()) {
+    return false;
+  }
+  const CalibrationRequest& last = state.request;
+  if (!same_options(last.options, request.options) || !same_guess(last.guess, request.guess) ||
+      last.use_crops != request.use_crops || last.crop_boxes != request.crop_boxes) {
+    return false;
+  }
+  return std::all_of(last.rejected.begin(), last.rejected.end(),
+                     [&](const std::string& name) { return contains(request.rejected, name); });
+}
+
+Result<CalibrationResult> solve_again(const CalibrationRequest& request,
+                                      const CalibrationResult& whole) {
+  CalibrationResult result = whole;
+  std::vector<bool> use;
+  for (SceneResult& scene : result.scenes) {
+    const bool wanted = !contains(request.rejected, scene.name);
+    const bool usable = can_be_used(scene, result.target);
+    use.push_back(wanted && usable);
+    if (!wanted) {
+      scene.reason = kRejectedByUser;
+    } else if (usable) {
+      scene.reason.clear();  // The solve says anew whether it contradicts the others.
+    }
+  }
+  return resolve_calibration(std::move(result), use, request.options);
+}
+
+}  // namespace
+
+bool same_options(const CalibrationOptions& a, const CalibrationOptions& b) {
+  const auto& all = option_declarations();
+  return std::all_of(all.begin(), all.end(),
+                     [&](const OptionDeclaration& d) { return d.get(a) == d.get(b); });
+}
+
+SceneDecision decision_of(const Decisions& decisions, const std::string& scene) {
+  const auto found = decisions.scenes.find(scene);
+  return found == decisions.scenes.end() ? SceneDecision{} : found->second;
+}
+
+Status add_scenes(Dataset& dataset, const std::vector<std::filesystem::path>& folders) {
+  std::vector<SceneFiles> scenes = dataset.scenes;
+  for (const std::filesystem::path& folder : folders) {
+    auto scene = open_scene(folder);
+    if (!scene) return scene.error();
+    for (const SceneFiles& other : scenes) {
+      if (other.name != scene->name) continue;
+      return Error::input("there is already a scene '" + scene->name + "' in this dataset",
+                          folder.string(), "rename the folder");
+    }
+    scenes.push_back(std::move(*scene));
+  }
+  std::sort(scenes.begin(), scenes.end(),
+            [](const SceneFiles& a, const SceneFiles& b) { return a.name < b.name; });
+  dataset.scenes = std::move(scenes);
+  return Done{};
+}
+
+CalibrationRequest request_of(const Dataset& dataset, const Decisions& decisions) {
+  CalibrationRequest request;
+  request.options = decisions.options;
+  request.use_crops = decisions.use_crops;
+  request.guess = decisions.guess ? decisions.guess : dataset.rough_camera_from_lidar;
+  for (const SceneFiles& files : dataset.scenes) {
+    const SceneDecision decision = decision_of(decisions, files.name);
+    if (!decision.use) request.rejected.push_back(files.name);
+    if (decision.crop) request.crop_boxes[files.name] = *decision.crop;
+  }
+  return request;
+}
+
+SessionRun run_session(const Dataset& dataset, const Decisions& decisions, SessionState state,
+                       const RunContext& context, const CalibrationObserver& observer) {
+  SessionRun run;
+  CalibrationRequest request = request_of(dataset, decisions);
+  if (solving_is_enough(dataset, request, state)) {
+    run.solved_only = true;
+    context.report("optimize", 0.5, "joint solve");
+    auto solved = solve_again(request, *state.whole);
+    run.state = std::move(state);
+    if (solved) {
+      run.state.latest = std::make_shared<const CalibrationResult>(std::move(*solved));
+      context.report("optimize", 1.0, "done");
+    } else {
+      run.error = solved.error();
+    }
+    return run;
+  }
+  auto result = calibrate(dataset, request, context, state.cache, observer);
+  run.state = std::move(state);
+  if (!result) {
+    run.error = result.error();
+    return run;
+  }
+  run.state.request = std::move(request);
+  run.state.scene_names = names_of(dataset);
+  run.state.whole = std::make_shared<const CalibrationResult>(std::move(*result));
+  run.state.latest = run.state.whole;
+  return run;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/project_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/file_io.h"
+#include "support/simulated_dataset.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+Project example(const fs::path& dataset) {
+  Project project;
+  project.dataset = dataset;
+  project.decisions.use_crops = true;
+  project.decisions.options.refinement.max_bins = 30;
+  project.decisions.options.extrinsic.robust_threshold = 0.1 + 2.7;
+  project.decisions.guess =
+      Rigid3{Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0.1, 1.0 / 3.0, -7e-5)};
+  project.decisions.scenes["A"].use = false;
+  CropBox box;
+  box.center_m = {1.1, 2.2, 3.3};
+  box.half_size_m = {0.7, 0.8, 1e-3};
+  project.decisions.scenes["a: \"strange\" name"] = {true, box};
+  project.decisions.added_scenes = {dataset.parent_path() / "more" / "X"};
+  return project;
+}
+
+TEST(ProjectFile, ReadsBackExactlyAsWritten) {
+  const test::TemporaryFolder folder;
+  const Project written = example(folder.path() / "data set");
+  const fs::path path = folder.path() / "sub.lvcalib";
+  ASSERT_TRUE(write_project(path, written).ok());
+  const auto read = read_project(path);
+  ASSERT_TRUE(read.ok()) << read.error().text();
+  EXPECT_TRUE(read->warnings.empty());
+  const Decisions& d = read->project.decisions;
+  EXPECT_EQ(read->project.dataset, written.dataset);
+  EXPECT_TRUE(d.use_crops);
+  EXPECT_TRUE(same_options(d.options, written.decisions.options));
+  EXPECT_EQ(d.guess->translation, written.decisions.guess->translation);
+  EXPECT_EQ(d.guess->rotation.coeffs(), written.decisions.guess->rotation.coeffs());
+  EXPECT_EQ(d.scenes, written.decisions.scenes);
+  EXPECT_EQ(d.added_scenes, written.decisions.added_scenes);
+}
+
+TEST(ProjectFile, MovesTogetherWithItsDataset) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder.path() / "old/dataset");
+  ASSERT_TRUE(
+      write_project(folder.path() / "old/p.lvcalib", example(folder.path() / "old/dataset")).ok());
+  fs::rename(folder.path() / "old", folder.path() / "new");
+  const auto read = read_project(folder.path() / "new/p.lvcalib");
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->project.dataset, folder.path() / "new/dataset");
+}
+
+TEST(ProjectFile, ANewerVersionIsRefusedUntouched) {
+  const test::TemporaryFolder folder;
+  const std::string text = "format: lvcalib-project\nversion: 2\ndataset: d\nfuture: [1, 2]\n";
+  const fs::path path = folder.write("p.lvcalib", text);
+  const auto read = read_project(path);
+  ASSERT_FALSE(read.ok());
+  EXPECT_THAT(read.error().text(), HasSubstr("version 2"));
+  EXPECT_EQ(*read_text_file(path, 1000), text);
+}
+
+TEST(ProjectFile, UnknownKeysAndOptionsAreWarnedAbout) {
+  const auto read = project_from_text(
+      "format: lvcalib-project\nversion: 1\ndataset: d\ncolour: red\n"
+      "options: {refinement.max_bin: 3}\nscenes: {A: {use: true, note: x}}\n",
+      "/tmp/p.lvcalib");
+  ASSERT_TRUE(read.ok()) << read.error().text();
+  ASSERT_EQ(read->warnings.size(), 3U);
+  EXPECT_THAT(read->warnings[0], HasSubstr("refinement.max_bins"));
+}
+
+TEST(ProjectFile, NonsenseIsRefusedWithFileAndLine) {
+  const std::string head = "format: lvcalib-project\nversion: 1\ndataset: d\n";
+  for (const std::string& text :
+       {std::string(), std::string("x: 1\n"), std::string("[1, 2"),
+        std::string("format: lvcalib-project\nversion: one\ndataset: d\n"),
+        std::string("format: lvcalib-project\nversion: 1\n"), head + "use_crops: perhaps\n",
+        head + "options: {refinement.max_bins: -4}\n", head + "options: {refinement.max_bins: x}\n",
+        head + "options: 3\n", head + "scenes: [A]\n", head + "scenes: {A: 3}\n",
+        head + "scenes: {A: {use: 7}}\n", head + "added_scenes: x\n",
+        head + "guess: {translation_m: [0, 0], quaternion_xyzw: [0, 0, 0, 1]}\n",
+        head + "guess: {translation_m: [0, 0, 0], quaternion_xyzw: [0, 0, 0, 3]}\n",
+        head + "scenes: {A: {crop: {center_m: [0, 0, .nan], half_size_m: [1, 1, 1], "
+               "quaternion_xyzw: [0, 0, 0, 1]}}}\n",
+        head + "scenes: {A: {crop: {center_m: [0, 0, 0], half_size_m: [1, 0, 1], "
+               "quaternion_xyzw: [0, 0, 0, 1]}}}\n"}) {
+    const auto read = project_from_text(text, "/tmp/p.lvcalib");
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.error().kind, ErrorKind::kInput) << text;
+    EXPECT_THAT(read.error().text(), HasSubstr("p.lvcalib")) << text;
+  }
+}
+
+TEST(ProjectFile, AMovedDatasetIsAskedForAndMissingScenesAreNamed) {
+  const test::SimulatedDataset data(test::dataset_options(12, 1));
+  Project project;
+  project.dataset = data.path() / "nowhere";
+  const auto moved = open_project_dataset(project);
+  ASSERT_TRUE(moved.ok());
+  EXPECT_TRUE(moved->dataset_moved);
+  project.dataset = data.path();
+  project.decisions.scenes["Z"].use = true;
+  project.decisions.scenes["A"].use = false;
+  project.decisions.added_scenes = {data.path() / "gone"};
+  const auto opened = open_project_dataset(project);
+  ASSERT_TRUE(opened.ok()) << opened.error().text();
+  EXPECT_FALSE(opened->dataset_moved);
+  EXPECT_THAT(opened->missing_scenes, ElementsAre("gone", "Z"));
+  EXPECT_EQ(opened->warnings.size(), 1U);
+  // A dataset that is there but broken says what is wrong.
+  fs::remove(data.path() / "camera.yaml");
+  EXPECT_FALSE(open_project_dataset(project).ok());
+}
+
+}  // namespace
+}  // namespace lvcalib

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/session.h"
+
+#include <atomic>
+#include <mutex>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/pose_matchers.h"
+#include "support/simulated_dataset.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+
+// One dataset for all cases; none changes it.
+class Session : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    data_ = new test::SimulatedDataset(test::dataset_options(11, 3));
+    dataset_ = data_->open();
+    first_ = run_session(dataset_, {}, {}, {});
+    ASSERT_FALSE(first_.error) << first_.error->text();
+  }
+  static void TearDownTestSuite() { delete data_; }
+
+  // Which scenes were refined anew, and what the run left.
+  struct Watched {
+    SessionRun run;
+    std::set<std::size_t> refined;
+  };
+  static Watched watch(const Decisions& decisions, const SessionState& state) {
+    Watched out;
+    std::mutex mutex;
+    CalibrationObserver observer;
+    observer.iteration = [&](std::size_t scene, const BoardRefinement& so_far) {
+      const std::lock_guard lock(mutex);
+      EXPECT_FALSE(so_far.history.empty());
+      out.refined.insert(scene);
+    };
+    out.run = run_session(dataset_, decisions, state, {}, observer);
+    return out;
+  }
+  static Eigen::Matrix4d pose(const SessionRun& run) {
+    return run.state.latest->extrinsic.camera_from_lidar.transform.matrix();
+  }
+
+  static inline test::SimulatedDataset* data_ = nullptr;
+  static inline Dataset dataset_;
+  static inline SessionRun first_;
+};
+
+TEST_F(Session, FromNothingItIsTheSameAsCalibrate) {
+  const auto result = calibrate(dataset_, {}, {});
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(pose(first_), result->extrinsic.camera_from_lidar.transform.matrix());
+  EXPECT_EQ(first_.state.latest->warnings, result->warnings);
+  EXPECT_EQ(first_.state.latest->extrinsic.camera_from_lidar.covariance,
+            result->extrinsic.camera_from_lidar.covariance);
+}
+
+TEST_F(Session, TakingOutAndBackInOnlySolves) {
+  Decisions decisions;
+  decisions.scenes["B"].use = false;
+  const Watched out = watch(decisions, first_.state);
+  ASSERT_FALSE(out.run.error);
+  EXPECT_TRUE(out.run.solved_only);
+  EXPECT_TRUE(out.refined.empty());
+  const CalibrationResult& result = *out.run.state.latest;
+  EXPECT_FALSE(result.scenes[1].used);
+  EXPECT_EQ(result.scenes[1].reason, kRejectedByUser);
+  EXPECT_EQ(result.extrinsic.used_scenes, 2);
+  CalibrationRequest request;
+  request.rejected = {"B"};
+  const auto whole = calibrate(dataset_, request, {});
+  ASSERT_TRUE(whole.ok());
+  EXPECT_THAT(result.extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(whole->extrinsic.camera_from_lidar.transform, 0.01, 0.01));
+  const Watched back = watch({}, out.run.state);
+  EXPECT_TRUE(back.run.solved_only);
+  EXPECT_EQ(pose(back.run), pose(first_));
+}
+
+TEST_F(Session, WithoutAnySceneThereIsAnErrorAndTheStateIsKept) {
+  Decisions decisions;
+  for (const char* name : {"A", "B", "C"}) decisions.scenes[name].use = false;
+  const Watched none = watch(decisions, first_.state);
+  ASSERT_TRUE(none.run.error);
+  EXPECT_EQ(none.run.error->kind, ErrorKind::kUntrusted);
+  EXPECT_EQ(none.run.state.latest, first_.state.latest);
+  const Watched back = watch({}, none.run.state);
+  EXPECT_TRUE(back.run.solved_only);
+  EXPECT_FALSE(back.run.error);
+}
+
+TEST_F(Session, AChangedOptionRunsItsStageAndLaterOnesAsCalibrateWould) {
+  for (const auto& [key, value, refined] :
+       {std::tuple{"refinement.max_bins", 20.0, 3U}, {"extrinsic.robust_threshold", 3.0, 0U}}) {
+    Decisions decisions;
+    ASSERT_TRUE(set_option(decisions.options, key, value).ok());
+    const Watched out = watch(decisions, first_.state);
+    ASSERT_FALSE(out.run.error);
+    EXPECT_FALSE(out.run.solved_only);
+    EXPECT_EQ(out.refined.size(), refined) << key;
+    EXPECT_EQ(out.run.state.latest->times.detect_ms, 0.0) << "detected again";
+    EXPECT_EQ(out.run.state.latest->times.localize_ms, 0.0) << "searched again";
+    const auto whole = calibrate(dataset_, request_of(dataset_, decisions), {});
+    ASSERT_TRUE(whole.ok());
+    EXPECT_EQ(pose(out.run), whole->extrinsic.camera_from_lidar.transform.matrix()) << key;
+  }
+}
+
+TEST_F(Session, ACropBoxRunsThatSceneAlone) {
+  const RefinedNode& node = first_.state.latest->scenes[2].refinement->nodes[4];
+  Decisions decisions;
+  CropBox box;
+  box.center_m = node.center_lidar_m;
+  box.half_size_m = {1.0, 1.0, 1.0};
+  decisions.scenes["C"].crop = box;
+  const Watched out = watch(decisions, first_.state);
+  ASSERT_FALSE(out.run.error) << out.run.error->text();
+  EXPECT_EQ(out.refined, std::set<std::size_t>{2});
+  EXPECT_THAT(out.run.state.latest->extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(data_->rig().camera_from_lidar, 5.0, 2.0));
+  // A box beside the board loses the scene and says so; the others still give a result.
+  decisions.scenes["C"].crop->center_m += Eigen::Vector3d(0, 0, 500.0);
+  const Watched lost = watch(decisions, out.run.state);
+  ASSERT_FALSE(lost.run.error) << lost.run.error->text();
+  EXPECT_FALSE(lost.run.state.latest->scenes[2].used);
+  EXPECT_THAT(lost.run.state.latest->scenes[2].reason, HasSubstr("crop box holds no points"));
+}
+
+TEST_F(Session, ACancelledRunKeepsWhatItFinished) {
+  std::stop_source stop;
+  RunContext context;
+  context.stop = stop.get_token();
+  context.progress = [&](const Progress& p) {
+    if (p.stage == "refine") stop.request_stop();
+  };
+  const SessionRun cancelled = run_session(dataset_, {}, {}, context);
+  ASSERT_TRUE(cancelled.error);
+  EXPECT_EQ(cancelled.error->kind, ErrorKind::kCancelled);
+  EXPECT_EQ(cancelled.state.latest, nullptr);
+  const SessionRun again = run_session(dataset_, {}, cancelled.state, {});
+  ASSERT_FALSE(again.error);
+  EXPECT_EQ(again.state.latest->times.detect_ms, 0.0);
+  EXPECT_EQ(again.state.latest->times.localize_ms, 0.0);
+  EXPECT_EQ(pose(again), pose(first_));
+}
+
+TEST_F(Session, AForgottenOrChangedSceneRunsAgain) {
+  SessionState state = first_.state;
+  state.cache.forget("A");
+  state.whole = nullptr;
+  const Watched out = watch({}, state);
+  EXPECT_EQ(out.refined, std::set<std::size_t>{0});
+  EXPECT_EQ(pose(out.run), pose(first_));
+}
+
+TEST_F(Session, AddedScenesMustBeWholeAndHaveNamesOfTheirOwn) {
+  const test::TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  fs::copy(data_->path() / "scenes/A", folder.path() / "X");
+  Dataset dataset = dataset_;
+  ASSERT_TRUE(add_scenes(dataset, {folder.path() / "X"}).ok());
+  EXPECT_EQ(dataset.scenes.size(), 4U);
+  EXPECT_EQ(dataset.scenes.back().name, "X");
+  const Status twice = add_scenes(dataset, {folder.path() / "X"});
+  ASSERT_FALSE(twice.ok());
+  EXPECT_THAT(twice.error().text(), HasSubstr("already a scene 'X'"));
+  fs::create_directory(folder.path() / "Y");
+  const Status empty = add_scenes(dataset, {folder.path() / "Y"});
+  ASSERT_FALSE(empty.ok());
+  EXPECT_EQ(empty.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(dataset.scenes.size(), 4U);
+}
+
+}  // namespace
+}  // namespace lvcalib

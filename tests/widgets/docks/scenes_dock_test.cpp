@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "docks/scenes_dock.h"
+
+#include <QAction>
+#include <QSignalSpy>
+#include <QTest>
+#include <QTreeView>
+
+#include <gtest/gtest.h>
+
+#include "models/scene_model.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class ScenesDockTest : public ::testing::Test {
+ protected:
+  ScenesDockTest() {
+    Dataset dataset;
+    dataset.scenes = {{"A", {}, {}, {}}, {"B", {}, {}, {}}, {"C", {}, {}, {}}};
+    model_.set_scenes(dataset, {"Z"});
+    dock_.show();
+    QCoreApplication::processEvents();
+    view_ = dock_.findChild<QTreeView*>("scenes");
+  }
+  QAction* action(const char* name) { return dock_.findChild<QAction*>(name); }
+
+  SceneModel model_;
+  ScenesDock dock_{model_};
+  QTreeView* view_ = nullptr;
+};
+
+TEST_F(ScenesDockTest, ActionsAreForTheSelectedScenesThatExist) {
+  EXPECT_FALSE(action("reject")->isEnabled());
+  EXPECT_TRUE(action("add_scenes")->isEnabled());
+  view_->selectAll();
+  EXPECT_EQ(dock_.selected(), (QStringList{"A", "B", "C"}));
+  QSignalSpy use(&dock_, &ScenesDock::use_wanted);
+  action("reject")->trigger();
+  action("accept")->trigger();
+  ASSERT_EQ(use.count(), 2);
+  EXPECT_EQ(use.at(0).at(0).toStringList().size(), 3);
+  EXPECT_FALSE(use.at(0).at(1).toBool());
+  EXPECT_TRUE(use.at(1).at(1).toBool());
+}
+
+TEST_F(ScenesDockTest, SpaceTicksAndArrowsChangeTheSceneLookedAt) {
+  dock_.select("A");
+  QSignalSpy activated(&dock_, &ScenesDock::scene_activated);
+  QSignalSpy use(&dock_, &ScenesDock::use_wanted);
+  QTest::keyClick(view_, Qt::Key_Down);
+  ASSERT_EQ(activated.count(), 1);
+  EXPECT_EQ(activated.last().first().toString(), "B");
+  QTest::keyClick(view_, Qt::Key_Space);
+  ASSERT_EQ(use.count(), 1);
+  EXPECT_EQ(use.first().first().toStringList(), QStringList{"B"});
+  EXPECT_FALSE(use.first().last().toBool());
+  // A missing scene is not looked at.
+  QTest::keyClick(view_, Qt::Key_End);
+  EXPECT_NE(activated.last().first().toString(), "Z");
+}
+
+TEST_F(ScenesDockTest, SortsByAnyColumn) {
+  view_->sortByColumn(SceneModel::kName, Qt::DescendingOrder);
+  EXPECT_EQ(view_->model()->index(0, 0).data().toString(), "Z");
+  dock_.select("C");
+  EXPECT_EQ(dock_.selected(), QStringList{"C"});
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

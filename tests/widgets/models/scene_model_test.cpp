@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "models/scene_model.h"
+
+#include <QAbstractItemModelTester>
+#include <QSignalSpy>
+
+#include <gtest/gtest.h>
+
+namespace lvcalib::widgets {
+namespace {
+
+class SceneModelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    Dataset dataset;
+    dataset.scenes = {{"A", {}, {}, {}}, {"B", {}, {}, {}}, {"C", {}, {}, {}}};
+    model_.set_scenes(dataset, {"Z"});
+  }
+  QString text(int row, SceneModel::Column column) const {
+    return model_.index(row, column).data().toString();
+  }
+  static std::shared_ptr<const CalibrationResult> result() {
+    auto r = std::make_shared<CalibrationResult>();
+    r->scenes.resize(3);
+    for (int s = 0; s < 3; ++s) r->scenes[s].name = std::string(1, static_cast<char>('A' + s));
+    for (int s : {0, 1}) {
+      r->scenes[s].view.emplace().tag_count = 16 - s;
+      r->scenes[s].refinement.emplace().board_points = 900 + 200 * s;
+    }
+    r->scenes[0].used = true;
+    r->scenes[1].reason = "contradicts the other scenes";
+    r->scenes[2].reason = "no tags";
+    SceneSolution solved;
+    solved.name = "A";
+    solved.used = true;
+    solved.rms_px = 0.1234;
+    solved.rms_mm = 0.5678;
+    r->extrinsic.scenes = {solved};
+    r->extrinsic.leave_one_out = {{"A", 1.25, 0.5}};
+    return r;
+  }
+  SceneModel model_;
+  QAbstractItemModelTester tester_{&model_, QAbstractItemModelTester::FailureReportingMode::Fatal};
+};
+
+TEST_F(SceneModelTest, SaysWhatIsKnownOfEachScene) {
+  EXPECT_EQ(model_.rowCount(), 4);
+  EXPECT_EQ(text(0, SceneModel::kState), "not run yet");
+  EXPECT_EQ(text(3, SceneModel::kState), "missing on disk");
+  EXPECT_EQ(text(0, SceneModel::kTags), "");
+  model_.set_result(result());
+  EXPECT_EQ(text(0, SceneModel::kTags), "16");
+  EXPECT_EQ(text(0, SceneModel::kPoints), "900");
+  EXPECT_EQ(text(0, SceneModel::kPixels), "0.123");
+  EXPECT_EQ(text(0, SceneModel::kMillimetres), "0.57");
+  EXPECT_EQ(text(0, SceneModel::kInfluence), "1.25");
+  EXPECT_EQ(text(0, SceneModel::kState), "used");
+  EXPECT_EQ(text(1, SceneModel::kState), "contradicts the other scenes");
+  EXPECT_EQ(text(1, SceneModel::kPixels), "");
+  EXPECT_EQ(text(2, SceneModel::kState), "no tags");
+  // Points sort by number: 900 before 1100.
+  EXPECT_LT(model_.index(0, SceneModel::kPoints).data(SceneModel::kSortRole).toInt(),
+            model_.index(1, SceneModel::kPoints).data(SceneModel::kSortRole).toInt());
+  EXPECT_FALSE(model_.index(0, SceneModel::kState).data(Qt::DecorationRole).isNull());
+  model_.set_result(nullptr);
+  EXPECT_EQ(text(0, SceneModel::kState), "not run yet");
+}
+
+TEST_F(SceneModelTest, DecisionsShowAndTicksOnlyAsk) {
+  Decisions decisions;
+  decisions.scenes["B"].use = false;
+  decisions.scenes["A"].crop = CropBox{};
+  model_.set_decisions(decisions);
+  model_.set_result(result());
+  EXPECT_EQ(text(1, SceneModel::kState), "rejected");
+  EXPECT_EQ(text(0, SceneModel::kState), "used (cropped)");
+  QSignalSpy wanted(&model_, &SceneModel::use_wanted);
+  EXPECT_TRUE(model_.setData(model_.index(1, 0), Qt::Checked, Qt::CheckStateRole));
+  ASSERT_EQ(wanted.count(), 1);
+  EXPECT_EQ(wanted.first().first().toString(), "B");
+  EXPECT_TRUE(wanted.first().last().toBool());
+  EXPECT_EQ(model_.index(1, 0).data(Qt::CheckStateRole).toInt(), Qt::Unchecked);
+  EXPECT_FALSE(model_.setData(model_.index(3, 0), Qt::Checked, Qt::CheckStateRole)) << "missing";
+  EXPECT_TRUE(model_.index(3, 0).data(Qt::CheckStateRole).isNull());
+}
+
+TEST_F(SceneModelTest, ThumbnailsStayWithTheirScenes) {
+  QSignalSpy changed(&model_, &QAbstractItemModel::dataChanged);
+  model_.set_thumbnail("B", QImage(4, 4, QImage::Format_RGB32));
+  ASSERT_EQ(changed.count(), 1);
+  EXPECT_FALSE(model_.index(1, 0).data(Qt::DecorationRole).value<QPixmap>().isNull());
+  EXPECT_TRUE(model_.index(0, 0).data(Qt::DecorationRole).value<QPixmap>().isNull());
+  EXPECT_EQ(model_.row_of("B"), 1);
+  EXPECT_EQ(model_.row_of("nobody"), -1);
+  EXPECT_EQ(model_.scene_at(9), "");
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/extrinsic_page.h"
+
+#include <QSignalSpy>
+#include <QTabWidget>
+#include <QTest>
+#include <QTextBrowser>
+
+#include <gtest/gtest.h>
+
+#include "views/category_plots.h"
+#include "views/cloud_view.h"
+#include "widgets/support/calibrated_demo.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class ExtrinsicPageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    page_.resize(1280, 760);
+    page_.show();
+  }
+  [[nodiscard]] QByteArray csv(const QString& tip_start) const {
+    for (const CategoryPlot* plot : page_.findChildren<CategoryPlot*>()) {
+      if (plot->toolTip().startsWith(tip_start)) return plot->csv();
+    }
+    return {};
+  }
+  const test::CalibratedDemo& demo_ = test::calibrated_demo();
+  ExtrinsicPage page_;
+};
+
+TEST_F(ExtrinsicPageTest, PlotsCarryTheResultsNumbers) {
+  page_.setResult(demo_.result);
+  const auto& solution = demo_.result->extrinsic;
+  const QByteArray px = csv("Root mean square of the tag corners");
+  for (const SceneSolution& s : solution.scenes) {
+    EXPECT_TRUE(
+        px.contains(QByteArray::fromStdString(s.name) + "," + csv_number(s.rms_px).toUtf8() + ",1"))
+        << px.toStdString();
+  }
+  const QByteArray moved = csv("How far the LiDAR's origin moves");
+  ASSERT_EQ(solution.leave_one_out.size(), 3U);
+  for (const LeaveOneOut& l : solution.leave_one_out) {
+    EXPECT_TRUE(moved.contains(csv_number(l.translation_mm).toUtf8()));
+  }
+  // One row per used corner of 16 tags in 3 scenes, or fewer where a tag was refused.
+  EXPECT_GT(csv("Lengths of the corner").count('\n'), 100);
+  EXPECT_TRUE(page_.findChild<QTextBrowser*>("pose")->toPlainText().contains("T_camera_lidar"));
+}
+
+TEST_F(ExtrinsicPageTest, AClickGoesToTheScene) {
+  page_.setResult(demo_.result);
+  QSignalSpy activated(&page_, &ExtrinsicPage::sceneActivated);
+  auto* plot = page_.findChildren<BarPlot*>().front();
+  QTest::qWait(50);
+  QTest::mouseClick(plot, Qt::LeftButton, {},
+                    QPoint(static_cast<int>(plot->xAxis->coordToPixel(2)), plot->height() / 2));
+  ASSERT_EQ(activated.size(), 1);
+  EXPECT_EQ(activated[0][0].toInt(), 1);
+}
+
+TEST_F(ExtrinsicPageTest, ColourisesTheCloud) {
+  page_.setResult(demo_.result);
+  page_.setSceneData(0, demo_.clouds[0], demo_.images[0]);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return page_.cloudView()->scene() && page_.cloudView()->scene()->size() > 0; },
+      10'000));
+  EXPECT_FALSE(page_.cloudView()->scene()->has_scale);
+}
+
+TEST_F(ExtrinsicPageTest, TwoScenesHaveNoInfluenceAndNoResultIsSaid) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  changed->extrinsic.leave_one_out.clear();
+  page_.setResult(changed);
+  page_.setResult(nullptr);
+  EXPECT_TRUE(
+      page_.findChild<QTextBrowser*>("pose")->toPlainText().contains("Run the calibration"));
+  QSignalSpy activated(&page_, &ExtrinsicPage::sceneActivated);
+  for (auto* plot : page_.findChildren<CategoryPlot*>()) {
+    QTest::mouseClick(plot, Qt::LeftButton, {}, plot->rect().center());
+  }
+  EXPECT_EQ(activated.size(), 0);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/refinement_page.h"
+
+#include <QLabel>
+#include <QSlider>
+#include <QTableWidget>
+#include <QTest>
+#include <QToolButton>
+
+#include <gtest/gtest.h>
+
+#include "views/angle_distance_plot.h"
+#include "views/board_map_plot.h"
+#include "views/convergence_plot.h"
+#include "widgets/support/calibrated_demo.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class RefinementPageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    page_.resize(1280, 760);
+    page_.show();
+  }
+  void load() {
+    page_.setResult(demo_.result);
+    page_.setScene(0);
+  }
+  [[nodiscard]] const BoardRefinement& refinement() const {
+    return *demo_.result->scenes[0].refinement;
+  }
+  [[nodiscard]] AngleDistancePlot* plot(int id) const {
+    return page_.findChild<AngleDistancePlot*>(QString("node-%1").arg(id));
+  }
+  [[nodiscard]] QTableWidget* bins() const { return page_.findChild<QTableWidget*>("bins"); }
+
+  const test::CalibratedDemo& demo_ = test::calibrated_demo();
+  RefinementPage page_;
+};
+
+TEST_F(RefinementPageTest, OnePlotForEveryNodeAsOnTheBoard) {
+  load();
+  const NodeRecord& last = refinement().history.back().nodes[4];
+  for (int id = 0; id < 9; ++id) {
+    ASSERT_NE(plot(id), nullptr);
+    EXPECT_GT(plot(id)->data().samples.size(), 50U);
+    EXPECT_FALSE(plot(id)->data().record.bins.empty());
+  }
+  EXPECT_EQ(plot(4)->data().record.wave_m, last.wave_m);
+  // Row 0 of the board is the lowest, column 0 the leftmost.
+  QTest::qWait(50);
+  EXPECT_GT(plot(0)->y(), plot(6)->y());
+  EXPECT_LT(plot(0)->x(), plot(2)->x());
+}
+
+TEST_F(RefinementPageTest, AClickEnlargesANodeAndListsItsBins) {
+  load();
+  QTest::mouseClick(plot(7), Qt::LeftButton, {}, plot(7)->rect().center());
+  EXPECT_EQ(page_.chosenNode(), 7);
+  auto* large = page_.findChild<AngleDistancePlot*>("large-plot");
+  EXPECT_EQ(large->data().record.id, 7);
+  const auto& record = refinement().history.back().nodes[7];
+  ASSERT_EQ(bins()->rowCount(), static_cast<int>(record.bins.size()));
+  for (int row = 0; row < bins()->rowCount(); ++row) {
+    const BinRecord& bin = record.bins[static_cast<std::size_t>(row)];
+    EXPECT_EQ(bins()->item(row, 4)->text().toStdString(), describe(bin.state));
+    EXPECT_EQ(bins()->item(row, 3)->text().toInt(), bin.samples);
+  }
+  EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("bins used"));
+}
+
+TEST_F(RefinementPageTest, RefusedBinsTellWhy) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  NodeRecord& node = changed->scenes[0].refinement->history.back().nodes[2];
+  node.bins[1].state = BinState::kOneSided;
+  node.valid = false;
+  node.reason = "too few usable bins around the circle";
+  page_.setResult(changed);
+  page_.setScene(0);
+  page_.chooseNode(2);
+  EXPECT_EQ(bins()->item(1, 4)->text(), "samples on one side of the edge only");
+  EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("too few usable bins"));
+}
+
+TEST_F(RefinementPageTest, TheSliderReplays) {
+  load();
+  auto* slider = page_.findChild<QSlider*>("iteration");
+  const int last = static_cast<int>(refinement().history.size()) - 1;
+  ASSERT_GT(last, 0);
+  EXPECT_EQ(page_.iteration(), last);
+  slider->setFocus();
+  QTest::keyClick(slider, Qt::Key_Home);
+  EXPECT_EQ(page_.iteration(), 0);
+  EXPECT_EQ(plot(3)->data().record.wave_m, refinement().history[0].nodes[3].wave_m);
+  QTest::mouseClick(page_.findChild<QToolButton*>("play"), Qt::LeftButton);
+  EXPECT_EQ(page_.iteration(), 0);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return page_.iteration() == last; }, 500 * (last + 2)));
+}
+
+// As during a run: records arrive one by one, before there is a result.
+TEST_F(RefinementPageTest, LiveIterationsAreShown) {
+  page_.setScene(0);
+  page_.setTarget(demo_.result->target);
+  page_.setLivePoints(0, {demo_.result, &demo_.result->scenes[0].board_points});
+  for (std::size_t k = 1; k <= refinement().history.size(); ++k) {
+    auto partial = std::make_shared<BoardRefinement>(refinement());
+    partial->history.resize(k);
+    page_.showIteration(0, partial);
+    EXPECT_EQ(page_.iteration(), static_cast<int>(k) - 1);
+    EXPECT_EQ(plot(5)->data().record.wave_m, refinement().history[k - 1].nodes[5].wave_m);
+    EXPECT_GT(plot(5)->data().samples.size(), 50U);
+  }
+  // Another scene's are not.
+  auto other = std::make_shared<BoardRefinement>(refinement());
+  other->history.resize(1);
+  page_.showIteration(1, other);
+  EXPECT_EQ(page_.iteration(), static_cast<int>(refinement().history.size()) - 1);
+}
+
+// A partial refinement may have no final nodes yet.
+TEST_F(RefinementPageTest, LiveWithoutPointsAndNodes) {
+  page_.setScene(0);
+  page_.setTarget(demo_.result->target);
+  auto partial = std::make_shared<BoardRefinement>(refinement());
+  partial->nodes.clear();
+  page_.showIteration(0, partial);
+  EXPECT_FALSE(plot(5)->data().record.bins.empty());
+  EXPECT_TRUE(plot(5)->data().samples.empty());
+  auto empty = std::make_shared<BoardRefinement>();
+  page_.showIteration(0, empty);
+  EXPECT_TRUE(plot(5)->data().record.bins.empty());
+}
+
+TEST_F(RefinementPageTest, SaysWhyThereIsNothing) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  changed->scenes[0].refinement.reset();
+  changed->scenes[0].reason = "the board is not found in the cloud";
+  page_.setResult(changed);
+  page_.setScene(0);
+  EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("not found in the cloud"));
+  EXPECT_EQ(bins()->rowCount(), 0);
+}
+
+TEST_F(RefinementPageTest, UpdatesFastEnoughToBeLive) {
+  load();
+  QElapsedTimer clock;
+  clock.start();
+  constexpr int kTimes = 10;
+  for (int k = 0; k < kTimes; ++k) {
+    page_.setIteration(k % 2);
+    QApplication::processEvents();
+  }
+  const double each_ms = static_cast<double>(clock.elapsed()) / kTimes;
+  RecordProperty("iteration_ms", static_cast<int>(each_ms));
+  std::printf("an iteration is shown in %.0f ms\n", each_ms);
+  EXPECT_LT(each_ms, 500.0);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/scene_overlay.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "widgets/support/calibrated_demo.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class SceneOverlayTest : public ::testing::Test {
+ protected:
+  const CalibrationResult& result_ = *test::calibrated_demo().result;
+  const SceneResult& scene_ = result_.scenes[0];
+};
+
+TEST_F(SceneOverlayTest, PredictedCornersMissTheDetectedOnesByTheResidual) {
+  const ImageOverlay overlay = image_overlay(result_, scene_);
+  const SceneSolution* solution = solution_of(result_, scene_);
+  ASSERT_NE(solution, nullptr);
+  ASSERT_EQ(overlay.corners.size(), scene_.view->corners.size());
+  double sum_sq = 0.0;
+  for (const ImageOverlay::Corner& c : overlay.corners) {
+    ASSERT_TRUE(c.has_prediction);
+    const QPointF r = c.detected - c.predicted;
+    sum_sq += r.x() * r.x() + r.y() * r.y();
+    // The prediction is the board of the solution, projected.
+    const auto tag = result_.target.tag(c.feature_id);
+    const Eigen::Vector2d p =
+        result_.target.tag_corners_m(*tag)[static_cast<std::size_t>(c.corner)];
+    const auto pixel =
+        result_.camera.project(solution->camera_from_board * Eigen::Vector3d(p.x(), p.y(), 0.0));
+    ASSERT_TRUE(pixel);
+    EXPECT_NEAR(pixel->x(), c.predicted.x(), 1e-6);
+    EXPECT_NEAR(pixel->y(), c.predicted.y(), 1e-6);
+  }
+  EXPECT_GT(sum_sq, 0.0);
+}
+
+TEST_F(SceneOverlayTest, CirclesFromTheLidarLieOnThePrintedOnes) {
+  const ImageOverlay overlay = image_overlay(result_, scene_);
+  ASSERT_EQ(overlay.circles.size(), 9U);
+  ASSERT_EQ(overlay.tags.size(), static_cast<std::size_t>(scene_.view->tag_count));
+  const SceneSolution* solution = solution_of(result_, scene_);
+  for (const ImageOverlay::Circle& circle : overlay.circles) {
+    const Eigen::Vector2d c = result_.target.nodes()[static_cast<std::size_t>(circle.id)].center_m;
+    const auto pixel =
+        result_.camera.project(solution->camera_from_board * Eigen::Vector3d(c.x(), c.y(), 0.0));
+    ASSERT_TRUE(pixel);
+    // A millimetre at two metres is about half a pixel.
+    EXPECT_NEAR(circle.center.x(), pixel->x(), 1.5);
+    EXPECT_NEAR(circle.center.y(), pixel->y(), 1.5);
+    EXPECT_TRUE(circle.edge.containsPoint(circle.center, Qt::OddEvenFill));
+  }
+}
+
+TEST_F(SceneOverlayTest, LinesOfBothSensorsAgree) {
+  const auto lines = cloud_lines(result_, scene_);
+  ASSERT_EQ(lines.size(), 20U);  // Outline and nine circles, twice.
+  for (std::size_t k = 0; k < lines[0].points_m.size(); ++k) {
+    EXPECT_LT((lines[0].points_m[k] - lines[10].points_m[k]).norm(), 0.005);
+  }
+  SceneResult nothing;
+  nothing.name = "nobody";
+  EXPECT_TRUE(cloud_lines(result_, nothing).empty());
+  EXPECT_TRUE(image_overlay(result_, nothing).corners.empty());
+}
+
+TEST_F(SceneOverlayTest, TheSuggestedBoxHoldsTheBoard) {
+  const CropBox box = box_about_board(&result_, &scene_, {});
+  for (const CloudLine& line : cloud_lines(result_, scene_)) {
+    for (const Eigen::Vector3d& p : line.points_m) EXPECT_TRUE(box.contains(p));
+  }
+  EXPECT_TRUE(check(box).ok());
+  const CropBox fallback = box_about_board(nullptr, nullptr, {1, 2, 3});
+  EXPECT_TRUE(fallback.contains({1, 2, 3}));
+}
+
+TEST_F(SceneOverlayTest, PointsKeepTheirColours) {
+  CloudScene cloud;
+  cloud.order = {1, 0, 2};
+  cloud.rgb = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const float nan = std::nanf("");
+  cloud.pixels = {{10, 11}, {20, 21}, {nan, nan}};
+  ImageOverlay overlay;
+  add_points(overlay, cloud);
+  ASSERT_EQ(overlay.points.size(), 2U);
+  EXPECT_EQ(overlay.points[0], QPointF(20, 21));
+  EXPECT_EQ(overlay.point_colors[0], qRgb(1, 2, 3));
+  EXPECT_EQ(overlay.point_colors[1], qRgb(4, 5, 6));
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/scene_page.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include "pages/cloud_pane.h"
+#include "pages/image_pane.h"
+#include "pages/scene_overlay.h"
+#include "views/cloud_view.h"
+#include "views/image_view.h"
+#include "widgets/support/calibrated_demo.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class ScenePageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    page_.resize(1280, 760);
+    page_.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&page_));
+  }
+  void load() {
+    page_.setResult(demo_.result);
+    page_.setScene(1);
+    page_.setSceneData(demo_.clouds[1], demo_.images[1]);
+    ASSERT_TRUE(settle());
+  }
+  bool settle() {
+    return QTest::qWaitFor(
+        [&] {
+          const CloudView* view = page_.cloudPane()->view();
+          return !page_.cloudPane()->busy() && (!view->hasOpenGl() || view->canvas()->complete());
+        },
+        20'000);
+  }
+  [[nodiscard]] QString selection() const { return page_.findChild<QLabel*>("selection")->text(); }
+  [[nodiscard]] ImageView& image() { return *page_.imagePane()->view(); }
+  [[nodiscard]] const CloudScene& cloud() { return *page_.cloudPane()->view()->scene(); }
+  // Chooses an entry as a user does: focus and keys.
+  void choose(const char* name, int index) {
+    auto* box = page_.findChild<QComboBox*>(name);
+    box->setFocus();
+    QTest::keyClick(box, Qt::Key_Home);
+    for (int k = 0; k < index; ++k) QTest::keyClick(box, Qt::Key_Down);
+    ASSERT_EQ(box->currentIndex(), index);
+    ASSERT_TRUE(settle());
+  }
+
+  const test::CalibratedDemo& demo_ = test::calibrated_demo();
+  ScenePage page_;
+};
+
+TEST_F(ScenePageTest, ShowsCloudImageAndFindings) {
+  load();
+  EXPECT_EQ(cloud().size(), demo_.clouds[1]->size());
+  EXPECT_EQ(image().image().size(), demo_.images[1].size());
+  const ImageOverlay& overlay = image().overlay().overlay();
+  EXPECT_EQ(overlay.tags.size(), 16U);
+  EXPECT_EQ(overlay.circles.size(), 9U);
+  EXPECT_GT(overlay.points.size(), 1000U);
+}
+
+TEST_F(ScenePageTest, FilterAndColourAreChosen) {
+  load();
+  choose("cloud-filter", 2);
+  EXPECT_EQ(cloud().size(), demo_.result->scenes[1].board_points.size());
+  choose("cloud-color", 3);
+  EXPECT_TRUE(cloud().quantity.contains("plane"));
+  EXPECT_EQ(cloud().scale.map, ColorMap::kDiverging);
+  choose("cloud-filter", 3);
+  EXPECT_GT(cloud().size(), 100U);
+  EXPECT_LT(cloud().size(), demo_.result->scenes[1].board_points.size());
+  choose("cloud-color", 4);
+  EXPECT_FALSE(cloud().has_scale);
+  EXPECT_TRUE(cloud().notice.isEmpty());
+}
+
+// The tag in the image and the points on it in the cloud.
+TEST_F(ScenePageTest, ATagInTheImageFindsItsPoints) {
+  load();
+  const ImageOverlay::Tag& tag = image().overlay().overlay().tags[6];
+  QTest::mouseClick(image().viewport(), Qt::LeftButton, {},
+                    image().mapFromScene(tag.corners.boundingRect().center()));
+  EXPECT_EQ(image().overlay().highlightedTag(), tag.id);
+  EXPECT_TRUE(selection().contains(QString("Tag %1").arg(tag.id)));
+  EXPECT_TRUE(selection().contains("LiDAR points on it"));
+}
+
+TEST_F(ScenePageTest, APixelFindsTheNearestPoint) {
+  load();
+  // Somewhere in the image where the LiDAR measured.
+  const ImageOverlay& overlay = image().overlay().overlay();
+  QPointF place;
+  for (const QPointF& p : overlay.points) {
+    bool on_tag = false;
+    for (const auto& tag : overlay.tags) on_tag |= tag.corners.containsPoint(p, Qt::OddEvenFill);
+    if (!on_tag && QRectF(200, 150, 600, 350).contains(p)) place = p;
+  }
+  ASSERT_FALSE(place.isNull());
+  QTest::mouseClick(image().viewport(), Qt::LeftButton, {}, image().mapFromScene(place));
+  EXPECT_TRUE(selection().contains("Nearest: Point")) << selection().toStdString();
+  EXPECT_TRUE(selection().contains("range"));
+  EXPECT_GE(image().overlay().highlights().size(), 2U);
+}
+
+TEST_F(ScenePageTest, APointInTheCloudFindsItsPixel) {
+  load();
+  CloudView* view = page_.cloudPane()->view();
+  if (!view->hasOpenGl()) GTEST_SKIP() << "no OpenGL 3.2 here (run under xvfb-run)";
+  view->look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  QTest::mouseClick(view->canvas(), Qt::LeftButton, {}, view->canvas()->rect().center());
+  ASSERT_TRUE(selection().startsWith("Point")) << selection().toStdString();
+  ASSERT_EQ(image().overlay().highlights().size(), 1U);
+  const QPointF pixel = image().overlay().highlights()[0];
+  EXPECT_TRUE(selection().contains(QString("pixel (%1").arg(pixel.x(), 0, 'f', 1)));
+}
+
+TEST_F(ScenePageTest, CropIsMadeUsedAndCleared) {
+  load();
+  QSignalSpy changed(&page_, &ScenePage::cropChanged);
+  QSignalSpy cleared(&page_, &ScenePage::cropCleared);
+  page_.cloudPane()->setFocus();
+  page_.findChild<QAction*>("crop-action")->trigger();
+  auto* use = page_.findChild<QPushButton*>("crop-use");
+  ASSERT_TRUE(use->isVisible());
+  QTest::mouseClick(use, Qt::LeftButton);
+  ASSERT_EQ(changed.size(), 1);
+  EXPECT_EQ(changed[0][0].toInt(), 1);
+  const auto box = changed[0][1].value<CropBox>();
+  EXPECT_TRUE(check(box).ok());
+  const auto& refinement = *demo_.result->scenes[1].refinement;
+  for (const RefinedNode& node : refinement.nodes) EXPECT_TRUE(box.contains(node.center_lidar_m));
+  choose("cloud-filter", 1);
+  EXPECT_GT(cloud().size(), 1000U);
+  EXPECT_LT(cloud().size(), demo_.clouds[1]->size() / 2);
+  QTest::mouseClick(page_.findChild<QPushButton*>("crop-clear"), Qt::LeftButton);
+  EXPECT_EQ(cleared.size(), 1);
+  EXPECT_FALSE(use->isVisible());
+}
+
+TEST_F(ScenePageTest, AnotherSceneLetsGoOfTheOldData) {
+  load();
+  page_.setScene(2);
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(image().image().isNull());
+  EXPECT_NE(cloud().cloud.get(), demo_.clouds[1].get());
+  page_.setScene(-1);
+  page_.setResult(nullptr);
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(image().overlay().overlay().tags.empty());
+}
+
+TEST_F(ScenePageTest, LoadedButNotYetSolved) {
+  page_.setScene(0);
+  page_.setSceneData(demo_.clouds[0], demo_.images[0]);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(cloud().size(), demo_.clouds[0]->size());
+  QTest::mouseClick(image().viewport(), Qt::LeftButton, {}, image().viewport()->rect().center());
+  EXPECT_TRUE(selection().contains("once there is an extrinsic"));
+}
+
+// Everything can be reached with the keyboard, and says what it is.
+TEST_F(ScenePageTest, ControlsAreReachableAndExplained) {
+  load();
+  for (const QWidget* widget : page_.findChildren<QComboBox*>()) {
+    EXPECT_NE(widget->focusPolicy() & Qt::TabFocus, 0);
+    EXPECT_FALSE(widget->toolTip().isEmpty());
+    EXPECT_FALSE(widget->accessibleName().isEmpty());
+  }
+  EXPECT_NE(image().focusPolicy() & Qt::TabFocus, 0);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/runner.h"
+
+#include <QElapsedTimer>
+#include <QSignalSpy>
+#include <QTest>
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace lvcalib::widgets {
+namespace {
+
+using namespace std::chrono_literals;
+using Deliver = Runner::Deliver;
+using Post = Runner::Post;
+
+TEST(Runner, DeliversInTheInterfaceThreadAndReportsProgress) {
+  Runner runner;
+  QSignalSpy progressed(&runner, &Runner::progressed);
+  QSignalSpy finished(&runner, &Runner::finished);
+  std::thread::id worked, delivered;
+  int posted = 0;
+  const auto id = runner.start([&](const RunContext& context, const Post& post) -> Deliver {
+    worked = std::this_thread::get_id();
+    context.report("load", 0.5, "half");
+    post([&] { ++posted; });
+    return [&] { delivered = std::this_thread::get_id(); };
+  });
+  EXPECT_TRUE(runner.running());
+  ASSERT_TRUE(finished.wait(5000));
+  EXPECT_FALSE(runner.running());
+  EXPECT_EQ(finished.first().first().toULongLong(), id);
+  EXPECT_EQ(delivered, std::this_thread::get_id());
+  EXPECT_NE(worked, delivered);
+  EXPECT_EQ(posted, 1);
+  ASSERT_EQ(progressed.count(), 1);
+  EXPECT_EQ(progressed.first().at(1).toString(), "load");
+  EXPECT_EQ(progressed.first().at(2).toDouble(), 0.5);
+}
+
+TEST(Runner, ExceptionsBecomeMessages) {
+  Runner runner;
+  QSignalSpy failed(&runner, &Runner::failed);
+  runner.start(
+      [](const RunContext&, const Post&) -> Deliver { throw std::runtime_error("broken stage"); });
+  ASSERT_TRUE(failed.wait(5000));
+  EXPECT_EQ(failed.first().at(1).toString(), "broken stage");
+  runner.start([](const RunContext&, const Post&) -> Deliver { throw 7; });
+  ASSERT_TRUE(failed.wait(5000));
+  EXPECT_FALSE(failed.last().at(1).toString().isEmpty());
+  EXPECT_FALSE(runner.running());
+}
+
+TEST(Runner, APoliteJobHandsOverWhatItHasWhenCancelled) {
+  Runner runner;
+  QSignalSpy cancelled(&runner, &Runner::cancelled);
+  bool kept = false;
+  runner.start([&](const RunContext& context, const Post&) -> Deliver {
+    while (!context.stopped()) std::this_thread::sleep_for(1ms);
+    return [&] { kept = true; };
+  });
+  runner.cancel();
+  ASSERT_TRUE(cancelled.wait(5000));
+  EXPECT_TRUE(kept);
+}
+
+TEST(Runner, AJobThatDoesNotStopIsAbandonedInTimeAndItsResultDropped) {
+  Runner runner;
+  QSignalSpy cancelled(&runner, &Runner::cancelled);
+  QSignalSpy finished(&runner, &Runner::finished);
+  std::atomic<bool> release = false;
+  bool late = false;
+  runner.start([&](const RunContext&, const Post& post) -> Deliver {
+    while (!release) std::this_thread::sleep_for(1ms);
+    post([&] { late = true; });
+    return [&] { late = true; };
+  });
+  QElapsedTimer clock;
+  clock.start();
+  runner.cancel();
+  ASSERT_TRUE(cancelled.wait(5000));
+  EXPECT_LT(clock.elapsed(), 200);
+  EXPECT_FALSE(runner.running());
+  bool second = false;
+  runner.start([&](const RunContext&, const Post&) -> Deliver { return [&] { second = true; }; });
+  release = true;
+  ASSERT_TRUE(finished.wait(5000));
+  EXPECT_TRUE(Runner::wait_for_workers(5000));
+  QTest::qWait(20);
+  EXPECT_TRUE(second);
+  EXPECT_FALSE(late);
+  EXPECT_EQ(cancelled.count(), 1);
+}
+
+TEST(Runner, ANewJobTakesThePlaceOfTheRunningOne) {
+  Runner runner;
+  QSignalSpy cancelled(&runner, &Runner::cancelled);
+  QSignalSpy finished(&runner, &Runner::finished);
+  int first = 0, second = 0;
+  const auto slow = runner.start([&](const RunContext& context, const Post&) -> Deliver {
+    while (!context.stopped()) std::this_thread::sleep_for(1ms);
+    return [&] { ++first; };
+  });
+  const auto quick =
+      runner.start([&](const RunContext&, const Post&) -> Deliver { return [&] { ++second; }; });
+  EXPECT_GT(quick, slow);
+  ASSERT_TRUE(finished.wait(5000));
+  EXPECT_TRUE(Runner::wait_for_workers(5000));
+  QTest::qWait(20);
+  EXPECT_EQ(first, 0);
+  EXPECT_EQ(second, 1);
+  EXPECT_EQ(cancelled.first().first().toULongLong(), slow);
+}
+
+TEST(Runner, MayGoAwayWhileItsJobRuns) {
+  std::atomic<bool> release = false;
+  bool delivered = false;
+  {
+    Runner runner;
+    runner.start([&](const RunContext& context, const Post& post) -> Deliver {
+      while (!release) std::this_thread::sleep_for(1ms);
+      context.report("load", 1.0, "late");
+      post([&] { delivered = true; });
+      return [&] { delivered = true; };
+    });
+  }
+  EXPECT_FALSE(Runner::wait_for_workers(20));
+  release = true;
+  EXPECT_TRUE(Runner::wait_for_workers(5000));
+  QTest::qWait(20);
+  EXPECT_FALSE(delivered);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "style/theme.h"
+
+#include <QApplication>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace lvcalib::widgets {
+namespace {
+
+// Relative luminance contrast as WCAG 2 defines it.
+double contrast(const QColor& a, const QColor& b) {
+  const auto linear = [](double c) {
+    return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  const auto luminance = [&](const QColor& c) {
+    return 0.2126 * linear(c.redF()) + 0.7152 * linear(c.greenF()) + 0.0722 * linear(c.blueF());
+  };
+  const double x = luminance(a), y = luminance(b);
+  return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
+
+TEST(Theme, NamesReadBack) {
+  for (const Theme theme : {Theme::kSystem, Theme::kLight, Theme::kDark}) {
+    EXPECT_EQ(theme_named(name_of(theme)), theme);
+  }
+  EXPECT_EQ(theme_named(QStringLiteral("purple")), Theme::kSystem);
+}
+
+TEST(Theme, TextAndStatesAreReadableInLightAndDark) {
+  for (const Theme theme : {Theme::kLight, Theme::kDark}) {
+    apply_theme(*qApp, theme);
+    const QPalette p = qApp->palette();
+    EXPECT_EQ(is_dark(p), theme == Theme::kDark);
+    const StateColors colors = state_colors(p);
+    for (const auto ground : {QPalette::Base, QPalette::Window}) {
+      EXPECT_GT(contrast(p.color(QPalette::Text), p.color(ground)), 7.0);
+      for (const QColor& c : {colors.good, colors.doubtful, colors.bad, colors.idle}) {
+        EXPECT_GT(contrast(c, p.color(ground)), 3.0) << c.name().toStdString();
+      }
+    }
+    EXPECT_GT(contrast(p.color(QPalette::HighlightedText), p.color(QPalette::Highlight)), 3.0);
+  }
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

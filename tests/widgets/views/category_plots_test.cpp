@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/category_plots.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "widgets/views/plots_test.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+TEST(BarPlot, BarsAndClicks) {
+  BarPlot plot;
+  plot.setValueLabel("corner RMS (px)", "rms_px");
+  plot.resize(400, 300);
+  plot.setBars({{"A", 0.2, true}, {"B", 0.4, true}, {"C", std::nan(""), false}});
+  plot.show();
+  EXPECT_TRUE(test::shows(plot, plot.colors().fill));
+  EXPECT_GE(plot.yAxis->range().upper, 0.4);
+  const auto rows = test::rows_of(plot.csv());
+  ASSERT_EQ(rows.size(), 3);
+  EXPECT_EQ(rows[1], "B,0.4,1");
+  QSignalSpy clicked(&plot, &CategoryPlot::categoryClicked);
+  QTest::mouseClick(&plot, Qt::LeftButton, {},
+                    QPoint(static_cast<int>(plot.xAxis->coordToPixel(2)), 150));
+  ASSERT_EQ(clicked.size(), 1);
+  EXPECT_EQ(clicked[0][0].toInt(), 1);
+}
+
+TEST(BarPlot, ManyNamesAreTurned) {
+  BarPlot plot;
+  std::vector<BarPlot::Bar> bars;
+  for (int k = 0; k < 30; ++k) bars.push_back({QString("scene %1").arg(k), 1.0, true});
+  plot.setBars(bars);
+  EXPECT_GT(plot.xAxis->tickLabelRotation(), 0.0);
+}
+
+TEST(BoxPlot, BoxesFromValues) {
+  BoxPlot plot;
+  plot.setValueLabel("residual (mm)", "residual_mm");
+  plot.resize(400, 300);
+  plot.setBoxes({{"A", {1, 2, 3, 4, 5, 40}}, {"B", {}}});
+  EXPECT_TRUE(test::shows(plot, plot.colors().fill));
+  EXPECT_TRUE(test::shows(plot, plot.colors().fit));  // The median.
+  EXPECT_GE(plot.yAxis->range().upper, 40.0);         // Outliers are in sight.
+  EXPECT_EQ(test::rows_of(plot.csv()).size(), 6);
+}
+
+TEST(BoxPlot, EmptySaysWhy) {
+  BoxPlot plot;
+  plot.resize(300, 200);
+  plot.setBoxes({}, "this board has no circles");
+  EXPECT_GT(test::colours_shown(plot), 3);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

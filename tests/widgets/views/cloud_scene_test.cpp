@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/cloud_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "support/synthetic_observations.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+std::shared_ptr<Cloud> make_cloud(std::size_t points) {
+  Random random(1);
+  auto cloud = std::make_shared<Cloud>();
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto x = static_cast<float>(random.uniform(2.0, 6.0));
+    const auto y = static_cast<float>(random.uniform(-2.0, 2.0));
+    const auto z = static_cast<float>(random.uniform(-1.0, 2.0));
+    cloud->points_m.push_back({x, y, z});
+    cloud->intensity.push_back(static_cast<float>(i % 150));
+  }
+  return cloud;
+}
+
+TEST(CloudScene, EveryPointOnceAndEveryBeginningIsFair) {
+  CloudSceneInput input;
+  const std::size_t n = 10'007;
+  auto cloud = make_cloud(n);
+  input.full = cloud;
+  const auto scene = build_cloud_scene(input, {});
+  ASSERT_EQ(scene->size(), n);
+  EXPECT_EQ(std::set<std::uint32_t>(scene->order.begin(), scene->order.end()).size(), n);
+  // A tenth of the order covers each tenth of the scan with about a tenth of its points.
+  std::array<int, 10> counts{};
+  for (std::size_t k = 0; k < n / 10; ++k) ++counts[10 * scene->order[k] / n];
+  for (const int count : counts) EXPECT_NEAR(count, 100, 6);
+  for (std::size_t k = 0; k < n; ++k) {
+    EXPECT_EQ(scene->xyz_m[3 * k], cloud->points_m[scene->order[k]].x());
+  }
+}
+
+TEST(CloudScene, ColoursFollowTheQuantity) {
+  CloudSceneInput input;
+  auto cloud = make_cloud(5000);
+  input.full = cloud;
+  for (const CloudColor color : {CloudColor::kIntensity, CloudColor::kHeight, CloudColor::kRange}) {
+    input.color = color;
+    const auto scene = build_cloud_scene(input, {});
+    ASSERT_TRUE(scene->notice.isEmpty());
+    for (std::size_t k = 0; k < scene->size(); k += 97) {
+      const std::uint32_t i = scene->order[k];
+      const double value = color == CloudColor::kIntensity ? cloud->intensity[i]
+                           : color == CloudColor::kHeight  ? cloud->points_m[i].z()
+                                                           : cloud->points_m[i].norm();
+      const QRgb wanted = scene->scale.color(value);
+      EXPECT_EQ(qRed(wanted), scene->rgb[3 * k]);
+      EXPECT_EQ(qBlue(wanted), scene->rgb[3 * k + 2]);
+    }
+  }
+}
+
+TEST(CloudScene, CropShowsWhatIsInTheBox) {
+  CloudSceneInput input;
+  auto cloud = make_cloud(5000);
+  input.full = cloud;
+  input.filter = CloudFilter::kCrop;
+  CropBox box;
+  box.center_m = {4, 0, 0};
+  box.half_size_m = {0.5, 0.4, 0.3};
+  input.crop = box;
+  const auto scene = build_cloud_scene(input, {});
+  const auto inside =
+      std::count_if(cloud->points_m.begin(), cloud->points_m.end(),
+                    [&](const auto& p) { return box.contains(p.template cast<double>()); });
+  EXPECT_EQ(static_cast<long>(scene->size()), inside);
+  EXPECT_GT(inside, 10);
+  EXPECT_TRUE((scene->high_m - scene->low_m).x() <= 1.0);
+}
+
+TEST(CloudScene, CameraColoursAreThoseOfThePixels) {
+  CloudSceneInput input;
+  auto cloud = make_cloud(20'000);
+  input.full = cloud;
+  input.camera = test::test_camera();
+  input.camera_from_lidar = test::test_extrinsic();
+  input.color = CloudColor::kCameraColor;
+  input.image = QImage(input.camera.width_px, input.camera.height_px, QImage::Format_RGB32);
+  input.image.fill(qRgb(200, 10, 10));
+  for (int y = 0; y < input.image.height(); ++y) {
+    for (int x = input.image.width() / 2; x < input.image.width(); ++x) {
+      input.image.setPixel(x, y, qRgb(10, 200, 10));
+    }
+  }
+  const auto scene = build_cloud_scene(input, {});
+  EXPECT_FALSE(scene->has_scale);
+  int red = 0;
+  int green = 0;
+  for (std::size_t k = 0; k < scene->size(); ++k) {
+    const auto pixel = scene->pixels[scene->order[k]];
+    if (!std::isfinite(pixel.x())) continue;
+    const bool right = std::lround(pixel.x()) >= input.image.width() / 2;
+    (right ? green : red) += 1;
+    ASSERT_EQ(scene->rgb[3 * k], right ? 10 : 200);
+  }
+  EXPECT_GT(red, 100);
+  EXPECT_GT(green, 100);
+}
+
+TEST(CloudScene, SaysWhatIsMissing) {
+  CloudSceneInput input;
+  EXPECT_FALSE(build_cloud_scene(input, {})->notice.isEmpty());
+  auto cloud = make_cloud(100);
+  cloud->intensity.clear();
+  input.full = cloud;
+  const auto scene = build_cloud_scene(input, {});
+  EXPECT_FALSE(scene->notice.isEmpty());
+  EXPECT_EQ(scene->size(), 100U);
+  input.color = CloudColor::kPlaneResidual;
+  EXPECT_FALSE(build_cloud_scene(input, {})->notice.isEmpty());
+  input.color = CloudColor::kCameraColor;
+  EXPECT_FALSE(build_cloud_scene(input, {})->notice.isEmpty());
+  input.filter = CloudFilter::kBoundary;
+  EXPECT_FALSE(build_cloud_scene(input, {})->notice.isEmpty());
+}
+
+TEST(CloudScene, AStoppedBuildGivesNothing) {
+  std::stop_source source;
+  source.request_stop();
+  CloudSceneInput input;
+  input.full = make_cloud(100);
+  EXPECT_EQ(build_cloud_scene(input, source.get_token()), nullptr);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/cloud_view.h"
+
+#include <QAction>
+#include <QElapsedTimer>
+#include <QMenu>
+#include <QSignalSpy>
+#include <QTabWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QWheelEvent>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "views/cloud_scene_builder.h"
+#include "widgets/views/plots_test.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+// A wall three metres ahead, 4 m × 3 m, its left half of low intensity.
+std::shared_ptr<const Cloud> wall(std::size_t points) {
+  Random random(1);
+  auto cloud = std::make_shared<Cloud>();
+  cloud->points_m.reserve(points);
+  cloud->intensity.reserve(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const double y = random.uniform(-2.0, 2.0);
+    const double z = random.uniform(-1.5, 1.5);
+    cloud->points_m.push_back({3.0F, static_cast<float>(y), static_cast<float>(z)});
+    cloud->intensity.push_back(y > 0 ? 10.0F : 100.0F);
+  }
+  return cloud;
+}
+
+std::shared_ptr<const CloudScene> scene_of(const std::shared_ptr<const Cloud>& cloud) {
+  CloudSceneInput input;
+  input.full = cloud;
+  return build_cloud_scene(input, {});
+}
+
+class CloudViewTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!opengl_available()) GTEST_SKIP() << "no OpenGL 3.2 here (run under xvfb-run)";
+    view_.setPalette(test::palette_of(true));
+    view_.resize(640, 480);
+    view_.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&view_));
+  }
+  bool settle(int at_most_ms = 20'000) {
+    return QTest::qWaitFor([&] { return view_.canvas()->complete(); }, at_most_ms);
+  }
+  // Share of the canvas that is not background.
+  double covered() {
+    const QImage image = view_.canvas()->grabFramebuffer();
+    const QRgb ground = view_.palette().color(QPalette::Base).rgb();
+    int other = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) other += (image.pixel(x, y) | 0xff000000U) != ground;
+    }
+    return static_cast<double>(other) / (image.width() * image.height());
+  }
+  QPoint middle() { return view_.canvas()->rect().center(); }
+  CloudView view_;
+};
+
+TEST_F(CloudViewTest, DrawsAllPointsInTheirColours) {
+  view_.setScene(scene_of(wall(300'000)));
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(view_.canvas()->pipeline().drawnPoints(), 300'000U);
+  EXPECT_GT(covered(), 0.5);
+  // From the sensor, +y is left: the dark half.
+  const QImage image = view_.canvas()->grabFramebuffer();
+  int left = 0;
+  int right = 0;
+  for (int dy = -40; dy <= 40; ++dy) {
+    left += qGreen(image.pixel(middle().x() - 60, middle().y() + dy));
+    right += qGreen(image.pixel(middle().x() + 60, middle().y() + dy));
+  }
+  EXPECT_GT(right, 2 * left);
+}
+
+TEST_F(CloudViewTest, PortionsAddUpToOnePicture) {
+  view_.setScene(scene_of(wall(400'000)));
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  EXPECT_GT(view_.canvas()->statistics().portions, 0);
+  const QImage once = view_.canvas()->grabFramebuffer();
+  // Painting again without need does not change it.
+  view_.canvas()->update();
+  QTest::qWait(50);
+  EXPECT_EQ(view_.canvas()->grabFramebuffer(), once);
+}
+
+TEST_F(CloudViewTest, AClickPicksThePointUnderIt) {
+  const auto cloud = wall(200'000);
+  view_.setScene(scene_of(cloud));
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  QSignalSpy picked(&view_, &CloudView::pointPicked);
+  QTest::mouseClick(view_.canvas(), Qt::LeftButton, {}, middle());
+  ASSERT_EQ(picked.size(), 1);
+  const Eigen::Vector3f p = cloud->points_m[picked[0][0].toUInt()];
+  // The middle of the view is where the sensor looks: the median of the points.
+  EXPECT_LT((p.cast<double>() - view_.scene()->center_m).norm(), 0.06);
+  QSignalSpy nothing(&view_, &CloudView::nothingPicked);
+  QTest::mouseClick(view_.canvas(), Qt::LeftButton, {}, QPoint(3, 3));
+  EXPECT_EQ(nothing.size() + picked.size(), 2);
+  view_.setHighlights({picked[0][0].toUInt()});
+  ASSERT_TRUE(settle());
+}
+
+TEST_F(CloudViewTest, DraggingTurnsAndKeysReset) {
+  view_.setScene(scene_of(wall(50'000)));
+  QTest::qWait(50);  // The legend takes its place beside the canvas.
+  ASSERT_TRUE(settle());
+  const Eigen::Matrix4d start = view_.canvas()->pipeline().clipFromWorld();
+  QTest::mousePress(view_.canvas(), Qt::LeftButton, {}, middle());
+  for (int k = 1; k <= 8; ++k) QTest::mouseMove(view_.canvas(), middle() + QPoint(10 * k, 3 * k));
+  QTest::mouseRelease(view_.canvas(), Qt::LeftButton, {}, middle() + QPoint(80, 24));
+  ASSERT_TRUE(settle());
+  EXPECT_GT((view_.canvas()->pipeline().clipFromWorld() - start).norm(), 0.1);
+  view_.canvas()->setFocus();
+  QTest::keyClick(view_.canvas(), Qt::Key_R);
+  ASSERT_TRUE(settle());
+  EXPECT_LT((view_.canvas()->pipeline().clipFromWorld() - start).norm(), 1e-6);
+  QTest::keyClick(view_.canvas(), Qt::Key_T);
+  ASSERT_TRUE(settle());
+  const Eigen::Matrix4d top = view_.canvas()->pipeline().clipFromWorld();
+  EXPECT_GT((top - start).norm(), 0.1);
+  QTest::keyClick(view_.canvas(), Qt::Key_Left);
+  EXPECT_GT((view_.canvas()->pipeline().clipFromWorld() - top).norm(), 0.01);
+}
+
+TEST_F(CloudViewTest, WheelZooms) {
+  view_.setScene(scene_of(wall(50'000)));
+  ASSERT_TRUE(settle());
+  const double before = covered();
+  for (int k = 0; k < 5; ++k) {
+    QWheelEvent wheel(middle(), view_.canvas()->mapToGlobal(middle()), {}, QPoint(0, -120),
+                      Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(view_.canvas(), &wheel);
+  }
+  ASSERT_TRUE(settle());
+  EXPECT_LT(covered(), 0.8 * before);
+}
+
+TEST_F(CloudViewTest, BoxIsMovedByItsHandle) {
+  view_.setScene(scene_of(wall(50'000)));
+  CropBox box;
+  box.center_m = {3, 0, 0};
+  box.half_size_m = {0.3, 0.5, 0.5};
+  view_.setBox(box, true);
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  QSignalSpy edited(&view_, &CloudView::boxEdited);
+  QSignalSpy picked(&view_, &CloudView::pointPicked);
+  // The handle in the middle of the box moves it; as does dragging the face before it.
+  QTest::mousePress(view_.canvas(), Qt::LeftButton, Qt::ShiftModifier, middle());
+  for (int k = 1; k <= 6; ++k) QTest::mouseMove(view_.canvas(), middle() + QPoint(8 * k, 0));
+  QTest::mouseRelease(view_.canvas(), Qt::LeftButton, {}, middle() + QPoint(48, 0));
+  ASSERT_GE(edited.size(), 1);
+  const auto moved = edited.back()[0].value<CropBox>();
+  EXPECT_TRUE(check(moved).ok());
+  EXPECT_GT((moved.center_m - box.center_m).norm() + (moved.half_size_m - box.half_size_m).norm(),
+            0.02);
+  EXPECT_EQ(picked.size(), 0);
+}
+
+TEST_F(CloudViewTest, BoxComesBackAsItWasSet) {
+  view_.setScene(scene_of(wall(1000)));
+  CropBox box;
+  box.center_m = {3, 0.2, -0.1};
+  box.half_size_m = {0.3, 0.5, 0.8};
+  box.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 1, 0).normalized());
+  view_.setBox(box, true);
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  QSignalSpy edited(&view_, &CloudView::boxEdited);
+  QTest::mouseClick(view_.canvas(), Qt::LeftButton, {}, middle());
+  for (const auto& signal : edited) {
+    const auto same = signal[0].value<CropBox>();
+    EXPECT_LT((same.center_m - box.center_m).norm(), 1e-9);
+    EXPECT_LT((same.half_size_m - box.half_size_m).norm(), 1e-9);
+    EXPECT_LT(same.rotation.angularDistance(box.rotation), 1e-6);
+  }
+}
+
+TEST_F(CloudViewTest, LinesAreDrawnAndHideWhenGone) {
+  view_.setScene(scene_of(wall(1000)));
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  const double before = covered();
+  view_.setLines({{{{3, -1, -1}, {3, 1, -1}, {3, 1, 1}, {3, -1, 1}}, {1.0, 0.6, 0.0}, true}});
+  ASSERT_TRUE(settle());
+  EXPECT_GT(covered(), before + 0.002);
+  EXPECT_TRUE(test::shows(view_, QColor(255, 153, 0)));
+  view_.setLines({});
+  ASSERT_TRUE(settle());
+  EXPECT_NEAR(covered(), before, 1e-4);
+}
+
+TEST_F(CloudViewTest, SavesAPicture) {
+  view_.setScene(scene_of(wall(100'000)));
+  ASSERT_TRUE(settle());
+  const QTemporaryDir folder;
+  ASSERT_TRUE(view_.figureActions()->save(folder.filePath("c.png")));
+  ASSERT_TRUE(view_.figureActions()->save(folder.filePath("c.pdf")));
+  QSet<QRgb> colours;
+  const QImage image(folder.filePath("c.png"));
+  for (int x = 0; x < image.width(); ++x) colours.insert(image.pixel(x, image.height() / 2));
+  EXPECT_GT(colours.size(), 2);
+}
+
+TEST_F(CloudViewTest, SurvivesAnotherWindowAndNoScene) {
+  view_.setScene(scene_of(wall(60'000)));
+  ASSERT_TRUE(settle());
+  view_.setScene(nullptr);
+  ASSERT_TRUE(settle());
+  view_.setScene(scene_of(wall(60'000)));
+  // Another parent means another window and another context.
+  QWidget other;
+  other.resize(700, 500);
+  view_.setParent(&other);
+  other.show();
+  view_.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&other));
+  view_.canvas()->redraw();
+  ASSERT_TRUE(settle());
+  EXPECT_GT(covered(), 0.05);
+  EXPECT_LT(covered(), 0.95);
+  view_.setParent(nullptr);
+}
+
+// A view that is first shown when its tab is chosen, after the window.
+TEST_F(CloudViewTest, DrawsInATabThatIsShownLate) {
+  QTabWidget tabs;
+  tabs.setPalette(test::palette_of(true));
+  tabs.resize(640, 480);
+  tabs.addTab(new QWidget, "first");
+  auto* late = new CloudView;
+  tabs.addTab(late, "second");
+  tabs.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&tabs));
+  late->setScene(scene_of(wall(60'000)));
+  QTest::qWait(100);
+  tabs.setCurrentIndex(1);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return late->canvas()->complete(); }, 5000));
+  const QImage image = late->canvas()->grabFramebuffer();
+  EXPECT_EQ(image.pixel(image.width() - 3, 3), QColor(30, 30, 30).rgb());
+  EXPECT_EQ(image.pixel(3, image.height() - 3), QColor(30, 30, 30).rgb());
+  EXPECT_GT(test::colours_shown(*late), 20);
+}
+
+// Five million points: shown within two seconds of being read, and turning at 20 frames a second.
+TEST_F(CloudViewTest, FiveMillionPointsTurnSmoothly) {
+  view_.resize(900, 700);
+  const auto cloud = wall(5'000'000);
+  CloudSceneBuilder builder;
+  QObject::connect(&builder, &CloudSceneBuilder::ready, &view_, &CloudView::setScene);
+  CloudSceneInput input;
+  input.full = cloud;
+  const int frames_before = view_.canvas()->statistics().frames;
+  QElapsedTimer clock;
+  clock.start();
+  builder.request(std::move(input));
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        return view_.scene() && view_.scene()->size() == 5'000'000 &&
+               view_.canvas()->statistics().frames > frames_before;
+      },
+      20'000));
+  const auto shown_ms = clock.elapsed();
+  ASSERT_TRUE(settle(60'000));
+  const auto complete_ms = clock.elapsed();
+
+  std::vector<double> gaps_ms;
+  QElapsedTimer turn;
+  QTest::mousePress(view_.canvas(), Qt::LeftButton, {}, middle());
+  for (int k = 1; k <= 60; ++k) {
+    const int before = view_.canvas()->statistics().frames;
+    turn.start();
+    QTest::mouseMove(view_.canvas(), middle() + QPoint(3 * k, k));
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return view_.canvas()->statistics().frames > before; }, 5000));
+    gaps_ms.push_back(1e-6 * static_cast<double>(turn.nsecsElapsed()));
+  }
+  QTest::mouseRelease(view_.canvas(), Qt::LeftButton, {}, middle() + QPoint(180, 60));
+  std::sort(gaps_ms.begin(), gaps_ms.end());
+  const double median_ms = gaps_ms[gaps_ms.size() / 2];
+  RecordProperty("shown_ms", static_cast<int>(shown_ms));
+  RecordProperty("complete_ms", static_cast<int>(complete_ms));
+  RecordProperty("turning_frame_ms", static_cast<int>(median_ms));
+  std::printf(
+      "5 M points: shown after %lld ms, complete after %lld ms; turning %.1f ms a frame "
+      "(worst %.1f)\n",
+      static_cast<long long>(shown_ms), static_cast<long long>(complete_ms), median_ms,
+      gaps_ms.back());
+  // The goal is 2 s and 50 ms; a machine that does other things at the same time is slower.
+  EXPECT_LT(shown_ms, 8000);
+  EXPECT_LT(median_ms, 150.0);
+}
+
+TEST(CloudViewWithoutOpenGl, ShowsAMessageAndKeepsWorking) {
+  if (opengl_available()) GTEST_SKIP() << "this screen has OpenGL";
+  CloudView view;
+  view.resize(400, 300);
+  view.show();
+  EXPECT_FALSE(view.hasOpenGl());
+  EXPECT_NE(view.findChild<QWidget*>("no-opengl"), nullptr);
+  view.setScene(scene_of(wall(100)));
+  view.setBox(CropBox(), true);
+  view.setHighlights({1});
+  view.look(CloudViewpoint::kTop);
+  QTest::keyClick(&view, Qt::Key_R);
+  EXPECT_GT(test::colours_shown(view), 3);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

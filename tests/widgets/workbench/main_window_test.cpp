@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/main_window.h"
+
+#include <QClipboard>
+#include <QCommandLinkButton>
+#include <QDialog>
+#include <QDoubleSpinBox>
+#include <QDropEvent>
+#include <QListWidget>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QUndoStack>
+#include <QUrl>
+#include <filesystem>
+#include <iostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/file_io.h"
+#include "docks/parameters_dock.h"
+#include "report/result_file.h"
+#include "runner/demo.h"
+#include "support/pose_matchers.h"
+#include "widgets/support/driver.h"
+
+namespace lvcalib {
+namespace {
+
+using test::cell;
+using test::find;
+using test::trigger;
+using test::wait_until;
+using widgets::MainWindow;
+using widgets::SceneModel;
+using widgets::Workspace;
+
+simulation::SimulationOptions small_demo() {
+  simulation::SimulationOptions options;
+  options.seed = 3;
+  options.scenes = 3;
+  options.lidar.points = 100'000;
+  options.image.width_px = 800;
+  options.image.height_px = 500;
+  return options;
+}
+
+// A window with settings of its own; all cases share one simulated dataset.
+class MainWindowTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    data_ = new QTemporaryDir;
+    ASSERT_TRUE(widgets::make_demo(dataset().toStdString(), small_demo(), {}).ok());
+  }
+  static void TearDownTestSuite() {
+    delete data_;
+    EXPECT_TRUE(widgets::Runner::wait_for_workers(60'000));
+  }
+  static QString dataset() { return data_->filePath(QStringLiteral("dataset")); }
+
+  void SetUp() override {
+    settings_ = std::make_unique<widgets::AppSettings>(folder_.path());
+    window_ = std::make_unique<MainWindow>(*settings_, answers_);
+    window_->show();
+  }
+  void open() {
+    answers_.dataset = dataset();
+    ASSERT_TRUE(trigger(*window_, "open_dataset"));
+    ASSERT_TRUE(wait_until([&] { return workspace().is_open() && !workspace().busy(); }));
+  }
+  void run() {
+    open();
+    QTest::keyClick(window_.get(), Qt::Key_F5);
+    ASSERT_TRUE(test::wait_for_result(*window_));
+  }
+  Workspace& workspace() { return window_->workspace(); }
+  Eigen::Matrix4d pose() {
+    return workspace().result()->extrinsic.camera_from_lidar.transform.matrix();
+  }
+
+  static inline QTemporaryDir* data_ = nullptr;
+  QTemporaryDir folder_;
+  test::Answers answers_;
+  std::unique_ptr<widgets::AppSettings> settings_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(MainWindowTest, TheDemoIsSimulatedRunAndFoundRight) {
+  window_->set_demo(small_demo());
+  QTest::mouseClick(find<QCommandLinkButton>(*window_, "demo"), Qt::LeftButton);
+  ASSERT_TRUE(wait_until([&] { return workspace().is_open() && !workspace().busy(); }));
+  EXPECT_EQ(workspace().dataset().scenes.size(), 3U);
+  QSignalSpy progress(&workspace(), &Workspace::progressed);
+  QSignalSpy iterations(&workspace(), &Workspace::iterated);
+  QSignalSpy boards(&workspace(), &Workspace::board_found);
+  QTest::keyClick(window_.get(), Qt::Key_F5);
+  EXPECT_TRUE(find<QProgressBar>(*window_, "progress")->isVisible());
+  EXPECT_FALSE(find<QAction>(*window_, "run")->isEnabled());
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_GT(progress.count(), 6);
+  EXPECT_GT(iterations.count(), 6);
+  EXPECT_EQ(boards.count(), 3);
+  const auto truth = read_truth(folder_.filePath("data/demo-truth.json").toStdString());
+  ASSERT_TRUE(truth.ok());
+  EXPECT_THAT(workspace().result()->extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(*truth, 5.0, 2.0));
+  for (const char* scene : {"A", "B", "C"}) {
+    EXPECT_EQ(cell(*window_, scene, SceneModel::kTags), "16");
+    EXPECT_GT(cell(*window_, scene, SceneModel::kPoints).toInt(), 300);
+    EXPECT_GT(cell(*window_, scene, SceneModel::kPixels).toDouble(), 0.0);
+    EXPECT_GT(cell(*window_, scene, SceneModel::kMillimetres).toDouble(), 0.0);
+    EXPECT_GT(cell(*window_, scene, SceneModel::kInfluence).toDouble(), 0.0);
+    EXPECT_EQ(cell(*window_, scene, SceneModel::kState), "used");
+  }
+  EXPECT_FALSE(find<QProgressBar>(*window_, "progress")->isVisible());
+  // The same as the command line's calculation.
+  const auto whole = calibrate(workspace().dataset(), {}, {});
+  ASSERT_TRUE(whole.ok());
+  EXPECT_EQ(pose(), whole->extrinsic.camera_from_lidar.transform.matrix());
+}
+
+TEST_F(MainWindowTest, UntickingSolvesAtOnceAndUndoBringsItBack) {
+  run();
+  const Eigen::Matrix4d all = pose();
+  const auto before = workspace().result();
+  QElapsedTimer clock;
+  clock.start();
+  test::click_scene(*window_, "B", true);
+  EXPECT_FALSE(decision_of(workspace().decisions(), "B").use);
+  EXPECT_TRUE(workspace().dirty());
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  std::cout << "re-solve after a tick: " << clock.elapsed() << " ms\n";
+  RecordProperty("resolve_ms", static_cast<int>(clock.elapsed()));
+  EXPECT_LT(clock.elapsed(), 1500);
+  EXPECT_NE(workspace().result(), before);
+  EXPECT_NE(pose(), all);
+  EXPECT_EQ(workspace().result()->times.detect_ms, before->times.detect_ms) << "ran a stage again";
+  EXPECT_EQ(cell(*window_, "B", SceneModel::kState), "rejected");
+  EXPECT_EQ(cell(*window_, "A", SceneModel::kState), "used");
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_EQ(pose(), all);
+  EXPECT_FALSE(workspace().dirty());
+  EXPECT_EQ(cell(*window_, "B", SceneModel::kState), "used");
+}
+
+TEST_F(MainWindowTest, AcceptAndRejectActOnAllSelectedScenes) {
+  open();
+  auto* view = find<QTreeView>(*window_, "scenes");
+  view->selectAll();
+  ASSERT_TRUE(trigger(*window_, "reject"));
+  for (const char* scene : {"A", "B", "C"})
+    EXPECT_EQ(cell(*window_, scene, SceneModel::kState), "rejected");
+  // With nothing in use, a run says so in a dialog that names the dataset.
+  ASSERT_TRUE(trigger(*window_, "run"));
+  ASSERT_TRUE(wait_until([&] { return find<QDialog>(*window_, "error_dialog") != nullptr; }));
+  auto* dialog = find<QDialog>(*window_, "error_dialog");
+  bool named = false;
+  for (const QLabel* label : dialog->findChildren<QLabel*>())
+    named = named || label->text().contains(dataset());
+  EXPECT_TRUE(named);
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  ASSERT_TRUE(trigger(*window_, "accept"));
+  EXPECT_EQ(cell(*window_, "B", SceneModel::kState), "not run yet");
+}
+
+TEST_F(MainWindowTest, AParameterRunsFromItsStageAndIsOneUndoStep) {
+  run();
+  const Eigen::Matrix4d first = pose();
+  auto* box = find<QDoubleSpinBox>(*window_, "refinement.max_bins");
+  ASSERT_NE(box, nullptr);
+  EXPECT_EQ(box->value(), 24);
+  EXPECT_TRUE(box->toolTip().contains("24"));
+  QSignalSpy iterations(&workspace(), &Workspace::iterated);
+  for (int i = 0; i < 4; ++i) QTest::keyClick(box, Qt::Key_Down);
+  EXPECT_EQ(workspace().decisions().options.refinement.max_bins, 20);
+  EXPECT_EQ(workspace().undo_stack().count(), 1);
+  EXPECT_FALSE(workspace().up_to_date());
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_GT(iterations.count(), 0);
+  EXPECT_EQ(workspace().result()->times.localize_ms, 0.0) << "an earlier stage ran again";
+  EXPECT_NE(pose(), first);
+  QTest::mouseClick(find<QToolButton>(*window_, "reset refinement.max_bins"), Qt::LeftButton);
+  EXPECT_EQ(box->value(), 24);
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_EQ(pose(), first);
+}
+
+TEST_F(MainWindowTest, ACropBoxRunsItsSceneAgainAndCanBeUndone) {
+  run();
+  const Eigen::Matrix4d first = pose();
+  const auto number = [&](const char* name) -> QDoubleSpinBox* {
+    for (auto* box : window_->findChildren<QDoubleSpinBox*>()) {
+      if (box->accessibleName() == QLatin1String(name)) return box;
+    }
+    return nullptr;
+  };
+  ASSERT_TRUE(trigger(*window_, "crop-action"));
+  const Eigen::Vector3d middle =
+      workspace().result()->scenes[0].refinement->nodes[4].center_lidar_m;
+  const char* const axes[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) {
+    auto* center = number((std::string("Middle ") + axes[k]).c_str());
+    auto* side = number((std::string("Side ") + axes[k]).c_str());
+    ASSERT_TRUE(center != nullptr && side != nullptr);
+    center->setValue(middle(k));
+    side->setValue(2.5);
+  }
+  // Another decision does not close the box that is being edited.
+  test::click_scene(*window_, "C", true);
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  QTest::mouseClick(find<QPushButton>(*window_, "crop-use"), Qt::LeftButton);
+  const auto crop = decision_of(workspace().decisions(), "A").crop;
+  ASSERT_TRUE(crop.has_value());
+  EXPECT_TRUE(crop->contains(middle));
+  EXPECT_NEAR(crop->half_size_m.x(), 1.25, 1e-9);
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_EQ(workspace().result()->times.detect_ms, 0.0) << "images were looked at again";
+  EXPECT_EQ(cell(*window_, "A", SceneModel::kState), "used (cropped)");
+  EXPECT_EQ(cell(*window_, "B", SceneModel::kState), "used");
+  const auto whole = calibrate(workspace().dataset(),
+                               request_of(workspace().dataset(), workspace().decisions()), {});
+  ASSERT_TRUE(whole.ok());
+  EXPECT_EQ(pose(), whole->extrinsic.camera_from_lidar.transform.matrix());
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_EQ(pose(), first);
+  EXPECT_EQ(cell(*window_, "A", SceneModel::kState), "used");
+}
+
+TEST_F(MainWindowTest, LengthsAreShownInMillimetres) {
+  open();
+  auto* step = find<QDoubleSpinBox>(*window_, "refinement.max_step_m");
+  EXPECT_EQ(step->suffix(), " mm");
+  EXPECT_DOUBLE_EQ(step->value(), 5.0);
+  step->setValue(2.5);
+  EXPECT_DOUBLE_EQ(workspace().decisions().options.refinement.max_step_m, 0.0025);
+  // No option loses its default by being shown.
+  for (const OptionDeclaration& option : option_declarations()) {
+    const auto* box = window_->findChild<QDoubleSpinBox*>(QString::fromStdString(option.key));
+    if (box == nullptr || option.key == "refinement.max_step_m") continue;
+    const double factor = widgets::display_of(option).factor;
+    EXPECT_NEAR(box->value() / factor, option.default_value(), 1e-9 * option.default_value())
+        << option.key;
+  }
+}
+
+TEST_F(MainWindowTest, CancelActsWithinAFifthOfASecondAndNothingIsLost) {
+  open();
+  for (const int delay_ms : {0, 30, 150, 400, 800, 1200}) {
+    trigger(*window_, "run");
+    QTest::qWait(delay_ms);
+    if (!workspace().busy()) break;  // Done already.
+    QElapsedTimer clock;
+    clock.start();
+    QTest::keyClick(window_.get(), Qt::Key_Escape);
+    ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }, 5000));
+    EXPECT_LT(clock.elapsed(), 260) << "after " << delay_ms << " ms";
+    EXPECT_TRUE(find<QAction>(*window_, "run")->isEnabled());
+  }
+  trigger(*window_, "run");
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  const auto whole = calibrate(workspace().dataset(), {}, {});
+  ASSERT_TRUE(whole.ok());
+  EXPECT_EQ(pose(), whole->extrinsic.camera_from_lidar.transform.matrix());
+}
+
+TEST_F(MainWindowTest, ClosingDuringARunIsSafe) {
+  open();
+  trigger(*window_, "run");
+  QTest::qWait(200);
+  EXPECT_TRUE(window_->close());
+  window_.reset();
+  QTest::qWait(300);  // What the worker still sends must find nobody.
+  EXPECT_TRUE(widgets::Runner::wait_for_workers(60'000));
+}
+
+TEST_F(MainWindowTest, ResultsAreShownCopiedAndExported) {
+  run();
+  ASSERT_TRUE(trigger(*window_, "results"));
+  auto* dialog = find<QDialog>(*window_, "results_dialog");
+  ASSERT_NE(dialog, nullptr);
+  QTest::mouseClick(find<QPushButton>(*dialog, "copy"), Qt::LeftButton);
+  const auto numbers =
+      QApplication::clipboard()->text().split(QRegularExpression("\\s+"), Qt::SkipEmptyParts);
+  ASSERT_EQ(numbers.size(), 16);
+  for (int i = 0; i < 16; ++i) EXPECT_NEAR(numbers[i].toDouble(), pose()(i / 4, i % 4), 1e-8);
+  answers_.export_to = folder_.filePath("r.json");
+  QTest::mouseClick(find<QPushButton>(*dialog, "export_json"), Qt::LeftButton);
+  const auto stored = read_result(answers_.export_to.toStdString());
+  ASSERT_TRUE(stored.ok()) << stored.error().text();
+  EXPECT_THAT(
+      stored->camera_from_lidar,
+      test::IsNearPose(workspace().result()->extrinsic.camera_from_lidar.transform, 1e-6, 1e-6));
+  answers_.export_to = folder_.filePath("r.yaml");
+  QTest::mouseClick(find<QPushButton>(*dialog, "export_yaml"), Qt::LeftButton);
+  EXPECT_EQ(*read_text_file(answers_.export_to.toStdString(), 1 << 20),
+            result_as_yaml(*workspace().result()));
+  // A place that cannot be written is named.
+  answers_.export_to = folder_.filePath("no/such/folder/r.yaml");
+  QTest::mouseClick(find<QPushButton>(*dialog, "export_yaml"), Qt::LeftButton);
+  auto* error = find<QDialog>(*window_, "error_dialog");
+  ASSERT_NE(error, nullptr);
+  error->close();
+}
+
+TEST_F(MainWindowTest, UnusableThingsAreNamedAndNothingOpens) {
+  window_->open(folder_.filePath("nowhere"));
+  ASSERT_TRUE(wait_until([&] { return find<QDialog>(*window_, "error_dialog") != nullptr; }));
+  bool named = false;
+  for (const QLabel* label : find<QDialog>(*window_, "error_dialog")->findChildren<QLabel*>())
+    named = named || label->text().contains("nowhere");
+  EXPECT_TRUE(named);
+  EXPECT_FALSE(workspace().is_open());
+}
+
+TEST_F(MainWindowTest, AFolderDroppedOnTheWindowOpensAndIsRemembered) {
+  QMimeData mime;
+  mime.setUrls({QUrl::fromLocalFile(dataset())});
+  QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(window_.get(), &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop(QPointF(10, 10), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+  // Without a platform's drag there is no drop target for sendEvent() to find.
+  static_cast<QObject*>(window_.get())->event(&drop);
+  ASSERT_TRUE(wait_until([&] { return workspace().is_open(); }, 5000));
+  EXPECT_EQ(settings_->recent(), QStringList{dataset()});
+  window_->close();
+  window_ = std::make_unique<MainWindow>(*settings_, answers_);
+  auto* recent = find<QListWidget>(*window_, "recent");
+  ASSERT_EQ(recent->count(), 1);
+  Q_EMIT recent->itemActivated(recent->item(0));
+  ASSERT_TRUE(wait_until([&] { return workspace().is_open(); }));
+}
+
+TEST_F(MainWindowTest, ThemesAndLanguagesSwitchWhileOpen) {
+  open();
+  for (QAction* action : window_->findChildren<QAction*>("theme")) {
+    action->trigger();
+    QTest::qWait(20);
+    EXPECT_EQ(name_of(settings_->theme()), action->data().toString());
+  }
+  for (QAction* action : window_->findChildren<QAction*>("language")) {
+    action->trigger();
+    QTest::qWait(20);
+    EXPECT_EQ(settings_->language(), action->data().toString());
+  }
+  for (QAction* action : window_->findChildren<QAction*>("language")) {
+    if (action->data().toString() == "en") action->trigger();
+  }
+  QTest::qWait(20);
+  EXPECT_EQ(find<QAction>(*window_, "run")->text(), "&Run all");
+}
+
+TEST_F(MainWindowTest, TheWindowIsUpWithinASecond) {
+  window_.reset();
+  QElapsedTimer clock;
+  clock.start();
+  window_ = std::make_unique<MainWindow>(*settings_, answers_);
+  window_->show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+  QCoreApplication::processEvents();
+  std::cout << "start to a usable window: " << clock.elapsed() << " ms\n";
+  RecordProperty("start_ms", static_cast<int>(clock.elapsed()));
+  EXPECT_LT(clock.elapsed(), 1000);
+}
+
+// Reading, running and cancelling three scenes of half a million points each.
+TEST_F(MainWindowTest, TheWindowNeverFreezes) {
+  auto options = small_demo();
+  options.lidar.points = 500'000;
+  window_->set_demo(options);
+  test::Watchdog watchdog;
+  const auto report = [&](const char* what) {
+    const auto gap = watchdog.take_largest_ms();
+    std::cout << "largest gap while " << what << ": " << gap << " ms\n";
+    RecordProperty(std::string("gap_ms_") + what, static_cast<int>(gap));
+    EXPECT_LT(gap, 1000) << what;
+  };
+  watchdog.take_largest_ms();
+  trigger(*window_, "demo");
+  ASSERT_TRUE(wait_until([&] { return workspace().is_open() && !workspace().busy(); }));
+  QTest::qWait(1500);
+  report("opening");
+  trigger(*window_, "run");
+  QTest::qWait(700);
+  trigger(*window_, "cancel");
+  ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
+  report("cancelling");
+  trigger(*window_, "run");
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  QTest::qWait(500);
+  report("running");
+  for (const char* scene : {"B", "C", "A"}) {
+    test::click_scene(*window_, scene, false);
+    QTest::qWait(700);
+  }
+  report("looking");
+}
+
+}  // namespace
+}  // namespace lvcalib

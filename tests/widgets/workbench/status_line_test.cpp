@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/status_line.h"
+
+#include <QLabel>
+#include <QProgressBar>
+
+#include <gtest/gtest.h>
+
+namespace lvcalib::widgets {
+namespace {
+
+TEST(StatusLine, ShowsStageFractionAndTextOnlyWhileSomethingRuns) {
+  StatusLine line;
+  line.show();
+  auto* bar = line.findChild<QProgressBar*>("progress");
+  EXPECT_FALSE(bar->isVisible());
+  line.show_progress("refine", 0.7, "B");
+  EXPECT_TRUE(bar->isVisible());
+  EXPECT_EQ(bar->value(), 700);
+  EXPECT_EQ(line.findChild<QLabel*>("stage")->text(), "Refining");
+  EXPECT_EQ(line.text(), "B");
+  line.show_idle("done");
+  EXPECT_FALSE(bar->isVisible());
+  EXPECT_EQ(line.text(), "done");
+}
+
+TEST(StatusLine, SaysWhenTheQualityIsOfOlderDecisions) {
+  StatusLine line;
+  line.show();
+  auto* quality = line.findChild<QLabel*>("quality");
+  line.show_quality(nullptr, false);
+  EXPECT_FALSE(quality->isVisible());
+  auto result = std::make_shared<CalibrationResult>();
+  result->quality = Quality::kGood;
+  line.show_quality(result, true);
+  EXPECT_EQ(quality->text(), "good");
+  line.show_quality(result, false);
+  EXPECT_TRUE(quality->text().contains("out of date"));
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

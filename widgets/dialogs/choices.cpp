@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dialogs/choices.h"
+
+#include <QCoreApplication>
+#include <QFileDialog>
+#include <QMessageBox>
+
+namespace lvcalib::widgets {
+namespace {
+
+QString words(const char* text) {
+  return QCoreApplication::translate("Choices", text);
+}
+
+QString project_filter() {
+  return words(QT_TRANSLATE_NOOP("Choices", "Projects (*.lvcalib)"));
+}
+
+}  // namespace
+
+QString Choices::dataset_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getExistingDirectory(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a dataset folder")), folder);
+}
+
+QString Choices::project_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(parent, words(QT_TRANSLATE_NOOP("Choices", "Open a project")),
+                                      folder, project_filter());
+}
+
+QString Choices::project_to_save(QWidget* parent, const QString& suggestion) {
+  QString path =
+      QFileDialog::getSaveFileName(parent, words(QT_TRANSLATE_NOOP("Choices", "Save the project")),
+                                   suggestion, project_filter());
+  if (!path.isEmpty() && !path.endsWith(QLatin1String(".lvcalib")))
+    path += QLatin1String(".lvcalib");
+  return path;
+}
+
+QStringList Choices::scenes_to_add(QWidget* parent, const QString& folder) {
+  const QString path = QFileDialog::getExistingDirectory(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Add a scene folder (image and cloud)")), folder);
+  return path.isEmpty() ? QStringList() : QStringList{path};
+}
+
+QString Choices::file_to_export(QWidget* parent, const QString& suggestion, const QString& filter) {
+  return QFileDialog::getSaveFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Export the result")), suggestion, filter);
+}
+
+UnsavedAnswer Choices::unsaved(QWidget* parent, const QString& name) {
+  const auto answer = QMessageBox::question(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Unsaved decisions")),
+      words(QT_TRANSLATE_NOOP("Choices", "Save your decisions about %1?")).arg(name),
+      QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+  if (answer == QMessageBox::Save) return UnsavedAnswer::kSave;
+  return answer == QMessageBox::Discard ? UnsavedAnswer::kDiscard : UnsavedAnswer::kCancel;
+}
+
+QString Choices::moved_dataset(QWidget* parent, const QString& old_path) {
+  const auto answer = QMessageBox::question(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Dataset not found")),
+      words(QT_TRANSLATE_NOOP("Choices",
+                              "The project's dataset is not at\n%1\nany more. Where is it now?"))
+          .arg(old_path),
+      QMessageBox::Open | QMessageBox::Cancel, QMessageBox::Open);
+  return answer == QMessageBox::Open ? dataset_to_open(parent, old_path) : QString();
+}
+
+bool Choices::recover(QWidget* parent, const QString& dataset) {
+  return QMessageBox::question(
+             parent, words(QT_TRANSLATE_NOOP("Choices", "Unsaved decisions found")),
+             words(QT_TRANSLATE_NOOP("Choices",
+                                     "The program ended last time before your decisions about\n"
+                                     "%1\nwere saved. Take them up again?"))
+                 .arg(dataset),
+             QMessageBox::Yes | QMessageBox::No, QMessageBox::Yes) == QMessageBox::Yes;
+}
+
+}  // namespace lvcalib::widgets

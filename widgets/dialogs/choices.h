@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+#include <QStringList>
+
+class QWidget;
+
+namespace lvcalib::widgets {
+
+/// What the user answers to unsaved decisions.
+enum class UnsavedAnswer { kSave, kDiscard, kCancel };
+
+/// Questions that stop the application until they are answered. Virtual, so that tests (and
+/// scripts) answer in the user's place. An empty path means: cancelled.
+class Choices {
+ public:
+  Choices() = default;
+  Choices(const Choices&) = delete;
+  Choices& operator=(const Choices&) = delete;
+  virtual ~Choices() = default;
+
+  virtual QString dataset_to_open(QWidget* parent, const QString& folder);
+  virtual QString project_to_open(QWidget* parent, const QString& folder);
+  /// `suggestion`: path of the project so far, or a good new one.
+  virtual QString project_to_save(QWidget* parent, const QString& suggestion);
+  virtual QStringList scenes_to_add(QWidget* parent, const QString& folder);
+  virtual QString file_to_export(QWidget* parent, const QString& suggestion, const QString& filter);
+  virtual UnsavedAnswer unsaved(QWidget* parent, const QString& name);
+  /// A project's dataset is not at `old_path`: where is it now?
+  virtual QString moved_dataset(QWidget* parent, const QString& old_path);
+  /// Decisions about `dataset` were not saved when the program last ended: take them up again?
+  virtual bool recover(QWidget* parent, const QString& dataset);
+};
+
+}  // namespace lvcalib::widgets

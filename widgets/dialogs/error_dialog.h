@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+
+#include "base/error.h"
+
+namespace lvcalib::widgets {
+
+/// Says what went wrong, in which file, and what can be done; does not block.
+class ErrorDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  ErrorDialog(const Error& error, QWidget* parent);
+  /// The same message as the command line gives.
+  [[nodiscard]] QString text() const { return text_; }
+
+ private:
+  QString text_;
+};
+
+}  // namespace lvcalib::widgets

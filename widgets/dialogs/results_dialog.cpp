@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dialogs/results_dialog.h"
+
+#include <QClipboard>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFontDatabase>
+#include <QGuiApplication>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTextBrowser>
+#include <QVBoxLayout>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/file_io.h"
+#include "base/roll_pitch_yaw.h"
+#include "report/result_file.h"
+#include "style/theme.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+QString row(const QString& title, const QStringList& values, const QString& unit) {
+  QString out = QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td>").arg(title);
+  for (const QString& value : values)
+    out += QStringLiteral("<td align='right'>&nbsp;%1</td>").arg(value);
+  for (qsizetype i = values.size(); i < 4; ++i) out += QStringLiteral("<td></td>");
+  return out + QStringLiteral("<td>&nbsp;%1</td></tr>").arg(unit);
+}
+
+QStringList numbers(const Eigen::Ref<const Eigen::VectorXd>& values, int decimals) {
+  QStringList out;
+  for (const double value : values)
+    out << (std::isfinite(value) ? QString::number(value, 'f', decimals) : QStringLiteral("∞"));
+  return out;
+}
+
+QString pose_table(const UncertainRigid3& pose) {
+  const Vector6d sigma = pose.covariance.diagonal().cwiseSqrt();
+  const RollPitchYaw angles = roll_pitch_yaw(pose);
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  QString out = QStringLiteral("<table cellpadding='2'>");
+  out += row(ResultsDialog::tr("Translation x y z"), numbers(1e3 * pose.transform.translation, 3),
+             QStringLiteral("mm"));
+  out += row(ResultsDialog::tr("± one standard deviation"), numbers(1e3 * sigma.head<3>(), 3),
+             QStringLiteral("mm"));
+  out += row(ResultsDialog::tr("Quaternion x y z w"), numbers(pose.transform.rotation.coeffs(), 7),
+             QString());
+  out += row(ResultsDialog::tr("Roll, pitch, yaw"), numbers(kDegrees * angles.angles_rad, 4),
+             QStringLiteral("°"));
+  out += row(ResultsDialog::tr("± one standard deviation"),
+             numbers(kDegrees * angles.sigmas_rad, 4), QStringLiteral("°"));
+  out += row(ResultsDialog::tr("Rotation about camera x y z, ± σ"),
+             numbers(1e3 * sigma.tail<3>(), 3), QStringLiteral("mrad"));
+  return out + QStringLiteral("</table>");
+}
+
+QString list(const std::vector<std::string>& lines) {
+  QString out = QStringLiteral("<ul>");
+  for (const std::string& line : lines)
+    out += QStringLiteral("<li>%1</li>").arg(QString::fromStdString(line).toHtmlEscaped());
+  return out + QStringLiteral("</ul>");
+}
+
+QString quality_line(const CalibrationResult& result) {
+  const StateColors colors = state_colors(QGuiApplication::palette());
+  const auto [color, text] = [&]() -> std::pair<QColor, QString> {
+    switch (result.quality) {
+      case Quality::kGood:
+        return {colors.good, ResultsDialog::tr("good")};
+      case Quality::kDoubtful:
+        return {colors.doubtful, ResultsDialog::tr("doubtful")};
+      case Quality::kFailed:
+        break;
+    }
+    return {colors.bad, ResultsDialog::tr("failed")};
+  }();
+  QString line = QStringLiteral("<h2 style='color:%1'>%2</h2>")
+                     .arg(color.name(), ResultsDialog::tr("Quality: %1").arg(text));
+  if (!result.quality_reason.empty()) {
+    line += QStringLiteral("<p>%1</p>")
+                .arg(QString::fromStdString(result.quality_reason).toHtmlEscaped());
+  }
+  return line;
+}
+
+}  // namespace
+
+QString matrix_text(const CalibrationResult& result) {
+  const Eigen::Matrix4d m = result.extrinsic.camera_from_lidar.transform.matrix();
+  QString out;
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) out += QStringLiteral("%1").arg(m(r, c), c == 0 ? 12 : 13, 'f', 8);
+    out += QLatin1Char('\n');
+  }
+  return out;
+}
+
+QString results_html(const CalibrationResult& result) {
+  const ExtrinsicSolution& x = result.extrinsic;
+  QString out = quality_line(result);
+  out += QStringLiteral("<p>%1</p>")
+             .arg(ResultsDialog::tr(
+                      "T_camera_lidar from %1 of %2 scenes; %3 px at the tag corners, %4 mm at "
+                      "the LiDAR nodes (root mean square).")
+                      .arg(x.used_scenes)
+                      .arg(result.scenes.size())
+                      .arg(x.rms_px, 0, 'f', 3)
+                      .arg(x.rms_mm, 0, 'f', 3));
+  out += pose_table(x.camera_from_lidar);
+  if (!x.weak_directions.empty()) {
+    out += QStringLiteral("<h3>%1</h3>").arg(ResultsDialog::tr("Weakly determined"));
+    out += list(x.weak_directions);
+  }
+  out += QStringLiteral("<h3>%1</h3>").arg(ResultsDialog::tr("Warnings"));
+  out += result.warnings.empty() ? QStringLiteral("<p>%1</p>").arg(ResultsDialog::tr("None."))
+                                 : list(result.warnings);
+  return out;
+}
+
+ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Choices& choices,
+                             QString folder, QWidget* parent)
+    : QDialog(parent), result_(std::move(result)), choices_(choices), folder_(std::move(folder)) {
+  setAttribute(Qt::WA_DeleteOnClose);
+  setObjectName(QStringLiteral("results_dialog"));
+  setWindowTitle(tr("Results"));
+  resize(680, 620);
+  auto* text = new QTextBrowser(this);
+  text->setObjectName(QStringLiteral("results"));
+  text->setHtml(results_html(*result_));
+  auto* matrix = new QPlainTextEdit(matrix_text(*result_), this);
+  matrix->setObjectName(QStringLiteral("matrix"));
+  matrix->setReadOnly(true);
+  matrix->setLineWrapMode(QPlainTextEdit::NoWrap);
+  matrix->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  matrix->setFixedHeight(6 * matrix->fontMetrics().lineSpacing());
+  matrix->setToolTip(
+      tr("Takes a point from the LiDAR frame to the camera frame (x right, y down, "
+         "z forward); lengths in metres"));
+  matrix->setTabChangesFocus(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  const auto add = [&](const QString& title, const char* name) {
+    QPushButton* button = buttons->addButton(title, QDialogButtonBox::ActionRole);
+    button->setObjectName(QString::fromLatin1(name));
+    return button;
+  };
+  connect(add(tr("Copy matrix"), "copy"), &QPushButton::clicked, this,
+          [this] { QGuiApplication::clipboard()->setText(matrix_text(*result_)); });
+  connect(add(tr("Export YAML…"), "export_yaml"), &QPushButton::clicked, this, [this] {
+    export_file(QStringLiteral("yaml"), tr("YAML (*.yaml)"), result_as_yaml(*result_));
+  });
+  connect(add(tr("Export JSON…"), "export_json"), &QPushButton::clicked, this, [this] {
+    export_file(QStringLiteral("json"), tr("JSON (*.json)"), result_as_json(*result_));
+  });
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(text, 1);
+  layout->addWidget(matrix);
+  layout->addWidget(buttons);
+}
+
+void ResultsDialog::export_file(const QString& suffix, const QString& filter,
+                                const std::string& text) {
+  const QString suggestion = QDir(folder_).filePath(QStringLiteral("result.") + suffix);
+  QString path = choices_.file_to_export(this, suggestion, filter);
+  if (path.isEmpty()) return;
+  if (!path.contains(QLatin1Char('.'))) path += QLatin1Char('.') + suffix;
+  if (Status s = write_file_atomically(path.toStdString(), text); !s) {
+    Q_EMIT failed(s.error());
+    return;
+  }
+  Q_EMIT exported(path);
+}
+
+}  // namespace lvcalib::widgets

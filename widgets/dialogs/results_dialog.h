@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <memory>
+
+#include "dialogs/choices.h"
+#include "pipeline/calibration.h"
+
+namespace lvcalib::widgets {
+
+/// The pose as a 4×4 matrix, row by row, in metres.
+QString matrix_text(const CalibrationResult& result);
+/// Translation, quaternion, roll–pitch–yaw, each with its standard deviations, quality, warnings.
+QString results_html(const CalibrationResult& result);
+
+/// The result in all usual forms, with export and copy.
+class ResultsDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  /// `folder`: where exports are suggested to go. `choices` must outlive the dialog.
+  ResultsDialog(std::shared_ptr<const CalibrationResult> result, Choices& choices, QString folder,
+                QWidget* parent);
+
+ Q_SIGNALS:
+  void exported(const QString& path);
+  void failed(const lvcalib::Error& error);
+
+ private:
+  void export_file(const QString& suffix, const QString& filter, const std::string& text);
+
+  std::shared_ptr<const CalibrationResult> result_;
+  Choices& choices_;
+  QString folder_;
+};
+
+}  // namespace lvcalib::widgets

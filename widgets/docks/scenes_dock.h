@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDockWidget>
+#include <QStringList>
+
+class QAction;
+class QSortFilterProxyModel;
+class QToolBar;
+class QTreeView;
+
+namespace lvcalib::widgets {
+
+class SceneModel;
+
+/// The scene list with what can be done to the selected scenes.
+class ScenesDock : public QDockWidget {
+  Q_OBJECT
+
+ public:
+  /// The model must outlive the dock.
+  explicit ScenesDock(SceneModel& model, QWidget* parent = nullptr);
+
+  [[nodiscard]] QStringList selected() const;
+  /// Makes a scene the current one, as if it had been clicked.
+  void select(const QString& scene);
+
+ Q_SIGNALS:
+  void scene_activated(const QString& scene);
+  void use_wanted(const QStringList& scenes, bool use);
+  void run_again_wanted(const QStringList& scenes);
+  void uncrop_wanted(const QStringList& scenes);
+  void add_wanted();
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void make_view(SceneModel& model);
+  void make_actions();
+  void retranslate();
+  void update_actions();
+
+  SceneModel& model_;
+  QSortFilterProxyModel* sorted_;
+  QTreeView* view_;
+  QToolBar* bar_;
+  QAction* accept_;
+  QAction* reject_;
+  QAction* run_again_;
+  QAction* uncrop_;
+  QAction* add_;
+};
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "models/scene_model.h"
+
+#include <QGuiApplication>
+#include <QPalette>
+#include <algorithm>
+
+namespace lvcalib::widgets {
+namespace {
+
+template <class T>
+QVariant number_or_nothing(const std::optional<T>& value) {
+  return value ? QVariant::fromValue(*value) : QVariant();
+}
+
+QVariant fixed(const std::optional<double>& value, int decimals) {
+  return value ? QVariant(QString::number(*value, 'f', decimals)) : QVariant();
+}
+
+}  // namespace
+
+SceneModel::SceneModel(QObject* parent) : QAbstractTableModel(parent) {}
+
+void SceneModel::set_scenes(const Dataset& dataset, const QStringList& missing) {
+  beginResetModel();
+  rows_.clear();
+  for (const SceneFiles& files : dataset.scenes) {
+    Row row;
+    row.name = QString::fromStdString(files.name);
+    rows_.push_back(row);
+  }
+  for (const QString& name : missing) {
+    Row row;
+    row.name = name;
+    row.missing = true;
+    rows_.push_back(row);
+  }
+  decisions_ = {};
+  result_.reset();
+  endResetModel();
+}
+
+void SceneModel::set_decisions(const Decisions& decisions) {
+  decisions_ = decisions;
+  refill();
+}
+
+void SceneModel::set_result(const std::shared_ptr<const CalibrationResult>& result) {
+  result_ = result;
+  refill();
+}
+
+void SceneModel::refill() {
+  for (Row& old : rows_) {
+    Row row;
+    row.name = old.name;
+    row.missing = old.missing;
+    const SceneDecision decision = decision_of(decisions_, row.name.toStdString());
+    row.use = decision.use;
+    row.cropped = decision.crop.has_value();
+    if (result_) fill_result(row, *result_);
+    old = row;
+  }
+  if (!rows_.empty()) {
+    Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, kColumns - 1));
+  }
+}
+
+void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
+  const std::string name = row.name.toStdString();
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.name != name) continue;
+    row.ran = scene.view || !scene.reason.empty();
+    row.used = scene.used;
+    row.reason = QString::fromStdString(scene.reason);
+    if (scene.view && result.target.has_tags()) row.tags = scene.view->tag_count;
+    if (scene.refinement) row.points = static_cast<int>(scene.refinement->board_points);
+  }
+  for (const SceneSolution& solved : result.extrinsic.scenes) {
+    if (solved.name != name || !solved.used) continue;
+    row.rms_px = solved.rms_px;
+    row.rms_mm = solved.rms_mm;
+  }
+  for (const LeaveOneOut& without : result.extrinsic.leave_one_out) {
+    if (without.without != name) continue;
+    row.influence_mm = without.translation_mm;
+    row.influence_mrad = without.rotation_mrad;
+  }
+}
+
+void SceneModel::set_thumbnail(const QString& scene, const QImage& image) {
+  thumbnails_[scene] = QPixmap::fromImage(image);
+  const int row = row_of(scene);
+  if (row >= 0) Q_EMIT dataChanged(index(row, kName), index(row, kName), {Qt::DecorationRole});
+}
+
+int SceneModel::row_of(const QString& scene) const {
+  const auto found =
+      std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row.name == scene; });
+  return found == rows_.end() ? -1 : static_cast<int>(found - rows_.begin());
+}
+
+QString SceneModel::scene_at(int row) const {
+  return row < 0 || row >= rowCount() ? QString() : rows_[static_cast<std::size_t>(row)].name;
+}
+
+bool SceneModel::is_missing(int row) const {
+  return row >= 0 && row < rowCount() && rows_[static_cast<std::size_t>(row)].missing;
+}
+
+int SceneModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(rows_.size());
+}
+
+int SceneModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(kColumns);
+}
+
+QVariant SceneModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid() || index.row() >= rowCount()) return {};
+  const Row& row = rows_[static_cast<std::size_t>(index.row())];
+  switch (role) {
+    case Qt::DisplayRole:
+      return text(row, index.column());
+    case kSortRole:
+      return number(row, index.column());
+    case Qt::ToolTipRole:
+      return tool_tip(row, index.column());
+    case Qt::CheckStateRole:
+      if (index.column() == kName && !row.missing) return row.use ? Qt::Checked : Qt::Unchecked;
+      return {};
+    case Qt::DecorationRole:
+      if (index.column() == kState) {
+        // A pixmap keeps its size; an icon would take that of the thumbnails.
+        return mark_icon(mark_of(row), QGuiApplication::palette())
+            .pixmap(QSize(16, 16), qApp->devicePixelRatio());
+      }
+      if (index.column() == kName) return thumbnails_.value(row.name);
+      return {};
+    case Qt::TextAlignmentRole:
+      if (index.column() != kName && index.column() != kState)
+        return QVariant(Qt::AlignRight | Qt::AlignVCenter);
+      return {};
+    default:
+      return {};
+  }
+}
+
+QVariant SceneModel::text(const Row& row, int column) const {
+  switch (column) {
+    case kName:
+      return row.name;
+    case kTags:
+      return row.tags ? QVariant(QString::number(*row.tags)) : QVariant();
+    case kPoints:
+      return row.points ? QVariant(QString::number(*row.points)) : QVariant();
+    case kPixels:
+      return fixed(row.rms_px, 3);
+    case kMillimetres:
+      return fixed(row.rms_mm, 2);
+    case kInfluence:
+      return fixed(row.influence_mm, 2);
+    case kState:
+      return state_words(row);
+    default:
+      return {};
+  }
+}
+
+QVariant SceneModel::number(const Row& row, int column) const {
+  switch (column) {
+    case kTags:
+      return number_or_nothing(row.tags);
+    case kPoints:
+      return number_or_nothing(row.points);
+    case kPixels:
+      return number_or_nothing(row.rms_px);
+    case kMillimetres:
+      return number_or_nothing(row.rms_mm);
+    case kInfluence:
+      return number_or_nothing(row.influence_mm);
+    default:
+      return text(row, column);
+  }
+}
+
+QString SceneModel::state_words(const Row& row) const {
+  if (row.missing) return tr("missing on disk");
+  if (!row.use) return tr("rejected");
+  if (!row.ran) return tr("not run yet");
+  const QString crop = row.cropped ? tr(" (cropped)") : QString();
+  if (row.used) return tr("used") + crop;
+  // A scene just taken back in still has the reason of the last run.
+  if (row.reason.isEmpty() || row.reason == QLatin1String(kRejectedByUser))
+    return tr("to be run") + crop;
+  return row.reason + crop;
+}
+
+Mark SceneModel::mark_of(const Row& row) {
+  if (row.missing) return Mark::kMissing;
+  if (!row.use) return Mark::kLeftOut;
+  if (!row.ran || row.reason == QLatin1String(kRejectedByUser)) return Mark::kIdle;
+  return row.used ? Mark::kGood : Mark::kBad;
+}
+
+QString SceneModel::tool_tip(const Row& row, int column) const {
+  switch (column) {
+    case kName:
+      return tr("Scene %1. Ticked: it takes part in the calibration.").arg(row.name);
+    case kInfluence:
+      if (!row.influence_mm) break;
+      return tr("Without this scene the result moves by %1 mm and %2 mrad.")
+          .arg(*row.influence_mm, 0, 'f', 3)
+          .arg(*row.influence_mrad, 0, 'f', 3);
+    case kState:
+      return state_words(row);
+    default:
+      break;
+  }
+  return headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString();
+}
+
+QVariant SceneModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) return {};
+  struct Header {
+    QString text, tip;
+  };
+  const auto header = [&]() -> Header {
+    switch (section) {
+      case kName:
+        return {tr("Scene"), tr("Ticked scenes take part in the calibration.")};
+      case kTags:
+        return {tr("Tags"), tr("Tags found in the image.")};
+      case kPoints:
+        return {tr("Points"), tr("LiDAR points on the board.")};
+      case kPixels:
+        return {tr("px"), tr("Root mean square of the tag corners' reprojection errors, px.")};
+      case kMillimetres:
+        return {tr("mm"), tr("Root mean square distance of LiDAR nodes to the board's, mm.")};
+      case kInfluence:
+        return {tr("Infl."), tr("Influence: how far the result moves without this scene, mm.")};
+      default:
+        return {tr("State"), tr("Whether the scene is used, and why not.")};
+    }
+  }();
+  if (role == Qt::DisplayRole) return header.text;
+  if (role == Qt::ToolTipRole) return header.tip;
+  return {};
+}
+
+Qt::ItemFlags SceneModel::flags(const QModelIndex& index) const {
+  if (!index.isValid()) return Qt::NoItemFlags;
+  Qt::ItemFlags flags = Qt::ItemIsSelectable | Qt::ItemIsEnabled;
+  if (index.column() == kName && !is_missing(index.row())) flags |= Qt::ItemIsUserCheckable;
+  return flags;
+}
+
+bool SceneModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+  if (role != Qt::CheckStateRole || index.column() != kName || is_missing(index.row()))
+    return false;
+  Q_EMIT use_wanted(scene_at(index.row()), value.toInt() == Qt::Checked);
+  return true;
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/extrinsic_page.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTextBrowser>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <limits>
+
+#include "pages/pose_text.h"
+#include "pages/scene_overlay.h"
+#include "views/category_plots.h"
+#include "views/cloud_scene_builder.h"
+#include "views/cloud_view.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+std::vector<double> corner_distances_px(const SceneSolution& solution) {
+  std::vector<double> out;
+  for (const CornerResidual& r : solution.corners) {
+    if (r.used) out.push_back(r.residual_px.norm());
+  }
+  return out;
+}
+
+std::vector<double> node_distances_mm(const SceneSolution& solution) {
+  std::vector<double> out;
+  for (const NodeResidual& r : solution.nodes) {
+    if (r.used) out.push_back(1e3 * r.residual_m.norm());
+  }
+  return out;
+}
+
+}  // namespace
+
+ExtrinsicPage::ExtrinsicPage(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  auto* splitter = new QSplitter(Qt::Horizontal, this);
+  splitter->setChildrenCollapsible(false);
+  pose_ = new QTextBrowser(splitter);
+  pose_->setObjectName("pose");
+  pose_->setAccessibleName(tr("Pose and quality"));
+  pose_->setMinimumWidth(280);
+  tabs_ = new QTabWidget(splitter);
+  tabs_->setDocumentMode(true);
+  tabs_->addTab(createPlots(), tr("Residuals and influence"));
+  tabs_->addTab(createCloud(), tr("Cloud in camera colours"));
+  splitter->addWidget(pose_);
+  splitter->addWidget(tabs_);
+  splitter->setStretchFactor(0, 0);
+  splitter->setStretchFactor(1, 1);
+  splitter->setSizes({400, 1000});
+  layout->addWidget(splitter);
+  setResult(nullptr);
+}
+
+ExtrinsicPage::~ExtrinsicPage() = default;
+
+QWidget* ExtrinsicPage::createPlots() {
+  auto* page = new QWidget(tabs_);
+  auto* grid = new QGridLayout(page);
+  grid->setContentsMargins(0, 4, 0, 0);
+  grid->setSpacing(4);
+  bars_px_ = new BarPlot(page);
+  bars_mm_ = new BarPlot(page);
+  boxes_px_ = new BoxPlot(page);
+  boxes_mm_ = new BoxPlot(page);
+  influence_mm_ = new BarPlot(page);
+  influence_mrad_ = new BarPlot(page);
+  bars_px_->setValueLabel(tr("corner RMS (px)"), "rms_px");
+  bars_mm_->setValueLabel(tr("LiDAR RMS (mm)"), "rms_mm");
+  boxes_px_->setValueLabel(tr("corner residual (px)"), "residual_px");
+  boxes_mm_->setValueLabel(tr("node residual (mm)"), "residual_mm");
+  influence_mm_->setValueLabel(tr("moves without it (mm)"), "influence_mm");
+  influence_mrad_->setValueLabel(tr("turns without it (mrad)"), "influence_mrad");
+  bars_px_->setToolTip(
+      tr("Root mean square of the tag corners' reprojection residuals, per scene "
+         "(px). Pale: not used. Click: go to the scene."));
+  bars_mm_->setToolTip(
+      tr("Root mean square of the refined LiDAR nodes against the board's model, "
+         "per scene (mm); without circles, of the plane's height"));
+  boxes_px_->setToolTip(
+      tr("Lengths of the corner residuals per scene (px): median, quartiles, "
+         "whiskers to 1.5 box lengths, circles beyond"));
+  boxes_mm_->setToolTip(
+      tr("Lengths of the node residuals per scene (mm): median, quartiles, "
+         "whiskers to 1.5 box lengths, circles beyond"));
+  influence_mm_->setToolTip(tr("How far the LiDAR's origin moves when the scene is left out (mm)"));
+  influence_mrad_->setToolTip(tr("How far the extrinsic turns when the scene is left out (mrad)"));
+  CategoryPlot* plots[] = {bars_px_,  bars_mm_,      boxes_px_,
+                           boxes_mm_, influence_mm_, influence_mrad_};
+  for (int k = 0; k < 6; ++k) {
+    grid->addWidget(plots[k], k / 2, k % 2);
+    watch(plots[k]);
+  }
+  return page;
+}
+
+QWidget* ExtrinsicPage::createCloud() {
+  cloud_ = new CloudView(tabs_);
+  builder_ = new CloudSceneBuilder(this);
+  connect(builder_, &CloudSceneBuilder::ready, cloud_, &CloudView::setScene);
+  connect(cloud_->figureActions(), &FigureActions::failed, this, &ExtrinsicPage::failed);
+  return cloud_;
+}
+
+void ExtrinsicPage::watch(CategoryPlot* plot) {
+  connect(plot, &CategoryPlot::categoryClicked, this, &ExtrinsicPage::activate);
+  connect(plot->figureActions(), &FigureActions::failed, this, &ExtrinsicPage::failed);
+}
+
+void ExtrinsicPage::activate(int index) {
+  if (result_ && index < static_cast<int>(result_->scenes.size())) Q_EMIT sceneActivated(index);
+}
+
+void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
+  result_ = std::move(result);
+  fillPose();
+  fillPlots();
+  fillInfluence();
+  colourise();
+}
+
+void ExtrinsicPage::setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image) {
+  scene_ = scene;
+  full_cloud_ = std::move(full_cloud);
+  image_ = std::move(image);
+  colourise();
+}
+
+void ExtrinsicPage::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) fillPose();
+}
+
+void ExtrinsicPage::fillPose() {
+  pose_->setHtml(result_ ? pose_html(*result_, palette())
+                         : "<p>" + tr("Run the calibration to see its result.") + "</p>");
+}
+
+// One column per scene of the result in every plot, so that a column names its scene.
+void ExtrinsicPage::fillPlots() {
+  std::vector<BarPlot::Bar> px;
+  std::vector<BarPlot::Bar> mm;
+  std::vector<BoxPlot::Box> px_boxes;
+  std::vector<BoxPlot::Box> mm_boxes;
+  if (result_) {
+    for (const SceneResult& scene : result_->scenes) {
+      const QString name = QString::fromStdString(scene.name);
+      const SceneSolution* solution = solution_of(*result_, scene);
+      const double nothing = std::numeric_limits<double>::quiet_NaN();
+      px.push_back({name, solution != nullptr ? solution->rms_px : nothing, scene.used});
+      mm.push_back({name, solution != nullptr ? solution->rms_mm : nothing, scene.used});
+      px_boxes.push_back(
+          {name, solution != nullptr ? corner_distances_px(*solution) : std::vector<double>()});
+      mm_boxes.push_back(
+          {name, solution != nullptr ? node_distances_mm(*solution) : std::vector<double>()});
+    }
+  }
+  bars_px_->setBars(std::move(px));
+  bars_mm_->setBars(std::move(mm));
+  boxes_px_->setBoxes(std::move(px_boxes));
+  const bool no_nodes = result_ && !result_->target.has_circles();
+  boxes_mm_->setBoxes(std::move(mm_boxes), no_nodes ? tr("this board has no circles") : QString());
+}
+
+void ExtrinsicPage::fillInfluence() {
+  std::vector<BarPlot::Bar> mm;
+  std::vector<BarPlot::Bar> mrad;
+  QString message;
+  if (result_) {
+    for (const SceneResult& scene : result_->scenes) {
+      const auto& all = result_->extrinsic.leave_one_out;
+      const auto found = std::find_if(
+          all.begin(), all.end(), [&](const LeaveOneOut& l) { return l.without == scene.name; });
+      const bool known = found != all.end();
+      const double nothing = std::numeric_limits<double>::quiet_NaN();
+      const QString name = QString::fromStdString(scene.name);
+      mm.push_back({name, known ? found->translation_mm : nothing, scene.used});
+      mrad.push_back({name, known ? found->rotation_mrad : nothing, scene.used});
+    }
+    if (result_->extrinsic.leave_one_out.empty()) message = tr("needs three used scenes or more");
+  }
+  influence_mm_->setBars(std::move(mm), message);
+  influence_mrad_->setBars(std::move(mrad), message);
+}
+
+void ExtrinsicPage::colourise() {
+  if (builder_ == nullptr) return;
+  CloudSceneInput input;
+  input.color = CloudColor::kCameraColor;
+  if (result_ && scene_ >= 0 && has_extrinsic(*result_)) {
+    input.full = full_cloud_;
+    input.image = image_;
+    input.target = result_->target;
+    input.camera = result_->camera;
+    input.camera_from_lidar = result_->extrinsic.camera_from_lidar.transform;
+  }
+  builder_->request(std::move(input));
+}
+
+}  // namespace lvcalib::widgets

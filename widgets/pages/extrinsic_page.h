@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+#include <memory>
+
+#include "pipeline/calibration.h"
+
+class QTabWidget;
+class QTextBrowser;
+
+namespace lvcalib::widgets {
+
+class BarPlot;
+class BoxPlot;
+class CategoryPlot;
+class CloudSceneBuilder;
+class CloudView;
+
+/// The extrinsic: the pose with its standard deviations, weak directions, quality and warnings;
+/// residuals per scene as bars and boxes; how the pose moves without each scene; the cloud in the
+/// camera's colours.
+class ExtrinsicPage : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ExtrinsicPage(QWidget* parent = nullptr);
+  ~ExtrinsicPage() override;
+
+  void setResult(std::shared_ptr<const CalibrationResult> result);
+  /// Cloud and image of the scene to show in camera colours.
+  void setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image);
+
+  [[nodiscard]] CloudView* cloudView() const { return cloud_; }
+
+ Q_SIGNALS:
+  /// A scene was clicked in a plot; index into the result's scenes.
+  void sceneActivated(int scene);
+  void failed(const QString& message);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  QWidget* createPlots();
+  QWidget* createCloud();
+  void watch(CategoryPlot* plot);
+  void activate(int index);
+  void fillPlots();
+  void fillInfluence();
+  void fillPose();
+  void colourise();
+
+  std::shared_ptr<const CalibrationResult> result_;
+  std::shared_ptr<const Cloud> full_cloud_;
+  QImage image_;
+  int scene_ = -1;
+  QTextBrowser* pose_ = nullptr;
+  QTabWidget* tabs_ = nullptr;
+  BarPlot* bars_px_ = nullptr;
+  BarPlot* bars_mm_ = nullptr;
+  BoxPlot* boxes_px_ = nullptr;
+  BoxPlot* boxes_mm_ = nullptr;
+  BarPlot* influence_mm_ = nullptr;
+  BarPlot* influence_mrad_ = nullptr;
+  CloudView* cloud_ = nullptr;
+  CloudSceneBuilder* builder_ = nullptr;
+};
+
+}  // namespace lvcalib::widgets

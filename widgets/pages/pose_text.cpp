@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/pose_text.h"
+
+#include <QCoreApplication>
+#include <cmath>
+#include <numbers>
+
+#include "base/roll_pitch_yaw.h"
+#include "style/theme.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kMm = 1e3;
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("PoseText", text);
+}
+
+QString number(double value, int decimals) {
+  return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
+}
+
+QString heading(const QString& text) {
+  return "<h4>" + text.toHtmlEscaped() + "</h4>";
+}
+
+// Right-aligned cells; the first one names the row.
+QString row(const QStringList& cells) {
+  QString out = "<tr>";
+  for (int k = 0; k < cells.size(); ++k) {
+    out += QString("<td align='%1' style='padding-right:10px'>%2</td>")
+               .arg(k == 0 ? "left" : "right", cells[k]);
+  }
+  return out + "</tr>";
+}
+
+QString quality_line(const CalibrationResult& result, const QPalette& palette) {
+  const StateColors colors = state_colors(palette);
+  QColor color = colors.good;
+  QString name = tr("good");
+  if (result.quality == Quality::kDoubtful) {
+    color = colors.doubtful;
+    name = tr("doubtful");
+  } else if (result.quality == Quality::kFailed) {
+    color = colors.bad;
+    name = tr("failed");
+  }
+  QString line = QString("<p><b>%1 <span style='color:%2'>%3</span></b>")
+                     .arg(tr("Quality:"), color.name(), name);
+  if (!result.quality_reason.empty()) {
+    line += " – " + QString::fromStdString(result.quality_reason).toHtmlEscaped();
+  }
+  line += "<br>" + tr("%1 scenes, %2 px (corners), %3 mm (LiDAR)")
+                       .arg(result.extrinsic.used_scenes)
+                       .arg(result.extrinsic.rms_px, 0, 'f', 3)
+                       .arg(result.extrinsic.rms_mm, 0, 'f', 2);
+  return line + "</p>";
+}
+
+QString translation_table(const UncertainRigid3& pose) {
+  QString out = "<table>";
+  const char* axes[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) {
+    out += row({axes[k], number(kMm * pose.transform.translation(k), 2) + " mm",
+                "± " + number(kMm * std::sqrt(pose.covariance(k, k)), 2)});
+  }
+  return out + "</table>";
+}
+
+QString rotation_table(const UncertainRigid3& pose) {
+  const RollPitchYaw turn = roll_pitch_yaw(pose);
+  const QString names[] = {tr("roll"), tr("pitch"), tr("yaw")};
+  QString out = "<table>";
+  for (int k = 0; k < 3; ++k) {
+    const QString sigma = std::isfinite(turn.sigmas_rad(k))
+                              ? number(kDegrees * turn.sigmas_rad(k), 4)
+                              : tr("unbounded");
+    out += row({names[k], number(kDegrees * turn.angles_rad(k), 4) + "°", "± " + sigma});
+  }
+  return out + "</table>";
+}
+
+// Of the perturbation in the camera frame: what the covariance of the result file says.
+QString camera_sigma_table(const UncertainRigid3& pose) {
+  QString out = "<table>";
+  const char* axes[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) {
+    out += row({axes[k], number(kMm * std::sqrt(pose.covariance(k, k)), 3) + " mm",
+                number(1e3 * std::sqrt(pose.covariance(k + 3, k + 3)), 3) + " mrad"});
+  }
+  return out + "</table>";
+}
+
+QString matrix_table(const Rigid3& pose) {
+  QString out = "<table style='font-family:monospace'>";
+  const Eigen::Matrix4d m = pose.matrix();
+  for (int r = 0; r < 4; ++r) {
+    QStringList cells{""};
+    for (int c = 0; c < 4; ++c) cells.push_back(number(m(r, c), 6));
+    out += row(cells);
+  }
+  return out + "</table>";
+}
+
+QString quaternion_line(const Rigid3& pose) {
+  const Eigen::Quaterniond& q = pose.rotation;
+  return "<p style='font-family:monospace'>" + number(q.x(), 6) + "&nbsp; " + number(q.y(), 6) +
+         "&nbsp; " + number(q.z(), 6) + "&nbsp; " + number(q.w(), 6) + "</p>";
+}
+
+QString list(const std::vector<std::string>& lines) {
+  QString out = "<ul style='margin-left:-22px'>";
+  for (const std::string& line : lines) {
+    out += "<li>" + QString::fromStdString(line).toHtmlEscaped() + "</li>";
+  }
+  return out + "</ul>";
+}
+
+}  // namespace
+
+QString pose_html(const CalibrationResult& result, const QPalette& palette) {
+  const UncertainRigid3& pose = result.extrinsic.camera_from_lidar;
+  QString html = quality_line(result, palette);
+  html += heading(tr("Translation (LiDAR origin in the camera frame)")) + translation_table(pose);
+  html += heading(tr("Roll, pitch, yaw (R = Rz·Ry·Rx)")) + rotation_table(pose);
+  html += heading(tr("T_camera_lidar")) + matrix_table(pose.transform);
+  html += heading(tr("Quaternion x y z w")) + quaternion_line(pose.transform);
+  html += heading(tr("Standard deviations along the camera's axes")) + camera_sigma_table(pose);
+  html += heading(tr("Weak directions"));
+  html += result.extrinsic.weak_directions.empty()
+              ? "<p>" + tr("None: the scenes determine all six.") + "</p>"
+              : list(result.extrinsic.weak_directions);
+  if (!result.warnings.empty()) html += heading(tr("Warnings")) + list(result.warnings);
+  return html;
+}
+
+}  // namespace lvcalib::widgets

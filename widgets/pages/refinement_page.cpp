@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/refinement_page.h"
+
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QSlider>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <numbers>
+
+#include "refinement/node_fit.h"
+#include "style/theme.h"
+#include "views/angle_distance_plot.h"
+#include "views/board_map_plot.h"
+#include "views/convergence_plot.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kMm = 1e3;
+constexpr int kReplayStep_ms = 350;
+
+}  // namespace
+
+RefinementPage::RefinementPage(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  auto* splitter = new QSplitter(Qt::Horizontal, this);
+  splitter->setChildrenCollapsible(false);
+  grid_ = new QWidget(splitter);
+  grid_layout_ = new QGridLayout(grid_);
+  grid_layout_->setContentsMargins(0, 0, 0, 0);
+  grid_layout_->setSpacing(3);
+  splitter->addWidget(grid_);
+  splitter->addWidget(createDetail());
+  splitter->setStretchFactor(0, 5);
+  splitter->setStretchFactor(1, 4);
+  splitter->setSizes({1000, 800});
+  layout->addWidget(splitter, 1);
+  layout->addWidget(createReplay());
+  player_.setInterval(kReplayStep_ms);
+  connect(&player_, &QTimer::timeout, this, &RefinementPage::advance);
+  setTarget(Target());
+  display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
+}
+
+RefinementPage::~RefinementPage() = default;
+
+QWidget* RefinementPage::createDetail() {
+  auto* split = new QSplitter(Qt::Vertical, this);
+  split->setChildrenCollapsible(false);
+  auto* top = new QWidget(split);
+  auto* layout = new QVBoxLayout(top);
+  layout->setContentsMargins(0, 0, 0, 0);
+  large_ = new AngleDistancePlot(top);
+  large_->setObjectName("large-plot");
+  verdict_ = new QLabel(top);
+  verdict_->setObjectName("node-verdict");
+  verdict_->setWordWrap(true);
+  bins_ = new QTableWidget(0, 5, top);
+  bins_->setObjectName("bins");
+  bins_->setHorizontalHeaderLabels(
+      {tr("Angle (°)"), tr("Midpoint (mm)"), tr("σ (mm)"), tr("Samples"), tr("State")});
+  bins_->horizontalHeader()->setStretchLastSection(true);
+  bins_->horizontalHeader()->setDefaultSectionSize(92);
+  bins_->verticalHeader()->hide();
+  bins_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  bins_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  bins_->setSelectionMode(QAbstractItemView::SingleSelection);
+  bins_->setAccessibleName(tr("Angular bins of the chosen node"));
+  bins_->setToolTip(
+      tr("Every angular bin of the chosen node: where the intensity crosses its middle "
+         "level (mm from the circle), its standard deviation, and why it was refused"));
+  connect(bins_, &QTableWidget::currentCellChanged, this,
+          [this](int row, int, int, int) { large_->setChosenBin(row); });
+  layout->addWidget(large_, 3);
+  layout->addWidget(verdict_);
+  layout->addWidget(bins_, 2);
+  auto* bottom = new QSplitter(Qt::Horizontal, split);
+  bottom->setChildrenCollapsible(false);
+  map_ = new BoardMapPlot(bottom);
+  convergence_ = new ConvergencePlot(bottom);
+  bottom->addWidget(map_);
+  bottom->addWidget(convergence_);
+  split->addWidget(top);
+  split->addWidget(bottom);
+  split->setStretchFactor(0, 3);
+  split->setStretchFactor(1, 2);
+  split->setSizes({600, 400});
+  connect(map_, &BoardMapPlot::nodeClicked, this, &RefinementPage::chooseNode);
+  connect(convergence_, &ConvergencePlot::iterationClicked, this, &RefinementPage::setIteration);
+  for (PlotView* plot : std::initializer_list<PlotView*>{large_, map_, convergence_}) {
+    connect(plot->figureActions(), &FigureActions::failed, this, &RefinementPage::failed);
+  }
+  return split;
+}
+
+QWidget* RefinementPage::createReplay() {
+  auto* bar = new QWidget(this);
+  auto* layout = new QHBoxLayout(bar);
+  layout->setContentsMargins(0, 0, 0, 0);
+  play_ = new QToolButton(bar);
+  play_->setObjectName("play");
+  play_->setText(QString(QChar(0x25B6)));  // Takes the palette's colour, unlike the style's icon.
+  play_->setToolTip(tr("Replay the iterations from the first"));
+  play_->setAccessibleName(tr("Replay"));
+  play_->setShortcut(QKeySequence(Qt::Key_P));
+  slider_ = new QSlider(Qt::Horizontal, bar);
+  slider_->setObjectName("iteration");
+  slider_->setToolTip(tr("Iteration shown"));
+  slider_->setAccessibleName(tr("Iteration"));
+  slider_->setPageStep(1);
+  iteration_text_ = new QLabel(bar);
+  iteration_text_->setMinimumWidth(330);
+  layout->addWidget(play_);
+  layout->addWidget(slider_, 1);
+  layout->addWidget(iteration_text_);
+  connect(play_, &QToolButton::clicked, this, &RefinementPage::play);
+  connect(slider_, &QSlider::valueChanged, this, &RefinementPage::updatePlots);
+  connect(slider_, &QSlider::sliderPressed, &player_, &QTimer::stop);
+  return bar;
+}
+
+void RefinementPage::setResult(std::shared_ptr<const CalibrationResult> result) {
+  result_ = std::move(result);
+  live_points_.reset();
+  if (result_) setTarget(result_->target);
+  showResult();
+}
+
+void RefinementPage::setScene(int index) {
+  if (index == scene_) return;
+  scene_ = index;
+  showResult();
+}
+
+void RefinementPage::setTarget(const Target& target) {
+  const bool same = target.type == target_.type && target.tag_columns == target_.tag_columns &&
+                    target.tag_rows == target_.tag_rows;
+  target_ = target;
+  map_->setTarget(target);
+  if (!same || plots_.empty()) {
+    rebuildGrid();
+    updatePlots();
+  }
+}
+
+void RefinementPage::setLivePoints(int scene, std::shared_ptr<const Cloud> board_points) {
+  live_points_scene_ = scene;
+  live_points_ = std::move(board_points);
+}
+
+void RefinementPage::showResult() {
+  if (!result_ || scene_ < 0 || scene_ >= static_cast<int>(result_->scenes.size())) {
+    display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
+    return;
+  }
+  const SceneResult& scene = result_->scenes[static_cast<std::size_t>(scene_)];
+  if (!scene.refinement) {
+    const QString reason = QString::fromStdString(scene.reason);
+    display(nullptr, nullptr,
+            reason.isEmpty() ? tr("This scene was not refined.")
+                             : tr("This scene was not refined: %1").arg(reason));
+    return;
+  }
+  if (scene.refinement->nodes.empty()) {
+    display(nullptr, nullptr, tr("This board has no circles: there is nothing to refine."));
+    return;
+  }
+  display({result_, &*scene.refinement}, {result_, &scene.board_points}, {});
+}
+
+void RefinementPage::showIteration(int scene, std::shared_ptr<const BoardRefinement> partial) {
+  if (scene != scene_ || !partial) return;
+  std::shared_ptr<const Cloud> points = points_;
+  if (live_points_ && live_points_scene_ == scene) points = live_points_;
+  player_.stop();
+  display(std::move(partial), std::move(points), {});
+}
+
+void RefinementPage::display(std::shared_ptr<const BoardRefinement> refinement,
+                             std::shared_ptr<const Cloud> points, const QString& message) {
+  refinement_ = std::move(refinement);
+  points_ = std::move(points);
+  message_ = message;
+  sampler_ = NodeSampler();
+  if (refinement_ && points_) {
+    sampler_ = NodeSampler(*points_, refinement_->plane, target_);
+    if (points_->has_intensity()) intensity_ = scale_for(points_->intensity, ColorMap::kSequential);
+  }
+  if (target_.has_circles()) {
+    const NodeWindow window = node_window(target_);
+    // The edge's neighbourhood: what lies deeper inside is all alike.
+    reach_m_ = std::min(window.inside_m, window.outside_m);
+  }
+  map_->setPaths(refinement_ ? center_paths(*refinement_) : std::vector<CenterPath>());
+  convergence_->setHistory(refinement_ ? refinement_->history : std::vector<IterationRecord>());
+  updateReplay();
+  updatePlots();
+}
+
+void RefinementPage::updateReplay() {
+  const int count = refinement_ ? static_cast<int>(refinement_->history.size()) : 0;
+  const QSignalBlocker blocker(slider_);
+  slider_->setRange(0, std::max(0, count - 1));
+  slider_->setValue(std::max(0, count - 1));
+  slider_->setEnabled(count > 1);
+  play_->setEnabled(count > 1);
+}
+
+void RefinementPage::rebuildGrid() {
+  qDeleteAll(plots_);
+  plots_.clear();
+  const int columns = target_.tag_columns - 1;
+  const int rows = target_.tag_rows - 1;
+  for (const TargetNode& node : target_.nodes()) {
+    auto* plot = new AngleDistancePlot(grid_);
+    plot->setObjectName(QString("node-%1").arg(node.id));
+    plot->setCompact(true);
+    // As on the board: the first row is the lowest.
+    grid_layout_->addWidget(plot, rows - 1 - node.id / columns, node.id % columns);
+    connect(plot, &PlotView::clicked, this, [this, id = node.id] { chooseNode(id); });
+    connect(plot->figureActions(), &FigureActions::failed, this, &RefinementPage::failed);
+    plots_.push_back(plot);
+  }
+}
+
+int RefinementPage::iteration() const {
+  return slider_->value();
+}
+
+void RefinementPage::setIteration(int iteration) {
+  player_.stop();
+  slider_->setValue(iteration);
+}
+
+void RefinementPage::chooseNode(int id) {
+  chosen_ = id;
+  map_->setChosenNode(id);
+  convergence_->setChosenNode(id);
+  updateDetail();
+}
+
+void RefinementPage::play() {
+  slider_->setValue(0);
+  player_.start();
+}
+
+void RefinementPage::advance() {
+  if (slider_->value() >= slider_->maximum()) {
+    player_.stop();
+  } else {
+    slider_->setValue(slider_->value() + 1);
+  }
+}
+
+const NodeRecord* RefinementPage::record(int id) const {
+  if (!refinement_ || refinement_->history.empty()) return nullptr;
+  const auto last = static_cast<int>(refinement_->history.size()) - 1;
+  const auto k = static_cast<std::size_t>(std::clamp(iteration(), 0, last));
+  for (const NodeRecord& node : refinement_->history[k].nodes) {
+    if (node.id == id) return &node;
+  }
+  return nullptr;
+}
+
+QString RefinementPage::nodeTitle(int id) const {
+  const NodeRecord* node = record(id);
+  if (node == nullptr) return tr("node %1").arg(id);
+  if (!node->valid) return tr("node %1: not usable").arg(id);
+  return tr("node %1: |Δc| %2 mm").arg(id).arg(kMm * node->wave_m.head<2>().norm(), 0, 'f', 2);
+}
+
+void RefinementPage::updatePlots() {
+  const std::vector<TargetNode> nodes = target_.nodes();
+  for (std::size_t k = 0; k < plots_.size() && k < nodes.size(); ++k) {
+    plots_[k]->setTitle(nodeTitle(nodes[k].id));
+    if (const NodeRecord* node = record(nodes[k].id)) {
+      plots_[k]->setData({*node, sampler_.around(node->center_uv_m), intensity_, reach_m_});
+    } else {
+      plots_[k]->clear(refinement_ ? tr("no data") : QString());
+    }
+  }
+  map_->setIteration(iteration());
+  convergence_->setIteration(refinement_ ? iteration() : -1);
+  if (refinement_ && !refinement_->history.empty()) {
+    const auto k = static_cast<std::size_t>(slider_->value());
+    iteration_text_->setText(tr("iteration %1 of %2, largest move %3 mm")
+                                 .arg(slider_->value() + 1)
+                                 .arg(refinement_->history.size())
+                                 .arg(kMm * refinement_->history[k].max_update_m, 0, 'f', 3));
+  } else {
+    iteration_text_->clear();
+  }
+  updateDetail();
+}
+
+void RefinementPage::updateDetail() {
+  const NodeRecord* node = record(chosen_);
+  large_->setChosenBin(-1);
+  large_->setTitle(node != nullptr ? nodeTitle(chosen_) : QString());
+  if (node != nullptr) {
+    large_->setData({*node, sampler_.around(node->center_uv_m), intensity_, reach_m_});
+  } else {
+    large_->clear(message_.isEmpty() ? tr("no data") : QString());
+  }
+  fillBins(node);
+  if (node == nullptr) {
+    verdict_->setText(message_);
+    return;
+  }
+  const auto used = std::count_if(node->bins.begin(), node->bins.end(),
+                                  [](const BinRecord& b) { return b.state == BinState::kUsed; });
+  QString text = tr("%1 of %2 bins used").arg(used).arg(node->bins.size());
+  if (node->valid) {
+    const Eigen::Vector3d wave = kMm * node->wave_m;
+    text += tr("; Δcu %1, Δcv %2, Δr %3 mm")
+                .arg(wave.x(), 0, 'f', 2)
+                .arg(wave.y(), 0, 'f', 2)
+                .arg(wave.z(), 0, 'f', 2);
+    text += tr("; levels %1 and %2")
+                .arg(node->inner_level, 0, 'f', 0)
+                .arg(node->outer_level, 0, 'f', 0);
+  } else {
+    text += tr("; not usable: %1").arg(QString::fromStdString(node->reason));
+  }
+  verdict_->setText(text);
+}
+
+void RefinementPage::fillBins(const NodeRecord* record) {
+  const QSignalBlocker blocker(bins_);
+  bins_->setCurrentCell(-1, -1);
+  bins_->setRowCount(record != nullptr ? static_cast<int>(record->bins.size()) : 0);
+  if (record == nullptr) return;
+  const QColor refused = state_colors(palette()).bad;
+  for (int row = 0; row < bins_->rowCount(); ++row) {
+    const BinRecord& bin = record->bins[static_cast<std::size_t>(row)];
+    const bool has_midpoint = bin.sigma_m > 0.0;
+    const QStringList cells{
+        QString::number(kDegrees * bin.angle_rad, 'f', 1),
+        has_midpoint ? QString::number(kMm * bin.midpoint_m, 'f', 3) : QString("–"),
+        has_midpoint ? QString::number(kMm * bin.sigma_m, 'f', 3) : QString("–"),
+        QString::number(bin.samples), QString::fromStdString(describe(bin.state))};
+    for (int column = 0; column < cells.size(); ++column) {
+      auto* item = new QTableWidgetItem(cells[column]);
+      if (column < 4) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      if (bin.state != BinState::kUsed) item->setForeground(refused);
+      bins_->setItem(row, column, item);
+    }
+  }
+  bins_->verticalHeader()->setDefaultSectionSize(bins_->fontMetrics().height() + 6);
+}
+
+}  // namespace lvcalib::widgets

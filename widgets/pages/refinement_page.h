@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "pipeline/calibration.h"
+#include "refinement/node_samples.h"
+#include "views/color_map.h"
+
+class QGridLayout;
+class QLabel;
+class QSlider;
+class QTableWidget;
+class QToolButton;
+
+namespace lvcalib::widgets {
+
+class AngleDistancePlot;
+class BoardMapPlot;
+class ConvergencePlot;
+
+/// The refinement of one scene: an angle–distance plot for every node, one of them enlarged with a
+/// list of its bins, the way of the centres over the board, convergence, and a slider that replays
+/// the iterations. Live while it runs.
+class RefinementPage : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit RefinementPage(QWidget* parent = nullptr);
+  ~RefinementPage() override;
+
+  void setResult(std::shared_ptr<const CalibrationResult> result);
+  void setScene(int index);
+  /// The board to expect before there is a result: lets live plots take their places.
+  void setTarget(const Target& target);
+  /// Points of the scene's board for live plots before there is a result.
+  void setLivePoints(int scene, std::shared_ptr<const Cloud> board_points);
+
+  [[nodiscard]] int iteration() const;
+  [[nodiscard]] int chosenNode() const { return chosen_; }
+
+ public Q_SLOTS:
+  /// A refinement that is still running; shown if it is of the current scene.
+  void showIteration(int scene, std::shared_ptr<const lvcalib::BoardRefinement> partial);
+  void setIteration(int iteration);
+  void chooseNode(int id);
+  void play();
+
+ Q_SIGNALS:
+  void failed(const QString& message);
+
+ private:
+  QWidget* createDetail();
+  QWidget* createReplay();
+  void display(std::shared_ptr<const BoardRefinement> refinement,
+               std::shared_ptr<const Cloud> points, const QString& message);
+  void showResult();
+  void rebuildGrid();
+  void updatePlots();
+  void updateDetail();
+  void fillBins(const NodeRecord* record);
+  void updateReplay();
+  void advance();
+  [[nodiscard]] const NodeRecord* record(int id) const;
+  [[nodiscard]] QString nodeTitle(int id) const;
+
+  std::shared_ptr<const CalibrationResult> result_;
+  std::shared_ptr<const BoardRefinement> refinement_;
+  std::shared_ptr<const Cloud> points_;
+  std::shared_ptr<const Cloud> live_points_;
+  int live_points_scene_ = -1;
+  Target target_;
+  NodeSampler sampler_;
+  ColorScale intensity_;
+  double reach_m_ = 0.02;
+  int scene_ = -1;
+  int chosen_ = 0;
+  QString message_;
+
+  QTimer player_;
+  QWidget* grid_ = nullptr;
+  QGridLayout* grid_layout_ = nullptr;
+  std::vector<AngleDistancePlot*> plots_;  // By place in target_.nodes().
+  AngleDistancePlot* large_ = nullptr;
+  QLabel* verdict_ = nullptr;
+  QTableWidget* bins_ = nullptr;
+  BoardMapPlot* map_ = nullptr;
+  ConvergencePlot* convergence_ = nullptr;
+  QSlider* slider_ = nullptr;
+  QToolButton* play_ = nullptr;
+  QLabel* iteration_text_ = nullptr;
+};
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/scene_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "target/wireframe.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr std::array<double, 3> kLidarColor{1.0, 0.6, 0.0};
+constexpr std::array<double, 3> kCameraColor{0.15, 0.55, 1.0};
+
+QPointF as_point(const Eigen::Vector2d& p) {
+  return {p.x(), p.y()};
+}
+
+// Projects a polygon; points that the camera does not image are left out.
+QPolygonF projected(const std::vector<Eigen::Vector3d>& points_m, const Camera& camera,
+                    const Rigid3& camera_from_points) {
+  QPolygonF out;
+  for (const Eigen::Vector3d& p : points_m) {
+    if (const auto pixel = camera.project(camera_from_points * p)) out.push_back(as_point(*pixel));
+  }
+  return out;
+}
+
+// Residuals by (feature, corner).
+std::map<std::pair<int, int>, CornerResidual> residuals_of(const SceneSolution* solution) {
+  std::map<std::pair<int, int>, CornerResidual> out;
+  if (solution == nullptr) return out;
+  for (const CornerResidual& r : solution->corners) out[{r.feature_id, r.corner}] = r;
+  return out;
+}
+
+void add_corners(ImageOverlay& overlay, const CalibrationResult& result, const SceneResult& scene) {
+  const auto residuals = residuals_of(solution_of(result, scene));
+  for (const CornerObservation& c : scene.view->corners) {
+    ImageOverlay::Corner corner;
+    corner.feature_id = c.feature_id;
+    corner.corner = c.corner;
+    corner.detected = as_point(c.pixel);
+    const auto known = residuals.find({c.feature_id, c.corner});
+    if (known != residuals.end()) {
+      corner.predicted = as_point(c.pixel - known->second.residual_px);
+      corner.used = known->second.used;
+      corner.has_prediction = true;
+    } else if (const auto pixel =
+                   result.camera.project(scene.view->camera_from_board.transform *
+                                         Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0))) {
+      // A scene that took no part: the camera's own board pose predicts.
+      corner.predicted = as_point(*pixel);
+      corner.has_prediction = true;
+    }
+    overlay.corners.push_back(corner);
+  }
+}
+
+void add_tags(ImageOverlay& overlay, const CalibrationResult& result) {
+  if (!result.target.has_tags()) return;
+  std::map<int, ImageOverlay::Tag> tags;
+  for (const ImageOverlay::Corner& c : overlay.corners) {
+    ImageOverlay::Tag& tag = tags[c.feature_id];
+    tag.id = c.feature_id;
+    tag.corners.push_back(c.detected);
+    tag.used = tag.used && c.used;
+  }
+  for (auto& [id, tag] : tags) overlay.tags.push_back(std::move(tag));
+}
+
+void add_circles(ImageOverlay& overlay, const CalibrationResult& result, const SceneResult& scene) {
+  const BoardRefinement& refinement = *scene.refinement;
+  const Rigid3& camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
+  const BoardWireframe wire = board_wireframe(result.target, refinement.lidar_from_board, 36);
+  overlay.outline = projected(wire.outline_m, result.camera, camera_from_lidar);
+  for (const BoardWireframe::Shape& shape : wire.circles) {
+    const auto node = std::find_if(refinement.nodes.begin(), refinement.nodes.end(),
+                                   [&](const RefinedNode& n) { return n.id == shape.id; });
+    if (node == refinement.nodes.end()) continue;
+    const auto center = result.camera.project(
+        camera_from_lidar * (node->valid ? node->center_lidar_m : node->raw_lidar_m));
+    if (!center) continue;
+    overlay.circles.push_back({shape.id,
+                               projected(shape.points_m, result.camera, camera_from_lidar),
+                               as_point(*center), node->valid});
+  }
+}
+
+void add_board(std::vector<CloudLine>& lines, const Target& target, const Rigid3& lidar_from_board,
+               const std::array<double, 3>& color) {
+  const BoardWireframe wire = board_wireframe(target, lidar_from_board);
+  lines.push_back({wire.outline_m, color, true});
+  for (const BoardWireframe::Shape& circle : wire.circles) {
+    lines.push_back({circle.points_m, color, true});
+  }
+}
+
+}  // namespace
+
+const SceneSolution* solution_of(const CalibrationResult& result, const SceneResult& scene) {
+  const auto found = std::find_if(result.extrinsic.scenes.begin(), result.extrinsic.scenes.end(),
+                                  [&](const SceneSolution& s) { return s.name == scene.name; });
+  return found == result.extrinsic.scenes.end() ? nullptr : &*found;
+}
+
+bool has_extrinsic(const CalibrationResult& result) {
+  return result.extrinsic.used_scenes > 0 &&
+         result.extrinsic.camera_from_lidar.transform.translation.allFinite();
+}
+
+ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& scene) {
+  ImageOverlay overlay;
+  if (scene.view) {
+    add_corners(overlay, result, scene);
+    add_tags(overlay, result);
+  }
+  if (scene.refinement && has_extrinsic(result)) add_circles(overlay, result, scene);
+  return overlay;
+}
+
+void add_points(ImageOverlay& overlay, const CloudScene& cloud) {
+  overlay.points.clear();
+  overlay.point_colors.clear();
+  if (cloud.pixels.empty()) return;
+  // The beginning of the order is a fair thinning; more dots than this cannot be told apart.
+  constexpr std::size_t kMost = 150'000;
+  const std::size_t count = std::min(cloud.size(), kMost);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Vector2f& pixel = cloud.pixels[cloud.order[k]];
+    if (!std::isfinite(pixel.x())) continue;
+    overlay.points.emplace_back(static_cast<double>(pixel.x()), static_cast<double>(pixel.y()));
+    overlay.point_colors.push_back(
+        qRgb(cloud.rgb[3 * k], cloud.rgb[3 * k + 1], cloud.rgb[3 * k + 2]));
+  }
+}
+
+std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene) {
+  std::vector<CloudLine> lines;
+  const SceneSolution* solution = solution_of(result, scene);
+  if (solution != nullptr && has_extrinsic(result)) {
+    const Rigid3 lidar_from_board =
+        result.extrinsic.camera_from_lidar.transform.inverse() * solution->camera_from_board;
+    add_board(lines, result.target, lidar_from_board, kCameraColor);
+  }
+  if (scene.refinement) {
+    add_board(lines, result.target, scene.refinement->lidar_from_board, kLidarColor);
+  }
+  return lines;
+}
+
+CropBox box_about_board(const CalibrationResult* result, const SceneResult* scene,
+                        const Eigen::Vector3d& fallback_m) {
+  CropBox box;
+  if (result == nullptr || scene == nullptr || !scene->refinement) {
+    box.center_m = fallback_m;
+    box.half_size_m.setConstant(0.75);
+    return box;
+  }
+  const Rigid3& lidar_from_board = scene->refinement->lidar_from_board;
+  const BoardOutline outline = result->target.outline();
+  const Eigen::Vector2d middle = outline.center_m();
+  const Eigen::Vector2d size = outline.size_m();
+  box.center_m = lidar_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0);
+  box.half_size_m = {0.6 * size.x(), 0.6 * size.y(), 0.25 * size.minCoeff()};
+  box.rotation = lidar_from_board.rotation;
+  return box;
+}
+
+}  // namespace lvcalib::widgets

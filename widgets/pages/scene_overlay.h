@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pipeline/calibration.h"
+#include "pipeline/crop_box.h"
+#include "views/cloud_pipeline.h"
+#include "views/cloud_scene.h"
+#include "views/image_overlay.h"
+
+namespace lvcalib::widgets {
+
+/// The solution of a scene, or null if the scene took no part.
+const SceneSolution* solution_of(const CalibrationResult& result, const SceneResult& scene);
+
+/// True if the result carries an extrinsic that can be projected with.
+bool has_extrinsic(const CalibrationResult& result);
+
+/// What the image view shows of a scene, without LiDAR points.
+ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& scene);
+
+/// Adds the drawn points of a cloud that the camera sees, in their colours; of very many a
+/// thinning.
+void add_points(ImageOverlay& overlay, const CloudScene& cloud);
+
+/// Lines of the cloud view: the board as the LiDAR sees it (orange), and as camera and extrinsic
+/// predict it (blue).
+std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene);
+
+/// A box about the board of a scene, along its axes; a metre and a half about `fallback_m` if there
+/// is no board yet.
+CropBox box_about_board(const CalibrationResult* result, const SceneResult* scene,
+                        const Eigen::Vector3d& fallback_m);
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/scene_page.h"
+
+#include <QLabel>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "extrinsic/cloud_projection.h"
+#include "pages/cloud_pane.h"
+#include "pages/image_pane.h"
+#include "pages/scene_overlay.h"
+#include "views/cloud_view.h"
+#include "views/image_view.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr std::size_t kNeighbours = 12;
+constexpr double kNeighbourhood_px = 25.0;
+constexpr std::size_t kTagPoints = 400;
+
+// A cloud that lives as long as the result it is part of.
+std::shared_ptr<const Cloud> board_points(const std::shared_ptr<const CalibrationResult>& result,
+                                          const SceneResult* scene) {
+  if (scene == nullptr || scene->board_points.size() == 0) return nullptr;
+  return {result, &scene->board_points};
+}
+
+}  // namespace
+
+ScenePage::ScenePage(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  auto* splitter = new QSplitter(Qt::Horizontal, this);
+  splitter->setChildrenCollapsible(false);
+  cloud_ = new CloudPane(splitter);
+  image_ = new ImagePane(splitter);
+  splitter->addWidget(cloud_);
+  splitter->addWidget(image_);
+  splitter->setStretchFactor(0, 1);
+  splitter->setStretchFactor(1, 1);
+  splitter->setSizes({1000, 1000});
+  layout->addWidget(splitter, 1);
+  selection_ = new QLabel(this);
+  selection_->setObjectName("selection");
+  selection_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  selection_->setWordWrap(true);
+  layout->addWidget(selection_);
+  connectPanes();
+  clearSelection();
+  refresh();
+}
+
+ScenePage::~ScenePage() = default;
+
+void ScenePage::connectPanes() {
+  connect(cloud_->view(), &CloudView::pointPicked, this, &ScenePage::selectPoint);
+  connect(cloud_->view(), &CloudView::nothingPicked, this, &ScenePage::clearSelection);
+  connect(cloud_, &CloudPane::sceneShown, this, &ScenePage::refreshOverlay);
+  connect(cloud_, &CloudPane::cropApplied, this, [this](const CropBox& box) {
+    if (scene_ >= 0) Q_EMIT cropChanged(scene_, box);
+  });
+  connect(cloud_, &CloudPane::cropCleared, this, [this] {
+    if (scene_ >= 0) Q_EMIT cropCleared(scene_);
+  });
+  connect(image_->view(), &ImageView::pixelClicked, this, &ScenePage::selectPixel);
+  connect(image_->view(), &ImageView::tagClicked, this, &ScenePage::selectTag);
+  connect(cloud_->view()->figureActions(), &FigureActions::failed, this, &ScenePage::failed);
+  connect(image_->view()->figureActions(), &FigureActions::failed, this, &ScenePage::failed);
+}
+
+const SceneResult* ScenePage::current() const {
+  if (!result_ || scene_ < 0 || scene_ >= static_cast<int>(result_->scenes.size())) return nullptr;
+  return &result_->scenes[static_cast<std::size_t>(scene_)];
+}
+
+void ScenePage::setResult(std::shared_ptr<const CalibrationResult> result) {
+  result_ = std::move(result);
+  clearSelection();
+  refresh();
+}
+
+void ScenePage::setScene(int index) {
+  if (index == scene_) return;
+  scene_ = index;
+  full_cloud_.reset();
+  picture_ = {};
+  cloud_->setCrop(std::nullopt);
+  image_->view()->setImage({});
+  clearSelection();
+  refresh();
+}
+
+void ScenePage::setSceneData(std::shared_ptr<const Cloud> full_cloud, QImage image) {
+  full_cloud_ = std::move(full_cloud);
+  picture_ = std::move(image);
+  image_->view()->setImage(picture_);
+  clearSelection();
+  refresh();
+}
+
+void ScenePage::setCropBox(const std::optional<CropBox>& box) {
+  cloud_->setCrop(box);
+}
+
+void ScenePage::refresh() {
+  const SceneResult* scene = current();
+  CloudSceneInput input;
+  input.full = full_cloud_;
+  input.board = board_points(result_, scene);
+  input.image = picture_;
+  std::vector<CloudLine> lines;
+  if (scene != nullptr) {
+    input.target = result_->target;
+    input.camera = result_->camera;
+    input.refinement = scene->refinement;
+    if (has_extrinsic(*result_)) {
+      input.camera_from_lidar = result_->extrinsic.camera_from_lidar.transform;
+    }
+    lines = cloud_lines(*result_, *scene);
+  }
+  const Eigen::Vector3d middle =
+      cloud_->view()->scene() ? cloud_->view()->scene()->center_m : Eigen::Vector3d::UnitX();
+  cloud_->setSuggestedBox(box_about_board(result_.get(), scene, middle));
+  cloud_->setInput(std::move(input), std::move(lines));
+  image_->view()->setMessage(scene_ < 0 ? tr("Choose a scene in the list.")
+                                        : tr("The image is being loaded …"));
+  refreshOverlay();
+}
+
+void ScenePage::refreshOverlay() {
+  const SceneResult* scene = current();
+  ImageOverlay overlay = scene != nullptr ? image_overlay(*result_, *scene) : ImageOverlay();
+  if (const auto& cloud = cloud_->view()->scene()) add_points(overlay, *cloud);
+  image_->setOverlay(std::move(overlay));
+}
+
+void ScenePage::selectPoint(std::uint32_t point) {
+  const auto& scene = cloud_->view()->scene();
+  if (!scene || !scene->cloud || point >= scene->cloud->size()) return;
+  cloud_->view()->setHighlights({point});
+  selection_->setText(describePoint(*scene->cloud, point));
+  std::vector<QPointF> places;
+  if (point < scene->pixels.size() && std::isfinite(scene->pixels[point].x())) {
+    const Eigen::Vector2d pixel = scene->pixels[point].cast<double>();
+    places.emplace_back(pixel.x(), pixel.y());
+  }
+  image_->view()->overlay().setHighlights(places, -1);
+  if (!places.empty()) image_->view()->reveal(places.front());
+}
+
+QString ScenePage::describePoint(const Cloud& cloud, std::uint32_t point) const {
+  const Eigen::Vector3f& p = cloud.points_m[point];
+  const auto number = [](double v, int decimals) { return QString::number(v, 'f', decimals); };
+  QString text =
+      tr("Point %1: x %2, y %3, z %4 m, range %5 m")
+          .arg(point)
+          .arg(number(p.x(), 3), number(p.y(), 3), number(p.z(), 3), number(p.norm(), 3));
+  if (cloud.has_intensity()) text += tr(", intensity %1").arg(number(cloud.intensity[point], 1));
+  if (cloud.has_line()) text += tr(", line %1").arg(cloud.line[point]);
+  if (cloud.has_time()) text += tr(", time %1 ms").arg(number(1e3 * cloud.time_s[point], 2));
+  const SceneResult* scene = current();
+  if (scene != nullptr && scene->refinement) {
+    const auto off = scene->refinement->plane.range_residual_m(p.cast<double>());
+    if (off && std::abs(*off) < 0.1) {
+      text += tr(", %1 mm beyond the board's plane").arg(number(1e3 * *off, 1));
+    }
+  }
+  const auto& pixels = cloud_->view()->scene()->pixels;
+  if (point < pixels.size()) {
+    text +=
+        std::isfinite(pixels[point].x())
+            ? tr(", pixel (%1, %2)").arg(number(pixels[point].x(), 1), number(pixels[point].y(), 1))
+            : tr(", not in the image");
+  }
+  return text;
+}
+
+void ScenePage::selectPixel(const QPointF& pixel) {
+  const auto& scene = cloud_->view()->scene();
+  std::vector<QPointF> places{pixel};
+  QString text = tr("Pixel (%1, %2)").arg(pixel.x(), 0, 'f', 1).arg(pixel.y(), 0, 'f', 1);
+  std::vector<std::uint32_t> near;
+  if (scene && !scene->pixels.empty()) {
+    near = nearest_pixels(scene->pixels, {pixel.x(), pixel.y()}, kNeighbours, kNeighbourhood_px);
+    for (const std::uint32_t i : near) {
+      places.emplace_back(static_cast<double>(scene->pixels[i].x()),
+                          static_cast<double>(scene->pixels[i].y()));
+    }
+    text += near.empty() ? tr(": no LiDAR point within %1 px").arg(kNeighbourhood_px)
+                         : tr(". Nearest: %1").arg(describePoint(*scene->cloud, near.front()));
+  } else {
+    text += tr(": LiDAR points are linked once there is an extrinsic");
+  }
+  cloud_->view()->setHighlights(near);
+  image_->view()->overlay().setHighlights(std::move(places), -1);
+  selection_->setText(text);
+}
+
+void ScenePage::selectTag(int id) {
+  const auto& scene = cloud_->view()->scene();
+  const ImageOverlay& overlay = image_->view()->overlay().overlay();
+  QPolygonF edge;
+  for (const ImageOverlay::Tag& tag : overlay.tags) {
+    if (tag.id == id) edge = tag.corners;
+  }
+  QStringList residuals;
+  for (const ImageOverlay::Corner& c : overlay.corners) {
+    if (c.feature_id != id || !c.has_prediction) continue;
+    const QPointF r = c.detected - c.predicted;
+    residuals.push_back(tr("(%1, %2)").arg(r.x(), 0, 'f', 3).arg(r.y(), 0, 'f', 3));
+  }
+  std::vector<std::uint32_t> inside;
+  if (scene && !scene->pixels.empty() && !edge.isEmpty()) {
+    const QRectF box = edge.boundingRect();
+    const Eigen::Vector2d middle(box.center().x(), box.center().y());
+    const double reach = 0.5 * std::hypot(box.width(), box.height());
+    for (const std::uint32_t i :
+         nearest_pixels(scene->pixels, middle, scene->pixels.size(), reach)) {
+      const QPointF p(static_cast<double>(scene->pixels[i].x()),
+                      static_cast<double>(scene->pixels[i].y()));
+      if (inside.size() < kTagPoints && edge.containsPoint(p, Qt::OddEvenFill)) inside.push_back(i);
+    }
+  }
+  cloud_->view()->setHighlights(inside);
+  image_->view()->overlay().setHighlights({}, id);
+  QString text = tr("Tag %1").arg(id);
+  if (!residuals.isEmpty()) text += tr(": corner residuals %1 px").arg(residuals.join(", "));
+  if (!inside.empty()) text += tr("; LiDAR points on it: %1").arg(inside.size());
+  selection_->setText(text);
+}
+
+void ScenePage::clearSelection() {
+  cloud_->view()->setHighlights({});
+  image_->view()->overlay().setHighlights({}, -1);
+  selection_->setText(tr("Click a point, a pixel or a tag to see its values in both views."));
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+#include <memory>
+#include <optional>
+
+#include "pipeline/calibration.h"
+#include "pipeline/crop_box.h"
+#include "views/cloud_scene.h"
+#include "views/image_overlay.h"
+
+class QLabel;
+
+namespace lvcalib::widgets {
+
+class CloudPane;
+class ImagePane;
+
+/// One scene: its cloud on the left, its image on the right, and what was found in both. What is
+/// selected in one is highlighted in the other.
+class ScenePage : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ScenePage(QWidget* parent = nullptr);
+  ~ScenePage() override;
+
+  /// Null: nothing is known yet.
+  void setResult(std::shared_ptr<const CalibrationResult> result);
+  /// Which scene of the dataset; −1: none. Another scene's cloud and image are let go.
+  void setScene(int index);
+  [[nodiscard]] int scene() const { return scene_; }
+  /// Cloud and image of the current scene, once they are loaded; either may be missing.
+  void setSceneData(std::shared_ptr<const Cloud> full_cloud, QImage image);
+  /// The crop box in force for the current scene, or none.
+  void setCropBox(const std::optional<CropBox>& box);
+
+  [[nodiscard]] CloudPane* cloudPane() const { return cloud_; }
+  [[nodiscard]] ImagePane* imagePane() const { return image_; }
+
+ Q_SIGNALS:
+  /// The user wants this scene cropped (box in the LiDAR frame), or no longer.
+  void cropChanged(int scene, const lvcalib::CropBox& box);
+  void cropCleared(int scene);
+  /// A figure could not be saved, in words.
+  void failed(const QString& message);
+
+ private:
+  void connectPanes();
+  void refresh();
+  void refreshOverlay();
+  void selectPoint(std::uint32_t point);
+  void selectPixel(const QPointF& pixel);
+  void selectTag(int id);
+  void clearSelection();
+  [[nodiscard]] const SceneResult* current() const;
+  [[nodiscard]] QString describePoint(const Cloud& cloud, std::uint32_t point) const;
+
+  std::shared_ptr<const CalibrationResult> result_;
+  std::shared_ptr<const Cloud> full_cloud_;
+  QImage picture_;
+  int scene_ = -1;
+  CloudPane* cloud_ = nullptr;
+  ImagePane* image_ = nullptr;
+  QLabel* selection_ = nullptr;
+};
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "base/progress.h"
+
+namespace lvcalib::widgets {
+
+/// Runs one job at a time in a worker thread. A job gets a RunContext (progress, stop token) and
+/// returns a function that is then called in the thread of the runner, to hand over its results.
+///
+/// A new job takes the place of a running one; cancel() gives the running one kPatience to stop.
+/// A job that does not stop in time is abandoned: it runs to its end unseen and its results are
+/// dropped, so that two runs never mix and nobody waits for it. Exceptions become failed().
+class Runner : public QObject {
+  Q_OBJECT
+
+ public:
+  /// Called in the runner's thread; may be empty.
+  using Deliver = std::function<void()>;
+  /// Hands something over while the job still runs; dropped once the job is abandoned or stopped.
+  using Post = std::function<void(Deliver)>;
+  using Work = std::function<Deliver(const RunContext&, const Post&)>;
+
+  /// How long a cancelled job may take to stop before it is abandoned.
+  static constexpr int kPatienceMs = 150;
+
+  explicit Runner(QObject* parent = nullptr);
+  /// Abandons what runs.
+  ~Runner() override;
+
+  /// Starts a job and returns its id; ids grow.
+  quint64 start(Work work);
+  /// Asks the running job to stop. cancelled() follows within kPatienceMs. What the job delivers
+  /// in that time is still handed over (it may have kept finished stages).
+  void cancel();
+  [[nodiscard]] bool running() const { return task_ != nullptr; }
+  [[nodiscard]] quint64 current() const { return id_; }
+
+  /// Waits until every worker thread of the process has ended; false after the time. For the end
+  /// of a program, before what the workers use is torn down.
+  static bool wait_for_workers(int milliseconds);
+
+ Q_SIGNALS:
+  void started(quint64 id);
+  /// `fraction` 0…1 of the whole job.
+  void progressed(quint64 id, const QString& stage, double fraction, const QString& text);
+  void finished(quint64 id);
+  void cancelled(quint64 id);
+  /// The job threw; `message` says what.
+  void failed(quint64 id, const QString& message);
+
+ private:
+  struct Task;
+  struct Mailbox;
+  void take(const std::shared_ptr<Task>& task, const Deliver& deliver, const QString& error);
+  void abandon();
+
+  std::shared_ptr<Mailbox> mailbox_;
+  std::shared_ptr<Task> task_;
+  quint64 id_ = 0;
+};
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/scene_data.h"
+
+#include <utility>
+
+#include "detection/color_image.h"
+
+namespace lvcalib::widgets {
+
+Result<QImage> read_scene_image(const std::filesystem::path& path) {
+  auto color = read_color_image(path);
+  if (!color) return color.error();
+  // Copied, since QImage would only point into the buffer.
+  return QImage(color->rgb.data(), color->width_px, color->height_px,
+                static_cast<qsizetype>(3) * color->width_px, QImage::Format_RGB888)
+      .convertToFormat(QImage::Format_RGB32);
+}
+
+Result<SceneData> read_scene_data(const SceneFiles& files, std::stop_token stop) {
+  auto image = read_scene_image(files.image);
+  if (!image) return image.error();
+  auto cloud = read_cloud(files.cloud, std::move(stop));
+  if (!cloud) return cloud.error();
+  return SceneData{std::make_shared<const Cloud>(std::move(*cloud)), std::move(*image)};
+}
+
+SceneLoader::SceneLoader(QObject* parent)
+    : QObject(parent), data_(new Runner(this)), thumbnails_(new Runner(this)) {}
+
+void SceneLoader::load(const SceneFiles& files) {
+  data_->start([this, files](const RunContext& context, const Runner::Post&) -> Runner::Deliver {
+    auto data = read_scene_data(files, context.stop);
+    const QString name = QString::fromStdString(files.name);
+    if (data)
+      return [this, name, data = std::move(*data)] { Q_EMIT loaded(name, data.cloud, data.image); };
+    if (data.error().kind == ErrorKind::kCancelled) return {};
+    const QString message = QString::fromStdString(data.error().text());
+    return [this, name, message] { Q_EMIT failed(name, message); };
+  });
+}
+
+void SceneLoader::load_thumbnails(const std::vector<SceneFiles>& scenes) {
+  thumbnails_->start(
+      [this, scenes](const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
+        for (const SceneFiles& files : scenes) {
+          if (context.stopped()) break;
+          const auto image = read_scene_image(files.image);
+          if (!image) continue;  // Said when the scene is opened or run.
+          const QImage small = image->scaled(kThumbnailWidth, kThumbnailHeight, Qt::KeepAspectRatio,
+                                             Qt::SmoothTransformation);
+          const QString name = QString::fromStdString(files.name);
+          post([this, name, small] { Q_EMIT thumbnail(name, small); });
+        }
+        return {};
+      });
+}
+
+void SceneLoader::clear() {
+  data_->cancel();
+  thumbnails_->cancel();
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/workspace.h"
+
+#include <QDir>
+#include <QUndoCommand>
+#include <algorithm>
+#include <utility>
+
+#include "runner/demo.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+QString to_qt(const std::string& text) {
+  return QString::fromStdString(text);
+}
+
+std::filesystem::path absolute_path(const QString& path) {
+  return {QDir::cleanPath(QDir::current().absoluteFilePath(path)).toStdString()};
+}
+
+}  // namespace
+
+// What opening something found.
+struct Workspace::Opening {
+  Project project;
+  OpenedProject opened;
+  QString project_path;
+  bool unsaved = false;
+  std::vector<std::string> warnings;
+};
+
+// One decision; decisions are small, so both sides are kept whole.
+class Workspace::DecisionCommand : public QUndoCommand {
+ public:
+  DecisionCommand(Workspace& workspace, const QString& text, Decisions after, QString merge_key)
+      : QUndoCommand(text),
+        workspace_(workspace),
+        before_(workspace.decisions_),
+        after_(std::move(after)),
+        merge_key_(std::move(merge_key)) {}
+  void undo() override { workspace_.apply(before_); }
+  void redo() override { workspace_.apply(after_); }
+  [[nodiscard]] int id() const override { return merge_key_.isEmpty() ? -1 : 1; }
+  // Turning one spin box is one decision.
+  bool mergeWith(const QUndoCommand* other) override {
+    const auto* next = dynamic_cast<const DecisionCommand*>(other);
+    if (next == nullptr || next->merge_key_ != merge_key_) return false;
+    after_ = next->after_;
+    return true;
+  }
+
+ private:
+  Workspace& workspace_;
+  Decisions before_;
+  Decisions after_;
+  QString merge_key_;
+};
+
+Workspace::Workspace(const QString& data_folder, QObject* parent)
+    : QObject(parent), data_folder_(data_folder), autosave_(data_folder) {
+  settle_.setSingleShot(true);
+  connect(&settle_, &QTimer::timeout, this, &Workspace::run);
+  connect(&runner_, &Runner::progressed, this,
+          [this](quint64, const QString& stage, double fraction, const QString& text) {
+            Q_EMIT progressed(stage, fraction, text);
+          });
+  connect(&runner_, &Runner::cancelled, this, [this] {
+    if (replacing_) return;
+    Q_EMIT logged(tr("Cancelled."));
+    Q_EMIT run_ended(tr("Cancelled"));
+  });
+  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
+    Q_EMIT run_ended(tr("Failed"));
+    Q_EMIT failed(
+        Error::untrusted("an unexpected error stopped the work: " + message.toStdString(),
+                         dataset_.path.string(), "what was open is still there; try again"),
+        false);
+  });
+  // After the stack has moved: while a command runs, it still has its old index.
+  connect(&undo_, &QUndoStack::indexChanged, this, [this] {
+    set_dirty(!undo_.isClean() || unsaved_recovery_);
+    keep_or_clear_autosave();
+  });
+  connect(&autosave_, &Autosave::written, this, [this] {
+    if (taken_up_ && taken_up_->file != autosave_.file()) Autosave::discard(*taken_up_);
+    taken_up_.reset();
+  });
+  connect(&autosave_, &Autosave::failed, this,
+          [this](const QString& message) { Q_EMIT logged(tr("Autosave: %1").arg(message)); });
+}
+
+Workspace::~Workspace() {
+  undo_.disconnect(this);
+}
+
+Project Workspace::project() const {
+  return {dataset_.path, decisions_};
+}
+
+void Workspace::start(const Runner::Work& work) {
+  replacing_ = true;
+  runner_.start(work);
+  replacing_ = false;
+  Q_EMIT run_started();
+}
+
+void Workspace::open_in_background(const Runner::Work& work) {
+  settle_.stop();
+  start(work);
+}
+
+void Workspace::open_dataset(const QString& path) {
+  open_in_background([this, folder = absolute_path(path)](const RunContext&, const Runner::Post&) {
+    auto dataset = lvcalib::open_dataset(folder);
+    return Runner::Deliver([this, dataset = std::move(dataset)] {
+      Q_EMIT run_ended(QString());
+      if (!dataset) {
+        Q_EMIT failed(dataset.error(), false);
+        return;
+      }
+      Opening opening;
+      opening.opened.dataset = *dataset;
+      opening.project.dataset = dataset->path;
+      take_opened(std::move(opening));
+    });
+  });
+}
+
+void Workspace::open_project(const QString& path) {
+  open_in_background([this, path](const RunContext&, const Runner::Post&) -> Runner::Deliver {
+    const auto report = [this](const Error& error) {
+      return [this, error] {
+        Q_EMIT run_ended(QString());
+        Q_EMIT failed(error, false);
+      };
+    };
+    auto file = read_project(absolute_path(path));
+    if (!file) return report(file.error());
+    Opening opening;
+    opening.project = file->project;
+    opening.warnings = file->warnings;
+    opening.project_path = to_qt(absolute_path(path).string());
+    auto opened = open_project_dataset(opening.project);
+    if (!opened) return report(opened.error());
+    opening.opened = std::move(*opened);
+    return [this, opening] {
+      Q_EMIT run_ended(QString());
+      take_opened(opening);
+    };
+  });
+}
+
+void Workspace::open_recovery(const Recovery& recovery) {
+  Opening opening;
+  opening.project = recovery.project;
+  opening.project_path = recovery.project_path;
+  opening.unsaved = true;
+  auto opened = open_project_dataset(opening.project);
+  if (!opened) {
+    Q_EMIT failed(opened.error(), false);
+    return;
+  }
+  opening.opened = std::move(*opened);
+  taken_up_ = recovery;
+  take_opened(std::move(opening));
+}
+
+void Workspace::open_moved(const QString& dataset_path) {
+  if (!waiting_) return;
+  Opening opening = std::move(*waiting_);
+  waiting_.reset();
+  opening.project.dataset = absolute_path(dataset_path);
+  opening.unsaved = true;  // The file still has the old place.
+  auto opened = open_project_dataset(opening.project);
+  if (!opened) {
+    Q_EMIT failed(opened.error(), false);
+    return;
+  }
+  opening.opened = std::move(*opened);
+  take_opened(std::move(opening));
+}
+
+void Workspace::open_demo(const simulation::SimulationOptions& options) {
+  const std::filesystem::path folder = absolute_path(data_folder_) / "demo";
+  open_in_background([this, folder, options](const RunContext& context, const Runner::Post&) {
+    Status made = make_demo(folder, options, context);
+    return Runner::Deliver([this, folder, made] {
+      if (!made) {
+        if (made.error().kind == ErrorKind::kCancelled) return;
+        Q_EMIT run_ended(QString());
+        Q_EMIT failed(made.error(), false);
+        return;
+      }
+      Q_EMIT run_ended(QString());
+      // Not within the delivery, whose job is just ending.
+      QTimer::singleShot(0, this, [this, folder] { open_dataset(to_qt(folder.string())); });
+    });
+  });
+}
+
+void Workspace::take_opened(Opening opening) {
+  for (const auto* list :
+       {&opening.warnings, &opening.opened.warnings, &opening.opened.dataset.warnings}) {
+    for (const std::string& warning : *list) Q_EMIT logged(to_qt(warning));
+  }
+  if (opening.opened.dataset_moved) {
+    const QString path = to_qt(opening.project.dataset.string());
+    waiting_ = std::make_unique<Opening>(std::move(opening));
+    Q_EMIT dataset_moved(path);
+    return;
+  }
+  dataset_ = std::move(opening.opened.dataset);
+  decisions_ = std::move(opening.project.decisions);
+  project_path_ = opening.project_path;
+  missing_.clear();
+  for (const std::string& name : opening.opened.missing_scenes) missing_ << to_qt(name);
+  state_ = {};
+  up_to_date_ = false;
+  undo_.clear();
+  unsaved_recovery_ = opening.unsaved;
+  set_dirty(opening.unsaved);
+  keep_or_clear_autosave();
+  Q_EMIT logged(tr("Opened %1 with %n scenes.", nullptr, static_cast<int>(dataset_.scenes.size()))
+                    .arg(to_qt(dataset_.path.string())));
+  Q_EMIT opened();
+  Q_EMIT decisions_changed();
+  Q_EMIT result_changed();
+}
+
+Status Workspace::save(const QString& path) {
+  const QString absolute = to_qt(absolute_path(path).string());
+  if (Status s = write_project(absolute_path(path), project()); !s) return s;
+  project_path_ = absolute;
+  if (taken_up_) Autosave::discard(*taken_up_);
+  taken_up_.reset();
+  unsaved_recovery_ = false;
+  undo_.setClean();
+  set_dirty(false);
+  keep_or_clear_autosave();
+  Q_EMIT logged(tr("Saved %1.").arg(absolute));
+  return Done{};
+}
+
+void Workspace::set_use(const QStringList& scenes, bool use) {
+  Decisions after = decisions_;
+  bool any = false;
+  for (const QString& scene : scenes) {
+    if (decision_of(decisions_, scene.toStdString()).use == use) continue;
+    after.scenes[scene.toStdString()].use = use;
+    any = true;
+  }
+  if (!any) return;
+  decide(use ? tr("accept %1").arg(scenes.join(QStringLiteral(", ")))
+             : tr("reject %1").arg(scenes.join(QStringLiteral(", "))),
+         std::move(after));
+}
+
+void Workspace::set_crop(const QString& scene, const std::optional<CropBox>& box) {
+  if (box) {
+    if (Status s = check(*box); !s) {
+      Q_EMIT failed(s.error(), false);
+      return;
+    }
+  }
+  if (decision_of(decisions_, scene.toStdString()).crop == box) return;
+  Decisions after = decisions_;
+  after.scenes[scene.toStdString()].crop = box;
+  decide(box ? tr("crop %1").arg(scene) : tr("uncrop %1").arg(scene), std::move(after),
+         box ? QStringLiteral("crop ") + scene : QString());
+}
+
+void Workspace::set_option(const OptionDeclaration& option, double value) {
+  if (option.get(decisions_.options) == value) return;
+  Decisions after = decisions_;
+  if (Status s = lvcalib::set_option(after.options, option.key, value); !s) {
+    Q_EMIT failed(s.error(), false);
+    return;
+  }
+  decide(tr("change %1").arg(to_qt(option.key)), std::move(after), to_qt(option.key));
+}
+
+void Workspace::reset_options() {
+  if (same_options(decisions_.options, CalibrationOptions{})) return;
+  Decisions after = decisions_;
+  after.options = CalibrationOptions{};
+  decide(tr("reset all parameters"), std::move(after));
+}
+
+void Workspace::set_use_crops(bool use) {
+  if (decisions_.use_crops == use) return;
+  Decisions after = decisions_;
+  after.use_crops = use;
+  decide(use ? tr("use board.pcd files") : tr("use whole clouds"), std::move(after));
+}
+
+Status Workspace::add_scene_folders(const QStringList& folders) {
+  std::vector<std::filesystem::path> paths;
+  for (const QString& folder : folders) paths.push_back(absolute_path(folder));
+  Dataset dataset = dataset_;
+  if (Status s = add_scenes(dataset, paths); !s) return s;
+  Decisions after = decisions_;
+  after.added_scenes.insert(after.added_scenes.end(), paths.begin(), paths.end());
+  decide(tr("add %n scenes", nullptr, static_cast<int>(paths.size())), std::move(after));
+  return Done{};
+}
+
+void Workspace::decide(const QString& text, Decisions after, const QString& merge_key) {
+  undo_.push(new DecisionCommand(*this, text, std::move(after), merge_key));
+}
+
+void Workspace::apply(const Decisions& decisions) {
+  const bool options_changed = !same_options(decisions.options, decisions_.options);
+  const bool scenes_added = decisions.added_scenes != decisions_.added_scenes;
+  decisions_ = decisions;
+  if (scenes_added) {
+    auto dataset = open_project_dataset(project());
+    if (dataset && !dataset->dataset_moved) dataset_ = std::move(dataset->dataset);
+    Q_EMIT opened();
+  }
+  up_to_date_ = false;
+  Q_EMIT decisions_changed();
+  if (state_.latest) schedule(options_changed ? kSettleMs : 0);
+}
+
+void Workspace::schedule(int delay_ms) {
+  settle_.start(delay_ms);
+}
+
+void Workspace::run() {
+  settle_.stop();
+  if (!is_open()) return;
+  start([this, dataset = dataset_, decisions = decisions_, state = state_](
+            const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
+    CalibrationObserver observer;
+    observer.board_points = [this, &post](std::size_t scene, const Cloud& points) {
+      post([this, scene, copy = std::make_shared<const Cloud>(points)] {
+        Q_EMIT board_found(static_cast<int>(scene), copy);
+      });
+    };
+    observer.iteration = [this, &post](std::size_t scene, const BoardRefinement& so_far) {
+      post([this, scene, copy = std::make_shared<const BoardRefinement>(so_far)] {
+        Q_EMIT iterated(static_cast<int>(scene), copy);
+      });
+    };
+    auto run =
+        std::make_shared<SessionRun>(run_session(dataset, decisions, state, context, observer));
+    return [this, run] { take_run(std::move(*run)); };
+  });
+}
+
+void Workspace::take_run(SessionRun run) {
+  const bool cancelled = run.error && run.error->kind == ErrorKind::kCancelled;
+  state_ = std::move(run.state);
+  if (cancelled) return;  // The runner says so.
+  if (run.error) {
+    Q_EMIT logged(to_qt(run.error->text()));
+    Q_EMIT run_ended(tr("No result: %1").arg(to_qt(run.error->message)));
+    Q_EMIT failed(*run.error, run.solved_only);
+    return;
+  }
+  up_to_date_ = true;
+  const CalibrationResult& r = *state_.latest;
+  const QString line = tr("%1: %2 of %3 scenes, %4 px, %5 mm")
+                           .arg(to_qt(name_of(r.quality)))
+                           .arg(r.extrinsic.used_scenes)
+                           .arg(r.scenes.size())
+                           .arg(r.extrinsic.rms_px, 0, 'f', 3)
+                           .arg(r.extrinsic.rms_mm, 0, 'f', 3);
+  Q_EMIT logged(line);
+  for (const std::string& warning : r.warnings) Q_EMIT logged(to_qt(warning));
+  Q_EMIT result_changed();
+  Q_EMIT run_ended(line);
+}
+
+void Workspace::run_again(const QStringList& scenes) {
+  for (const QString& scene : scenes) state_.cache.forget(scene.toStdString());
+  state_.whole = nullptr;
+  up_to_date_ = false;
+  run();
+}
+
+void Workspace::cancel() {
+  settle_.stop();
+  runner_.cancel();
+}
+
+void Workspace::set_dirty(bool dirty) {
+  if (dirty == dirty_) return;
+  dirty_ = dirty;
+  Q_EMIT dirty_changed(dirty);
+}
+
+void Workspace::keep_or_clear_autosave() {
+  if (dirty_) {
+    autosave_.keep(project(), project_path_);
+  } else {
+    autosave_.clear();
+  }
+}
+
+}  // namespace lvcalib::widgets

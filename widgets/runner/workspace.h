@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QStringList>
+#include <QTimer>
+#include <QUndoStack>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "pipeline/project_file.h"
+#include "pipeline/session.h"
+#include "runner/autosave.h"
+#include "runner/runner.h"
+#include "simulation/simulation_options.h"
+
+namespace lvcalib::widgets {
+
+/// What is open: a dataset, the user's decisions about it (undoable), its results and the runs
+/// that make them. Long work runs in a worker thread; everything here is called and signalled in
+/// the interface thread. Once there is a result, a changed decision brings it up to date by itself.
+class Workspace : public QObject {
+  Q_OBJECT
+
+ public:
+  /// How long changes of options are collected before they run.
+  static constexpr int kSettleMs = 300;
+
+  /// `data_folder`: where autosaves and the demo go.
+  explicit Workspace(const QString& data_folder, QObject* parent = nullptr);
+  ~Workspace() override;
+
+  [[nodiscard]] bool is_open() const { return !dataset_.path.empty(); }
+  [[nodiscard]] const Dataset& dataset() const { return dataset_; }
+  [[nodiscard]] const Decisions& decisions() const { return decisions_; }
+  /// Scenes that the project decides about and that are not on disk.
+  [[nodiscard]] const QStringList& missing_scenes() const { return missing_; }
+  /// Null before the first run.
+  [[nodiscard]] std::shared_ptr<const CalibrationResult> result() const { return state_.latest; }
+  /// True if the result answers the present decisions.
+  [[nodiscard]] bool up_to_date() const { return up_to_date_; }
+  [[nodiscard]] QString project_path() const { return project_path_; }
+  [[nodiscard]] bool dirty() const { return dirty_; }
+  /// Reading, simulating or calibrating.
+  [[nodiscard]] bool busy() const { return runner_.running(); }
+  [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
+  [[nodiscard]] Project project() const;
+
+  /// Opens in the background; opened(), dataset_moved() or failed() follows.
+  void open_dataset(const QString& path);
+  void open_project(const QString& path);
+  /// Opens what an autosave held; it counts as unsaved. The old autosave goes once there is a new
+  /// one.
+  void open_recovery(const Recovery& recovery);
+  /// After dataset_moved(): opens the same project with its dataset elsewhere.
+  void open_moved(const QString& dataset_path);
+  /// Simulates the demo and opens it.
+  void open_demo(const simulation::SimulationOptions& options);
+  /// Saves the project; it then belongs to that file.
+  Status save(const QString& path);
+
+  /// Undoable decisions.
+  void set_use(const QStringList& scenes, bool use);
+  void set_crop(const QString& scene, const std::optional<CropBox>& box);
+  /// The value must lie in the option's range.
+  void set_option(const OptionDeclaration& option, double value);
+  void reset_options();
+  void set_use_crops(bool use);
+  /// Errors as add_scenes() of the session; nothing is added then.
+  Status add_scene_folders(const QStringList& folders);
+
+  /// Runs what is not up to date.
+  void run();
+  /// Runs all stages of these scenes again.
+  void run_again(const QStringList& scenes);
+  void cancel();
+
+ Q_SIGNALS:
+  void opened();
+  /// The project's dataset is not at `path` any more.
+  void dataset_moved(const QString& path);
+  void decisions_changed();
+  void dirty_changed(bool dirty);
+  void run_started();
+  void progressed(const QString& stage, double fraction, const QString& text);
+  /// Live: the points that a scene's refinement is about to work on.
+  void board_found(int scene, const std::shared_ptr<const lvcalib::Cloud>& board_points);
+  /// Live: a scene's refinement after one more iteration.
+  void iterated(int scene, const std::shared_ptr<const lvcalib::BoardRefinement>& partial);
+  void result_changed();
+  /// A run of any kind has ended; `message` says how, in a line.
+  void run_ended(const QString& message);
+  /// Something could not be done. `modest`: only a solve after a scene was taken out.
+  void failed(const lvcalib::Error& error, bool modest);
+  void logged(const QString& line);
+
+ private:
+  class DecisionCommand;
+  struct Opening;
+  void start(const Runner::Work& work);
+  void open_in_background(const Runner::Work& work);
+  void take_opened(Opening opening);
+  void take_run(SessionRun run);
+  void decide(const QString& text, Decisions after, const QString& merge_key = {});
+  void apply(const Decisions& decisions);
+  void schedule(int delay_ms);
+  void set_dirty(bool dirty);
+  void keep_or_clear_autosave();
+
+  QString data_folder_;
+  Dataset dataset_;
+  Decisions decisions_;
+  QStringList missing_;
+  QString project_path_;
+  std::unique_ptr<Opening> waiting_;  // A project whose dataset has moved.
+  std::optional<Recovery> taken_up_;  // Its file is still the only copy.
+  SessionState state_;
+  bool up_to_date_ = false;
+  bool dirty_ = false;
+  bool unsaved_recovery_ = false;
+  bool replacing_ = false;  // A new job takes the place of the running one.
+  QUndoStack undo_;
+  QTimer settle_;
+  Autosave autosave_;
+  Runner runner_;  // Last: abandoned before what it uses goes.
+};
+
+}  // namespace lvcalib::widgets

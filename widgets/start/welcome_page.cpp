@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "start/welcome_page.h"
+
+#include <QCommandLinkButton>
+#include <QDir>
+#include <QEvent>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QVBoxLayout>
+
+namespace lvcalib::widgets {
+
+WelcomePage::WelcomePage(QWidget* parent)
+    : QWidget(parent),
+      title_(new QLabel(this)),
+      purpose_(new QLabel(this)),
+      dataset_(new QCommandLinkButton(this)),
+      project_(new QCommandLinkButton(this)),
+      demo_(new QCommandLinkButton(this)),
+      guide_(new QCommandLinkButton(this)),
+      recent_title_(new QLabel(this)),
+      recent_(new QListWidget(this)) {
+  QFont font = title_->font();
+  font.setPointSizeF(2.0 * font.pointSizeF());
+  title_->setFont(font);
+  purpose_->setWordWrap(true);
+  recent_->setObjectName(QStringLiteral("recent"));
+  recent_->setTextElideMode(Qt::ElideMiddle);
+  recent_title_->setBuddy(recent_);
+  auto* buttons = new QVBoxLayout;
+  const std::pair<QCommandLinkButton*, const char*> named[] = {
+      {dataset_, "open_dataset"}, {project_, "open_project"}, {demo_, "demo"}, {guide_, "guide"}};
+  for (const auto& [button, name] : named) {
+    button->setObjectName(QString::fromLatin1(name));
+    buttons->addWidget(button);
+  }
+  buttons->addStretch();
+  auto* list = new QVBoxLayout;
+  list->addWidget(recent_title_);
+  list->addWidget(recent_, 1);
+  auto* columns = new QHBoxLayout;
+  columns->addLayout(buttons, 2);
+  columns->addSpacing(24);
+  columns->addLayout(list, 3);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(40, 32, 40, 32);
+  layout->addWidget(title_);
+  layout->addWidget(purpose_);
+  layout->addSpacing(16);
+  layout->addLayout(columns, 1);
+  connect(dataset_, &QCommandLinkButton::clicked, this, &WelcomePage::open_dataset_wanted);
+  connect(project_, &QCommandLinkButton::clicked, this, &WelcomePage::open_project_wanted);
+  connect(demo_, &QCommandLinkButton::clicked, this, &WelcomePage::demo_wanted);
+  connect(guide_, &QCommandLinkButton::clicked, this, &WelcomePage::guide_wanted);
+  connect(recent_, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
+    Q_EMIT recent_wanted(item->data(Qt::UserRole).toString());
+  });
+  retranslate();
+}
+
+void WelcomePage::set_recent(const QStringList& paths) {
+  recent_->clear();
+  for (const QString& path : paths) {
+    const QFileInfo info(path);
+    auto* item = new QListWidgetItem(
+        QStringLiteral("%1\n%2").arg(info.fileName(), QDir::toNativeSeparators(path)), recent_);
+    item->setData(Qt::UserRole, path);
+    item->setToolTip(path);
+    if (!info.exists()) item->setForeground(palette().color(QPalette::Disabled, QPalette::Text));
+  }
+}
+
+void WelcomePage::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange) retranslate();
+  QWidget::changeEvent(event);
+}
+
+void WelcomePage::retranslate() {
+  title_->setText(tr("LV-Calib Workbench"));
+  purpose_->setText(
+      tr("Finds how a camera and a LiDAR stand to each other from a few scenes of a "
+         "printed board, says how sure it is, and shows why."));
+  dataset_->setText(tr("Open a dataset"));
+  dataset_->setDescription(tr("A folder with target.yaml, camera.yaml and scenes"));
+  project_->setText(tr("Open a project"));
+  project_->setDescription(tr("A dataset with your decisions about it (.lvcalib)"));
+  demo_->setText(tr("Try the demo"));
+  demo_->setDescription(tr("Simulates three scenes whose true calibration is known"));
+  guide_->setText(tr("Guide"));
+  guide_->setDescription(tr("From the printed board to a result, step by step"));
+  recent_title_->setText(tr("Recent (or drop a folder on this window)"));
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/angle_distance_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kMm = 1e3;
+constexpr int kIntensityLevels = 16;
+
+// Fixed places every 90° read better than the automatic ones.
+QSharedPointer<QCPAxisTickerFixed> quarter_ticks() {
+  QSharedPointer<QCPAxisTickerFixed> ticker(new QCPAxisTickerFixed);
+  ticker->setTickStep(90.0);
+  ticker->setScaleStrategy(QCPAxisTickerFixed::ssMultiples);
+  return ticker;
+}
+
+}  // namespace
+
+AngleDistancePlot::AngleDistancePlot(QWidget* parent) : PlotView(parent) {
+  xAxis->setTicker(quarter_ticks());
+  addLayer("bands", layer("grid"), limBelow);
+  figureActions()->setName("angle-distance");
+  setCompact(false);
+  setToolTip(
+      tr("Signed distance from the circle (mm, outside positive) against the polar angle "
+         "(degrees). Dots: LiDAR samples coloured by intensity. Marks: where the intensity "
+         "crosses its middle level in each angular bin, ±1σ. Line: the fitted wave "
+         "Δcu·cos ψ + Δcv·sin ψ + Δr. Shaded: refused bins."));
+}
+
+void AngleDistancePlot::setCompact(bool compact) {
+  compact_ = compact;
+  xAxis->setLabel(compact ? QString() : tr("polar angle ψ (°)"));
+  yAxis->setLabel(compact ? QString() : tr("distance from the circle (mm)"));
+  axisRect()->setupFullAxesBox(!compact);
+  if (compact) {
+    axisRect()->setAutoMargins(QCP::msNone);
+    axisRect()->setMargins(QMargins(30, 6, 8, 18));
+    yAxis->ticker()->setTickCount(3);
+  }
+  xAxis2->setTickLabels(false);
+  yAxis2->setTickLabels(false);
+  // The wheel belongs to the page that holds many small plots.
+  setInteractions(compact ? QCP::Interactions() : QCP::iRangeDrag | QCP::iRangeZoom);
+}
+
+void AngleDistancePlot::setTitle(const QString& title) {
+  title_ = title;
+  setAccessibleName(title);
+  rebuild();
+}
+
+void AngleDistancePlot::setData(AngleDistanceData data) {
+  const double before = data_.reach_m;
+  data_ = std::move(data);
+  message_.clear();
+  const double reach = kMm * data_.reach_m;
+  // A replay keeps the user's zoom as long as the reach stays.
+  if (before != data_.reach_m || xAxis->range().size() < 6.0) {
+    setHome({-180.0, 180.0}, {-reach, reach});
+  }
+  rebuild();
+}
+
+void AngleDistancePlot::clear(const QString& message) {
+  data_ = {};
+  message_ = message;
+  setHome({-180.0, 180.0}, {-20.0, 20.0});
+  rebuild();
+}
+
+void AngleDistancePlot::setChosenBin(int bin) {
+  chosen_bin_ = bin;
+  rebuild();
+}
+
+void AngleDistancePlot::rebuild() {
+  clearFigure();
+  if (!message_.isEmpty()) showMessage(message_);
+  drawBands();
+  drawSamples();
+  drawWave();
+  drawBins();
+  drawLabel();
+  fillTable();
+  replot(rpQueuedReplot);
+}
+
+void AngleDistancePlot::drawBands() {
+  const auto count = data_.record.bins.size();
+  const double width = count > 0 ? 360.0 / static_cast<double>(count) : 360.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool refused = data_.record.bins[k].state != BinState::kUsed;
+    const bool chosen = static_cast<int>(k) == chosen_bin_;
+    if (!refused && !chosen) continue;
+    auto* band = new QCPItemRect(this);
+    band->setLayer("bands");
+    QColor color = chosen ? colors().emphasis : colors().refused;
+    color.setAlpha(chosen ? 70 : 38);
+    band->setPen(Qt::NoPen);
+    band->setBrush(color);
+    band->topLeft->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    band->bottomRight->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    band->topLeft->setCoords(-180.0 + width * static_cast<double>(k), 0.0);
+    band->bottomRight->setCoords(-180.0 + width * static_cast<double>(k + 1), 1.0);
+  }
+}
+
+void AngleDistancePlot::drawSamples() {
+  const std::size_t step =
+      compact_ ? std::max<std::size_t>(1, data_.samples.size() / kSmallSamples) : 1;
+  std::array<QVector<double>, kIntensityLevels> angles;
+  std::array<QVector<double>, kIntensityLevels> distances;
+  const ColorScale& scale = data_.intensity;
+  const double width = std::max(scale.high - scale.low, 1e-9);
+  for (std::size_t i = 0; i < data_.samples.size(); i += step) {
+    const NodeSample& s = data_.samples[i];
+    const double share = std::clamp((s.intensity - scale.low) / width, 0.0, 1.0);
+    const auto level = static_cast<std::size_t>(std::lround(share * (kIntensityLevels - 1)));
+    angles[level].push_back(kDegrees * s.angle_rad);
+    distances[level].push_back(kMm * s.distance_m);
+  }
+  for (std::size_t level = 0; level < kIntensityLevels; ++level) {
+    if (angles[level].isEmpty()) continue;
+    QCPGraph* graph = addGraph();
+    // The end of the scale that would vanish into the ground is left out.
+    const double along = static_cast<double>(level) / (kIntensityLevels - 1);
+    const double share = colors().dark ? 0.22 + 0.78 * along : 0.92 * along;
+    const QColor color = QColor::fromRgb(map_color(scale.map, share));
+    graph->setLineStyle(QCPGraph::lsNone);
+    graph->setAdaptiveSampling(false);
+    graph->setScatterStyle(compact_ ? QCPScatterStyle(QCPScatterStyle::ssSquare, color, color, 1.6)
+                                    : QCPScatterStyle(QCPScatterStyle::ssSquare, color, color, 3));
+    graph->setAntialiasedScatters(false);
+    graph->setData(angles[level], distances[level]);
+  }
+}
+
+void AngleDistancePlot::drawWave() {
+  QCPGraph* zero = addGraph();
+  zero->setPen(QPen(colors().zero, 1, Qt::DashLine));
+  zero->setData({-180.0, 180.0}, {0.0, 0.0});
+  if (data_.record.bins.empty() || data_.record.wave_m.isZero()) return;
+  QVector<double> angles;
+  QVector<double> distances;
+  for (int degree = -180; degree <= 180; degree += 3) {
+    const double psi = degree / kDegrees;
+    const Eigen::Vector3d basis(std::cos(psi), std::sin(psi), 1.0);
+    angles.push_back(degree);
+    distances.push_back(kMm * basis.dot(data_.record.wave_m));
+  }
+  QCPGraph* wave = addGraph();
+  wave->setPen(QPen(colors().fit, compact_ ? 1.6 : 2.2));
+  wave->setData(angles, distances);
+}
+
+void AngleDistancePlot::drawBins() {
+  QCPGraph* used = addGraph();
+  QCPGraph* refused = addGraph();
+  for (const BinRecord& bin : data_.record.bins) {
+    const bool has_midpoint = bin.state == BinState::kUsed || bin.state == BinState::kOutlier ||
+                              bin.state == BinState::kWeakContrast;
+    if (has_midpoint) {
+      (bin.state == BinState::kUsed ? used : refused)
+          ->addData(kDegrees * bin.angle_rad, kMm * bin.midpoint_m);
+    } else {
+      // No midpoint: a cross on the zero line says that the bin was looked at.
+      refused->addData(kDegrees * bin.angle_rad, 0.0);
+    }
+  }
+  const double size = compact_ ? 4 : 7;
+  used->setLineStyle(QCPGraph::lsNone);
+  used->setScatterStyle(
+      {QCPScatterStyle::ssCircle, QPen(colors().mark), colors().background, size});
+  refused->setLineStyle(QCPGraph::lsNone);
+  refused->setScatterStyle(
+      {QCPScatterStyle::ssCross, QPen(colors().refused, 1.5), Qt::NoBrush, size + 1});
+  auto* bars = new QCPErrorBars(xAxis, yAxis);
+  bars->setDataPlottable(used);
+  bars->setPen(QPen(colors().mark));
+  bars->setWhiskerWidth(compact_ ? 3 : 6);
+  bars->setSymbolGap(0);
+  for (const BinRecord& bin : data_.record.bins) {
+    if (bin.state == BinState::kUsed) bars->addData(kMm * bin.sigma_m);
+  }
+}
+
+void AngleDistancePlot::drawLabel() {
+  if (title_.isEmpty()) return;
+  auto* label = new QCPItemText(this);
+  label->position->setType(QCPItemPosition::ptAxisRectRatio);
+  label->position->setCoords(0.02, 0.03);
+  label->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+  label->setText(title_);
+  label->setPadding(QMargins(3, 1, 3, 1));
+  QColor ground = colors().background;
+  ground.setAlpha(215);
+  label->setBrush(ground);
+  const bool fine = data_.record.valid || data_.record.bins.empty();
+  label->setColor(fine ? colors().text : colors().refused);
+  QFont bold = font();
+  bold.setBold(true);
+  label->setFont(bold);
+}
+
+void AngleDistancePlot::fillTable() {
+  std::vector<QStringList> rows;
+  for (const BinRecord& bin : data_.record.bins) {
+    rows.push_back({QString("bin"),
+                    csv_number(kDegrees * bin.angle_rad),
+                    csv_number(kMm * bin.midpoint_m),
+                    csv_number(kMm * bin.sigma_m),
+                    QString::number(bin.samples),
+                    QString::fromStdString(describe(bin.state)),
+                    {}});
+  }
+  for (const NodeSample& s : data_.samples) {
+    rows.push_back({QString("sample"),
+                    csv_number(kDegrees * s.angle_rad),
+                    csv_number(kMm * s.distance_m),
+                    {},
+                    {},
+                    {},
+                    csv_number(s.intensity)});
+  }
+  setTable({"kind", "angle_deg", "distance_mm", "sigma_mm", "samples", "state", "intensity"},
+           std::move(rows));
+}
+
+}  // namespace lvcalib::widgets

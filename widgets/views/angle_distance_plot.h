@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "refinement/board_refinement.h"
+#include "refinement/node_samples.h"
+#include "views/color_map.h"
+#include "views/plot_view.h"
+
+namespace lvcalib::widgets {
+
+/// One node in one iteration: what an angle–distance plot shows.
+struct AngleDistanceData {
+  NodeRecord record;
+  std::vector<NodeSample> samples;  ///< About record.center_uv_m; may be empty.
+  ColorScale intensity;             ///< Colours of the samples, common to all nodes.
+  double reach_m = 0.02;            ///< Half height of the plot.
+};
+
+/// Polar angle (degrees) against signed distance from the circle (mm): samples coloured by
+/// intensity, bin midpoints with error bars, refused bins shaded and crossed, the fitted
+/// first-order wave and the zero line.
+class AngleDistancePlot : public PlotView {
+  Q_OBJECT
+
+ public:
+  explicit AngleDistancePlot(QWidget* parent = nullptr);
+
+  /// Small plots of an overview go without axis titles and draw at most `kSmallSamples` samples.
+  void setCompact(bool compact);
+  void setTitle(const QString& title);
+  void setData(AngleDistanceData data);
+  void clear(const QString& message);
+  /// Emphasises one bin; −1: none.
+  void setChosenBin(int bin);
+
+  [[nodiscard]] const AngleDistanceData& data() const { return data_; }
+
+ protected:
+  void rebuild() override;
+
+ private:
+  static constexpr std::size_t kSmallSamples = 900;
+
+  void drawBands();
+  void drawSamples();
+  void drawWave();
+  void drawBins();
+  void drawLabel();
+  void fillTable();
+
+  AngleDistanceData data_;
+  QString title_;
+  QString message_;
+  bool compact_ = false;
+  int chosen_bin_ = -1;
+};
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/board_map_plot.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kMm = 1e3;
+
+// 1, 2 or 5 times a power of ten, not above `wanted`.
+double round_down(double wanted) {
+  if (!(wanted > 1.0)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= wanted) return digit * power;
+  }
+  return power;
+}
+
+}  // namespace
+
+BoardMapPlot::BoardMapPlot(QWidget* parent) : PlotView(parent) {
+  figureActions()->setName("board-map");
+  xAxis->setLabel(tr("board x (mm)"));
+  yAxis->setLabel(tr("board y (mm)"));
+  axisRect()->setupFullAxesBox(true);
+  xAxis2->setTickLabels(false);
+  yAxis2->setTickLabels(false);
+  setToolTip(
+      tr("The board from the front. Lines: how each circle's centre moved from the first to "
+         "the last iteration, enlarged. Ellipse: twice the standard deviation of the "
+         "refined centre, enlarged alike. Cross: where the model has it."));
+  connect(this, &PlotView::clicked, this, &BoardMapPlot::emitNodeAt);
+  connect(this, &QCustomPlot::afterLayout, this, [this] {
+    if (axisRect()->size() == fitted_to_) return;
+    fitted_to_ = axisRect()->size();
+    fit();
+  });
+}
+
+void BoardMapPlot::setTarget(const Target& target) {
+  target_ = target;
+  fit();
+  rebuild();
+}
+
+void BoardMapPlot::setPaths(std::vector<CenterPath> paths) {
+  paths_ = std::move(paths);
+  double longest = 0.0;
+  for (const CenterPath& path : paths_) {
+    if (!path.valid) continue;
+    for (const Eigen::Vector2d& p : path.predicted_m) longest = std::max(longest, p.norm());
+    longest = std::max(longest, path.final_m.norm());
+  }
+  enlargement_ = longest > 0 ? round_down(0.4 * target_.tag_pitch_m() / longest) : 1.0;
+  rebuild();
+}
+
+void BoardMapPlot::setIteration(int iteration) {
+  iteration_ = iteration;
+  rebuild();
+}
+
+void BoardMapPlot::setChosenNode(int id) {
+  chosen_ = id;
+  rebuild();
+}
+
+// The board in the middle, with equal scales along both axes.
+void BoardMapPlot::fit() {
+  const BoardOutline outline = target_.outline();
+  const Eigen::Vector2d center = kMm * outline.center_m();
+  const Eigen::Vector2d half = 0.54 * kMm * outline.size_m();
+  const QRect rect = axisRect()->rect();
+  const double aspect =
+      rect.height() > 10 ? static_cast<double>(rect.width()) / rect.height() : 1.0;
+  const double half_y = std::max(half.y(), half.x() / aspect);
+  setHome({center.x() - half_y * aspect, center.x() + half_y * aspect},
+          {center.y() - half_y, center.y() + half_y});
+}
+
+void BoardMapPlot::rebuild() {
+  clearFigure();
+  drawBoard();
+  for (std::size_t k = 0; k < paths_.size(); ++k) drawPath(paths_[k], static_cast<int>(k));
+  drawCaption();
+  fillTable();
+  replot(rpQueuedReplot);
+}
+
+void BoardMapPlot::drawBoard() {
+  const auto rectangle = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high,
+                             const QBrush& brush) {
+    auto* item = new QCPItemRect(this);
+    item->topLeft->setCoords(kMm * low.x(), kMm * high.y());
+    item->bottomRight->setCoords(kMm * high.x(), kMm * low.y());
+    item->setPen(QPen(colors().axis));
+    item->setBrush(brush);
+  };
+  const BoardOutline outline = target_.outline();
+  rectangle(outline.lower_left_m, outline.upper_right_m, Qt::NoBrush);
+  if (target_.has_tags()) {
+    for (const TargetTag& tag : target_.tags()) {
+      const auto corners = target_.tag_corners_m(tag);
+      rectangle(corners[0], corners[2], colors().grid);
+    }
+  }
+  for (const TargetNode& node : target_.nodes()) {
+    const double r = target_.circle_radius_m;
+    auto* circle = new QCPItemEllipse(this);
+    circle->topLeft->setCoords(kMm * (node.center_m.x() - r), kMm * (node.center_m.y() + r));
+    circle->bottomRight->setCoords(kMm * (node.center_m.x() + r), kMm * (node.center_m.y() - r));
+    circle->setPen(QPen(node.id == chosen_ ? colors().emphasis : colors().axis,
+                        node.id == chosen_ ? 2.5 : 1.0));
+  }
+}
+
+void BoardMapPlot::drawPath(const CenterPath& path, int index) {
+  const auto place = [&](const Eigen::Vector2d& offset) {
+    return Eigen::Vector2d(kMm * (path.board_m + enlargement_ * offset));
+  };
+  auto* model = addGraph();
+  model->setLineStyle(QCPGraph::lsNone);
+  model->setScatterStyle({QCPScatterStyle::ssCross, QPen(colors().zero), Qt::NoBrush, 7});
+  model->addData(kMm * path.board_m.x(), kMm * path.board_m.y());
+  if (!path.valid) {
+    model->setScatterStyle(
+        {QCPScatterStyle::ssCrossCircle, QPen(colors().refused, 1.5), Qt::NoBrush, 11});
+    return;
+  }
+  const int last = iteration_ < 0 ? static_cast<int>(path.predicted_m.size()) - 1 : iteration_;
+  auto* curve = new QCPCurve(xAxis, yAxis);
+  const QColor color = colors().series(index);
+  curve->setPen(QPen(color, 1.6));
+  curve->setScatterStyle({QCPScatterStyle::ssDisc, QPen(color), color, 3.5});
+  for (int k = 0; k <= last && k < static_cast<int>(path.predicted_m.size()); ++k) {
+    const Eigen::Vector2d p = place(path.predicted_m[static_cast<std::size_t>(k)]);
+    curve->addData(p.x(), p.y());
+  }
+  const Eigen::Vector2d end = place(path.final_m);
+  auto* refined = addGraph();
+  refined->setLineStyle(QCPGraph::lsNone);
+  refined->setScatterStyle({QCPScatterStyle::ssDiamond, QPen(colors().mark), color, 7});
+  refined->addData(end.x(), end.y());
+  drawEllipse(path, QPen(colors().mark, 1));
+}
+
+void BoardMapPlot::drawEllipse(const CenterPath& path, const QPen& pen) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(path.covariance_m2);
+  const Eigen::Vector2d radii = 2.0 * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  auto* curve = new QCPCurve(xAxis, yAxis);
+  curve->setPen(pen);
+  for (int k = 0; k <= 48; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / 48;
+    const Eigen::Vector2d on_ellipse =
+        axes.eigenvectors() *
+        Eigen::Vector2d(radii.x() * std::cos(angle), radii.y() * std::sin(angle));
+    const Eigen::Vector2d p = kMm * (path.board_m + enlargement_ * (path.final_m + on_ellipse));
+    curve->addData(p.x(), p.y());
+  }
+}
+
+void BoardMapPlot::drawCaption() {
+  QString caption;
+  if (!paths_.empty()) {
+    caption = tr("paths enlarged ×%1").arg(enlargement_, 0, 'g', 6);
+  } else if (!target_.has_circles()) {
+    caption = tr("no circles");
+  }
+  auto* text = new QCPItemText(this);
+  text->position->setType(QCPItemPosition::ptAxisRectRatio);
+  text->position->setCoords(0.02, 0.02);
+  text->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+  text->setColor(colors().text);
+  text->setFont(font());
+  text->setText(caption);
+}
+
+void BoardMapPlot::fillTable() {
+  std::vector<QStringList> rows;
+  for (const CenterPath& path : paths_) {
+    const auto row = [&](const QString& kind, std::size_t k, const Eigen::Vector2d& p) {
+      rows.push_back({QString::number(path.id), kind, QString::number(k), csv_number(kMm * p.x()),
+                      csv_number(kMm * p.y())});
+    };
+    for (std::size_t k = 0; k < path.predicted_m.size(); ++k) {
+      row("layout", k, path.predicted_m[k]);
+      row("measured", k, path.measured_m[k]);
+    }
+    row("refined", path.predicted_m.size(), path.final_m);
+  }
+  setTable({"node", "kind", "iteration", "dx_mm", "dy_mm"}, std::move(rows));
+}
+
+void BoardMapPlot::emitNodeAt(const QPointF& place) {
+  const Eigen::Vector2d p(xAxis->pixelToCoord(place.x()) / kMm,
+                          yAxis->pixelToCoord(place.y()) / kMm);
+  for (const TargetNode& node : target_.nodes()) {
+    if ((node.center_m - p).norm() < 0.35 * target_.tag_pitch_m()) {
+      Q_EMIT nodeClicked(node.id);
+      return;
+    }
+  }
+}
+
+}  // namespace lvcalib::widgets

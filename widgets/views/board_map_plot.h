@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "refinement/node_samples.h"
+#include "target/target.h"
+#include "views/plot_view.h"
+
+namespace lvcalib::widgets {
+
+/// The board from the front (mm) with the enlarged way of every node's centre through the
+/// iterations, relative to the model's place, and the refined centre with its 2σ ellipse.
+class BoardMapPlot : public PlotView {
+  Q_OBJECT
+
+ public:
+  explicit BoardMapPlot(QWidget* parent = nullptr);
+
+  void setTarget(const Target& target);
+  void setPaths(std::vector<CenterPath> paths);
+  /// Draws the paths up to this iteration; −1: all.
+  void setIteration(int iteration);
+  void setChosenNode(int id);
+
+  /// How much larger than life the paths are drawn: 1, 2 or 5 times a power of ten, so that the
+  /// longest is at most 0.4 tag pitches long.
+  [[nodiscard]] double enlargement() const { return enlargement_; }
+
+ Q_SIGNALS:
+  void nodeClicked(int id);
+
+ protected:
+  void rebuild() override;
+
+ private:
+  void drawBoard();
+  void drawPath(const CenterPath& path, int index);
+  void drawEllipse(const CenterPath& path, const QPen& pen);
+  void drawCaption();
+  void fillTable();
+  void fit();
+  void emitNodeAt(const QPointF& place);
+
+  Target target_;
+  std::vector<CenterPath> paths_;
+  int iteration_ = -1;
+  int chosen_ = -1;
+  double enlargement_ = 1.0;
+  QSize fitted_to_;
+};
+
+}  // namespace lvcalib::widgets

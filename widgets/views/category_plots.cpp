@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/category_plots.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lvcalib::widgets {
+
+CategoryPlot::CategoryPlot(QWidget* parent) : PlotView(parent) {
+  setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+  axisRect()->setRangeZoom(Qt::Vertical);
+  axisRect()->setRangeDrag(Qt::Vertical);
+  xAxis->grid()->setVisible(false);
+  connect(this, &PlotView::clicked, this, [this](const QPointF& place) {
+    const int index = static_cast<int>(std::lround(xAxis->pixelToCoord(place.x()))) - 1;
+    if (index >= 0 && index < columns_) Q_EMIT categoryClicked(index);
+  });
+}
+
+void CategoryPlot::setValueLabel(const QString& label, const QString& csv_name) {
+  yAxis->setLabel(label);
+  csv_name_ = csv_name;
+  figureActions()->setName(csv_name);
+}
+
+void CategoryPlot::setChosen(int index) {
+  chosen_ = index;
+  rebuild();
+}
+
+void CategoryPlot::layoutColumns(const QStringList& names, double low, double high) {
+  columns_ = static_cast<int>(names.size());
+  QSharedPointer<QCPAxisTickerText> ticker(new QCPAxisTickerText);
+  for (int k = 0; k < columns_; ++k) ticker->addTick(k + 1, names[k]);
+  xAxis->setTicker(ticker);
+  xAxis->setSubTicks(false);
+  // Many or long names do not fit side by side.
+  const auto longest = std::max_element(
+      names.begin(), names.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  const bool crowded =
+      columns_ > 0 && static_cast<double>(columns_) * static_cast<double>(longest->size()) > 40.0;
+  xAxis->setTickLabelRotation(crowded ? 60.0 : 0.0);
+  const double span = std::max(high - low, 1e-12);
+  setHome({0.4, std::max(columns_, 1) + 0.6},
+          {low < 0 ? low - 0.05 * span : 0.0, high > 0 ? high + 0.08 * span : 1.0});
+}
+
+void BarPlot::setBars(std::vector<Bar> bars, const QString& message) {
+  bars_ = std::move(bars);
+  message_ = message;
+  rebuild();
+}
+
+void BarPlot::rebuild() {
+  clearFigure();
+  QStringList names;
+  double low = 0.0;
+  double high = 0.0;
+  std::vector<QStringList> rows;
+  for (const Bar& bar : bars_) {
+    names.push_back(bar.name);
+    if (std::isfinite(bar.value)) {
+      low = std::min(low, bar.value);
+      high = std::max(high, bar.value);
+    }
+    rows.push_back({bar.name, csv_number(bar.value), bar.used ? "1" : "0"});
+  }
+  layoutColumns(names, low, high);
+  for (std::size_t k = 0; k < bars_.size(); ++k) {
+    auto* column = new QCPBars(xAxis, yAxis);
+    QColor color = static_cast<int>(k) == chosen() ? colors().emphasis : colors().fill;
+    if (!bars_[k].used) color.setAlpha(70);
+    column->setBrush(color);
+    column->setPen(QPen(colors().axis));
+    column->setWidth(0.62);
+    if (std::isfinite(bars_[k].value)) column->addData(static_cast<double>(k + 1), bars_[k].value);
+  }
+  if (bars_.empty() || !message_.isEmpty())
+    showMessage(message_.isEmpty() ? tr("no data") : message_);
+  setTable({"name", csvName(), "used"}, std::move(rows));
+  replot(rpQueuedReplot);
+}
+
+void BoxPlot::setBoxes(std::vector<Box> boxes, const QString& message) {
+  boxes_ = std::move(boxes);
+  message_ = message;
+  rebuild();
+}
+
+void BoxPlot::rebuild() {
+  clearFigure();
+  QStringList names;
+  double low = 0.0;
+  double high = 0.0;
+  std::vector<QStringList> rows;
+  auto* plot = new QCPStatisticalBox(xAxis, yAxis);
+  plot->setWidth(0.5);
+  plot->setBrush(colors().fill);
+  plot->setPen(QPen(colors().axis));
+  plot->setMedianPen(QPen(colors().fit, 2.2));
+  plot->setWhiskerPen(QPen(colors().axis));
+  plot->setWhiskerBarPen(QPen(colors().axis));
+  plot->setOutlierStyle({QCPScatterStyle::ssCircle, QPen(colors().refused), Qt::NoBrush, 4});
+  for (std::size_t k = 0; k < boxes_.size(); ++k) {
+    names.push_back(boxes_[k].name);
+    for (const double v : boxes_[k].values) rows.push_back({boxes_[k].name, csv_number(v)});
+    const BoxSummary box = box_summary(boxes_[k].values);
+    if (box.count == 0) continue;
+    const QVector<double> outliers(box.outliers.begin(), box.outliers.end());
+    plot->addData(static_cast<double>(k + 1), box.lower_whisker, box.lower_quartile, box.median,
+                  box.upper_quartile, box.upper_whisker, outliers);
+    low = std::min({low, box.lower_whisker, outliers.isEmpty() ? 0.0 : outliers.front()});
+    high = std::max({high, box.upper_whisker, outliers.isEmpty() ? 0.0 : outliers.back()});
+  }
+  layoutColumns(names, low, high);
+  if (rows.empty()) showMessage(message_.isEmpty() ? tr("no data") : message_);
+  setTable({"name", csvName()}, std::move(rows));
+  replot(rpQueuedReplot);
+}
+
+}  // namespace lvcalib::widgets

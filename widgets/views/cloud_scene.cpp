@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/cloud_scene.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/statistics.h"
+#include "extrinsic/cloud_projection.h"
+#include "refinement/node_samples.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("CloudScene", text);
+}
+
+// Steps through the points by the golden section of their number: every beginning of the order
+// covers the whole scan evenly, whatever pattern the scanner has.
+void thinning_order(std::vector<std::uint32_t>& indices) {
+  const std::size_t n = indices.size();
+  if (n < 3) return;
+  auto step = static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(n));
+  while (std::gcd(step, n) != 1) ++step;
+  std::vector<std::uint32_t> out(n);
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = indices[place];
+    place += step;
+    if (place >= n) place -= n;
+  }
+  indices = std::move(out);
+}
+
+class Builder {
+ public:
+  Builder(const CloudSceneInput& input, std::stop_token stop)
+      : in_(input), stop_(std::move(stop)), scene_(std::make_shared<CloudScene>()) {}
+
+  std::shared_ptr<const CloudScene> run() {
+    chooseCloud();
+    if (!scene_->cloud) return scene_;
+    choosePoints();
+    thinning_order(scene_->order);
+    if (stop_.stop_requested()) return nullptr;
+    project();
+    if (stop_.stop_requested()) return nullptr;
+    copyPoints();
+    paint();
+    if (stop_.stop_requested()) return nullptr;
+    return scene_;
+  }
+
+ private:
+  void chooseCloud() {
+    const bool board_only =
+        in_.filter == CloudFilter::kBoard || in_.filter == CloudFilter::kBoundary;
+    scene_->cloud = board_only ? in_.board : in_.full;
+    if (!scene_->cloud && !board_only && in_.board) {
+      scene_->cloud = in_.board;
+      scene_->notice = tr("Only the board's points are loaded.");
+    }
+    if (!scene_->cloud) {
+      scene_->notice = board_only ? tr("No board was found in this scene's cloud yet.")
+                                  : tr("The cloud is not loaded yet.");
+    }
+  }
+
+  void choosePoints() {
+    const Cloud& cloud = *scene_->cloud;
+    std::vector<std::uint32_t>& order = scene_->order;
+    if (in_.filter == CloudFilter::kBoundary) {
+      if (in_.refinement) order = boundary_points(cloud, in_.target, *in_.refinement);
+      if (order.empty()) scene_->notice = tr("There are no boundary samples in this scene.");
+      return;
+    }
+    const bool crop = in_.filter == CloudFilter::kCrop && in_.crop;
+    if (in_.filter == CloudFilter::kCrop && !in_.crop) {
+      scene_->notice = tr("No crop box is set: all points are shown.");
+    }
+    order.reserve(cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (!crop || in_.crop->contains(cloud.points_m[i].cast<double>())) {
+        order.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+  }
+
+  void project() {
+    if (!in_.camera_from_lidar || in_.camera.width_px <= 0) return;
+    RunContext context;
+    context.stop = stop_;
+    scene_->pixels =
+        project_points(scene_->cloud->points_m, in_.camera, *in_.camera_from_lidar, context);
+  }
+
+  void copyPoints() {
+    const Cloud& cloud = *scene_->cloud;
+    scene_->xyz_m.reserve(3 * scene_->order.size());
+    Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
+    Eigen::Vector3f high = -low;
+    for (const std::uint32_t i : scene_->order) {
+      const Eigen::Vector3f& p = cloud.points_m[i];
+      scene_->xyz_m.insert(scene_->xyz_m.end(), {p.x(), p.y(), p.z()});
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    if (scene_->order.empty()) return;
+    scene_->low_m = low.cast<double>();
+    scene_->high_m = high.cast<double>();
+    // The beginning of the order stands for all.
+    const std::size_t n = std::min<std::size_t>(scene_->order.size(), 5000);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> values;
+      for (std::size_t k = 0; k < n; ++k) {
+        values.push_back(
+            static_cast<double>(scene_->xyz_m[3 * k + static_cast<std::size_t>(axis)]));
+      }
+      scene_->center_m(axis) = median(std::move(values));
+    }
+  }
+
+  void paint() {
+    if (in_.color == CloudColor::kCameraColor && paintFromImage()) return;
+    const std::vector<float> values = quantities();
+    scene_->scale =
+        scale_for(values, in_.color == CloudColor::kPlaneResidual ? ColorMap::kDiverging
+                                                                  : ColorMap::kSequential);
+    scene_->rgb.reserve(3 * values.size());
+    for (const float value : values) push(scene_->scale.color(static_cast<double>(value)));
+  }
+
+  void push(QRgb color) {
+    scene_->rgb.push_back(static_cast<std::uint8_t>(qRed(color)));
+    scene_->rgb.push_back(static_cast<std::uint8_t>(qGreen(color)));
+    scene_->rgb.push_back(static_cast<std::uint8_t>(qBlue(color)));
+  }
+
+  bool paintFromImage() {
+    if (in_.image.isNull() || scene_->pixels.empty()) {
+      scene_->notice = tr("Camera colours need an image and an extrinsic; intensity is shown.");
+      return false;
+    }
+    scene_->quantity = tr("camera colour (grey: not in the image)");
+    scene_->has_scale = false;
+    scene_->rgb.reserve(3 * scene_->order.size());
+    for (const std::uint32_t i : scene_->order) push(image_color(in_.image, scene_->pixels[i]));
+    return true;
+  }
+
+  // The value of every drawn point; also names it.
+  std::vector<float> quantities() {
+    const Cloud& cloud = *scene_->cloud;
+    std::vector<float> out;
+    out.reserve(scene_->order.size());
+    CloudColor color = in_.color == CloudColor::kCameraColor ? CloudColor::kIntensity : in_.color;
+    if (color == CloudColor::kIntensity && !cloud.has_intensity()) {
+      scene_->notice = tr("This cloud has no intensity; range is shown.");
+      color = CloudColor::kRange;
+    }
+    if (color == CloudColor::kPlaneResidual && !in_.refinement) {
+      scene_->notice = tr("The board's plane is not known in this scene; range is shown.");
+      color = CloudColor::kRange;
+    }
+    for (const std::uint32_t i : scene_->order) out.push_back(quantity(cloud, i, color));
+    switch (color) {
+      case CloudColor::kHeight:
+        scene_->quantity = tr("height z (m)");
+        break;
+      case CloudColor::kRange:
+        scene_->quantity = tr("range (m)");
+        break;
+      case CloudColor::kPlaneResidual:
+        scene_->quantity = tr("range beyond the board's plane (mm)");
+        break;
+      default:
+        scene_->quantity = tr("intensity");
+    }
+    return out;
+  }
+
+  [[nodiscard]] float quantity(const Cloud& cloud, std::uint32_t i, CloudColor color) const {
+    const Eigen::Vector3f& p = cloud.points_m[i];
+    switch (color) {
+      case CloudColor::kHeight:
+        return p.z();
+      case CloudColor::kRange:
+        return p.norm();
+      case CloudColor::kPlaneResidual: {
+        const auto residual = in_.refinement->plane.range_residual_m(p.cast<double>());
+        // What is far off the plane is not the board.
+        constexpr double kReach_m = 0.1;
+        return residual && std::abs(*residual) < kReach_m ? static_cast<float>(1e3 * *residual)
+                                                          : kNan;
+      }
+      default:
+        return cloud.intensity[i];
+    }
+  }
+
+  const CloudSceneInput& in_;
+  std::stop_token stop_;
+  std::shared_ptr<CloudScene> scene_;
+};
+
+}  // namespace
+
+QRgb image_color(const QImage& image, const Eigen::Vector2f& pixel) {
+  if (!std::isfinite(pixel.x()) || !std::isfinite(pixel.y())) return qRgb(110, 110, 110);
+  const int x = static_cast<int>(std::lround(pixel.x()));
+  const int y = static_cast<int>(std::lround(pixel.y()));
+  return image.valid(x, y) ? image.pixel(x, y) : qRgb(110, 110, 110);
+}
+
+std::shared_ptr<const CloudScene> build_cloud_scene(const CloudSceneInput& input,
+                                                    std::stop_token stop) {
+  return Builder(input, std::move(stop)).run();
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QImage>
+#include <QString>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/rigid3.h"
+#include "camera/camera.h"
+#include "cloud/cloud.h"
+#include "pipeline/crop_box.h"
+#include "refinement/board_refinement.h"
+#include "target/target.h"
+#include "views/color_map.h"
+
+namespace lvcalib::widgets {
+
+/// What the colour of a point tells.
+enum class CloudColor { kIntensity, kHeight, kRange, kPlaneResidual, kCameraColor };
+
+/// Which points are shown.
+enum class CloudFilter {
+  kAll,
+  kCrop,      ///< Inside the crop box.
+  kBoard,     ///< Kept as the board's surroundings by localization.
+  kBoundary,  ///< In the ring about a circle's edge: what the refinement measures with.
+};
+
+/// Everything a picture of a cloud is made of. Shared read-only with the thread that builds it.
+struct CloudSceneInput {
+  std::shared_ptr<const Cloud> full;   ///< May be null: then only board points can be shown.
+  std::shared_ptr<const Cloud> board;  ///< Board points of the scene; may be null.
+  CloudFilter filter = CloudFilter::kAll;
+  CloudColor color = CloudColor::kIntensity;
+  std::optional<CropBox> crop;
+  std::optional<BoardRefinement> refinement;  ///< For plane residuals and boundary samples.
+  Target target;
+  Camera camera;
+  std::optional<Rigid3> camera_from_lidar;  ///< For pixels and camera colours.
+  QImage image;
+};
+
+/// A cloud made ready to be drawn: points in an order of which every beginning is a fair thinning,
+/// their colours, and what the colours mean.
+struct CloudScene {
+  std::shared_ptr<const Cloud> cloud;   ///< The cloud that the indices refer to.
+  std::vector<std::uint32_t> order;     ///< Index into the cloud of every drawn point.
+  std::vector<float> xyz_m;             ///< Three per drawn point.
+  std::vector<std::uint8_t> rgb;        ///< Three per drawn point.
+  std::vector<Eigen::Vector2f> pixels;  ///< Per point of the cloud; empty without an extrinsic.
+  ColorScale scale;
+  bool has_scale = true;  ///< False if colours are the camera's.
+  QString quantity;       ///< "intensity", "height (m)", …
+  QString notice;         ///< Why the picture is not what was asked for; empty if it is.
+  Eigen::Vector3d low_m = Eigen::Vector3d::Zero();  ///< Bounding box of the drawn points.
+  Eigen::Vector3d high_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< Median of the drawn points.
+
+  [[nodiscard]] std::size_t size() const { return order.size(); }
+};
+
+/// Builds the picture; runs on any thread. A stopped build gives null.
+std::shared_ptr<const CloudScene> build_cloud_scene(const CloudSceneInput& input,
+                                                    std::stop_token stop);
+
+/// Colour of the image at a pixel (nearest); grey outside.
+QRgb image_color(const QImage& image, const Eigen::Vector2f& pixel);
+
+}  // namespace lvcalib::widgets

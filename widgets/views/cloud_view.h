@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pipeline/crop_box.h"
+#include "views/cloud_canvas.h"
+#include "views/cloud_scene.h"
+#include "views/figure_actions.h"
+
+class QAction;
+class QLabel;
+
+namespace lvcalib::widgets {
+
+class ColorBar;
+
+/// A LiDAR cloud in space: drag turns, Shift-drag or the middle button moves, wheel or the right
+/// button zooms, a click picks a point; R, T and S reset, look from the top, from the sensor; arrow
+/// keys turn, + and − zoom. Passive: shows the scene it is given. Without OpenGL it shows a message
+/// instead and keeps working otherwise.
+class CloudView : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit CloudView(QWidget* parent = nullptr);
+  ~CloudView() override;
+
+  void setScene(std::shared_ptr<const CloudScene> scene);
+  [[nodiscard]] const std::shared_ptr<const CloudScene>& scene() const { return scene_; }
+  void setLines(const std::vector<CloudLine>& lines);
+  /// Emphasises points, by index into the scene's cloud.
+  void setHighlights(const std::vector<std::uint32_t>& points);
+  /// Shows a crop box, with handles if `editable`.
+  void setBox(const std::optional<CropBox>& box, bool editable);
+  /// Points the viewer there.
+  void look(CloudViewpoint viewpoint);
+
+  [[nodiscard]] bool hasOpenGl() const { return canvas_ != nullptr; }
+  /// Null without OpenGL.
+  [[nodiscard]] CloudCanvas* canvas() const { return canvas_; }
+  [[nodiscard]] FigureActions* figureActions() const { return figure_actions_; }
+  /// Reset, top, sensor: for tool bars and menus.
+  [[nodiscard]] const std::vector<QAction*>& viewActions() const { return view_actions_; }
+
+ Q_SIGNALS:
+  /// A click on a point; index into the scene's cloud.
+  void pointPicked(std::uint32_t point);
+  /// A click beside all points.
+  void nothingPicked();
+  void boxEdited(const lvcalib::CropBox& box);
+  /// All points are in the picture.
+  void completed();
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void triggerByKey(QKeyEvent* event);
+  void createCanvas();
+  void createActions();
+  void pickAt(const QPointF& place);
+  void updateLegend();
+  void showMenu(const QPoint& place);
+
+  std::shared_ptr<const CloudScene> scene_;
+  CloudCanvas* canvas_ = nullptr;
+  ColorBar* legend_ = nullptr;
+  QLabel* notice_ = nullptr;
+  FigureActions* figure_actions_ = nullptr;
+  std::vector<QAction*> view_actions_;
+  QPoint right_pressed_;
+};
+
+/// Whether an OpenGL 3.2 context can be had on this screen; looked up once.
+bool opengl_available();
+
+}  // namespace lvcalib::widgets

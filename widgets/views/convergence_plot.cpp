@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/convergence_plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kMm = 1e3;
+// What a logarithmic axis can still show: a tenth of a micrometre.
+constexpr double kSmallestMm = 1e-4;
+
+}  // namespace
+
+ConvergencePlot::ConvergencePlot(QWidget* parent) : PlotView(parent) {
+  figureActions()->setName("convergence");
+  yAxis->setScaleType(QCPAxis::stLogarithmic);
+  yAxis->setTicker(QSharedPointer<QCPAxisTickerLog>(new QCPAxisTickerLog));
+  yAxis->setNumberFormat("gb");
+  yAxis->setNumberPrecision(0);
+  QSharedPointer<QCPAxisTickerFixed> whole(new QCPAxisTickerFixed);
+  whole->setTickStep(1.0);
+  whole->setScaleStrategy(QCPAxisTickerFixed::ssMultiples);
+  xAxis->setTicker(whole);
+  xAxis->setLabel(tr("iteration"));
+  yAxis->setLabel(tr("move (mm)"));
+  setToolTip(
+      tr("Thin lines: size of each circle's own correction in every iteration (mm), which "
+         "ends at its measurement noise. Thick line: largest move of a centre after the "
+         "projection to the layout; the refinement ends when it is small."));
+  connect(this, &PlotView::clicked, this, [this](const QPointF& place) {
+    const int k = static_cast<int>(std::lround(xAxis->pixelToCoord(place.x())));
+    if (k >= 1 && k <= static_cast<int>(history_.size())) Q_EMIT iterationClicked(k - 1);
+  });
+}
+
+void ConvergencePlot::setHistory(std::vector<IterationRecord> history) {
+  history_ = std::move(history);
+  double low = 1.0;
+  double high = 0.1;
+  for (const IterationRecord& iteration : history_) {
+    const auto widen = [&](double mm) {
+      low = std::min(low, std::max(mm, kSmallestMm));
+      high = std::max(high, mm);
+    };
+    widen(kMm * iteration.max_update_m);
+    for (const NodeRecord& node : iteration.nodes) {
+      if (node.valid) widen(kMm * node.wave_m.head<2>().norm());
+    }
+  }
+  setHome({0.5, std::max(2.0, static_cast<double>(history_.size())) + 0.5},
+          {0.6 * low, 1.8 * high});
+  rebuild();
+}
+
+void ConvergencePlot::setIteration(int iteration) {
+  iteration_ = iteration;
+  rebuild();
+}
+
+void ConvergencePlot::setChosenNode(int id) {
+  chosen_ = id;
+  rebuild();
+}
+
+void ConvergencePlot::rebuild() {
+  clearFigure();
+  if (history_.empty()) showMessage(tr("no iterations"));
+  if (iteration_ >= 0) {
+    auto* line = new QCPItemStraightLine(this);
+    line->point1->setCoords(iteration_ + 1, 1.0);
+    line->point2->setCoords(iteration_ + 1, 2.0);
+    line->setPen(QPen(colors().zero, 1, Qt::DashLine));
+  }
+  drawNodes();
+  drawLayoutMoves();
+  fillTable();
+  replot(rpQueuedReplot);
+}
+
+void ConvergencePlot::drawNodes() {
+  if (history_.empty()) return;
+  for (std::size_t n = 0; n < history_.front().nodes.size(); ++n) {
+    const int id = history_.front().nodes[n].id;
+    QCPGraph* graph = addGraph();
+    graph->setPen(QPen(colors().series(static_cast<int>(n)), id == chosen_ ? 2.6 : 1.0));
+    for (std::size_t k = 0; k < history_.size(); ++k) {
+      if (n >= history_[k].nodes.size() || !history_[k].nodes[n].valid) continue;
+      const double mm = kMm * history_[k].nodes[n].wave_m.head<2>().norm();
+      graph->addData(static_cast<double>(k + 1), std::max(mm, kSmallestMm));
+    }
+  }
+}
+
+void ConvergencePlot::drawLayoutMoves() {
+  QCPGraph* graph = addGraph();
+  graph->setPen(QPen(colors().mark, 2.2));
+  graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(colors().mark), colors().mark, 5});
+  for (std::size_t k = 0; k < history_.size(); ++k) {
+    graph->addData(static_cast<double>(k + 1),
+                   std::max(kMm * history_[k].max_update_m, kSmallestMm));
+  }
+}
+
+void ConvergencePlot::fillTable() {
+  std::vector<QStringList> rows;
+  for (std::size_t k = 0; k < history_.size(); ++k) {
+    rows.push_back(
+        {QString::number(k + 1), QString("layout"), csv_number(kMm * history_[k].max_update_m)});
+    for (const NodeRecord& node : history_[k].nodes) {
+      if (!node.valid) continue;
+      rows.push_back({QString::number(k + 1), QString::number(node.id),
+                      csv_number(kMm * node.wave_m.head<2>().norm())});
+    }
+  }
+  setTable({"iteration", "node", "move_mm"}, std::move(rows));
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/crop_form.h"
+
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <algorithm>
+#include <numbers>
+
+#include "base/roll_pitch_yaw.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kSmallestSide_m = 0.01;
+
+}  // namespace
+
+CropForm::CropForm(QWidget* parent) : QWidget(parent) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(4);
+  grid->setVerticalSpacing(2);
+  const std::array<QString, 3> axes{"x", "y", "z"};
+  const std::array<QString, 3> turns{tr("roll"), tr("pitch"), tr("yaw")};
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    center_[i] = addField(0, k, tr("Middle %1").arg(axes[i]),
+                          tr("Middle of the box along the LiDAR's %1 axis, in metres").arg(axes[i]),
+                          -1e4, 1e4, tr(" m"));
+    size_[i] = addField(1, k, tr("Side %1").arg(axes[i]),
+                        tr("Length of the box along its own %1 axis, in metres").arg(axes[i]),
+                        kSmallestSide_m, 1e4, tr(" m"));
+    angle_[i] = addField(2, k, turns[i],
+                         tr("Turn of the box (%1), in degrees: roll about x, then pitch about y, "
+                            "then yaw about z of the LiDAR")
+                             .arg(turns[i]),
+                         -180.0, 180.0, tr("°"));
+  }
+  use_ = new QPushButton(tr("Use this crop"), this);
+  use_->setObjectName("crop-use");
+  use_->setToolTip(tr("Search the board only inside the box; runs this scene again from there"));
+  clear_ = new QPushButton(tr("No crop"), this);
+  clear_->setObjectName("crop-clear");
+  clear_->setToolTip(tr("Search the board in the whole cloud again"));
+  grid->addWidget(use_, 0, 6);
+  grid->addWidget(clear_, 1, 6);
+  connect(use_, &QPushButton::clicked, this, [this] { Q_EMIT applied(box()); });
+  connect(clear_, &QPushButton::clicked, this, &CropForm::cleared);
+}
+
+QDoubleSpinBox* CropForm::addField(int row, int column, const QString& name, const QString& tip,
+                                   double low, double high, const QString& suffix) {
+  auto* box = new QDoubleSpinBox(this);
+  box->setRange(low, high);
+  box->setDecimals(row == 2 ? 2 : 3);
+  box->setSingleStep(row == 2 ? 1.0 : 0.05);
+  box->setSuffix(suffix);
+  box->setToolTip(tip);
+  box->setAccessibleName(name);
+  box->setKeyboardTracking(false);
+  auto* label = new QLabel(name, this);
+  label->setBuddy(box);
+  auto* grid = qobject_cast<QGridLayout*>(layout());
+  grid->addWidget(label, row, 2 * column, Qt::AlignRight);
+  grid->addWidget(box, row, 2 * column + 1);
+  connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
+    if (!filling_) Q_EMIT edited(this->box());
+  });
+  return box;
+}
+
+void CropForm::setBox(const CropBox& box) {
+  filling_ = true;
+  UncertainRigid3 turn;
+  turn.transform.rotation = box.rotation;
+  const Eigen::Vector3d angles = roll_pitch_yaw(turn).angles_rad;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    center_[i]->setValue(box.center_m(k));
+    size_[i]->setValue(2.0 * box.half_size_m(k));
+    angle_[i]->setValue(kDegrees * angles(k));
+  }
+  filling_ = false;
+}
+
+CropBox CropForm::box() const {
+  CropBox box;
+  Eigen::Vector3d angles;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    box.center_m(k) = center_[i]->value();
+    box.half_size_m(k) = 0.5 * size_[i]->value();
+    angles(k) = angle_[i]->value() / kDegrees;
+  }
+  box.rotation = Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+                 Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+                 Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX());
+  return box;
+}
+
+}  // namespace lvcalib::widgets

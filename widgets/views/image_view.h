@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QGraphicsView>
+#include <QImage>
+
+#include "views/figure_actions.h"
+#include "views/image_levels.h"
+#include "views/image_overlay.h"
+
+namespace lvcalib::widgets {
+
+/// An image with what was found in it: the wheel zooms at the cursor, dragging pans, F fits, 1
+/// shows one pixel per pixel, + and − zoom; a click names the pixel or the tag. Passive.
+class ImageView : public QGraphicsView {
+  Q_OBJECT
+
+ public:
+  explicit ImageView(QWidget* parent = nullptr);
+  ~ImageView() override;
+
+  /// 8 or 16 bits, grey or colour; a null image clears the view.
+  void setImage(const QImage& image);
+  [[nodiscard]] const QImage& image() const { return image_; }
+  void setLevels(const ImageLevels& levels);
+  [[nodiscard]] const ImageLevels& levels() const { return levels_; }
+  /// Text in the middle while there is no image.
+  void setMessage(const QString& message);
+
+  [[nodiscard]] OverlayItem& overlay() { return *overlay_; }
+  [[nodiscard]] FigureActions* figureActions() const { return actions_; }
+
+  /// Screen pixels per image pixel.
+  [[nodiscard]] double zoom() const;
+  /// Zooms about a place of the viewport.
+  void zoomAt(const QPoint& place, double factor);
+  /// Scrolls, if needed, so that a pixel is in sight.
+  void reveal(const QPointF& pixel);
+
+ public Q_SLOTS:
+  void fit();
+  void oneToOne();
+
+ Q_SIGNALS:
+  void pixelClicked(const QPointF& pixel);
+  void tagClicked(int id);
+  /// The cursor moved over the image; value is the grey value at the pixel (0…255 or 0…65535).
+  void hovered(const QPointF& pixel, int value);
+  void left();
+
+ protected:
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void drawForeground(QPainter* painter, const QRectF& rect) override;
+
+ private:
+  void showImage();
+  [[nodiscard]] QImage picture();
+  [[nodiscard]] QByteArray cornersAsCsv() const;
+
+  QImage image_;
+  ImageLevels levels_;
+  QGraphicsPixmapItem* pixmap_ = nullptr;
+  OverlayItem* overlay_ = nullptr;
+  FigureActions* actions_ = nullptr;
+  QString message_;
+  QPoint pressed_;
+  bool fitted_ = true;
+};
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/plot_view.h"
+
+#include <QContextMenuEvent>
+#include <QFile>
+#include <QMenu>
+#include <QTemporaryDir>
+
+namespace lvcalib::widgets {
+
+QString csv_number(double value) {
+  return QString::number(value, 'g', QLocale::FloatingPointShortest);
+}
+
+PlotView::PlotView(QWidget* parent) : QCustomPlot(parent), colors_(PlotColors::of(palette())) {
+  setFocusPolicy(Qt::StrongFocus);
+  setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+  setMinimumSize(90, 70);
+  actions_ = new FigureActions(this, {"figure", [this] { return toPixmap(0, 0, 2.0).toImage(); },
+                                      [this] { return pdf(); }, [this] { return csv(); }});
+  applyColors();
+}
+
+QByteArray PlotView::csv() const {
+  if (rows_.empty()) return {};
+  QString text = header_.join(',') + '\n';
+  for (const QStringList& row : rows_) text += row.join(',') + '\n';
+  return text.toUtf8();
+}
+
+void PlotView::resetView() {
+  xAxis->setRange(home_x_);
+  yAxis->setRange(home_y_);
+  replot();
+}
+
+void PlotView::clearFigure() {
+  clearPlottables();
+  clearItems();
+  setTable({}, {});
+}
+
+void PlotView::showMessage(const QString& text) {
+  auto* item = new QCPItemText(this);
+  item->setText(text);
+  item->setColor(colors_.axis);
+  item->setFont(font());
+  item->position->setType(QCPItemPosition::ptAxisRectRatio);
+  item->position->setCoords(0.5, 0.5);
+}
+
+void PlotView::setHome(const QCPRange& x, const QCPRange& y) {
+  home_x_ = x;
+  home_y_ = y;
+  xAxis->setRange(x);
+  yAxis->setRange(y);
+}
+
+void PlotView::setTable(const QStringList& header, std::vector<QStringList> rows) {
+  header_ = header;
+  rows_ = std::move(rows);
+}
+
+void PlotView::changeEvent(QEvent* event) {
+  QCustomPlot::changeEvent(event);
+  if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
+  colors_ = PlotColors::of(palette());
+  applyColors();
+  rebuild();
+}
+
+void PlotView::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Home) {
+    resetView();
+  } else if (event->key() == Qt::Key_Plus || event->key() == Qt::Key_Minus) {
+    const double factor = event->key() == Qt::Key_Plus ? 0.8 : 1.25;
+    xAxis->scaleRange(factor);
+    yAxis->scaleRange(factor);
+    replot();
+  } else if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space) {
+    Q_EMIT clicked(QPointF(0.5 * width(), 0.5 * height()));
+  } else {
+    QCustomPlot::keyPressEvent(event);
+  }
+}
+
+void PlotView::mousePressEvent(QMouseEvent* event) {
+  pressed_ = event->position();
+  QCustomPlot::mousePressEvent(event);
+}
+
+void PlotView::mouseReleaseEvent(QMouseEvent* event) {
+  QCustomPlot::mouseReleaseEvent(event);
+  if (event->button() == Qt::LeftButton &&
+      (event->position() - pressed_).manhattanLength() < QApplication::startDragDistance()) {
+    Q_EMIT clicked(event->position());
+  }
+}
+
+void PlotView::mouseDoubleClickEvent(QMouseEvent* event) {
+  QCustomPlot::mouseDoubleClickEvent(event);
+  if (event->button() == Qt::LeftButton) resetView();
+}
+
+void PlotView::contextMenuEvent(QContextMenuEvent* event) {
+  auto* menu = new QMenu(this);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(tr("Show everything"), QKeySequence(Qt::Key_Home), this, &PlotView::resetView);
+  menu->addSeparator();
+  actions_->addTo(menu);
+  menu->popup(event->globalPos());
+}
+
+void PlotView::applyColors() {
+  setBackground(QBrush(colors_.background));
+  for (QCPAxis* axis : {xAxis, yAxis, xAxis2, yAxis2}) {
+    axis->setBasePen(QPen(colors_.axis));
+    axis->setTickPen(QPen(colors_.axis));
+    axis->setSubTickPen(QPen(colors_.axis));
+    axis->setTickLabelColor(colors_.text);
+    axis->setLabelColor(colors_.text);
+    axis->setTickLabelFont(font());
+    axis->setLabelFont(font());
+    axis->grid()->setPen(QPen(colors_.grid));
+    axis->grid()->setZeroLinePen(Qt::NoPen);
+    axis->grid()->setSubGridVisible(false);
+  }
+  legend->setBrush(QBrush(colors_.background));
+  legend->setTextColor(colors_.text);
+  legend->setBorderPen(QPen(colors_.grid));
+  legend->setFont(font());
+}
+
+QByteArray PlotView::pdf() {
+  // QCustomPlot writes PDF to a file name only.
+  const QTemporaryDir folder;
+  const QString path = folder.filePath("figure.pdf");
+  if (!savePdf(path, width(), height())) return {};
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+}  // namespace lvcalib::widgets

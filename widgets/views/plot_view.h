@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QStringList>
+#include <vector>
+
+#include "views/custom_plot.h"
+#include "views/figure_actions.h"
+#include "views/plot_colors.h"
+
+namespace lvcalib::widgets {
+
+/// A figure with axes: wheel zooms, dragging pans, a double click or Home shows everything again,
+/// the context menu saves it. Draws what it is given; follows the palette. Base of all plots.
+class PlotView : public QCustomPlot {
+  Q_OBJECT
+
+ public:
+  explicit PlotView(QWidget* parent = nullptr);
+
+  [[nodiscard]] FigureActions* figureActions() const { return actions_; }
+  /// The data behind the figure as CSV text.
+  [[nodiscard]] QByteArray csv() const;
+  [[nodiscard]] const PlotColors& colors() const { return colors_; }
+
+ public Q_SLOTS:
+  /// Back to the whole range.
+  void resetView();
+
+ Q_SIGNALS:
+  /// A plain click (not a drag) on the figure.
+  void clicked(const QPointF& place);
+
+ protected:
+  /// Draws everything anew with colors(); called when the palette changes.
+  virtual void rebuild() = 0;
+  /// Empties the figure, keeping the axes.
+  void clearFigure();
+  /// Says in the middle of an empty figure why it is empty.
+  void showMessage(const QString& text);
+  /// Stores the range that resetView() goes back to, and shows it.
+  void setHome(const QCPRange& x, const QCPRange& y);
+  /// What csv() gives.
+  void setTable(const QStringList& header, std::vector<QStringList> rows);
+
+  void changeEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+
+ private:
+  void applyColors();
+  [[nodiscard]] QByteArray pdf();
+
+  FigureActions* actions_;
+  PlotColors colors_;
+  QCPRange home_x_, home_y_;
+  QPointF pressed_;
+  QStringList header_;
+  std::vector<QStringList> rows_;
+};
+
+/// A number for CSV files: shortest text that reads back as the same double.
+QString csv_number(double value);
+
+}  // namespace lvcalib::widgets
