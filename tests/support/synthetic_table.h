@@ -81,9 +81,8 @@ inline void add_table_scene(SyntheticTable& out, int scene, const TableRecipe& r
   info.clock = recipe.scenes > 1 ? scene / (recipe.scenes - 1.0) : 0.0;
   const BoardOutline outline = target.outline();
   for (int k = 0; k < recipe.range_rows; ++k) {
-    const Eigen::Vector2d at(
-        random.uniform(outline.lower_left_m.x(), outline.upper_right_m.x()),
-        random.uniform(outline.lower_left_m.y(), outline.upper_right_m.y()));
+    const Eigen::Vector2d at(random.uniform(outline.lower_left_m.x(), outline.upper_right_m.x()),
+                             random.uniform(outline.lower_left_m.y(), outline.upper_right_m.y()));
     RangeRow row;
     row.beam = table_beam(geometry, target, scene, at, recipe, random);
     row.print = row.beam.darkness > 0.5 ? Print::kBlack : Print::kWhite;
@@ -114,8 +113,7 @@ inline void add_table_scene(SyntheticTable& out, int scene, const TableRecipe& r
       double d = row.sigma_m * random.normal();
       if (wrong.edge_m) d += wrong.edge_m(row);
       const Eigen::Vector2d at = node.center_m + (row.radius_m + d) * outward;
-      const Eigen::Vector3d p =
-          geometry.lidar_from_board() * Eigen::Vector3d(at.x(), at.y(), 0.0);
+      const Eigen::Vector3d p = geometry.lidar_from_board() * Eigen::Vector3d(at.x(), at.y(), 0.0);
       geometry.describe(p.normalized(), row.beam);
       // The LiDAR's angles across the edge, by finite differences of the ray's board point.
       const double step = 1e-6;

@@ -89,8 +89,8 @@ TEST(Linearize, PoseColumnsAreTheDerivativesOfTheResiduals) {
     for (int k = 0; k < 6; ++k) {
       Vector6d xi = Vector6d::Zero();
       xi(k) = 1e-6;
-      const auto step = residuals_of(made.table, moved(made.truth, Vector6d::Zero(), {xi}), {},
-                                     channel);
+      const auto step =
+          residuals_of(made.table, moved(made.truth, Vector6d::Zero(), {xi}), {}, channel);
       for (std::size_t r = 0; r < base.values.size(); ++r) {
         const double numeric = (base.values[r] - step.values[r]) / 1e-6;
         EXPECT_NEAR(base.nuisance[r](k), numeric, 2e-3 * (1.0 + std::abs(numeric)))
@@ -118,7 +118,8 @@ TEST(Linearize, CountsRowsAndDoesNotDependOnThreads) {
     EXPECT_EQ(a.scenes[s].rows[static_cast<std::size_t>(Channel::kRange)], 100);
     EXPECT_EQ(a.scenes[s].rows[static_cast<std::size_t>(Channel::kBoundary)], 9 * 24);
     EXPECT_EQ(a.scenes[s].rows[static_cast<std::size_t>(Channel::kCorner)], 2 * 64);
-    for (std::size_t c = 0; c < kChannels; ++c) EXPECT_EQ(a.scenes[s].products[c], b.scenes[s].products[c]);
+    for (std::size_t c = 0; c < kChannels; ++c)
+      EXPECT_EQ(a.scenes[s].products[c], b.scenes[s].products[c]);
   }
 }
 

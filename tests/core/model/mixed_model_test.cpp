@@ -97,7 +97,8 @@ TEST(MixedModel, SquaresWithoutEffectsAreThoseOfTheNoise) {
   const ModelFit f = fit_model(linear, {}, {}, {});
   const auto squares = squares_at(linear, 0, {}, f.solution, f.variances);
   const double rows = linear.scenes[0].rows[static_cast<std::size_t>(Channel::kRange)];
-  EXPECT_NEAR(squares[static_cast<std::size_t>(Channel::kRange)], rows, 5.0 * std::sqrt(2.0 * rows));
+  EXPECT_NEAR(squares[static_cast<std::size_t>(Channel::kRange)], rows,
+              5.0 * std::sqrt(2.0 * rows));
 }
 
 TEST(MixedModel, SolutionWithoutASceneIgnoresIt) {

@@ -29,8 +29,7 @@ TEST_F(Geometry, RangeAndBoardPointInvertEachOther) {
 
 TEST_F(Geometry, RaysAwayFromOrAlongTheBoardMeetNothing) {
   EXPECT_FALSE(geometry_.range_m(-lidar_point(0.3, 0.1).normalized()).has_value());
-  const Eigen::Vector3d along =
-      geometry_.lidar_from_board().rotation * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d along = geometry_.lidar_from_board().rotation * Eigen::Vector3d::UnitX();
   EXPECT_FALSE(geometry_.range_m(along).has_value());
 }
 
@@ -38,7 +37,8 @@ TEST_F(Geometry, BeamDescribesIncidenceAndTheDirectionOfGrowingRange) {
   BeamPoint beam;
   const Eigen::Vector3d p = lidar_point(0.3, 0.2);
   ASSERT_TRUE(geometry_.describe(p.normalized(), beam));
-  EXPECT_NEAR(std::cos(beam.incidence_rad), std::abs(geometry_.normal().dot(p.normalized())), 1e-12);
+  EXPECT_NEAR(std::cos(beam.incidence_rad), std::abs(geometry_.normal().dot(p.normalized())),
+              1e-12);
   const Eigen::Vector2d further =
       beam.board_m + 0.01 * Eigen::Vector2d(std::cos(beam.slope_rad), std::sin(beam.slope_rad));
   // One centimetre along α lengthens the range by about sin θ centimetres.

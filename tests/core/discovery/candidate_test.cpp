@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "discovery/candidate.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "discovery/effect_search.h"
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+class Candidates : public ::testing::Test {
+ protected:
+  void prepare(const test::SyntheticTable& made, const std::vector<std::string>& ids) {
+    EffectColumnsList columns;
+    for (const std::string& id : ids) columns.add(find_effect(id), 0.0, made.table);
+    linear_ = linearize(made.table, made.truth, {}, columns, {});
+    reference_ = make_reference(linear_, {}, {}, {});
+  }
+  [[nodiscard]] Candidate evaluate(std::size_t k) const {
+    return evaluate_candidate(linear_, reference_, k, {});
+  }
+  Linearization linear_;
+  Reference reference_;
+  DiscoveryOptions options_;
+};
+
+TEST_F(Candidates, ATrueEffectIsAcceptedWithItsValue) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.004 * beam.darkness; };
+  prepare(test::synthetic_table({}, wrong), {"range_walk", "board_bow"});
+  const Candidate walk = evaluate(0);
+  EXPECT_TRUE(is_accepted(walk, 60, 6, options_));
+  EXPECT_NEAR(walk.fit.parameters()(0), 0.004, 0.0006);
+  EXPECT_GT(walk.total_gain(), 20.0);
+  EXPECT_GT(walk.best_heldout_gain(), 0.01);
+  EXPECT_FALSE(is_accepted(evaluate(1), 60, 6, options_));
+}
+
+TEST_F(Candidates, AnEffectInOneSceneOnlyIsNotAccepted) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    return beam.scene == 1 ? 0.01 * beam.darkness : 0.0;
+  };
+  prepare(test::synthetic_table({}, wrong), {"range_walk"});
+  EXPECT_FALSE(is_accepted(evaluate(0), 60, 6, options_));
+}
+
+TEST_F(Candidates, TheSearchRaisesTheBar) {
+  Candidate c;
+  c.p_value = 0.002;
+  c.scene_gain = {1.0, 1.1, 0.9, 1.2, 1.0, 0.8};
+  c.heldout_gain = {0.0, 0.05, 0.0, 0.0};
+  EXPECT_TRUE(is_accepted(c, 10, 6, options_));
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+}
+
+TEST_F(Candidates, EveryConditionCounts) {
+  Candidate good;
+  good.p_value = 1e-6;
+  good.scene_gain = {4.0, 5.0, 3.0, 4.5, 3.5, 4.0};
+  good.heldout_gain = {0.0, 0.02, 0.0, 0.0};
+  ASSERT_TRUE(is_accepted(good, 60, 6, options_));
+  Candidate c = good;
+  c.scene_gain = {20.0, -1.0, -1.0, 4.0, -1.0, 1.0};  // too few scenes
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c = good;
+  c.scene_gain = {0.5, 0.4, 0.5, 0.6, 0.4, 0.5};  // less than the best of 60 gains by chance
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c = good;
+  c.heldout_gain.fill(0.001);  // matters to nothing …
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c.extrinsic_move_sigmas = 2.0;  // … but to the extrinsic
+  EXPECT_TRUE(is_accepted(c, 60, 6, options_));
+  // With three scenes three times the fall is asked for.
+  c = good;
+  c.scene_gain = {4.0, 5.0, 4.5};
+  EXPECT_FALSE(is_accepted(c, 60, 3, options_));
+}
+
+TEST_F(Candidates, EqualPatternsCorrelateAndUnlikeOnesDoNot) {
+  prepare(test::synthetic_table({}), {"boundary_bias", "ink_gain", "blooming", "range_walk"});
+  // All contrasts and widths are alike here, so that blooming is a constant shift.
+  EXPECT_GT(correlation_of(linear_, reference_, 0, 2), 0.99);
+  EXPECT_LT(correlation_of(linear_, reference_, 0, 3), 0.3);
+}
+
+TEST_F(Candidates, TiesAreThoseThatScenesDoNotTellApart) {
+  Candidate a;
+  Candidate b;
+  a.scene_gain = {5.0, 6.0, 7.0, 5.5};
+  b.scene_gain = {5.2, 5.7, 7.3, 5.4};
+  EXPECT_TRUE(indistinguishable(a, b));
+  b.scene_gain = {3.0, 4.1, 5.0, 3.4};
+  EXPECT_FALSE(indistinguishable(a, b));
+}
+
+}  // namespace
+}  // namespace lvcalib

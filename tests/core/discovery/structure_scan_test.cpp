@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "discovery/structure_scan.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+TEST(StructureScan, FindsNothingInNoise) {
+  const auto made = test::synthetic_table({});
+  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {}))
+    EXPECT_LT(s.score, 0.02) << name_of(s.channel) << " against " << s.covariate;
+}
+
+TEST(StructureScan, NamesChannelAndCovariateOfARipple) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.006 * std::sin(40.0 * beam.azimuth_rad); };
+  const auto made = test::synthetic_table({}, wrong);
+  const auto scores = scan_structure(made.table, made.truth, {}, {});
+  ASSERT_FALSE(scores.empty());
+  EXPECT_EQ(scores.front().channel, Channel::kRange);
+  EXPECT_EQ(scores.front().covariate, "azimuth");
+  EXPECT_GT(scores.front().score, 0.08);
+}
+
+TEST(StructureScan, ScoreIsTheShareOfHeldOutVariance) {
+  // 6 mm on black and 0 on white: with half the points black the curve's variance is 9 mm², that
+  // of the noise 64 mm².
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.006 * beam.darkness; };
+  test::TableRecipe recipe;
+  recipe.range_rows = 4000;
+  const auto made = test::synthetic_table(recipe, wrong);
+  double black = 0.0;
+  for (const RangeRow& row : made.table.range) black += row.print == Print::kBlack ? 1.0 : 0.0;
+  black /= static_cast<double>(made.table.range.size());
+  const double curve = 36.0 * black * (1.0 - black);
+  const auto residuals = residuals_of(made.table, made.truth, {}, Channel::kRange);
+  for (const Covariate& c : covariates_of(made.table, Channel::kRange, residuals)) {
+    if (c.name != "print") continue;
+    const StructureScore s = structure_score(c, Channel::kRange, residuals, 6);
+    EXPECT_NEAR(s.score, curve / (curve + 64.0), 0.02);
+    EXPECT_NEAR(s.amplitude, std::sqrt(curve), 0.15 * std::sqrt(curve));
+  }
+}
+
+// One scene alone cannot make structure: it does not predict the others.
+TEST(StructureScan, WhatHoldsInOneSceneOnlyIsNoStructure) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    return beam.scene == 2 ? 0.01 * std::sin(30.0 * beam.board_m.x()) : 0.0;
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {})) {
+    if (s.channel == Channel::kRange) EXPECT_LT(s.score, 0.02) << s.covariate;
+  }
+}
+
+}  // namespace
+}  // namespace lvcalib
