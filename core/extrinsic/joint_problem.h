@@ -56,6 +56,13 @@ JointFit solve_joint(const std::vector<SceneObservations>& scenes, const Camera&
                      const Target& target, const JointState& start, const NoiseScales& scales,
                      const ObservationMask& mask, const ExtrinsicOptions& options);
 
+/// Board poses that fit best when the extrinsic is held at `camera_from_lidar`: what an extrinsic
+/// leaves of the objective, wherever it comes from. Scenes not in the mask keep their start.
+std::vector<Rigid3> solve_boards(const std::vector<SceneObservations>& scenes, const Camera& camera,
+                                 const Target& target, const JointState& start,
+                                 const NoiseScales& scales, const ObservationMask& mask,
+                                 const ExtrinsicOptions& options);
+
 /// Inverse square root (upper Cholesky factor of the inverse) of a covariance: whitening·residual
 /// has unit covariance.
 Eigen::Matrix2d whitening_2(const Eigen::Matrix2d& covariance);
