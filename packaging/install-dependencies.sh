@@ -9,7 +9,7 @@ set -euo pipefail
 build_packages=(
   build-essential cmake ninja-build ccache pkg-config
   libeigen3-dev libopencv-dev libceres-dev libapriltag-dev
-  libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libcairo2-dev liblzf-dev
+  libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libcairo2-dev liblzf-dev libssl-dev
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev python3)
 ci_packages=(clang clang-format clang-tidy libclang-rt-dev)

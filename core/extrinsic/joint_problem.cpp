@@ -203,6 +203,24 @@ class JointProblem {
 
 }  // namespace
 
+ObservationMask mask_of(const ExtrinsicSolution& solution) {
+  ObservationMask mask;
+  for (const SceneSolution& scene : solution.scenes) {
+    mask.scene.push_back(scene.used);
+    std::vector<bool> corners;
+    for (const CornerResidual& c : scene.corners) corners.push_back(c.used);
+    mask.corner.push_back(std::move(corners));
+    std::vector<bool> nodes;
+    for (const NodeResidual& n : scene.nodes) nodes.push_back(n.used);
+    mask.node.push_back(std::move(nodes));
+  }
+  return mask;
+}
+
+NoiseScales scales_of(const ExtrinsicSolution& solution) {
+  return {solution.sigma_px, solution.node_scale, solution.plane_scale};
+}
+
 JointFit solve_joint(const std::vector<SceneObservations>& scenes, const Camera& camera,
                      const Target& target, const JointState& start, const NoiseScales& scales,
                      const ObservationMask& mask, const ExtrinsicOptions& options) {

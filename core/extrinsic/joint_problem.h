@@ -29,6 +29,10 @@ struct ObservationMask {
   std::vector<std::vector<bool>> node;
 };
 
+/// The observations and scales that a finished solve has settled on.
+ObservationMask mask_of(const ExtrinsicSolution& solution);
+NoiseScales scales_of(const ExtrinsicSolution& solution);
+
 /// State of the joint solve: extrinsic and board poses.
 struct JointState {
   Rigid3 camera_from_lidar;

@@ -28,19 +28,9 @@ constexpr Method kMethods[] = {
 MethodInput input_of(const std::vector<SceneObservations>& scenes, const Camera& camera,
                      const Target& target, const ExtrinsicSolution& joint,
                      const ExtrinsicOptions& options) {
-  MethodInput input{scenes, camera, target, options, {}, {}, {}};
-  input.scales = {joint.sigma_px, joint.node_scale, joint.plane_scale};
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    const SceneSolution& solution = joint.scenes[s];
-    input.mask.scene.push_back(solution.used);
-    std::vector<bool> corners;
-    for (const CornerResidual& c : solution.corners) corners.push_back(c.used);
-    input.mask.corner.push_back(std::move(corners));
-    std::vector<bool> nodes;
-    for (const NodeResidual& n : solution.nodes) nodes.push_back(n.used);
-    input.mask.node.push_back(std::move(nodes));
-    input.camera_from_board.push_back(scenes[s].camera_from_board);
-  }
+  MethodInput input{scenes, camera, target, options, mask_of(joint), scales_of(joint), {}};
+  for (const SceneObservations& scene : scenes)
+    input.camera_from_board.push_back(scene.camera_from_board);
   return input;
 }
 

@@ -25,6 +25,7 @@ class Verdict {
   explicit Verdict(CalibrationResult& result) : result_(result) {
     result_.quality = Quality::kGood;
     result_.quality_reason.clear();
+    result_.quality_reasons.clear();
   }
   void note(std::string text) { result_.warnings.push_back(std::move(text)); }
   void doubtful(std::string text) {
@@ -38,6 +39,7 @@ class Verdict {
 
  private:
   void become(Quality quality, const std::string& reason) {
+    result_.quality_reasons.push_back(reason);
     if (result_.quality >= quality) return;
     result_.quality = quality;
     result_.quality_reason = reason;
@@ -88,6 +90,35 @@ void judge_dark_offset(const CalibrationResult& result, const QualityOptions& op
                    "missing in the model");
 }
 
+// One scene whose board is of another size than in all the others.
+void judge_scene_scales(const CalibrationResult& result, const QualityOptions& options,
+                        Verdict& verdict) {
+  for (const SceneResult& scene : result.scenes) {
+    if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0) continue;
+    const MeasuredScale rest = measured_scale(result, &scene);
+    if (rest.sigma <= 0) continue;
+    const double off = scene.refinement->scale / rest.scale - 1.0;
+    const double sigma = std::hypot(scene.refinement->scale_sigma, rest.sigma);
+    if (std::abs(off) < 5.0 * sigma || std::abs(off) < options.scale_warning) continue;
+    verdict.doubtful("scene " + scene.name + ": its board measures " +
+                     formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * sigma) +
+                     (off > 0 ? "larger" : "smaller") +
+                     " than in the other scenes: is it another print?");
+  }
+}
+
+// Halves of the scenes that contradict each other: something depends on what parts them.
+void judge_splits(const CalibrationResult& result, Verdict& verdict) {
+  for (const SplitHalf& split : result.uncertainty.splits) {
+    if (split.agrees()) continue;
+    verdict.note("the halves of the scenes (" + split.name + ") differ by " +
+                 formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
+                 formatted("noise alone would give %.1f mm and %.1f mrad: an effect is missing in "
+                           "the model, or one scene is off",
+                           split.expected_translation_mm, split.expected_rotation_mrad));
+  }
+}
+
 Target scaled(Target t, double s) {
   for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
                          &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
@@ -99,11 +130,12 @@ Target scaled(Target t, double s) {
 
 }  // namespace
 
-MeasuredScale measured_scale(const CalibrationResult& result) {
+MeasuredScale measured_scale(const CalibrationResult& result, const SceneResult* without) {
   double weight = 0.0;
   double sum = 0.0;
   for (const SceneResult& scene : result.scenes) {
-    if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0) continue;
+    if (&scene == without || !scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0)
+      continue;
     const double w = 1.0 / (scene.refinement->scale_sigma * scene.refinement->scale_sigma);
     weight += w;
     sum += w * scene.refinement->scale;
@@ -127,6 +159,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
   judge_dark_offset(result, options, verdict);
+  judge_scene_scales(result, options, verdict);
+  judge_splits(result, verdict);
   if (x.used_scenes == 2)
     verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
@@ -146,7 +180,14 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   }
   for (const SceneResult& scene : result.scenes) {
     if (!scene.used && !scene.reason.empty() && scene.reason != "rejected by the user") {
-      verdict.note("scene " + scene.name + " is not used: " + scene.reason);
+      // The image shows the board, and the cloud shows none where the other scenes say: a scene
+      // that contradicts them is worth more than a note.
+      const std::string text = "scene " + scene.name + " is not used: " + scene.reason;
+      if (scene.contradicts) {
+        verdict.doubtful(text);
+      } else {
+        verdict.note(text);
+      }
     }
     if (!scene.refinement || !scene.used) continue;
     for (const std::string& w : scene.refinement->warnings)

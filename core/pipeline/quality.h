@@ -8,12 +8,12 @@
 namespace lvcalib {
 
 /// Size of the board as the LiDAR measures it over the model's, from all used scenes together.
-/// Sigma 0 if there is nothing to measure it by.
+/// Sigma 0 if there is nothing to measure it by. `without` is left out.
 struct MeasuredScale {
   double scale = 1.0;
   double sigma = 0.0;
 };
-MeasuredScale measured_scale(const CalibrationResult& result);
+MeasuredScale measured_scale(const CalibrationResult& result, const SceneResult* without = nullptr);
 
 /// Sets quality and adds the warnings that explain it.
 void judge_quality(CalibrationResult& result, const QualityOptions& options);

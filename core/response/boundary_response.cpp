@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "response/angular_width.h"
 #include "response/edge_samples.h"
 #include "response/response_statistics.h"
 
@@ -27,9 +28,10 @@ std::vector<TransitionPoint> points_of(const SceneResponse& scene, double mu_in,
   return points;
 }
 
-std::vector<TransitionPoint> thinned(const std::vector<TransitionPoint>& points, std::size_t most) {
+template <class Point>
+std::vector<Point> thinned(const std::vector<Point>& points, std::size_t most) {
   const std::size_t step = 1 + points.size() / most;
-  std::vector<TransitionPoint> out;
+  std::vector<Point> out;
   out.reserve(points.size() / step + 1);
   for (std::size_t k = 0; k < points.size(); k += step) out.push_back(points[k]);
   return out;
@@ -41,7 +43,25 @@ std::string no_node_reason(const SceneResponse& scene) {
   std::string text = "no circle gives boundary samples:";
   for (const auto& [why, count] : counts) text += " " + std::to_string(count) + " × " + why + ",";
   text.pop_back();
+  if (!scene.nodes.empty()) text += " (the first: " + scene.nodes.front().reason + ")";
   return text;
+}
+
+// Gives every sample the width that the transition has in its direction.
+bool widen(SceneResponse& scene) {
+  std::vector<const BoundarySample*> used;
+  for (const BoundarySample& s : scene.samples) {
+    if (scene.nodes[static_cast<std::size_t>(s.node)].state == NodeResponseState::kUsed)
+      used.push_back(&s);
+  }
+  const auto width = fit_angular_width(thinned(used, kMostFitPoints));
+  if (!width) return false;
+  for (BoundarySample& s : scene.samples) {
+    const Eigen::Vector2d b = s.across_m.cast<double>();
+    s.width_m = static_cast<float>(std::sqrt(b.dot(width->covariance_rad2 * b)));
+  }
+  scene.relative_width_sigma = width->relative_sigma;
+  return true;
 }
 
 // Samples, nodes and transition of one scene; its statistics wait for all scenes.
@@ -68,6 +88,11 @@ SceneResponse respond(const ResponseInput& input, const Target& target,
     scene.reason = "the intensities about the circles show no transition from black to white";
     return scene;
   }
+  if (!widen(scene)) {
+    scene.transition.reset();
+    scene.reason = "the transitions about the circles have no common width";
+    return scene;
+  }
   scene.nodes =
       judge_nodes(*input.refinement, scene.samples, scene.transition->delta_m, target, options);
   return scene;
@@ -83,7 +108,7 @@ OverlapSet overlap_of(const SceneResponse& scene, const Target& target,
     set.half_width_m.push_back(overlap_half_width_m(s, target, options));
     set.shift_m.push_back(scene.transition->delta_m);
   }
-  set.relative_width_sigma = scene.transition->sigma_sigma_m / scene.transition->sigma_m;
+  set.relative_width_sigma = scene.relative_width_sigma;
   return set;
 }
 

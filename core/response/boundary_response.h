@@ -106,6 +106,8 @@ struct SceneResponse {
   std::vector<NodeResponse> nodes;
   std::vector<BoundarySample> samples;  ///< The region of interest about the used nodes.
   std::optional<TransitionFit> transition;
+  /// Standard deviation of the overlap region's width over that width.
+  double relative_width_sigma = 0.0;
   std::optional<ResponseStatistics> statistics;
   std::string reason;  ///< Why there are none; empty otherwise.
 };

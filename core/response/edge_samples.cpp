@@ -237,6 +237,7 @@ std::vector<NodeResponse> judge_nodes(const BoardRefinement& refinement,
                                       const Target& target, const ResponseOptions& options) {
   std::vector<NodeResponse> nodes(refinement.nodes.size());
   std::vector<NodePlateaus> plateaus(nodes.size());
+  const NodeWindow window = node_window(target);
   float low = 0.0F;
   float high = 0.0F;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -249,9 +250,11 @@ std::vector<NodeResponse> judge_nodes(const BoardRefinement& refinement,
     s.overlap = std::abs(distance) <= overlap_half_width_m(s, target, options);
     ++nodes[n].samples;
     nodes[n].overlap += s.overlap ? 1 : 0;
-    if (distance < -2.0 * static_cast<double>(s.width_m))
+    // Plateaus begin two widths from the edge, but keep half of the ring.
+    const double clear = 2.0 * static_cast<double>(s.width_m);
+    if (distance < -std::min(clear, 0.5 * window.inside_m))
       plateaus[n].in.values.push_back(static_cast<double>(s.intensity));
-    if (distance > 2.0 * static_cast<double>(s.width_m))
+    if (distance > std::min(clear, 0.5 * window.outside_m))
       plateaus[n].out.values.push_back(static_cast<double>(s.intensity));
   }
   for (std::size_t n = 0; n < nodes.size(); ++n) {

@@ -2,39 +2,28 @@
 #include "response/transition_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
 #include "base/statistics.h"
+#include "response/transition_spread.h"
 
 namespace lvcalib {
 namespace {
 
-constexpr std::size_t kFewest = 20;
-constexpr double kPlateau = 2.0;  // Plateaus begin this many σ from the edge.
+using Levels = PlateauLevels;
 
-struct Levels {
-  double in = 0.0, out = 0.0, noise_in = 0.0, noise_out = 0.0;
-};
+constexpr std::size_t kFewest = 20;
 
 std::optional<Levels> levels_of(std::span<const TransitionPoint> points, double delta_m,
                                 double sigma_m) {
-  std::vector<double> in;
-  std::vector<double> out;
-  for (const TransitionPoint& p : points) {
-    if (p.distance_m - delta_m < -kPlateau * sigma_m) in.push_back(p.intensity);
-    if (p.distance_m - delta_m > kPlateau * sigma_m) out.push_back(p.intensity);
-  }
-  if (in.size() < kFewest / 2 || out.size() < kFewest / 2) return std::nullopt;
-  Levels levels;
-  levels.noise_in = mad_sigma(in);
-  levels.noise_out = mad_sigma(out);
-  levels.in = median(std::move(in));
-  levels.out = median(std::move(out));
-  return levels;
+  std::vector<std::pair<double, double>> samples;
+  samples.reserve(points.size());
+  for (const TransitionPoint& p : points)
+    samples.emplace_back((p.distance_m - delta_m) / sigma_m, p.intensity);
+  return plateau_levels(samples);
 }
 
 using Vector4d = Eigen::Matrix<double, 4, 1>;
@@ -47,17 +36,20 @@ struct System {
   int used = 0;
 };
 
-// Parameters: μ_in, μ_out, δ, σ. A sample's spread follows its place: plateau noise, and within
-// the transition what moving footprints add.
+// Weighted least squares of the mean level. A jittering beam makes levels in the transition jump
+// between black and white, skewed on either side: any loss that favours the bulk would be pulled
+// to the nearer level. So all samples between the levels count by their squares, weighed by the
+// mean square at their place; only what no mixture of black and white gives is left out.
 class Fit {
  public:
-  Fit(std::span<const TransitionPoint> points, const Vector4d& start)
-      : points_(points), x_(start) {}
+  Fit(std::span<const TransitionPoint> points, const Levels& levels, double sigma_m)
+      : points_(points), levels_(levels), x_(levels.in, levels.out, 0.0, sigma_m) {}
 
   bool run() {
-    constexpr int kIterations = 25;
+    constexpr int kIterations = 30;
+    constexpr int kSpreadRounds = 8;
     for (int i = 0; i < kIterations; ++i) {
-      if (i < 6) measure_spread();
+      if (i < kSpreadRounds) measure_spread();
       const System s = system();
       if (s.used < static_cast<int>(kFewest)) return false;
       const Eigen::LDLT<Matrix4d> factor(s.normal);
@@ -69,7 +61,7 @@ class Fit {
       const double longest = std::max(std::abs(step(2)), std::abs(step(3)));
       if (longest > limit) step *= limit / longest;
       x_ += step;
-      if (i >= 6 && std::max(std::abs(step(2)), std::abs(step(3))) < 1e-4 * x_(3)) break;
+      if (i >= kSpreadRounds && longest < 1e-4 * x_(3)) break;
     }
     return x_.allFinite() && x_(3) > 0.0;
   }
@@ -85,39 +77,26 @@ class Fit {
   }
 
  private:
-  static constexpr int kZones = 9;
-  [[nodiscard]] static std::size_t zone(double z) {
-    return static_cast<std::size_t>(
-        std::clamp(static_cast<int>(std::floor(z + 4.5)), 0, kZones - 1));
-  }
+  [[nodiscard]] double value(double z) const { return x_(0) + (x_(1) - x_(0)) * normal_cdf(z); }
 
   void measure_spread() {
-    std::array<std::vector<double>, kZones> residuals;
+    spread_.clear();
     for (const TransitionPoint& p : points_) {
+      if (levels_.is_stray(p.intensity)) continue;
       const double z = (p.distance_m - x_(2)) / x_(3);
-      residuals[zone(z)].push_back(p.intensity - value(z));
+      spread_.add(normal_cdf(z), p.intensity - value(z), levels_);
     }
-    const double floor = 1e-3 * std::abs(x_(1) - x_(0));
-    for (std::size_t k = 0; k < residuals.size(); ++k) {
-      const bool enough = residuals[k].size() >= 10;
-      // Root mean square about zero by the median: robust, and right for a symmetric spread.
-      for (double& r : residuals[k]) r = std::abs(r);
-      spread_[k] =
-          std::max(floor, enough ? 1.4826 * median(std::move(residuals[k])) : 10.0 * floor);
-    }
+    spread_.finish();
   }
-
-  [[nodiscard]] double value(double z) const { return x_(0) + (x_(1) - x_(0)) * normal_cdf(z); }
 
   [[nodiscard]] System system() const {
     System s;
     for (const TransitionPoint& p : points_) {
+      if (levels_.is_stray(p.intensity)) continue;
       const double z = (p.distance_m - x_(2)) / x_(3);
       const double lambda = normal_cdf(z);
       const double r = p.intensity - (x_(0) + (x_(1) - x_(0)) * lambda);
-      const double spread = spread_[zone(z)];
-      const double weight = tukey_weight(r / spread, 6.0) / (spread * spread);
-      if (weight <= 0.0) continue;
+      const double weight = 1.0 / spread_.variance(lambda, levels_);
       const double slope = (x_(1) - x_(0)) * normal_pdf(z) / x_(3);
       const Vector4d j(1.0 - lambda, lambda, -slope, -slope * z);
       s.normal += weight * j * j.transpose();
@@ -129,8 +108,9 @@ class Fit {
   }
 
   std::span<const TransitionPoint> points_;
+  const Levels& levels_;
   Vector4d x_;
-  std::array<double, kZones> spread_{};
+  TransitionSpread spread_;
 };
 
 }  // namespace
@@ -139,10 +119,8 @@ std::optional<TransitionFit> fit_transition(std::span<const TransitionPoint> poi
                                             double sigma_start_m) {
   if (points.size() < kFewest || !(sigma_start_m > 0.0)) return std::nullopt;
   const auto levels = levels_of(points, 0.0, sigma_start_m);
-  if (!levels ||
-      !(std::abs(levels->out - levels->in) > std::max(levels->noise_in, levels->noise_out)))
-    return std::nullopt;
-  Fit fit(points, {levels->in, levels->out, 0.0, sigma_start_m});
+  if (!levels || !levels->stand_clear()) return std::nullopt;
+  Fit fit(points, *levels, sigma_start_m);
   if (!fit.run()) return std::nullopt;
   TransitionFit out;
   const Matrix4d covariance = fit.covariance(out.samples);
