@@ -12,7 +12,7 @@
 namespace lvcalib {
 namespace {
 
-// Residuals beyond this many standard deviations are someone else's (a tag's edge, a stray hit).
+// Levels this many standard deviations beyond black or white are someone else's (a stray hit).
 constexpr double kOutlier = 5.0;
 
 }  // namespace
@@ -59,7 +59,7 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
       if (std::abs(z) > 4.0) continue;
       const double e = s.level - normal_cdf(z);
       const double v = variance(z);
-      if (e * e > kOutlier * kOutlier * v) continue;
+      if (is_stray(s.level)) continue;
       const double by_variance = -normal_pdf(z) * z / (2.0 * sigma * sigma);
       const Eigen::Vector3d j =
           by_variance * Eigen::Vector3d(s.cos_psi * s.cos_psi, 2.0 * s.cos_psi * s.sin_psi,
@@ -85,31 +85,30 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
   }
 }
 
+bool TransitionModel::is_stray(double level) const {
+  const double slack = 0.02 + kOutlier * std::sqrt(std::max(variance(-4.0), variance(4.0)));
+  return !(level >= -slack && level <= 1.0 + slack);
+}
+
 void TransitionModel::update_noise(const std::vector<UnwrappedSample>& samples) {
-  std::array<std::vector<double>, kZones> residuals;
+  std::array<double, kZones> sum{};
+  std::array<double, kZones> count{};
   std::vector<double> all;
   for (const UnwrappedSample& s : samples) {
+    if (is_stray(s.level)) continue;
     const double z = s.distance_m / sigma_m(s);
     const double e = s.level - normal_cdf(z);
-    residuals[static_cast<std::size_t>(zone(z))].push_back(e);
+    sum[static_cast<std::size_t>(zone(z))] += e * e;
+    count[static_cast<std::size_t>(zone(z))] += 1.0;
     all.push_back(std::abs(e));
   }
   if (all.size() < 20) return;
   const double overall = 1.4826 * median(std::move(all));
   for (std::size_t k = 0; k < kZones; ++k) {
-    // Mean square without outliers; the overall variance stands in for ten more samples, so that
-    // thin zones stay near it.
+    // The overall variance stands in for ten more samples, so that thin zones stay near it.
     constexpr double kPrior = 10.0;
-    double sum = kPrior * overall * overall;
-    double n = kPrior;
-    const double cut = kOutlier * std::max(mad_sigma(residuals[k]), overall);
-    for (const double e : residuals[k]) {
-      if (std::abs(e) > cut) continue;
-      sum += e * e;
-      n += 1.0;
-    }
     // A quantised, noiseless level must not get infinite weight.
-    variance_[k] = std::max(sum / n, 1e-6);
+    variance_[k] = std::max((sum[k] + kPrior * overall * overall) / (count[k] + kPrior), 1e-6);
   }
 }
 
@@ -157,7 +156,7 @@ CrossingSystem crossing_system(const std::vector<UnwrappedSample>& samples,
     if (std::abs(z) > 4.0) continue;
     const double e = s.level - normal_cdf(z);
     const double v = model.variance(z);
-    if (e * e > kOutlier * kOutlier * v) continue;
+    if (model.is_stray(s.level)) continue;
     const double j = -normal_pdf(z) / sigma;  // ∂level/∂crossing
     const double information = j * j / v;
     system.information += information;

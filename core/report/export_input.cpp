@@ -80,16 +80,20 @@ Result<Camera> camera_of(const json& j, const std::string& where) {
 
 }  // namespace
 
+Result<Camera> camera_from_json_text(const std::string& result_json, const std::string& where) {
+  const json j = json::parse(result_json, nullptr, false);
+  if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", where);
+  return camera_of(j, where);
+}
+
 Result<ExportInput> read_export_input(const std::filesystem::path& result_json) {
   auto stored = read_result(result_json);
   if (!stored) return stored.error();
   auto text = read_text_file(result_json, kMaxResultBytes);
   if (!text) return text.error();
-  const json j = json::parse(*text, nullptr, false);
-  if (j.is_discarded() || !j.is_object())
-    return Error::input("not a JSON object", result_json.string());
-  auto camera = camera_of(j, result_json.string());
+  auto camera = camera_from_json_text(*text, result_json.string());
   if (!camera) return camera.error();
+  const json j = json::parse(*text, nullptr, false);
   ExportInput input;
   input.camera_from_lidar = stored->camera_from_lidar;
   input.camera = *camera;

@@ -41,6 +41,9 @@ Result<std::string> export_result(const ExportInput& input, const std::string& f
 /// Reads what exports need from result.json.
 Result<ExportInput> read_export_input(const std::filesystem::path& result_json);
 
+/// The camera stored in the text of a result.json.
+Result<Camera> camera_from_json_text(const std::string& result_json, const std::string& where = {});
+
 /// The boundary response for a SLAM front end: YAML with documented keys, and how to use it in
 /// C++ in its comments.
 Result<std::string> export_boundary_response(const ExportInput& input);

@@ -97,6 +97,11 @@ ordered_json to_json(const CalibrationResult& result) {
   j["warnings"] = result.warnings;
   j["camera"] = camera_json(result.camera);
   j["target_yaml"] = to_yaml(result.target);
+  const BoardOutline outline = result.target.outline();
+  j["board"] = {
+      {"lower_left_m", {outline.lower_left_m.x(), outline.lower_left_m.y()}},
+      {"upper_right_m", {outline.upper_right_m.x(), outline.upper_right_m.y()}},
+      {"circle_radius_m", result.target.has_circles() ? result.target.circle_radius_m : 0.0}};
   j["inputs"] = inputs_json(result.inputs);
   j["rms_px"] = x.rms_px;
   j["rms_mm"] = x.rms_mm;

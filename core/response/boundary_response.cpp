@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "response/angular_width.h"
 #include "response/edge_samples.h"
 #include "response/response_statistics.h"
@@ -64,6 +65,21 @@ bool widen(SceneResponse& scene) {
   return true;
 }
 
+// A first width for judging the nodes: of the transitions about all nodes that the refinement took,
+// or where they show none, the refinement's footprint.
+void find_first_widths(SceneResponse& scene, const BoardRefinement& refinement,
+                       const Target& target) {
+  constexpr double kStart = 0.15;  // of the radius
+  std::vector<TransitionPoint> points;
+  for (const BoundarySample& s : scene.samples) {
+    if (refinement.nodes[static_cast<std::size_t>(s.node)].valid)
+      points.push_back({static_cast<double>(s.distance_m), static_cast<double>(s.intensity)});
+  }
+  const auto fit = fit_transition(thinned(points, kMostFitPoints), kStart * target.circle_radius_m);
+  if (!fit) return;
+  for (BoundarySample& s : scene.samples) s.width_m = static_cast<float>(fit->sigma_m);
+}
+
 // Samples, nodes and transition of one scene; its statistics wait for all scenes.
 SceneResponse respond(const ResponseInput& input, const Target& target,
                       const ResponseOptions& options) {
@@ -74,6 +90,7 @@ SceneResponse respond(const ResponseInput& input, const Target& target,
     return scene;
   }
   scene.samples = collect_edge_samples(input, target);
+  find_first_widths(scene, *input.refinement, target);
   scene.nodes = judge_nodes(*input.refinement, scene.samples, 0.0, target, options);
   const bool any = std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const NodeResponse& n) {
     return n.state == NodeResponseState::kUsed;
@@ -82,8 +99,10 @@ SceneResponse respond(const ResponseInput& input, const Target& target,
     scene.reason = no_node_reason(scene);
     return scene;
   }
-  const double width = std::sqrt(0.5 * input.refinement->footprint_m2.trace());
-  scene.transition = fit_transition(thinned(points_of(scene, 0.0, 1.0), kMostFitPoints), width);
+  std::vector<double> widths;
+  for (const BoundarySample& s : scene.samples) widths.push_back(static_cast<double>(s.width_m));
+  scene.transition = fit_transition(thinned(points_of(scene, 0.0, 1.0), kMostFitPoints),
+                                    median(std::move(widths)));
   if (!scene.transition) {
     scene.reason = "the intensities about the circles show no transition from black to white";
     return scene;
