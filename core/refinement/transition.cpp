@@ -12,7 +12,7 @@
 namespace lvcalib {
 namespace {
 
-// Levels this many standard deviations beyond black or white are someone else's (a stray hit).
+// Residuals beyond this many standard deviations are someone else's (a tag's edge, a stray hit).
 constexpr double kOutlier = 5.0;
 
 }  // namespace
@@ -91,24 +91,30 @@ bool TransitionModel::is_stray(double level) const {
 }
 
 void TransitionModel::update_noise(const std::vector<UnwrappedSample>& samples) {
-  std::array<double, kZones> sum{};
-  std::array<double, kZones> count{};
+  std::array<std::vector<double>, kZones> residuals;
   std::vector<double> all;
   for (const UnwrappedSample& s : samples) {
-    if (is_stray(s.level)) continue;
     const double z = s.distance_m / sigma_m(s);
     const double e = s.level - normal_cdf(z);
-    sum[static_cast<std::size_t>(zone(z))] += e * e;
-    count[static_cast<std::size_t>(zone(z))] += 1.0;
+    residuals[static_cast<std::size_t>(zone(z))].push_back(e);
     all.push_back(std::abs(e));
   }
   if (all.size() < 20) return;
   const double overall = 1.4826 * median(std::move(all));
   for (std::size_t k = 0; k < kZones; ++k) {
-    // The overall variance stands in for ten more samples, so that thin zones stay near it.
+    // Mean square without outliers; the overall variance stands in for ten more samples, so that
+    // thin zones stay near it.
     constexpr double kPrior = 10.0;
+    double sum = kPrior * overall * overall;
+    double n = kPrior;
+    const double cut = kOutlier * std::max(mad_sigma(residuals[k]), overall);
+    for (const double e : residuals[k]) {
+      if (std::abs(e) > cut) continue;
+      sum += e * e;
+      n += 1.0;
+    }
     // A quantised, noiseless level must not get infinite weight.
-    variance_[k] = std::max((sum[k] + kPrior * overall * overall) / (count[k] + kPrior), 1e-6);
+    variance_[k] = std::max(sum / n, 1e-6);
   }
 }
 
@@ -156,7 +162,7 @@ CrossingSystem crossing_system(const std::vector<UnwrappedSample>& samples,
     if (std::abs(z) > 4.0) continue;
     const double e = s.level - normal_cdf(z);
     const double v = model.variance(z);
-    if (model.is_stray(s.level)) continue;
+    if (e * e > kOutlier * kOutlier * v) continue;
     const double j = -normal_pdf(z) / sigma;  // ∂level/∂crossing
     const double information = j * j / v;
     system.information += information;

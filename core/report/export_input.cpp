@@ -99,6 +99,8 @@ Result<ExportInput> read_export_input(const std::filesystem::path& result_json) 
   input.camera = *camera;
   const auto dataset = j.find("dataset");
   if (dataset != j.end() && dataset->is_string()) input.dataset = dataset->get<std::string>();
+  const auto quality = j.find("quality");
+  if (quality != j.end() && quality->is_string()) input.quality = quality->get<std::string>();
   input.result_json = std::move(*text);
   return input;
 }

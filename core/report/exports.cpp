@@ -94,11 +94,24 @@ std::string intrinsics_line(const Camera& camera) {
          "], distortion = [" + list(distortion) + "]";
 }
 
+// Text from a file that must not end a comment, in whatever format it stands.
+std::string on_one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\') c = ' ';
+  }
+  // An XML comment may not hold two hyphens.
+  for (auto at = text.find("--"); at != std::string::npos; at = text.find("--")) text[at] = ' ';
+  return text;
+}
+
 // The comment common to all formats; `lines` say what is particular.
 std::string comment(const ExportInput& input, std::initializer_list<std::string> lines,
                     const std::string& prefix = "# ") {
   const WorkedPoint p = worked_point(input);
   std::string out = prefix + "LV-Calib " + version() + "\n";
+  if (!input.dataset.empty()) out += prefix + "dataset: " + on_one_line(input.dataset) + "\n";
+  if (!input.quality.empty() && input.quality != "good")
+    out += prefix + "quality: " + on_one_line(input.quality) + ": see the result's warnings\n";
   for (const std::string& line : lines) out += prefix + line + "\n";
   out += prefix +
          "camera: x right, y down, z forward; pixel (0, 0) is the centre of the top-left "

@@ -17,6 +17,7 @@ struct ExportInput {
   Rigid3 camera_from_lidar;
   Camera camera;
   std::string dataset;                   ///< Named in the comment.
+  std::string quality;                   ///< Said in the comment when it is not "good".
   std::optional<Rigid3> imu_from_lidar;  ///< Needed by formats that speak of the IMU.
   std::string result_json;               ///< The whole result, for the boundary response.
 };

@@ -31,8 +31,10 @@ class Fit {
     if (samples_.size() < kFewest || !start()) return std::nullopt;
     constexpr int kIterations = 30;
     constexpr int kSpreadRounds = 8;
+    constexpr int kFewestRounds = 4;
+    constexpr double kSettled = 1e-3;  // Far below what the samples can tell.
     double change = 1.0;
-    for (int i = 0; i < kIterations && (i < kSpreadRounds || change > 1e-4); ++i) {
+    for (int i = 0; i < kIterations && (i < kFewestRounds || change > kSettled); ++i) {
       if (i < kSpreadRounds) pass(true);
       pass(false);
       const Unknowns step = normal_.ldlt().solve(rhs_);

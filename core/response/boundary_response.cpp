@@ -17,12 +17,16 @@ namespace {
 
 // A fit needs no more points than this; every n-th is taken beyond.
 constexpr std::size_t kMostFitPoints = 20'000;
+constexpr std::size_t kFirstFitPoints = 4'000;
 
-std::vector<TransitionPoint> points_of(const SceneResponse& scene, double mu_in, double contrast) {
+std::vector<TransitionPoint> points_of(const SceneResponse& scene, const Target& target,
+                                       double mu_in, double contrast) {
   std::vector<TransitionPoint> points;
   points.reserve(scene.samples.size());
   for (const BoundarySample& s : scene.samples) {
-    if (scene.nodes[static_cast<std::size_t>(s.node)].state != NodeResponseState::kUsed) continue;
+    if (scene.nodes[static_cast<std::size_t>(s.node)].state != NodeResponseState::kUsed ||
+        !clear_of_tags(s, target))
+      continue;
     points.push_back(
         {static_cast<double>(s.distance_m), (static_cast<double>(s.intensity) - mu_in) / contrast});
   }
@@ -49,10 +53,11 @@ std::string no_node_reason(const SceneResponse& scene) {
 }
 
 // Gives every sample the width that the transition has in its direction.
-bool widen(SceneResponse& scene) {
+bool widen(SceneResponse& scene, const Target& target) {
   std::vector<const BoundarySample*> used;
   for (const BoundarySample& s : scene.samples) {
-    if (scene.nodes[static_cast<std::size_t>(s.node)].state == NodeResponseState::kUsed)
+    if (scene.nodes[static_cast<std::size_t>(s.node)].state == NodeResponseState::kUsed &&
+        clear_of_tags(s, target))
       used.push_back(&s);
   }
   const auto width = fit_angular_width(thinned(used, kMostFitPoints));
@@ -75,7 +80,8 @@ void find_first_widths(SceneResponse& scene, const BoardRefinement& refinement,
     if (refinement.nodes[static_cast<std::size_t>(s.node)].valid)
       points.push_back({static_cast<double>(s.distance_m), static_cast<double>(s.intensity)});
   }
-  const auto fit = fit_transition(thinned(points, kMostFitPoints), kStart * target.circle_radius_m);
+  const auto fit =
+      fit_transition(thinned(points, kFirstFitPoints), kStart * target.circle_radius_m);
   if (!fit) return;
   for (BoundarySample& s : scene.samples) s.width_m = static_cast<float>(fit->sigma_m);
 }
@@ -101,13 +107,13 @@ SceneResponse respond(const ResponseInput& input, const Target& target,
   }
   std::vector<double> widths;
   for (const BoundarySample& s : scene.samples) widths.push_back(static_cast<double>(s.width_m));
-  scene.transition = fit_transition(thinned(points_of(scene, 0.0, 1.0), kMostFitPoints),
+  scene.transition = fit_transition(thinned(points_of(scene, target, 0.0, 1.0), kMostFitPoints),
                                     median(std::move(widths)));
   if (!scene.transition) {
     scene.reason = "the intensities about the circles show no transition from black to white";
     return scene;
   }
-  if (!widen(scene)) {
+  if (!widen(scene, target)) {
     scene.transition.reset();
     scene.reason = "the transitions about the circles have no common width";
     return scene;
@@ -137,7 +143,8 @@ std::string too_few(std::size_t n, int needed) {
 }
 
 // Levels differ from scene to scene: the common fit is of levels scaled to each scene's own.
-std::optional<TransitionFit> fit_together(const std::vector<SceneResponse>& scenes) {
+std::optional<TransitionFit> fit_together(const std::vector<SceneResponse>& scenes,
+                                          const Target& target) {
   std::vector<TransitionPoint> points;
   double weight = 0.0;
   TransitionFit mean;
@@ -146,7 +153,7 @@ std::optional<TransitionFit> fit_together(const std::vector<SceneResponse>& scen
     if (!scene.transition) continue;
     const TransitionFit& t = *scene.transition;
     if (first == nullptr) first = &t;
-    const auto own = points_of(scene, t.mu_in, t.mu_out - t.mu_in);
+    const auto own = points_of(scene, target, t.mu_in, t.mu_out - t.mu_in);
     points.insert(points.end(), own.begin(), own.end());
     const double w = static_cast<double>(t.samples);
     mean.mu_in += w * t.mu_in;
@@ -227,7 +234,7 @@ void summarize(BoundaryResponse& response, const Target& target, const ResponseO
     if (!scene.statistics && scene.reason.empty())
       scene.reason = too_few(sets[s].samples.size(), options.min_samples);
   }
-  response.transition = fit_together(response.scenes);
+  response.transition = fit_together(response.scenes, target);
   response.all = summarize_response(all, jitter, options.min_samples);
   if (!response.all) {
     response.reason = too_few(all.samples.size(), options.min_samples);

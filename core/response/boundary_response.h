@@ -59,8 +59,9 @@ struct NodeResponse {
 
 /// A LiDAR point near a circle and its nearest ideal boundary point.
 struct BoundarySample {
-  Eigen::Vector2f board_m = Eigen::Vector2f::Zero();  ///< Where its ray meets the board.
-  float distance_m = 0.0F;                            ///< Signed, outside the circle positive.
+  Eigen::Vector2f board_m = Eigen::Vector2f::Zero();   ///< Where its ray meets the board.
+  Eigen::Vector2f outward = Eigen::Vector2f::UnitX();  ///< From the circle's centre, on the board.
+  float distance_m = 0.0F;                             ///< Signed, outside the circle positive.
   float intensity = 0.0F;
   float range_m = 0.0F;           ///< Of the nearest boundary point.
   float cos_incidence = 1.0F;     ///< At it.

@@ -98,6 +98,7 @@ class EdgeCollector {
     const double cosine = normal_.dot(sight);
     BoundarySample s;
     s.board_m = hit.cast<float>();
+    s.outward = outward.cast<float>();
     s.distance_m = static_cast<float>(distance);
     s.range_m = static_cast<float>(ideal_range);
     s.cos_incidence = static_cast<float>(std::abs(cosine));
@@ -130,6 +131,18 @@ class EdgeCollector {
   double gate_m_;
   Eigen::Matrix2d footprint_;
 };
+
+// Tags nearer than this many widths mix their black into a sample.
+constexpr double kTagWidths = 2.0;
+
+// Distance to the nearest of the four tags about a circle, from a point at `radius` from its
+// centre.
+double tag_distance_m(const Eigen::Vector2f& outward, double radius, const Target& target) {
+  const double half_gap = 0.5 * target.tag_spacing * target.tag_size_m;
+  const Eigen::Vector2d p = radius * outward.cast<double>();
+  return std::hypot(std::max(0.0, half_gap - std::abs(p.x())),
+                    std::max(0.0, half_gap - std::abs(p.y())));
+}
 
 struct Plateau {
   std::vector<double> values;
@@ -227,9 +240,24 @@ std::vector<BoundarySample> collect_edge_samples(const ResponseInput& scene, con
 
 double overlap_half_width_m(const BoundarySample& sample, const Target& target,
                             const ResponseOptions& options) {
+  constexpr double kStep = 5e-4;
   const NodeWindow window = node_window(target);
-  return std::min({options.overlap_sigmas * static_cast<double>(sample.width_m), window.inside_m,
-                   window.outside_m});
+  const double width = static_cast<double>(sample.width_m);
+  const double wanted =
+      std::min({options.overlap_sigmas * width, window.inside_m, window.outside_m});
+  if (tag_distance_m(sample.outward, window.radius_m + wanted, target) >= kTagWidths * width)
+    return wanted;
+  double reach = 0.0;
+  while (reach + kStep < wanted && tag_distance_m(sample.outward, window.radius_m + reach + kStep,
+                                                  target) >= kTagWidths * width)
+    reach += kStep;
+  return reach;
+}
+
+bool clear_of_tags(const BoundarySample& sample, const Target& target) {
+  const double radius = target.circle_radius_m + static_cast<double>(sample.distance_m);
+  return tag_distance_m(sample.outward, radius, target) >=
+         kTagWidths * static_cast<double>(sample.width_m);
 }
 
 std::vector<NodeResponse> judge_nodes(const BoardRefinement& refinement,
@@ -247,14 +275,17 @@ std::vector<NodeResponse> judge_nodes(const BoardRefinement& refinement,
   for (BoundarySample& s : samples) {
     const auto n = static_cast<std::size_t>(s.node);
     const double distance = static_cast<double>(s.distance_m) - shift_m;
-    s.overlap = std::abs(distance) <= overlap_half_width_m(s, target, options);
+    // Where tags leave less than half a width there is nothing to be learnt.
+    const double half_width = overlap_half_width_m(s, target, options);
+    s.overlap =
+        std::abs(distance) <= half_width && half_width >= 0.5 * static_cast<double>(s.width_m);
     ++nodes[n].samples;
     nodes[n].overlap += s.overlap ? 1 : 0;
     // Plateaus begin two widths from the edge, but keep half of the ring.
     const double clear = 2.0 * static_cast<double>(s.width_m);
     if (distance < -std::min(clear, 0.5 * window.inside_m))
       plateaus[n].in.values.push_back(static_cast<double>(s.intensity));
-    if (distance > std::min(clear, 0.5 * window.outside_m))
+    if (distance > std::min(clear, 0.5 * window.outside_m) && clear_of_tags(s, target))
       plateaus[n].out.values.push_back(static_cast<double>(s.intensity));
   }
   for (std::size_t n = 0; n < nodes.size(); ++n) {

@@ -17,9 +17,12 @@ std::vector<NodeResponse> judge_nodes(const BoardRefinement& refinement,
                                       std::vector<BoundarySample>& samples, double shift_m,
                                       const Target& target, const ResponseOptions& options);
 
-/// Half-width of a sample's overlap region: `overlap_sigmas` widths, but no farther than the paper
-/// about the circle reaches.
+/// Half-width of the overlap region in a sample's direction: `overlap_sigmas` widths, but no
+/// farther than the circle reaches inwards and than outwards the print is clear of tags.
 double overlap_half_width_m(const BoundarySample& sample, const Target& target,
                             const ResponseOptions& options);
+
+/// Whether the tags about the circle are two widths away, so that their black does not mix in.
+bool clear_of_tags(const BoundarySample& sample, const Target& target);
 
 }  // namespace lvcalib

@@ -48,6 +48,8 @@ class Fit {
   bool run() {
     constexpr int kIterations = 30;
     constexpr int kSpreadRounds = 8;
+    constexpr int kFewestRounds = 4;
+    constexpr double kSettled = 1e-4;
     for (int i = 0; i < kIterations; ++i) {
       if (i < kSpreadRounds) measure_spread();
       const System s = system();
@@ -61,7 +63,7 @@ class Fit {
       const double longest = std::max(std::abs(step(2)), std::abs(step(3)));
       if (longest > limit) step *= limit / longest;
       x_ += step;
-      if (i >= kSpreadRounds && longest < 1e-4 * x_(3)) break;
+      if (i >= kFewestRounds && longest < kSettled * x_(3)) break;
     }
     return x_.allFinite() && x_(3) > 0.0;
   }

@@ -25,6 +25,8 @@ ExportInput input_of(DistortionModel model) {
   input.camera_from_lidar = test::test_extrinsic();
   input.camera = test::test_camera();
   input.camera.model = model;
+  input.dataset = "/data/a \"quoted\" -- folder\nwith a line";
+  input.quality = "doubtful";
   if (model == DistortionModel::kEquidistant)
     input.camera.distortion << 0.02, -0.01, 0.004, -0.001, 0, 0, 0, 0;
   if (model == DistortionModel::kRationalPolynomial)
@@ -199,6 +201,7 @@ TEST_P(Exports, WorkedPointFollowsFromTheTextAlone) {
     EXPECT_GT(camera.head<2>().norm(), 0.3);
     EXPECT_GT(stated.z(), 1.0);
     EXPECT_THAT(*text, HasSubstr("metres"));
+    EXPECT_THAT(*text, HasSubstr("quality: doubtful"));
   }
 }
 
