@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
@@ -107,6 +108,25 @@ void judge_scene_scales(const CalibrationResult& result, const QualityOptions& o
   }
 }
 
+// Names the scene that fits clearly worse than the others, if there is one.
+std::string worst_scene(const ExtrinsicSolution& x) {
+  constexpr double kClearly = 2.0;
+  const SceneSolution* worst = nullptr;
+  for (const SceneSolution& scene : x.scenes) {
+    if (scene.used && (worst == nullptr || scene.rms_mm > worst->rms_mm)) worst = &scene;
+  }
+  if (worst == nullptr) return {};
+  std::vector<double> others;
+  for (const SceneSolution& scene : x.scenes) {
+    if (scene.used && &scene != worst) others.push_back(scene.rms_mm);
+  }
+  if (others.empty()) return {};
+  const double usual = median(std::move(others));
+  if (!(worst->rms_mm > kClearly * usual)) return {};
+  return "; scene " + worst->name +
+         formatted(" misses most: %.1f mm, the others %.1f mm", worst->rms_mm, usual);
+}
+
 // Halves of the scenes that contradict each other: something depends on what parts them.
 void judge_splits(const CalibrationResult& result, Verdict& verdict) {
   for (const SplitHalf& split : result.uncertainty.splits) {
@@ -172,7 +192,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     verdict.doubtful(
         formatted("LiDAR residuals are %.1f times (nodes) and %.1f times (planes) their noise: an "
                   "effect is missing in the model",
-                  x.node_scale, x.plane_scale));
+                  x.node_scale, x.plane_scale) +
+        worst_scene(x));
   }
   if (x.used_scenes > 1 && result.consensus.margin() < options.min_margin) {
     verdict.doubtful(formatted("another assignment of the board is nearly as good (margin %.1f)",
