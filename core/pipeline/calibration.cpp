@@ -111,10 +111,17 @@ class Calibration {
       SceneResult& scene = result_.scenes[s];
       scene.chosen = result_.consensus.chosen[s];
       if (!scene.reason.empty() || scene.chosen) continue;
-      scene.contradicts = scene.search && !scene.search->candidates.empty();
-      scene.reason = scene.contradicts
-                         ? "the board found in the cloud does not agree with the other scenes"
-                         : "the board is not found in the cloud (" + search_summary(scene) + ")";
+      const bool elsewhere = scene.search && !scene.search->candidates.empty();
+      scene.contradicts = elsewhere || scene.looks_through;
+      if (elsewhere) {
+        scene.reason = "the board found in the cloud does not agree with the other scenes";
+      } else {
+        scene.reason = "the board is not found in the cloud (" + search_summary(scene) + ")";
+        if (scene.looks_through)
+          scene.reason +=
+              "; the LiDAR sees past the place where the image has it: does the image "
+              "belong to this cloud?";
+      }
     }
     return Done{};
   }

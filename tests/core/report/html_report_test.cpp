@@ -105,7 +105,8 @@ TEST_F(HtmlReportTest, ABadResultFileIsRefused) {
     less.erase(key);
     std::ofstream(out_.path() / "result.json") << less.dump();
     const auto report = html_report(out_.path(), {});
-    if (!report) EXPECT_EQ(report.error().kind, ErrorKind::kInput) << key;
+    if (report.ok()) continue;
+    EXPECT_EQ(report.error().kind, ErrorKind::kInput) << key;
   }
 }
 
