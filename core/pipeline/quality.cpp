@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -49,7 +50,7 @@ class Verdict {
 };
 
 void judge_scale(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
-  const MeasuredScale scale = measured_scale(result);
+  const MeasuredScale scale = measured_scale(result, options.scale_warning);
   if (scale.sigma <= 0) return;
   const double off = scale.scale - 1.0;
   if (std::abs(off) < 4.0 * scale.sigma || std::abs(off) < options.scale_warning) return;
@@ -91,18 +92,20 @@ void judge_dark_offset(const CalibrationResult& result, const QualityOptions& op
                    "missing in the model");
 }
 
+bool is_deviating(const MeasuredScale& relative, double outlier) {
+  const double off = std::abs(relative.scale - 1.0);
+  return relative.sigma > 0.0 && off > 5.0 * relative.sigma && off > outlier;
+}
+
 // One scene whose board is of another size than in all the others.
 void judge_scene_scales(const CalibrationResult& result, const QualityOptions& options,
                         Verdict& verdict) {
   for (const SceneResult& scene : result.scenes) {
-    if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0) continue;
-    const MeasuredScale rest = measured_scale(result, &scene);
-    if (rest.sigma <= 0) continue;
-    const double off = scene.refinement->scale / rest.scale - 1.0;
-    const double sigma = std::hypot(scene.refinement->scale_sigma, rest.sigma);
-    if (std::abs(off) < 5.0 * sigma || std::abs(off) < options.scale_warning) continue;
+    const MeasuredScale relative = relative_scale(result, scene);
+    if (!is_deviating(relative, options.scale_warning)) continue;
+    const double off = relative.scale - 1.0;
     verdict.doubtful("scene " + scene.name + ": its board measures " +
-                     formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * sigma) +
+                     formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * relative.sigma) +
                      (off > 0 ? "larger" : "smaller") +
                      " than in the other scenes: is it another print?");
   }
@@ -150,11 +153,29 @@ Target scaled(Target t, double s) {
 
 }  // namespace
 
-MeasuredScale measured_scale(const CalibrationResult& result, const SceneResult* without) {
+MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult& scene) {
+  std::vector<double> scales;
+  std::vector<double> sigmas;
+  for (const SceneResult& s : result.scenes) {
+    if (!s.used || !s.refinement || s.refinement->scale_sigma <= 0) continue;
+    scales.push_back(s.refinement->scale);
+    sigmas.push_back(s.refinement->scale_sigma);
+  }
+  if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0 || scales.size() < 2)
+    return {};
+  // A median's variance is π/2 of a mean's.
+  const double count = static_cast<double>(scales.size());
+  const double of_median = median(std::move(sigmas)) * std::sqrt(std::numbers::pi / 2.0 / count);
+  return {scene.refinement->scale / median(std::move(scales)),
+          std::hypot(scene.refinement->scale_sigma, of_median)};
+}
+
+MeasuredScale measured_scale(const CalibrationResult& result, double outlier) {
   double weight = 0.0;
   double sum = 0.0;
   for (const SceneResult& scene : result.scenes) {
-    if (&scene == without || !scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0)
+    if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0 ||
+        is_deviating(relative_scale(result, scene), outlier))
       continue;
     const double w = 1.0 / (scene.refinement->scale_sigma * scene.refinement->scale_sigma);
     weight += w;
