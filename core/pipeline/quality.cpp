@@ -161,7 +161,7 @@ MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult&
     scales.push_back(s.refinement->scale);
     sigmas.push_back(s.refinement->scale_sigma);
   }
-  if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0 || scales.size() < 2)
+  if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0 || scales.size() < 3)
     return {};
   // A median's variance is π/2 of a mean's.
   const double count = static_cast<double>(scales.size());

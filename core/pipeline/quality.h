@@ -18,7 +18,8 @@ struct MeasuredScale {
 MeasuredScale measured_scale(const CalibrationResult& result,
                              double outlier = QualityOptions{}.scale_warning);
 
-/// How much larger a scene's board measures than the median of all; sigma 0 if that means nothing.
+/// How much larger a scene's board measures than the median of all; sigma 0 below three scenes, of
+/// which none could be told from the others.
 MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult& scene);
 
 /// Sets quality and adds the warnings that explain it.
