@@ -35,8 +35,9 @@ constexpr const char* kExplanation =
 #   double variance = n.dot(J * C * J.transpose() * n) + sigma_map * sigma_map;
 #   double weight = 1.0 / variance;          // minimise the sum of weight * r * r
 #
-# Points away from edges keep the front end's usual noise; what a point's edge is, its front end
-# must find (an intensity between its neighbours' on either side).
+# A point is on an edge if its intensity lies between its neighbours' on either side. Points off
+# edges take the angular part of C too when the LiDAR's beam jitters (it does so everywhere), with
+# the front end's usual range noise in place of C(2, 2).
 )";
 
 std::string number(double v) {
