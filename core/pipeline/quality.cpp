@@ -136,9 +136,9 @@ void judge_splits(const CalibrationResult& result, Verdict& verdict) {
     if (split.agrees()) continue;
     verdict.note("the halves of the scenes (" + split.name + ") differ by " +
                  formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
-                 formatted("noise alone would give %.1f mm and %.1f mrad: an effect is missing in "
-                           "the model, or one scene is off",
-                           split.expected_translation_mm, split.expected_rotation_mrad));
+                 formatted("more than noise explains (χ² %.0f, at most %.0f): an effect is missing "
+                           "in the model, or one scene is off",
+                           split.chi_square, split.gate));
   }
 }
 
