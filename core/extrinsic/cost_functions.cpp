@@ -86,6 +86,10 @@ CornerCost::CornerCost(const Camera& camera, const Eigen::Vector2d& board_m,
       pixel_(pixel),
       inverse_sigma_(1.0 / sigma_px) {}
 
+CornerCost::CornerCost(const Camera& camera, const Eigen::Vector3d& point_m,
+                       const Eigen::Vector2d& pixel, double sigma_px)
+    : camera_(&camera), point_(point_m), pixel_(pixel), inverse_sigma_(1.0 / sigma_px) {}
+
 bool CornerCost::Evaluate(double const* const* parameters, double* residuals,
                           double** jacobians) const {
   const Eigen::Vector3d in_camera = rigid_from_block(parameters[0]) * point_;

@@ -38,6 +38,9 @@ class CornerCost final : public ceres::SizedCostFunction<2, 7> {
  public:
   CornerCost(const Camera& camera, const Eigen::Vector2d& board_m, const Eigen::Vector2d& pixel,
              double sigma_px);
+  /// The same for a point anywhere: block T_camera_x, the point in frame x.
+  CornerCost(const Camera& camera, const Eigen::Vector3d& point_m, const Eigen::Vector2d& pixel,
+             double sigma_px);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 

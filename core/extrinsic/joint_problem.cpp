@@ -19,7 +19,8 @@ class JointProblem {
  public:
   JointProblem(const std::vector<SceneObservations>& scenes, const Camera& camera,
                const Target& target, const JointState& start, const NoiseScales& scales,
-               const ObservationMask& mask, const ExtrinsicOptions& options)
+               const ObservationMask& mask, const ExtrinsicOptions& options,
+               bool hold_extrinsic = false)
       : scenes_(scenes),
         camera_(camera),
         scales_(scales),
@@ -36,9 +37,26 @@ class JointProblem {
       problem_.AddParameterBlock(boards_[s].data(), 7, &manifold_);
       add_scene(s);
     }
+    if (hold_extrinsic) problem_.SetParameterBlockConstant(extrinsic_.data());
   }
 
   JointFit solve() {
+    const ceres::Solver::Summary summary = descend();
+    JointFit fit;
+    fit.converged = summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE;
+    fit.iterations = static_cast<int>(summary.iterations.size());
+    fit.state = state();
+    analyse(fit);
+    return fit;
+  }
+
+  std::vector<Rigid3> solve_boards() {
+    descend();
+    return state().camera_from_board;
+  }
+
+ private:
+  ceres::Solver::Summary descend() {
     ceres::Solver::Options options;
     options.max_num_iterations = options_.max_iterations;
     options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -49,17 +67,17 @@ class JointProblem {
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
-    JointFit fit;
-    fit.converged = summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE;
-    fit.iterations = static_cast<int>(summary.iterations.size());
-    fit.state.camera_from_lidar = rigid_from_block(extrinsic_.data());
-    for (const Block& board : boards_)
-      fit.state.camera_from_board.push_back(rigid_from_block(board.data()));
-    analyse(fit);
-    return fit;
+    return summary;
   }
 
- private:
+  [[nodiscard]] JointState state() const {
+    JointState out;
+    out.camera_from_lidar = rigid_from_block(extrinsic_.data());
+    for (const Block& board : boards_)
+      out.camera_from_board.push_back(rigid_from_block(board.data()));
+    return out;
+  }
+
   static ceres::Problem::Options problem_options() {
     ceres::Problem::Options options;
     options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -185,10 +203,35 @@ class JointProblem {
 
 }  // namespace
 
+ObservationMask mask_of(const ExtrinsicSolution& solution) {
+  ObservationMask mask;
+  for (const SceneSolution& scene : solution.scenes) {
+    mask.scene.push_back(scene.used);
+    std::vector<bool> corners;
+    for (const CornerResidual& c : scene.corners) corners.push_back(c.used);
+    mask.corner.push_back(std::move(corners));
+    std::vector<bool> nodes;
+    for (const NodeResidual& n : scene.nodes) nodes.push_back(n.used);
+    mask.node.push_back(std::move(nodes));
+  }
+  return mask;
+}
+
+NoiseScales scales_of(const ExtrinsicSolution& solution) {
+  return {solution.sigma_px, solution.node_scale, solution.plane_scale};
+}
+
 JointFit solve_joint(const std::vector<SceneObservations>& scenes, const Camera& camera,
                      const Target& target, const JointState& start, const NoiseScales& scales,
                      const ObservationMask& mask, const ExtrinsicOptions& options) {
   return JointProblem(scenes, camera, target, start, scales, mask, options).solve();
+}
+
+std::vector<Rigid3> solve_boards(const std::vector<SceneObservations>& scenes, const Camera& camera,
+                                 const Target& target, const JointState& start,
+                                 const NoiseScales& scales, const ObservationMask& mask,
+                                 const ExtrinsicOptions& options) {
+  return JointProblem(scenes, camera, target, start, scales, mask, options, true).solve_boards();
 }
 
 Eigen::Matrix2d whitening_2(const Eigen::Matrix2d& covariance) {

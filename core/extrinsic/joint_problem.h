@@ -29,6 +29,10 @@ struct ObservationMask {
   std::vector<std::vector<bool>> node;
 };
 
+/// The observations and scales that a finished solve has settled on.
+ObservationMask mask_of(const ExtrinsicSolution& solution);
+NoiseScales scales_of(const ExtrinsicSolution& solution);
+
 /// State of the joint solve: extrinsic and board poses.
 struct JointState {
   Rigid3 camera_from_lidar;
@@ -55,6 +59,13 @@ struct JointFit {
 JointFit solve_joint(const std::vector<SceneObservations>& scenes, const Camera& camera,
                      const Target& target, const JointState& start, const NoiseScales& scales,
                      const ObservationMask& mask, const ExtrinsicOptions& options);
+
+/// Board poses that fit best when the extrinsic is held at `camera_from_lidar`: what an extrinsic
+/// leaves of the objective, wherever it comes from. Scenes not in the mask keep their start.
+std::vector<Rigid3> solve_boards(const std::vector<SceneObservations>& scenes, const Camera& camera,
+                                 const Target& target, const JointState& start,
+                                 const NoiseScales& scales, const ObservationMask& mask,
+                                 const ExtrinsicOptions& options);
 
 /// Inverse square root (upper Cholesky factor of the inverse) of a covariance: whitening·residual
 /// has unit covariance.

@@ -17,12 +17,21 @@ std::string describe_direction(const Vector6d& direction, double ratio, bool det
       "translation along the camera's x axis", "translation along the camera's y axis",
       "translation along the camera's z axis", "rotation about the camera's x axis",
       "rotation about the camera's y axis",    "rotation about the camera's z axis"};
+  // Sideways moves and turns hide in each other at one distance; depth shows in tilted boards;
+  // a turn about the view shows far from its middle.
+  static const char* const kAdvice[] = {
+      "add a scene much nearer or farther, to part it from the turn about y",
+      "add a scene much nearer or farther, to part it from the turn about x",
+      "add a scene with the board nearer and tilted",
+      "add a scene much nearer or farther, or high or low in the image",
+      "add a scene much nearer or farther, or far left or right in the image",
+      "add a scene with the board near the image's edge"};
   Eigen::Index main = 0;
   direction.cwiseAbs().maxCoeff(&main);
   std::string text = kNames[main];
   if (!determined) return text + " is not determined: add scenes with the board turned differently";
   return text + " is known " + std::to_string(std::lround(ratio)) +
-         " times worse than the typical direction";
+         " times worse than the typical direction: " + kAdvice[main];
 }
 
 class SolutionReport {

@@ -53,6 +53,8 @@ class Calibration {
     if (Status s = agree(); !s) return s.error();
     if (Status s = refine(); !s) return s.error();
     if (Status s = optimize(); !s) return s.error();
+    result_.inputs = hash_inputs(dataset_, request_.use_crops, context_);
+    if (context_.stopped()) return Error::cancelled();
     result_.times.total_ms = ms_since(start);
     context_.report("optimize", 1.0, "done");
     return std::move(result_);
@@ -117,9 +119,17 @@ class Calibration {
       SceneResult& scene = result_.scenes[s];
       scene.chosen = result_.consensus.chosen[s];
       if (!scene.reason.empty() || scene.chosen) continue;
-      scene.reason = scene.search && !scene.search->candidates.empty()
-                         ? "the board found in the cloud does not agree with the other scenes"
-                         : "the board is not found in the cloud (" + search_summary(scene) + ")";
+      const bool elsewhere = scene.search && !scene.search->candidates.empty();
+      scene.contradicts = elsewhere || scene.looks_through;
+      if (elsewhere) {
+        scene.reason = "the board found in the cloud does not agree with the other scenes";
+      } else {
+        scene.reason = "the board is not found in the cloud (" + search_summary(scene) + ")";
+        if (scene.looks_through)
+          scene.reason +=
+              "; the LiDAR sees past the place where the image has it: does the image "
+              "belong to this cloud?";
+      }
     }
     return Done{};
   }
@@ -267,10 +277,10 @@ class Calibration {
     const auto start = Clock::now();
     std::vector<bool> use;
     for (const SceneResult& scene : result_.scenes) use.push_back(scene.used);
-    auto solved = resolve_calibration(std::move(result_), use, request_.options);
+    auto solved = resolve_calibration(std::move(result_), use, request_.options, context_);
     if (!solved) return solved.error();
     result_ = std::move(*solved);
-    result_.times.optimize_ms = ms_since(start);
+    result_.times.optimize_ms = ms_since(start) - result_.times.response_ms;
     return Done{};
   }
 
@@ -314,13 +324,15 @@ bool can_be_used(const SceneResult& scene, const Target& target) {
          (!target.has_circles() || scene.refinement->valid_nodes() >= 3);
 }
 
-Result<CalibrationResult> resolve_calibration(CalibrationResult result,
-                                              const std::vector<bool>& use,
-                                              const CalibrationOptions& options) {
+namespace {
+
+// What the joint solve needs of every scene that got so far; `index` says which scene it is.
+std::vector<SceneObservations> observations_of(const CalibrationResult& result,
+                                               const std::vector<bool>& use,
+                                               std::vector<std::size_t>& index) {
   std::vector<SceneObservations> observations;
-  std::vector<std::size_t> index;
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
-    SceneResult& scene = result.scenes[s];
+    const SceneResult& scene = result.scenes[s];
     if (!scene.view || !scene.refinement) continue;
     SceneObservations o;
     o.name = scene.name;
@@ -342,6 +354,33 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     observations.push_back(std::move(o));
     index.push_back(s);
   }
+  return observations;
+}
+
+// The boundary response of the scenes in use.
+Status respond(CalibrationResult& result, const CalibrationOptions& options,
+               const RunContext& context) {
+  const auto start = Clock::now();
+  std::vector<ResponseInput> inputs;
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.used && scene.refinement)
+      inputs.push_back({scene.name, &scene.board_points, &*scene.refinement});
+  }
+  auto response = calibrate_boundary_response(inputs, result.target, options.response, context);
+  if (!response) return response.error();
+  result.response = std::move(*response);
+  result.times.response_ms = ms_since(start);
+  return Done{};
+}
+
+}  // namespace
+
+Result<CalibrationResult> resolve_calibration(CalibrationResult result,
+                                              const std::vector<bool>& use,
+                                              const CalibrationOptions& options,
+                                              const RunContext& context) {
+  std::vector<std::size_t> index;
+  const auto observations = observations_of(result, use, index);
   auto solution = solve_extrinsic(observations, result.camera, result.target, options.extrinsic);
   if (!solution) {
     Error error = solution.error();
@@ -359,8 +398,17 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     SceneResult& scene = result.scenes[index[k]];
     const bool wanted = observations[k].use;
     scene.used = result.extrinsic.scenes[k].used;
-    if (wanted) scene.reason = result.extrinsic.scenes[k].reason;
+    if (!wanted) continue;
+    scene.reason = result.extrinsic.scenes[k].reason;
+    scene.contradicts = !scene.used && !scene.reason.empty();
   }
+  if (context.stopped()) return Error::cancelled();
+  result.methods = compare_methods(observations, result.camera, result.target, result.extrinsic,
+                                   options.extrinsic);
+  if (context.stopped()) return Error::cancelled();
+  result.uncertainty = assess_uncertainty(observations, result.camera, result.target,
+                                          result.extrinsic, options.extrinsic);
+  if (Status status = respond(result, options, context); !status) return status.error();
   judge_quality(result, options.quality);
   return result;
 }

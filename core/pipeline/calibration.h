@@ -10,24 +10,31 @@
 
 #include "base/progress.h"
 #include "discovery/discovery.h"
+#include "extrinsic/methods.h"
+#include "extrinsic/uncertainty.h"
 #include "pipeline/crop_box.h"
 #include "pipeline/dataset.h"
+#include "pipeline/input_hashes.h"
 #include "pipeline/options.h"
 #include "pipeline/stage_cache.h"
+#include "response/boundary_response.h"
 
 namespace lvcalib {
 
 /// Wall time of each stage in milliseconds. Stages of different scenes run at the same time: load,
 /// detect, localize and refine are sums over scenes; total is the clock on the wall.
 struct StageTimes {
-  double load_ms = 0, detect_ms = 0, localize_ms = 0, refine_ms = 0, optimize_ms = 0, total_ms = 0;
+  double load_ms = 0, detect_ms = 0, localize_ms = 0, refine_ms = 0, optimize_ms = 0,
+         response_ms = 0, total_ms = 0;
 };
 
 /// Everything found in one scene; what a stage did not reach is empty.
 struct SceneResult {
   std::string name;
   bool used = false;
-  std::string reason;  ///< Why it is not used, in words.
+  std::string reason;          ///< Why it is not used, in words.
+  bool looks_through = false;  ///< The LiDAR sees past the place where the others put its board.
+  bool contradicts = false;    ///< Left out because it disagrees with the other scenes.
   std::optional<BoardView> view;
   std::optional<BoardSearchResult> search;
   std::optional<std::size_t> chosen;  ///< Candidate that all scenes agree on.
@@ -54,9 +61,14 @@ struct CalibrationResult {
   SceneConsensus consensus;
   ExtrinsicSolution extrinsic;
   std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
+  std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
+  UncertaintyReport uncertainty;
+  BoundaryResponse response;  ///< Of the scenes in use.
   Quality quality = Quality::kFailed;
-  std::string quality_reason;  ///< Why the quality is not good, in words.
+  std::string quality_reason;                ///< Why the quality is not good, in words.
+  std::vector<std::string> quality_reasons;  ///< Everything that speaks against "good".
   std::vector<std::string> warnings;
+  std::vector<InputFile> inputs;  ///< The files read, with their SHA-256.
   StageTimes times;
 };
 
@@ -98,9 +110,11 @@ bool can_be_used(const SceneResult& scene, const Target& target);
 /// Why a scene is left out that the user does not want.
 inline constexpr const char* kRejectedByUser = "rejected by the user";
 
-/// Solves again from kept features with other scenes in use (`use` per scene). Milliseconds.
+/// Solves again from kept features with other scenes in use (`use` per scene): extrinsic, methods,
+/// uncertainty, boundary response, quality. A fraction of a second.
 Result<CalibrationResult> resolve_calibration(CalibrationResult result,
                                               const std::vector<bool>& use,
-                                              const CalibrationOptions& options);
+                                              const CalibrationOptions& options,
+                                              const RunContext& context = {});
 
 }  // namespace lvcalib

@@ -66,11 +66,11 @@ Result<SceneFiles> open_scene(const fs::path& folder) {
   return scene;
 }
 
-Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
+Result<Rigid3> read_transform(const fs::path& path, const std::string& key) {
   auto file = YamlFile::load(path);
   if (!file) return file.error();
-  const YamlValue* value = file->root().find("T_camera_lidar");
-  if (value == nullptr) return Error::input("key 'T_camera_lidar' is missing", path.string());
+  const YamlValue* value = file->root().find(key);
+  if (value == nullptr) return Error::input("key '" + key + "' is missing", path.string());
   if (value->kind == YamlValue::Kind::kMap && value->find("matrix") != nullptr)
     value = value->find("matrix");
   if (value->kind == YamlValue::Kind::kMap) {
@@ -78,7 +78,7 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
     const YamlValue* q = value->find("quaternion_xyzw");
     if (t == nullptr || q == nullptr) {
       return file->error_at(
-          *value, "'T_camera_lidar' must be a matrix, or have translation_m and quaternion_xyzw");
+          *value, "'" + key + "' must be a matrix, or have translation_m and quaternion_xyzw");
     }
     auto translation = file->flatten(*t, "translation_m");
     if (!translation) return translation.error();
@@ -94,10 +94,10 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
     return Rigid3{quaternion.normalized(),
                   {(*translation)[0], (*translation)[1], (*translation)[2]}};
   }
-  auto numbers = file->flatten(*value, "T_camera_lidar");
+  auto numbers = file->flatten(*value, key);
   if (!numbers) return numbers.error();
   if (numbers->size() != 12 && numbers->size() != 16) {
-    return file->error_at(*value, "'T_camera_lidar' must hold 12 or 16 numbers, found " +
+    return file->error_at(*value, "'" + key + "' must hold 12 or 16 numbers, found " +
                                       std::to_string(numbers->size()));
   }
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
@@ -105,9 +105,13 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   // Rough matrices are typed by hand; but they must be rotations, not scales or mirrors.
   if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 0.05 || R.determinant() < 0) {
-    return file->error_at(*value, "the left 3×3 part of 'T_camera_lidar' is not a rotation");
+    return file->error_at(*value, "the left 3×3 part of '" + key + "' is not a rotation");
   }
   return Rigid3::from_matrix(m);
+}
+
+Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
+  return read_transform(path, "T_camera_lidar");
 }
 
 Result<Dataset> open_dataset(const fs::path& path) {

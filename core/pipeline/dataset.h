@@ -39,8 +39,11 @@ Result<SceneFiles> open_scene(const std::filesystem::path& folder);
 /// Errors name what is missing and what was expected.
 Result<Dataset> open_dataset(const std::filesystem::path& path);
 
-/// A rough T_camera_lidar from rig.yaml: rows of a 3×4 or 4×4 matrix, or translation_m and
-/// quaternion_xyzw, under T_camera_lidar.
+/// A rigid transform from a YAML file: rows of a 3×4 or 4×4 matrix, or translation_m and
+/// quaternion_xyzw, under `key`.
+Result<Rigid3> read_transform(const std::filesystem::path& path, const std::string& key);
+
+/// A rough T_camera_lidar from rig.yaml.
 Result<Rigid3> read_rough_extrinsic(const std::filesystem::path& path);
 
 }  // namespace lvcalib

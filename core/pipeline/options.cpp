@@ -38,6 +38,7 @@ std::vector<OptionDeclaration> make_declarations() {
   using C = ConsensusOptions;
   using R = RefinementOptions;
   using E = ExtrinsicOptions;
+  using P = ResponseOptions;
   using Q = QualityOptions;
   return {
       declare("detection.quad_decimate", "1", 1, 8, "detect",
@@ -115,6 +116,24 @@ std::vector<OptionDeclaration> make_declarations() {
               &E::weak_direction_ratio),
       declare("extrinsic.max_iterations", "1", 1, 10000, "optimize",
               "Most iterations of one solve.", &O::extrinsic, &E::max_iterations),
+      declare("response.overlap_sigmas", "1", 0.1, 100, "optimize",
+              "Half-width of the overlap region in units of the transition's width.", &O::response,
+              &P::overlap_sigmas),
+      declare("response.min_samples", "1", 3, 1e9, "optimize",
+              "Fewer overlap samples give no statistics.", &O::response, &P::min_samples),
+      declare("response.min_node_samples", "1", 1, 1e9, "optimize",
+              "A circle with fewer overlap samples is left out.", &O::response,
+              &P::min_node_samples),
+      declare("response.min_contrast", "1", 0, 1000, "optimize",
+              "Smallest level difference in units of the intensity noise.", &O::response,
+              &P::min_contrast),
+      declare("response.max_clipped_share", "1", 0, 1, "optimize",
+              "Share of a level at the end of the intensity scale that counts as clipped.",
+              &O::response, &P::max_clipped_share),
+      declare("response.range_bin_m", "m", 0.01, 1000, "optimize", "Width of the classes of range.",
+              &O::response, &P::range_bin_m),
+      declare("response.incidence_bin_deg", "deg", 0.1, 90, "optimize",
+              "Width of the classes of incidence.", &O::response, &P::incidence_bin_deg),
       declare("quality.scale_warning", "1", 0, 1, "optimize",
               "Size difference between LiDAR and model worth a warning.", &O::quality,
               &Q::scale_warning),

@@ -12,6 +12,7 @@
 #include "localization/board_search.h"
 #include "localization/scene_consensus.h"
 #include "refinement/board_refinement.h"
+#include "response/boundary_response.h"
 
 namespace lvcalib {
 
@@ -36,6 +37,7 @@ struct CalibrationOptions {
   ConsensusOptions consensus;
   RefinementOptions refinement;
   ExtrinsicOptions extrinsic;
+  ResponseOptions response;
   QualityOptions quality;
 };
 

@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "pipeline/scene_loading.h"
 
 namespace lvcalib {
@@ -28,6 +30,7 @@ class Verdict {
   explicit Verdict(CalibrationResult& result) : result_(result) {
     result_.quality = Quality::kGood;
     result_.quality_reason.clear();
+    result_.quality_reasons.clear();
   }
   void note(std::string text) { result_.warnings.push_back(std::move(text)); }
   void doubtful(std::string text) {
@@ -41,6 +44,7 @@ class Verdict {
 
  private:
   void become(Quality quality, const std::string& reason) {
+    result_.quality_reasons.push_back(reason);
     if (result_.quality >= quality) return;
     result_.quality = quality;
     result_.quality_reason = reason;
@@ -49,7 +53,7 @@ class Verdict {
 };
 
 void judge_scale(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
-  const MeasuredScale scale = measured_scale(result);
+  const MeasuredScale scale = measured_scale(result, options.scale_warning);
   if (scale.sigma <= 0) return;
   const double off = scale.scale - 1.0;
   if (std::abs(off) < 4.0 * scale.sigma || std::abs(off) < options.scale_warning) return;
@@ -112,6 +116,56 @@ void judge_dark_offset(const CalibrationResult& result, const QualityOptions& op
                    "missing in the model");
 }
 
+bool is_deviating(const MeasuredScale& relative, double outlier) {
+  const double off = std::abs(relative.scale - 1.0);
+  return relative.sigma > 0.0 && off > 5.0 * relative.sigma && off > outlier;
+}
+
+// One scene whose board is of another size than in all the others.
+void judge_scene_scales(const CalibrationResult& result, const QualityOptions& options,
+                        Verdict& verdict) {
+  for (const SceneResult& scene : result.scenes) {
+    const MeasuredScale relative = relative_scale(result, scene);
+    if (!is_deviating(relative, options.scale_warning)) continue;
+    const double off = relative.scale - 1.0;
+    verdict.doubtful("scene " + scene.name + ": its board measures " +
+                     formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * relative.sigma) +
+                     (off > 0 ? "larger" : "smaller") +
+                     " than in the other scenes: is it another print?");
+  }
+}
+
+// Names the scene that fits clearly worse than the others, if there is one.
+std::string worst_scene(const ExtrinsicSolution& x) {
+  constexpr double kClearly = 2.0;
+  const SceneSolution* worst = nullptr;
+  for (const SceneSolution& scene : x.scenes) {
+    if (scene.used && (worst == nullptr || scene.rms_mm > worst->rms_mm)) worst = &scene;
+  }
+  if (worst == nullptr) return {};
+  std::vector<double> others;
+  for (const SceneSolution& scene : x.scenes) {
+    if (scene.used && &scene != worst) others.push_back(scene.rms_mm);
+  }
+  if (others.empty()) return {};
+  const double usual = median(std::move(others));
+  if (!(worst->rms_mm > kClearly * usual)) return {};
+  return "; scene " + worst->name +
+         formatted(" misses most: %.1f mm, the others %.1f mm", worst->rms_mm, usual);
+}
+
+// Halves of the scenes that contradict each other: something depends on what parts them.
+void judge_splits(const CalibrationResult& result, Verdict& verdict) {
+  for (const SplitHalf& split : result.uncertainty.splits) {
+    if (split.agrees()) continue;
+    verdict.note("the halves of the scenes (" + split.name + ") differ by " +
+                 formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
+                 formatted("more than noise explains (χ² %.0f, at most %.0f): an effect is missing "
+                           "in the model, or one scene is off",
+                           split.chi_square, split.gate));
+  }
+}
+
 Target scaled(Target t, double s) {
   for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
                          &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
@@ -123,11 +177,30 @@ Target scaled(Target t, double s) {
 
 }  // namespace
 
-MeasuredScale measured_scale(const CalibrationResult& result) {
+MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult& scene) {
+  std::vector<double> scales;
+  std::vector<double> sigmas;
+  for (const SceneResult& s : result.scenes) {
+    if (!s.used || !s.refinement || s.refinement->scale_sigma <= 0) continue;
+    scales.push_back(s.refinement->scale);
+    sigmas.push_back(s.refinement->scale_sigma);
+  }
+  if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0 || scales.size() < 3)
+    return {};
+  // A median's variance is π/2 of a mean's.
+  const double count = static_cast<double>(scales.size());
+  const double of_median = median(std::move(sigmas)) * std::sqrt(std::numbers::pi / 2.0 / count);
+  return {scene.refinement->scale / median(std::move(scales)),
+          std::hypot(scene.refinement->scale_sigma, of_median)};
+}
+
+MeasuredScale measured_scale(const CalibrationResult& result, double outlier) {
   double weight = 0.0;
   double sum = 0.0;
   for (const SceneResult& scene : result.scenes) {
-    if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0) continue;
+    if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0 ||
+        is_deviating(relative_scale(result, scene), outlier))
+      continue;
     const double w = 1.0 / (scene.refinement->scale_sigma * scene.refinement->scale_sigma);
     weight += w;
     sum += w * scene.refinement->scale;
@@ -152,6 +225,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
   judge_dark_offset(result, options, verdict);
+  judge_scene_scales(result, options, verdict);
+  judge_splits(result, verdict);
   if (x.used_scenes == 2)
     verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
@@ -163,7 +238,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     verdict.doubtful(
         formatted("LiDAR residuals are %.1f times (nodes) and %.1f times (planes) their noise: an "
                   "effect is missing in the model",
-                  x.node_scale, x.plane_scale));
+                  x.node_scale, x.plane_scale) +
+        worst_scene(x));
   }
   if (x.used_scenes > 1 && result.consensus.margin() < options.min_margin) {
     verdict.doubtful(formatted("another assignment of the board is nearly as good (margin %.1f)",
@@ -171,7 +247,14 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   }
   for (const SceneResult& scene : result.scenes) {
     if (!scene.used && !scene.reason.empty() && scene.reason != kRejectedByUser) {
-      verdict.note("scene " + scene.name + " is not used: " + scene.reason);
+      // The image shows the board, and the cloud shows none where the other scenes say: a scene
+      // that contradicts them is worth more than a note.
+      const std::string text = "scene " + scene.name + " is not used: " + scene.reason;
+      if (scene.contradicts) {
+        verdict.doubtful(text);
+      } else {
+        verdict.note(text);
+      }
     }
     if (!scene.refinement || !scene.used) continue;
     for (const std::string& w : scene.refinement->warnings)

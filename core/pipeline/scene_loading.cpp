@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <mutex>
 
@@ -228,7 +229,32 @@ Status search_scene_again(const SceneFiles& files, const CalibrationRequest& req
   if (context.stopped()) return Error::cancelled();
   if (cache != nullptr) cache->scene(files.name).second_look.keep(key, search);
   scene.search = std::move(search);
+  scene.looks_through =
+      region.radius_m > 0 && looks_through(*cloud, region.center_m, result.target);
   return Done{};
+}
+
+bool looks_through(const Cloud& cloud, const Eigen::Vector3d& center_m, const Target& target) {
+  constexpr int kFewest = 20;      // Rays that a conclusion needs.
+  constexpr double kShare = 0.8;   // Of them, how many go on.
+  constexpr double kMiddle = 0.3;  // Of the board's side: certainly inside, however it is turned.
+  constexpr double kMargin_m = 0.1;
+  const double radius = kMiddle * target.outline().size_m().minCoeff();
+  const double range = center_m.norm();
+  if (!(range > radius)) return false;
+  const Eigen::Vector3d sight = center_m / range;
+  const double cosine = std::cos(std::asin(radius / range));
+  int through = 0;
+  int all = 0;
+  for (const Eigen::Vector3f& point : cloud.points_m) {
+    const Eigen::Vector3d p = point.cast<double>();
+    const double distance = p.norm();
+    if (p.dot(sight) < cosine * distance) continue;
+    ++all;
+    // On a turned board ranges differ by no more than the radius at any believable angle.
+    through += distance > range + radius + kMargin_m ? 1 : 0;
+  }
+  return through >= kFewest && through > kShare * all;
 }
 
 }  // namespace lvcalib

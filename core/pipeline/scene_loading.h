@@ -26,4 +26,8 @@ Status search_scene_again(const SceneFiles& files, const CalibrationRequest& req
                           const PatternPyramid& pyramid, CalibrationResult& result,
                           std::size_t index, StageCache* cache = nullptr);
 
+/// Whether the LiDAR's rays go on where the board should stand with its middle at `center_m`
+/// (LiDAR frame): it is not there, and nothing hides it.
+bool looks_through(const Cloud& cloud, const Eigen::Vector3d& center_m, const Target& target);
+
 }  // namespace lvcalib

@@ -59,7 +59,7 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
       if (std::abs(z) > 4.0) continue;
       const double e = s.level - normal_cdf(z);
       const double v = variance(z);
-      if (e * e > kOutlier * kOutlier * v) continue;
+      if (is_stray(s.level)) continue;
       const double by_variance = -normal_pdf(z) * z / (2.0 * sigma * sigma);
       const Eigen::Vector3d j =
           by_variance * Eigen::Vector3d(s.cos_psi * s.cos_psi, 2.0 * s.cos_psi * s.sin_psi,
@@ -83,6 +83,11 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
     footprint_ = kept;
     if (change < 1e-3) break;
   }
+}
+
+bool TransitionModel::is_stray(double level) const {
+  const double slack = 0.02 + kOutlier * std::sqrt(std::max(variance(-4.0), variance(4.0)));
+  return !(level >= -slack && level <= 1.0 + slack);
 }
 
 void TransitionModel::update_noise(const std::vector<UnwrappedSample>& samples) {

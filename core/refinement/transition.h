@@ -29,6 +29,9 @@ class TransitionModel {
   [[nodiscard]] double sigma_m(const UnwrappedSample& s) const;
   /// Variance of a sample's level at z = d/σ.
   [[nodiscard]] double variance(double z) const;
+  /// Whether a level is none that a mixture of black and white could have given. Levels between
+  /// the two are never strays: a beam that jitters jumps from one to the other.
+  [[nodiscard]] bool is_stray(double level) const;
   [[nodiscard]] const Eigen::Matrix2d& footprint_m2() const { return footprint_; }
   /// Mean standard deviation over all directions.
   [[nodiscard]] double mean_sigma_m() const;

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
+#include "report/evidence_json.h"
+#include "report/json_values.h"
 
 namespace lvcalib {
 namespace {
@@ -14,21 +16,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t kMaxResultBytes = 256U << 20U;
-
-template <class Matrix>
-ordered_json rows_of(const Matrix& matrix) {
-  ordered_json rows = ordered_json::array();
-  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-    ordered_json row = ordered_json::array();
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-ordered_json list_of(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 ordered_json pose_json(const Rigid3& pose) {
   const Eigen::Vector4d q = pose.rotation.coeffs();
@@ -47,7 +34,8 @@ ordered_json refinement_json(const BoardRefinement& refinement) {
           {"range_noise_mm", 1e3 * refinement.plane.sigma_range_m},
           {"transition_sigma_mm", 1e3 * std::sqrt(0.5 * refinement.footprint_m2.trace())},
           {"scale", refinement.scale},
-          {"scale_sigma", refinement.scale_sigma}};
+          {"scale_sigma", refinement.scale_sigma},
+          {"profile", profile_json(refinement)}};
 }
 
 ordered_json nodes_json(const BoardRefinement& refinement, const SceneSolution* solution) {
@@ -105,7 +93,16 @@ ordered_json to_json(const CalibrationResult& result) {
   j["T_camera_lidar"] = pose_json(x.camera_from_lidar.transform);
   j["covariance"] = rows_of(x.camera_from_lidar.covariance);
   j["quality"] = name_of(result.quality);
+  j["quality_reasons"] = result.quality_reasons;
   j["warnings"] = result.warnings;
+  j["camera"] = camera_json(result.camera);
+  j["target_yaml"] = to_yaml(result.target);
+  const BoardOutline outline = result.target.outline();
+  j["board"] = {
+      {"lower_left_m", {outline.lower_left_m.x(), outline.lower_left_m.y()}},
+      {"upper_right_m", {outline.upper_right_m.x(), outline.upper_right_m.y()}},
+      {"circle_radius_m", result.target.has_circles() ? result.target.circle_radius_m : 0.0}};
+  j["inputs"] = inputs_json(result.inputs);
   j["rms_px"] = x.rms_px;
   j["rms_mm"] = x.rms_mm;
   j["sigma_px"] = x.sigma_px;
@@ -120,12 +117,15 @@ ordered_json to_json(const CalibrationResult& result) {
   j["scenes"] = ordered_json::array();
   for (const SceneResult& scene : result.scenes)
     j["scenes"].push_back(scene_json(scene, solution_of(result, scene.name)));
+  j["methods"] = methods_json(result.methods);
   j["leave_one_out"] = ordered_json::array();
   for (const LeaveOneOut& l : x.leave_one_out) {
     j["leave_one_out"].push_back({{"without", l.without},
                                   {"translation_mm", l.translation_mm},
                                   {"rotation_mrad", l.rotation_mrad}});
   }
+  j["uncertainty"] = uncertainty_json(result.uncertainty);
+  j["boundary_response"] = response_json(result.response);
   j["model"] = {{"effects", ordered_json::array()}};
   for (const ModelEffect& effect : result.model) {
     ordered_json parameters = ordered_json::array();
@@ -142,7 +142,8 @@ ordered_json to_json(const CalibrationResult& result) {
   const StageTimes& t = result.times;
   j["timing_ms"] = {{"load", t.load_ms},         {"detect", t.detect_ms},
                     {"localize", t.localize_ms}, {"refine", t.refine_ms},
-                    {"optimize", t.optimize_ms}, {"total", t.total_ms}};
+                    {"optimize", t.optimize_ms}, {"response", t.response_ms},
+                    {"total", t.total_ms}};
   return j;
 }
 

@@ -49,6 +49,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(apriltag REQUIRED)
 find_package(Boost REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-pdf cairo-svg)
 # liblzf ships neither a CMake nor a pkg-config file.

@@ -109,7 +109,7 @@ TEST(CornerCost, ResidualIsThePixelErrorInStandardDeviations) {
   const Camera camera = test::test_camera();
   const Rigid3 pose = test::spread_board(Target{}, 0);
   const Eigen::Vector2d seen = *camera.project(pose * Eigen::Vector3d(0.1, 0.2, 0.0));
-  const CornerCost cost(camera, {0.1, 0.2}, seen - Eigen::Vector2d(0.3, -0.1), 0.1);
+  const CornerCost cost(camera, Eigen::Vector2d(0.1, 0.2), seen - Eigen::Vector2d(0.3, -0.1), 0.1);
   const Eigen::VectorXd r = residuals_of(cost, {block_of(pose)});
   EXPECT_NEAR(r(0), 3.0, 1e-9);
   EXPECT_NEAR(r(1), -1.0, 1e-9);
@@ -119,7 +119,7 @@ TEST(CornerCost, APointBehindTheCameraFailsTheEvaluation) {
   const Camera camera = test::test_camera();
   Rigid3 pose = test::spread_board(Target{}, 0);
   pose.translation.z() = -2.0;
-  const CornerCost cost(camera, {0.1, 0.2}, {600, 400}, 0.1);
+  const CornerCost cost(camera, Eigen::Vector2d(0.1, 0.2), {600, 400}, 0.1);
   const Block block = block_of(pose);
   const double* blocks[] = {block.data()};
   double residuals[2] = {0, 0};

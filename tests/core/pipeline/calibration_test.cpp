@@ -174,5 +174,42 @@ TEST(Quality, HasNames) {
   EXPECT_EQ(name_of(Quality::kFailed), "failed");
 }
 
+// One image belongs to another scene: named, doubtful, and the rest calibrated as if it were not
+// there.
+TEST(Calibrate, AnImageOfAnotherSceneIsFoundOutAndNamed) {
+  const test::SimulatedDataset data(test::dataset_options(4, 5));
+  const fs::path scenes = data.path() / "scenes";
+  ASSERT_TRUE(fs::copy_file(scenes / "D/image.png", scenes / "C/image.png",
+                            fs::copy_options::overwrite_existing));
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(name_of(result->quality), "doubtful");
+  EXPECT_FALSE(result->scenes[2].used);
+  EXPECT_TRUE(result->scenes[2].contradicts) << result->scenes[2].reason;
+  ASSERT_FALSE(result->quality_reasons.empty());
+  EXPECT_THAT(result->quality_reasons.front(), HasSubstr("scene C"));
+  EXPECT_EQ(result->extrinsic.used_scenes, 4);
+  expect_within_four_sigma(*result, data.rig().camera_from_lidar);
+}
+
+// Everything that a result says of itself is there after a calibration and after leaving a scene
+// out.
+TEST(Calibrate, EvidenceFollowsTheScenesInUse) {
+  const test::SimulatedDataset data(test::dataset_options(1, 4));
+  const auto all = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(all.ok()) << all.error().text();
+  EXPECT_EQ(all->methods.size(), 8U);
+  EXPECT_EQ(all->uncertainty.splits.size(), 3U);
+  ASSERT_TRUE(all->response.all.has_value()) << all->response.reason;
+  EXPECT_EQ(all->response.scenes.size(), 4U);
+  EXPECT_EQ(all->inputs.size(), 10U);
+  const auto less = resolve_calibration(*all, {true, false, true, true}, {});
+  ASSERT_TRUE(less.ok());
+  EXPECT_EQ(less->methods.back().scenes.size(), 3U);
+  EXPECT_TRUE(less->uncertainty.splits.empty());
+  EXPECT_EQ(less->response.scenes.size(), 3U);
+  EXPECT_LT(less->response.all->n, all->response.all->n);
+}
+
 }  // namespace
 }  // namespace lvcalib

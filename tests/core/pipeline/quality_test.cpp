@@ -72,6 +72,41 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
        [](auto& r) { r.extrinsic.sigma_px = 3.0; }},
       {"2.5 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 2.5; }},
       {"5.0 times (planes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.plane_scale = 5.0; }},
+      {"scene B misses most: 6.0 mm", Quality::kDoubtful,
+       [](auto& r) {
+         r.extrinsic.node_scale = 4.0;
+         for (const char* name : {"A", "B", "C"}) {
+           SceneSolution s;
+           s.name = name;
+           s.used = true;
+           s.rms_mm = s.name == "B" ? 6.0 : 1.0;
+           r.extrinsic.scenes.push_back(s);
+         }
+       }},
+      {"scene B: its board measures 4.00 ± 0.06 % larger", Quality::kDoubtful,
+       [](auto& r) { r.scenes[1].refinement->scale = 1.04; }},
+      {"scene B is not used: elsewhere", Quality::kDoubtful,
+       [](auto& r) {
+         r.scenes[1].used = false;
+         r.scenes[1].reason = "elsewhere";
+         r.scenes[1].contradicts = true;
+       }},
+      {"scene B is not used: no tags", Quality::kGood,
+       [](auto& r) {
+         r.scenes[1].used = false;
+         r.scenes[1].reason = "no tags";
+       }},
+      {"(near/far) differ by 9.0 mm and 2.0 mrad, more than noise explains (χ² 90", Quality::kGood,
+       [](auto& r) {
+         SplitHalf split;
+         split.name = "near/far";
+         split.translation_mm = 9.0;
+         split.rotation_mrad = 2.0;
+         split.expected_translation_mm = 1.0;
+         split.chi_square = 90.0;
+         split.gate = 22.0;
+         r.uncertainty.splits.push_back(split);
+       }},
       {"nearly as good (margin 2.0)", Quality::kDoubtful,
        [](auto& r) { r.consensus.runner_up = 498.0; }},
       {"0.50 ± 0.03 % larger", Quality::kGood,

@@ -109,5 +109,26 @@ TEST(SearchSceneAgain, LooksInTheRegion) {
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
 }
 
+TEST(LooksThrough, OnlyWhereRaysGoOnBehindThePlace) {
+  const Target target;
+  const Eigen::Vector3d center(3.0, 0.5, 0.2);
+  const auto wall_at = [&](double range_m) {
+    Cloud cloud;
+    for (int i = -20; i <= 20; ++i) {
+      for (int j = -20; j <= 20; ++j) {
+        const Eigen::Vector3d sight =
+            (center.normalized() + Eigen::Vector3d(0.0, 0.005 * i, 0.005 * j)).normalized();
+        cloud.points_m.push_back((range_m * sight).cast<float>());
+      }
+    }
+    return cloud;
+  };
+  EXPECT_TRUE(looks_through(wall_at(5.0), center, target));
+  EXPECT_FALSE(looks_through(wall_at(center.norm()), center, target));  // Something stands there,
+  EXPECT_FALSE(looks_through(wall_at(1.5), center, target));            // hides it,
+  EXPECT_FALSE(looks_through({}, center, target));                      // or is not in view.
+  EXPECT_FALSE(looks_through(wall_at(5.0), -center, target));
+}
+
 }  // namespace
 }  // namespace lvcalib

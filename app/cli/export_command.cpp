@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/file_io.h"
+#include "command.h"
+#include "pipeline/dataset.h"
+#include "report/exports.h"
+
+namespace lvcalib::cli {
+namespace {
+
+struct Options {
+  std::string result;
+  std::string format;
+  std::string output;
+  std::string imu;
+};
+
+Result<std::string> run(const Options& options) {
+  auto input = read_export_input(options.result);
+  if (!input) return input.error();
+  if (!options.imu.empty()) {
+    auto imu = read_transform(options.imu, "T_imu_lidar");
+    if (!imu) return imu.error();
+    input->imu_from_lidar = *imu;
+  }
+  auto text = export_result(*input, options.format);
+  if (!text) return text.error();
+  if (Status s = write_file_atomically(options.output, *text); !s) return s.error();
+  return options.format + " -> " + options.output;
+}
+
+std::string format_list() {
+  std::string text = "one of";
+  for (const ExportFormat& format : export_formats())
+    text += "\n  " + format.name + ": " + format.description;
+  return text;
+}
+
+}  // namespace
+
+Command add_export_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("export", "Write a result in another tool's format");
+  command->add_option("RESULT", options->result, "result.json")->required();
+  command->add_option("--format", options->format, format_list())->required();
+  command->add_option("-o,--output", options->output, "file to write")->required();
+  command->add_option("--imu", options->imu,
+                      "YAML file with T_imu_lidar (takes a LiDAR point to the IMU frame)");
+  return {command, [options](Session&) { return run(*options); }};
+}
+
+}  // namespace lvcalib::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/file_io.h"
+#include "command.h"
+#include "report/html_report.h"
+
+namespace lvcalib::cli {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string output;
+};
+
+Result<std::string> run(const Options& options, Session& session) {
+  auto report = html_report(options.folder, session.context);
+  if (!report) return report.error();
+  if (session.context.stopped()) return Error::cancelled();
+  for (const std::string& warning : report->warnings) session.warn(warning);
+  if (Status s = write_file_atomically(options.output, report->html); !s) return s.error();
+  return "report -> " + options.output;
+}
+
+}  // namespace
+
+Command add_report_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("report", "Write a calibration as one self-contained HTML file");
+  command->add_option("OUT", options->folder, "folder with result.json")->required();
+  command->add_option("-o,--output", options->output, "report.html")->required();
+  return {command, [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace lvcalib::cli

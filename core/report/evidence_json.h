@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/calibration.h"
+
+namespace lvcalib {
+
+// Parts of result.json. Internal to this room: nlohmann's header is not part of the API.
+
+nlohmann::ordered_json camera_json(const Camera& camera);
+nlohmann::ordered_json inputs_json(const std::vector<InputFile>& inputs);
+nlohmann::ordered_json methods_json(const std::vector<MethodResult>& methods);
+nlohmann::ordered_json uncertainty_json(const UncertaintyReport& report);
+nlohmann::ordered_json response_json(const BoundaryResponse& response);
+
+/// Mid-level crossings of every node by angle, in the first and in the last iteration.
+nlohmann::ordered_json profile_json(const BoardRefinement& refinement);
+
+}  // namespace lvcalib

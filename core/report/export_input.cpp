@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "base/file_io.h"
+#include "report/exports.h"
+#include "report/result_file.h"
+
+namespace lvcalib {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxResultBytes = 256U << 20U;
+
+Result<double> number_at(const json& j, const char* key, const std::string& where) {
+  const auto found = j.find(key);
+  if (found == j.end() || !found->is_number())
+    return Error::input(std::string("camera.") + key + " is missing or not a number", where);
+  return found->get<double>();
+}
+
+Result<Camera> camera_of(const json& j, const std::string& where) {
+  const auto found = j.find("camera");
+  if (found == j.end() || !found->is_object()) {
+    return Error::input("there is no camera in this result", where,
+                        "calibrate again with this version, which stores the intrinsics");
+  }
+  Camera camera;
+  const std::array<std::pair<const char*, double*>, 4> fields = {
+      {{"fx", &camera.fx}, {"fy", &camera.fy}, {"cx", &camera.cx}, {"cy", &camera.cy}}};
+  for (const auto& [key, value] : fields) {
+    auto number = number_at(*found, key, where);
+    if (!number) return number.error();
+    *value = *number;
+  }
+  auto width = number_at(*found, "width", where);
+  if (!width) return width.error();
+  auto height = number_at(*found, "height", where);
+  if (!height) return height.error();
+  const auto whole = [](double v) { return v >= 1.0 && v <= 1e6; };
+  if (!whole(*width) || !whole(*height))
+    return Error::input("camera.width and camera.height are no image size", where);
+  camera.width_px = static_cast<int>(*width);
+  camera.height_px = static_cast<int>(*height);
+  const auto model = found->find("distortion_model");
+  const std::string name =
+      model != found->end() && model->is_string() ? model->get<std::string>() : "";
+  if (name == "plumb_bob") {
+    camera.model = DistortionModel::kPlumbBob;
+  } else if (name == "rational_polynomial") {
+    camera.model = DistortionModel::kRationalPolynomial;
+  } else if (name == "equidistant") {
+    camera.model = DistortionModel::kEquidistant;
+  } else {
+    return Error::input(
+        "camera.distortion_model is none of plumb_bob, rational_polynomial, "
+        "equidistant",
+        where);
+  }
+  const auto distortion = found->find("distortion");
+  if (distortion == found->end() || !distortion->is_array() ||
+      distortion->size() != static_cast<std::size_t>(camera.distortion_count()))
+    return Error::input("camera.distortion is missing or of another length than its model's",
+                        where);
+  for (std::size_t k = 0; k < distortion->size(); ++k) {
+    if (!(*distortion)[k].is_number())
+      return Error::input("camera.distortion holds something that is no number", where);
+    camera.distortion(static_cast<Eigen::Index>(k)) = (*distortion)[k].get<double>();
+  }
+  if (Status status = check(camera); !status) {
+    Error error = status.error();
+    error.where = where;
+    return error;
+  }
+  return camera;
+}
+
+}  // namespace
+
+Result<Camera> camera_from_json_text(const std::string& result_json, const std::string& where) {
+  const json j = json::parse(result_json, nullptr, false);
+  if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", where);
+  return camera_of(j, where);
+}
+
+Result<ExportInput> read_export_input(const std::filesystem::path& result_json) {
+  auto stored = read_result(result_json);
+  if (!stored) return stored.error();
+  auto text = read_text_file(result_json, kMaxResultBytes);
+  if (!text) return text.error();
+  auto camera = camera_from_json_text(*text, result_json.string());
+  if (!camera) return camera.error();
+  const json j = json::parse(*text, nullptr, false);
+  ExportInput input;
+  input.camera_from_lidar = stored->camera_from_lidar;
+  input.camera = *camera;
+  const auto dataset = j.find("dataset");
+  if (dataset != j.end() && dataset->is_string()) input.dataset = dataset->get<std::string>();
+  const auto quality = j.find("quality");
+  if (quality != j.end() && quality->is_string()) input.quality = quality->get<std::string>();
+  input.result_json = std::move(*text);
+  return input;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/exports.h"
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <initializer_list>
+
+#include "base/yaml_file.h"
+#include "report/result_file.h"
+
+namespace lvcalib {
+namespace {
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.12g", value == 0.0 ? 0.0 : value);
+  // YAML 1.1 readers take "1" for an integer where a float is asked for.
+  std::string out = text;
+  if (out.find_first_of(".e") == std::string::npos) out += ".0";
+  return out;
+}
+
+template <class Values>
+std::string list(const Values& values, const char* separator = ", ") {
+  std::string out;
+  for (const double v : values) out += (out.empty() ? "" : separator) + number(v);
+  return out;
+}
+
+std::vector<double> row_major(const Eigen::Matrix3d& m) {
+  std::vector<double> out;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) out.push_back(m(r, c));
+  }
+  return out;
+}
+
+std::string matrix_rows(const Eigen::Matrix4d& m, const std::string& before,
+                        const std::string& after) {
+  std::string out;
+  for (int r = 0; r < 4; ++r) {
+    const std::vector<double> row = {m(r, 0), m(r, 1), m(r, 2), m(r, 3)};
+    out += before + list(row) + after + "\n";
+  }
+  return out;
+}
+
+// R = Rz(yaw)·Ry(pitch)·Rx(roll), as ROS, URDF and PCL compose it.
+struct RollPitchYaw {
+  double roll, pitch, yaw;
+};
+RollPitchYaw angles_of(const Rigid3& transform) {
+  const Eigen::Matrix3d R = transform.rotation.toRotationMatrix();
+  const double across = std::hypot(R(0, 0), R(1, 0));
+  // Looking straight up or down only the sum of roll and yaw is defined: all of it goes to yaw.
+  if (across < 1e-9) return {0.0, std::atan2(-R(2, 0), across), std::atan2(-R(0, 1), R(1, 1))};
+  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), across), std::atan2(R(1, 0), R(0, 0))};
+}
+
+// x forward, y left, z up, from x right, y down, z forward.
+Rigid3 body_from_optical() {
+  Eigen::Matrix3d R;
+  R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return Rigid3::from_matrix(R, Eigen::Vector3d::Zero());
+}
+
+struct WorkedPoint {
+  Eigen::Vector3d lidar_m, camera_m;
+  Eigen::Vector2d pixel;
+};
+
+// A point some metres ahead and off the axis, its LiDAR coordinates rounded to what is printed.
+WorkedPoint worked_point(const ExportInput& input) {
+  WorkedPoint p;
+  for (const double aside : {0.2, 0.1, 0.0}) {
+    p.lidar_m = input.camera_from_lidar.inverse() * Eigen::Vector3d(5.0 * aside, -2.0 * aside, 5.0);
+    p.lidar_m = (1e3 * p.lidar_m).array().round() / 1e3;
+    p.camera_m = input.camera_from_lidar * p.lidar_m;
+    const auto pixel = input.camera.project(p.camera_m);
+    p.pixel = pixel.value_or(Eigen::Vector2d(std::nan(""), std::nan("")));
+    if (pixel && input.camera.in_image(*pixel)) break;
+  }
+  return p;
+}
+
+std::string intrinsics_line(const Camera& camera) {
+  static const char* const kModels[] = {"plumb_bob", "rational_polynomial", "equidistant"};
+  std::vector<double> distortion;
+  for (int k = 0; k < camera.distortion_count(); ++k) distortion.push_back(camera.distortion(k));
+  return std::string("intrinsics: ") + kModels[static_cast<int>(camera.model)] +
+         " [fx, fy, cx, cy] = [" +
+         list(std::vector<double>{camera.fx, camera.fy, camera.cx, camera.cy}) +
+         "], distortion = [" + list(distortion) + "]";
+}
+
+// Text from a file that must not end a comment, in whatever format it stands.
+std::string on_one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\') c = ' ';
+  }
+  // An XML comment may not hold two hyphens.
+  for (auto at = text.find("--"); at != std::string::npos; at = text.find("--")) text[at] = ' ';
+  return text;
+}
+
+// The comment common to all formats; `lines` say what is particular.
+std::string comment(const ExportInput& input, std::initializer_list<std::string> lines,
+                    const std::string& prefix = "# ") {
+  const WorkedPoint p = worked_point(input);
+  std::string out = prefix + "LV-Calib " + version() + "\n";
+  if (!input.dataset.empty()) out += prefix + "dataset: " + on_one_line(input.dataset) + "\n";
+  if (!input.quality.empty() && input.quality != "good")
+    out += prefix + "quality: " + on_one_line(input.quality) + ": see the result's warnings\n";
+  for (const std::string& line : lines) out += prefix + line + "\n";
+  out += prefix +
+         "camera: x right, y down, z forward; pixel (0, 0) is the centre of the top-left "
+         "pixel; metres, radians\n";
+  out += prefix + "worked point: lidar_m = [" + list(p.lidar_m) + "]\n";
+  out += prefix + "              camera_m = [" + list(p.camera_m) + "]\n";
+  out += prefix + "              pixel = [" + list(p.pixel) + "]\n";
+  out += prefix + intrinsics_line(input.camera) + "\n";
+  return out;
+}
+
+Result<std::string> write_matrix(const ExportInput& input) {
+  return comment(input, {"T_camera_lidar: takes a point from the LiDAR frame to the camera frame, "
+                         "p_camera = T * p_lidar; 4x4, row by row"}) +
+         matrix_rows(input.camera_from_lidar.matrix(), "", "");
+}
+
+Result<std::string> write_opencv(const ExportInput& input) {
+  const Eigen::Vector3d rvec = so3_log(input.camera_from_lidar.rotation);
+  const auto matrix = [](const std::string& name, int rows, int columns, const auto& values) {
+    return name + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
+           "\n   cols: " + std::to_string(columns) + "\n   dt: d\n   data: [ " + list(values) +
+           " ]\n";
+  };
+  const Camera& c = input.camera;
+  std::vector<double> distortion;
+  for (int k = 0; k < c.distortion_count(); ++k) distortion.push_back(c.distortion(k));
+  const std::vector<double> K = {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0};
+  return "%YAML:1.0\n---\n" +
+         comment(input,
+                 {"rvec (Rodrigues, rad), tvec (m): take a point from the LiDAR frame to the "
+                  "camera frame,",
+                  "as cv::projectPoints (cv::fisheye::projectPoints for equidistant) takes "
+                  "them with LiDAR points"}) +
+         matrix("rvec", 3, 1, rvec) + matrix("tvec", 3, 1, input.camera_from_lidar.translation) +
+         matrix("camera_matrix", 3, 3, K) +
+         matrix("distortion_coefficients", c.distortion_count(), 1, distortion);
+}
+
+Result<std::string> write_ros1(const ExportInput& input) {
+  const Rigid3 T = input.camera_from_lidar.inverse();
+  const RollPitchYaw a = angles_of(T);
+  const Eigen::Vector3d& t = T.translation;
+  return "#!/bin/sh\n" +
+         comment(input, {"T_lidar_camera: pose of the camera (child) in the LiDAR frame (parent), "
+                         "p_lidar = T * p_camera",
+                         "positional order of ROS 1: x y z yaw pitch roll parent child; R = "
+                         "Rz(yaw)*Ry(pitch)*Rx(roll)"}) +
+         "rosrun tf2_ros static_transform_publisher " +
+         list(std::vector<double>{t.x(), t.y(), t.z(), a.yaw, a.pitch, a.roll}, " ") +
+         " lidar camera\n";
+}
+
+Result<std::string> write_ros2(const ExportInput& input) {
+  const Rigid3 T = input.camera_from_lidar.inverse();
+  const Eigen::Vector3d& t = T.translation;
+  const Eigen::Vector4d q = T.rotation.coeffs();
+  return "#!/bin/sh\n" +
+         comment(input, {"T_lidar_camera: pose of the camera (child) in the LiDAR frame (parent), "
+                         "p_lidar = T * p_camera"}) +
+         "ros2 run tf2_ros static_transform_publisher --x " + number(t.x()) + " --y " +
+         number(t.y()) + " --z " + number(t.z()) + " --qx " + number(q(0)) + " --qy " +
+         number(q(1)) + " --qz " + number(q(2)) + " --qw " + number(q(3)) +
+         " --frame-id lidar --child-frame-id camera\n";
+}
+
+Result<std::string> write_urdf(const ExportInput& input) {
+  const Rigid3 T = input.camera_from_lidar.inverse();
+  const RollPitchYaw a = angles_of(T);
+  return "<!--\n" +
+         comment(input,
+                 {"origin: pose of the camera (child) in the LiDAR frame (parent), p_lidar "
+                  "= T * p_camera",
+                  "R = Rz(yaw)*Ry(pitch)*Rx(roll), rpy = roll pitch yaw"},
+                 "  ") +
+         "-->\n<joint name=\"lidar_to_camera\" type=\"fixed\">\n  <parent link=\"lidar\"/>\n"
+         "  <child link=\"camera\"/>\n  <origin xyz=\"" +
+         list(T.translation, " ") + "\" rpy=\"" +
+         list(std::vector<double>{a.roll, a.pitch, a.yaw}, " ") + "\"/>\n</joint>\n";
+}
+
+Result<std::string> write_kalibr(const ExportInput& input) {
+  const Camera& c = input.camera;
+  std::string out = comment(input, {"T_cam_lidar: takes a point from the LiDAR frame to the camera "
+                                    "frame, p_camera = T * p_lidar"});
+  out += "cam0:\n  T_cam_lidar:\n" + matrix_rows(input.camera_from_lidar.matrix(), "    - [", "]");
+  const bool fisheye = c.model == DistortionModel::kEquidistant;
+  out += "  camera_model: pinhole\n  intrinsics: [" +
+         list(std::vector<double>{c.fx, c.fy, c.cx, c.cy}) + "]\n";
+  const bool radtan = c.model == DistortionModel::kPlumbBob && c.distortion(4) == 0.0;
+  if (fisheye || radtan) {
+    out += std::string("  distortion_model: ") + (fisheye ? "equidistant" : "radtan") +
+           "\n  distortion_coeffs: [" +
+           list(std::vector<double>{c.distortion(0), c.distortion(1), c.distortion(2),
+                                    c.distortion(3)}) +
+           "]\n";
+  } else {
+    out +=
+        "  # Kalibr has no distortion model with these coefficients; see the intrinsics above.\n";
+  }
+  out +=
+      "  resolution: [" + std::to_string(c.width_px) + ", " + std::to_string(c.height_px) + "]\n";
+  return out;
+}
+
+Result<std::string> write_autoware(const ExportInput& input) {
+  const Rigid3 T = input.camera_from_lidar.inverse() * body_from_optical().inverse();
+  const RollPitchYaw a = angles_of(T);
+  const auto line = [](const char* key, double value) {
+    return std::string("    ") + key + ": " + number(value) + "\n";
+  };
+  return comment(input, {"pose of camera_link (child) in sensor_kit_base_link (parent), here the "
+                         "LiDAR frame itself:",
+                         "where the LiDAR is elsewhere, put T_base_lidar before it. camera_link: x "
+                         "forward, y left, z up;",
+                         "p_lidar = T * p_camera_link, R = Rz(yaw)*Ry(pitch)*Rx(roll); p_camera = "
+                         "(-y, -z, x) of p_camera_link"}) +
+         "sensor_kit_base_link:\n  camera0/camera_link:\n" + line("x", T.translation.x()) +
+         line("y", T.translation.y()) + line("z", T.translation.z()) + line("roll", a.roll) +
+         line("pitch", a.pitch) + line("yaw", a.yaw);
+}
+
+Result<std::string> write_fast_livo2(const ExportInput& input) {
+  const Rigid3& T = input.camera_from_lidar;
+  return comment(input,
+                 {"Rcl (row-major), Pcl (m): take a point from the LiDAR frame to the camera "
+                  "frame, p_camera = Rcl * p_lidar + Pcl"}) +
+         "extrin_calib:\n  Rcl: [" + list(row_major(T.rotation.toRotationMatrix())) +
+         "]\n  Pcl: [" + list(T.translation) + "]\n";
+}
+
+Result<std::string> write_r3live(const ExportInput& input) {
+  const Rigid3 T = *input.imu_from_lidar * input.camera_from_lidar.inverse();
+  const Rigid3& L = *input.imu_from_lidar;
+  return comment(input, {"camera_ext_R (row-major), camera_ext_t (m): take a point from the camera "
+                         "frame to the IMU frame,",
+                         "p_imu = R * p_camera + t; made with p_imu = R_il * p_lidar + t_il,",
+                         "R_il = [" + list(row_major(L.rotation.toRotationMatrix())) +
+                             "], t_il = [" + list(L.translation) + "]"}) +
+         "r3live_vio:\n  camera_ext_R: [" + list(row_major(T.rotation.toRotationMatrix())) +
+         "]\n  camera_ext_t: [" + list(T.translation) + "]\n";
+}
+
+Result<std::string> write_lvi_sam(const ExportInput& input) {
+  const Rigid3 T = body_from_optical() * input.camera_from_lidar;
+  const RollPitchYaw a = angles_of(T);
+  const auto line = [](const char* key, double value) {
+    return std::string("lidar_to_cam_") + key + ": " + number(value) + "\n";
+  };
+  return comment(input,
+                 {"takes a point from the LiDAR frame to the camera frame turned to x "
+                  "forward, y left, z up,",
+                  "p_forward = T * p_lidar, R = Rz(rz)*Ry(ry)*Rx(rx); p_camera = (-y, -z, x) "
+                  "of p_forward"}) +
+         line("tx", T.translation.x()) + line("ty", T.translation.y()) +
+         line("tz", T.translation.z()) + line("rx", a.roll) + line("ry", a.pitch) +
+         line("rz", a.yaw);
+}
+
+// JSON has no comments: they are the strings of a key that its readers pass over.
+Result<std::string> write_koide(const ExportInput& input) {
+  const Rigid3 T = input.camera_from_lidar.inverse();
+  const Eigen::Vector4d q = T.rotation.coeffs();
+  std::string lines =
+      comment(input,
+              {"T_lidar_camera: x y z (m) qx qy qz qw; takes a point from the camera "
+               "frame to the LiDAR frame, p_lidar = T * p_camera"},
+              "");
+  std::string notes;
+  for (std::size_t at = 0; at < lines.size();) {
+    const std::size_t end = lines.find('\n', at);
+    notes += (notes.empty() ? "" : ",\n") + ("    \"" + lines.substr(at, end - at)) + "\"";
+    at = end + 1;
+  }
+  const Camera& c = input.camera;
+  std::vector<double> distortion;
+  for (int k = 0; k < c.distortion_count(); ++k) distortion.push_back(c.distortion(k));
+  static const char* const kModels[] = {"plumb_bob", "rational_polynomial", "fisheye"};
+  return "{\n  \"_comment\": [\n" + notes + "\n  ],\n  \"camera\": {\n    \"camera_model\": \"" +
+         kModels[static_cast<int>(c.model)] + "\",\n    \"intrinsics\": [" +
+         list(std::vector<double>{c.fx, c.fy, c.cx, c.cy}) + "],\n    \"distortion_coeffs\": [" +
+         list(distortion) + "]\n  },\n  \"results\": {\n    \"T_lidar_camera\": [" +
+         list(std::vector<double>{T.translation.x(), T.translation.y(), T.translation.z(), q(0),
+                                  q(1), q(2), q(3)}) +
+         "]\n  }\n}\n";
+}
+
+}  // namespace
+
+const std::vector<ExportFormat>& export_formats() {
+  static const std::vector<ExportFormat> formats = {
+      {"matrix", "T_camera_lidar, 4x4 numbers", false, &write_matrix},
+      {"opencv", "rvec and tvec as cv::projectPoints takes them (FileStorage YAML)", false,
+       &write_opencv},
+      {"ros1-tf", "static_transform_publisher of ROS 1, camera in LiDAR", false, &write_ros1},
+      {"ros2-tf", "static_transform_publisher of ROS 2, camera in LiDAR", false, &write_ros2},
+      {"urdf", "fixed joint, camera in LiDAR", false, &write_urdf},
+      {"kalibr", "camchain with T_cam_lidar", false, &write_kalibr},
+      {"autoware", "sensor_kit_calibration.yaml with camera_link (x forward)", false,
+       &write_autoware},
+      {"fast-livo2", "Rcl and Pcl of FAST-LIVO2, LiDAR to camera", false, &write_fast_livo2},
+      {"r3live", "camera_ext_R and camera_ext_t of R3LIVE, camera to IMU", true, &write_r3live},
+      {"lvi-sam", "lidar_to_cam_* of LVI-SAM, LiDAR to x-forward camera", false, &write_lvi_sam},
+      {"koide", "calib.json of direct_visual_lidar_calibration, T_lidar_camera", false,
+       &write_koide},
+      {"boundary-response", "noise of points at reflectivity edges, for SLAM front ends (YAML)",
+       false, &export_boundary_response}};
+  return formats;
+}
+
+Result<std::string> export_result(const ExportInput& input, const std::string& format) {
+  std::vector<std::string> names;
+  for (const ExportFormat& f : export_formats()) {
+    names.push_back(f.name);
+    if (f.name != format) continue;
+    if (f.needs_imu && !input.imu_from_lidar) {
+      return Error::usage("the format " + format +
+                              " holds the camera's pose in the IMU frame and needs T_imu_lidar",
+                          "--format",
+                          "give a YAML file with T_imu_lidar (takes a LiDAR point to the IMU "
+                          "frame) by --imu");
+    }
+    return f.write(input);
+  }
+  std::string known;
+  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  const std::string near = nearest_word(format, names);
+  return Error::usage("there is no format '" + format + "', known are " + known, "--format",
+                      near.empty() ? "" : "did you mean " + near + "?");
+}
+
+}  // namespace lvcalib

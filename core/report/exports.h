@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/rigid3.h"
+#include "camera/camera.h"
+
+namespace lvcalib {
+
+/// What an export is made of.
+struct ExportInput {
+  Rigid3 camera_from_lidar;
+  Camera camera;
+  std::string dataset;                   ///< Named in the comment.
+  std::string quality;                   ///< Said in the comment when it is not "good".
+  std::optional<Rigid3> imu_from_lidar;  ///< Needed by formats that speak of the IMU.
+  std::string result_json;               ///< The whole result, for the boundary response.
+};
+
+/// A format other tools read. Every text says, in the format's own comments, which frames it
+/// connects, in which direction and in what units, and works one point through: a LiDAR point, its
+/// camera coordinates, its pixel.
+struct ExportFormat {
+  std::string name;
+  std::string description;  ///< One line: for whom, and what it holds.
+  bool needs_imu = false;
+  Result<std::string> (*write)(const ExportInput&) = nullptr;
+};
+
+/// All formats, in the order of lists.
+const std::vector<ExportFormat>& export_formats();
+
+/// The text of a result in a format. Errors: kUsage for an unknown format (naming the nearest) or
+/// a missing T_imu_lidar; kUntrusted for a boundary response that the result does not have.
+Result<std::string> export_result(const ExportInput& input, const std::string& format);
+
+/// Reads what exports need from result.json.
+Result<ExportInput> read_export_input(const std::filesystem::path& result_json);
+
+/// The camera stored in the text of a result.json.
+Result<Camera> camera_from_json_text(const std::string& result_json, const std::string& where = {});
+
+/// The boundary response for a SLAM front end: YAML with documented keys, and how to use it in
+/// C++ in its comments.
+Result<std::string> export_boundary_response(const ExportInput& input);
+
+}  // namespace lvcalib

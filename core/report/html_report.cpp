@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/html_report.h"
+
+#include "base/file_io.h"
+#include "report/report_figures.h"
+#include "report/report_sections.h"
+
+namespace lvcalib {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxResultBytes = 256U << 20U;
+
+constexpr const char* kStyle = R"(
+:root { color-scheme: light; }
+body { font: 15px/1.45 system-ui, sans-serif; color: #1c1c1c; max-width: 60rem; margin: 2rem auto;
+  padding: 0 1rem; }
+h1 { font-size: 1.6rem; margin-bottom: .2rem; } h2 { font-size: 1.2rem; margin-top: 2rem;
+  border-bottom: 1px solid #ccc; } h3 { font-size: 1.02rem; margin-bottom: .3rem; }
+table { border-collapse: collapse; margin: .5rem 0; font-variant-numeric: tabular-nums; }
+th, td { border: 1px solid #ddd; padding: .15rem .5rem; text-align: right; }
+th:first-child, td:first-child { text-align: left; } th { background: #f3f5f7; }
+tr.best td { background: #e8f3ea; }
+.verdict { display: inline-block; padding: .15rem .7rem; border-radius: .3rem; color: #fff;
+  font-weight: 600; } .good { background: #23793b; } .doubtful { background: #a86200; }
+.failed { background: #ab1f28; }
+.figures { display: flex; flex-wrap: wrap; gap: .8rem; align-items: flex-start; }
+svg.plot { width: 27rem; max-width: 100%; } svg.photo { width: 100%; max-width: 46rem; }
+figure { margin: .3rem 0; } .figures figure { width: 27rem; max-width: 100%; } figcaption, .note { color: #555; font-size: .88rem; }
+code, .hash { font: .82rem ui-monospace, monospace; overflow-wrap: anywhere; }
+@page { size: A4; margin: 16mm; }
+@media print { body { max-width: none; margin: 0; font-size: 9.5pt; }
+  .verdict { border: 1px solid #000; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  figure, table, svg { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .scene { break-before: page; } svg.plot, .figures figure { width: 8.4cm; } svg.photo { width: 11.5cm; }
+  .figures { gap: .4cm; } }
+)";
+
+std::string page(const json& result, const std::string& body) {
+  const std::string dataset = html_escaped(result.value("dataset", ""));
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+         "<title>LiDAR–camera calibration: " +
+         dataset + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" + body +
+         "</body>\n</html>\n";
+}
+
+}  // namespace
+
+Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunContext& context) {
+  const std::filesystem::path path = folder / "result.json";
+  auto text = read_text_file(path, kMaxResultBytes);
+  if (!text) return text.error();
+  const json result = json::parse(*text, nullptr, false);
+  if (result.is_discarded() || !result.is_object())
+    return Error::input("not a JSON object", path.string());
+  HtmlReport report;
+  try {
+    std::string body = verdict_section(result) + pose_section(result) +
+                       uncertainty_section(result) + methods_section(result);
+    const json scenes = result.at("scenes");
+    for (std::size_t s = 0; s < scenes.size(); ++s) {
+      if (context.stopped()) return Error::cancelled();
+      context.report("report", static_cast<double>(s) / static_cast<double>(scenes.size()),
+                     "scene " + scenes[s].value("name", ""));
+      body += scene_section(result, scenes[s], report.warnings);
+    }
+    body += response_section(result) + provenance_section(result);
+    report.html = page(result, body);
+  } catch (const json::exception& e) {
+    return Error::input(std::string("this result lacks what a report shows: ") + e.what(),
+                        path.string(), "calibrate again with this version");
+  }
+  context.report("report", 1.0, "done");
+  return report;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+
+namespace lvcalib {
+
+/// A report, and what it had to do without (images that are gone).
+struct HtmlReport {
+  std::string html;
+  std::vector<std::string> warnings;
+};
+
+/// One self-contained HTML file of a calibration: verdict and reasons, pose, uncertainty, methods,
+/// a section per scene with its image, boundary response, conventions, versions, the inputs'
+/// hashes. Figures are inline SVG, photographs data URIs; nothing is loaded from anywhere. Prints
+/// on A4. `folder` holds result.json; photographs come from the dataset it names.
+/// Errors: kInput for a missing or malformed result; kCancelled.
+Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunContext& context);
+
+}  // namespace lvcalib

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace lvcalib {
+
+// Sections of the HTML report, each from the result file alone (the scene's also from its image).
+// They throw nlohmann::json::exception on a result that lacks what they show; internal to this
+// room.
+
+std::string verdict_section(const nlohmann::json& result);
+std::string pose_section(const nlohmann::json& result);
+std::string uncertainty_section(const nlohmann::json& result);
+std::string methods_section(const nlohmann::json& result);
+std::string scene_section(const nlohmann::json& result, const nlohmann::json& scene,
+                          std::vector<std::string>& warnings);
+std::string response_section(const nlohmann::json& result);
+std::string provenance_section(const nlohmann::json& result);
+
+/// A table: the first row is the head. Cells are taken as HTML.
+std::string html_table(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace lvcalib

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// calibrate, then export and report, as a user runs them.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/child_process.h"
+#include "cli/good_dataset.h"
+
+namespace lvcalib::testing {
+namespace {
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class EvidenceCommands : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder("evidence");
+    const Outcome outcome =
+        run_lvcalib({"calibrate", good_dataset().string(), "-o", result_folder().string()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static fs::path result_folder() { return folder_->path() / "out"; }
+  static std::string result() { return (result_folder() / "result.json").string(); }
+  static fs::path at(const std::string& name) { return folder_->path() / name; }
+  static Outcome export_as(const std::string& format, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"export", result(), "--format",
+                                          format,   "-o",     at("file").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    fs::remove(at("file"));
+    return run_lvcalib(arguments);
+  }
+  static TemporaryFolder* folder_;
+};
+TemporaryFolder* EvidenceCommands::folder_ = nullptr;
+
+TEST_F(EvidenceCommands, EveryFormatIsWritten) {
+  for (const char* format : {"opencv", "ros1-tf", "ros2-tf", "urdf", "kalibr", "autoware",
+                             "fast-livo2", "lvi-sam", "koide", "matrix"}) {
+    const Outcome outcome = export_as(format);
+    EXPECT_EQ(outcome.status, 0) << format << ": " << outcome.err;
+    EXPECT_THAT(read_file(at("file")), HasSubstr("worked point")) << format;
+  }
+  const Outcome outcome = export_as("boundary-response");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(read_file(at("file")), HasSubstr("covariance"));
+}
+
+TEST_F(EvidenceCommands, R3liveAsksForTheImu) {
+  const Outcome without = export_as("r3live");
+  EXPECT_EQ(without.status, 2);
+  EXPECT_THAT(without.err, HasSubstr("--imu"));
+  EXPECT_FALSE(fs::exists(at("file")));
+  write_file(at("imu.yaml"),
+             "T_imu_lidar: [[1, 0, 0, 0.05], [0, 1, 0, 0], [0, 0, 1, 0.1], [0, 0, 0, 1]]\n");
+  const Outcome with = export_as("r3live", {"--imu", at("imu.yaml").string()});
+  EXPECT_EQ(with.status, 0) << with.err;
+  EXPECT_THAT(read_file(at("file")), HasSubstr("camera_ext_R"));
+  write_file(at("imu.yaml"), "T_imu_lidar: [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 2, 0]]\n");
+  const Outcome no_rotation = export_as("r3live", {"--imu", at("imu.yaml").string()});
+  EXPECT_EQ(no_rotation.status, 3);
+  EXPECT_THAT(no_rotation.err, HasSubstr("T_imu_lidar"));
+}
+
+TEST_F(EvidenceCommands, TheReportIsOneFile) {
+  const Outcome outcome =
+      run_lvcalib({"report", result_folder().string(), "-o", at("report.html").string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(read_file(at("report.html")), HasSubstr("Boundary response"));
+}
+
+TEST_F(EvidenceCommands, WhatCannotBeReadIsRefusedWithoutOutput) {
+  const fs::path bad = at("bad");
+  fs::create_directories(bad);
+  const fs::path out = at("none");
+  const std::string file = (bad / "result.json").string();
+  for (const char* text : {"", "{", "[]", "{}", "{\"T_camera_lidar\": 5}"}) {
+    write_file(file, text);
+    for (const auto& arguments :
+         {std::vector<std::string>{"export", file, "--format", "matrix", "-o", out.string()},
+          std::vector<std::string>{"report", bad.string(), "-o", out.string()}}) {
+      const Outcome outcome = run_lvcalib(arguments);
+      EXPECT_EQ(outcome.status, 3) << arguments[0] << " of '" << text << "': " << outcome.err;
+      EXPECT_THAT(outcome.err, HasSubstr("result.json")) << text;
+      EXPECT_FALSE(fs::exists(out));
+    }
+  }
+  EXPECT_EQ(run_lvcalib({"report", at("nowhere").string(), "-o", out.string()}).status, 3);
+  EXPECT_EQ(export_as("fastlivo2").status, 2);
+  EXPECT_EQ(run_lvcalib({"export", result(), "--format", "matrix", "-o", "/nowhere/at/all"}).status,
+            3);
+}
+
+}  // namespace
+}  // namespace lvcalib::testing

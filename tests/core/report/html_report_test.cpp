@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/html_report.h"
+
+#include <fstream>
+#include <regex>
+#include <stack>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "report/result_file.h"
+#include "support/simulated_dataset.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Tags open and close in order; void elements and the doctype aside. Names what is wrong.
+std::string nesting_error(const std::string& html) {
+  static const std::regex kTag(R"(<(/?)([a-zA-Z][a-zA-Z0-9]*)([^<>]*?)(/?)>)");
+  std::stack<std::string> open;
+  for (std::sregex_iterator it(html.begin(), html.end(), kTag), end; it != end; ++it) {
+    const std::string name = (*it)[2];
+    if (!(*it)[4].str().empty()) continue;
+    if ((*it)[1].str().empty()) {
+      open.push(name);
+    } else if (open.empty() || open.top() != name) {
+      return "</" + name + "> closes " + (open.empty() ? "nothing" : "<" + open.top() + ">");
+    } else {
+      open.pop();
+    }
+  }
+  return open.empty() ? "" : "<" + open.top() + "> stays open";
+}
+
+class HtmlReportTest : public ::testing::Test {
+ protected:
+  // Once, but within a test: temporary folders are named after it.
+  void SetUp() override {
+    if (result_ != nullptr) return;
+    data_ = new test::SimulatedDataset(test::dataset_options(1, 3));
+    auto result = calibrate(data_->open(), {}, {});
+    ASSERT_TRUE(result.ok()) << result.error().text();
+    result_ = new CalibrationResult(std::move(*result));
+  }
+  static void TearDownTestSuite() {
+    delete result_;
+    delete data_;
+  }
+  static test::SimulatedDataset* data_;
+  static CalibrationResult* result_;
+  test::TemporaryFolder out_;
+};
+test::SimulatedDataset* HtmlReportTest::data_ = nullptr;
+CalibrationResult* HtmlReportTest::result_ = nullptr;
+
+TEST_F(HtmlReportTest, HoldsEverySectionAndLoadsNothing) {
+  ASSERT_TRUE(write_results(*result_, out_.path()).ok());
+  const auto report = html_report(out_.path(), {});
+  ASSERT_TRUE(report.ok()) << report.error().text();
+  EXPECT_TRUE(report->warnings.empty());
+  const std::string& html = report->html;
+  EXPECT_EQ(nesting_error(html), "");
+  for (const char* part : {"Pose", "Uncertainty", "Methods side by side", "Scene A", "Scene C",
+                           "Boundary response", "Conventions", "Provenance", "joint_refined",
+                           "pnp_raw", "@page { size: A4", "data:image/jpeg;base64,", "<svg"}) {
+    EXPECT_THAT(html, HasSubstr(part));
+  }
+  // Self-contained: no address, script or style from elsewhere.
+  for (const char* foreign : {"http://", "https://", "<script", "<link", "url(", "@import"})
+    EXPECT_THAT(html, Not(HasSubstr(foreign)));
+  ASSERT_EQ(result_->inputs.size(), 8U);
+  for (const InputFile& file : result_->inputs) EXPECT_THAT(html, HasSubstr(file.sha256));
+  for (const char* no_number : {">nan", "\"nan", ",nan", " nan", "-nan"})
+    EXPECT_THAT(html, Not(HasSubstr(no_number)));
+}
+
+TEST_F(HtmlReportTest, TextIsEscapedAndAMissingDatasetIsSaid) {
+  CalibrationResult result = *result_;
+  result.dataset = "/nowhere/<b>&\"";
+  result.warnings.push_back("5 < 6 & <script>");
+  ASSERT_TRUE(write_results(result, out_.path()).ok());
+  const auto report = html_report(out_.path(), {});
+  ASSERT_TRUE(report.ok()) << report.error().text();
+  EXPECT_EQ(report->warnings.size(), 3U);
+  EXPECT_THAT(report->html, HasSubstr("5 &lt; 6 &amp; &lt;script&gt;"));
+  EXPECT_THAT(report->html, Not(HasSubstr("<script")));
+  EXPECT_EQ(nesting_error(report->html), "");
+}
+
+TEST_F(HtmlReportTest, ABadResultFileIsRefused) {
+  EXPECT_FALSE(html_report(out_.path(), {}).ok());
+  for (const char* text : {"", "[]", "{}", "{\"quality\": 3}", "{\"quality\": \"good\""}) {
+    std::ofstream(out_.path() / "result.json") << text;
+    const auto report = html_report(out_.path(), {});
+    ASSERT_FALSE(report.ok()) << text;
+    EXPECT_EQ(report.error().kind, ErrorKind::kInput);
+  }
+  // Every key that may be missing.
+  ASSERT_TRUE(write_results(*result_, out_.path()).ok());
+  std::ifstream stream(out_.path() / "result.json");
+  const auto whole = nlohmann::json::parse(stream);
+  for (const auto& [key, value] : whole.items()) {
+    auto less = whole;
+    less.erase(key);
+    std::ofstream(out_.path() / "result.json") << less.dump();
+    const auto report = html_report(out_.path(), {});
+    if (report.ok()) continue;
+    EXPECT_EQ(report.error().kind, ErrorKind::kInput) << key;
+  }
+}
+
+TEST_F(HtmlReportTest, StopsWhenAsked) {
+  ASSERT_TRUE(write_results(*result_, out_.path()).ok());
+  std::stop_source source;
+  source.request_stop();
+  RunContext context;
+  context.stop = source.get_token();
+  const auto report = html_report(out_.path(), context);
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.error().kind, ErrorKind::kCancelled);
+}
+
+// What calibrate leaves in result.json for everything downstream.
+TEST_F(HtmlReportTest, TheResultFileHoldsTheEvidence) {
+  const auto j = nlohmann::json::parse(result_as_json(*result_));
+  ASSERT_EQ(j["methods"].size(), 8U);
+  for (const auto& m : j["methods"]) {
+    EXPECT_EQ(m["scenes"].size(), 3U);
+    EXPECT_EQ(m["box_mm"].size(), 5U);
+    EXPECT_TRUE(m["heldout_mm"].is_number());
+    EXPECT_EQ(m["T_camera_lidar"].size(), 4U);
+  }
+  EXPECT_EQ(j["methods"][7]["name"], "joint_refined");
+  EXPECT_NEAR(j["methods"][7]["rms_px"].get<double>(), j["rms_px"].get<double>(), 1e-3);
+  const auto& response = j["boundary_response"];
+  ASSERT_EQ(response["scenes"].size(), 3U);
+  for (const char* key : {"n", "mean_pitch_deg", "mean_yaw_deg", "mean_range_mm", "std_pitch_deg",
+                          "std_yaw_deg", "std_range_mm"}) {
+    EXPECT_TRUE(response["all"].contains(key)) << key;
+    EXPECT_TRUE(response["scenes"][0].contains(key)) << key;
+  }
+  EXPECT_EQ(response["all"]["covariance"].size(), 3U);
+  for (const char* key : {"mu_in", "mu_out", "delta_mm", "sigma_mm"})
+    EXPECT_TRUE(response["transition"].contains(key)) << key;
+  EXPECT_TRUE(j["uncertainty"].contains("split_half_reason"));
+  EXPECT_TRUE(j["timing_ms"].contains("response"));
+  EXPECT_EQ(j["camera"]["distortion_model"], "plumb_bob");
+}
+
+}  // namespace
+}  // namespace lvcalib
