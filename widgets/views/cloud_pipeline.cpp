@@ -30,6 +30,8 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
+#include "views/cloud_geometry.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -44,36 +46,50 @@ vtkSmartPointer<vtkCellArray> one_cell_of(std::size_t points) {
   return cells;
 }
 
-// The box as the affine map of the cube ±1.
-vtkSmartPointer<vtkTransform> as_transform(const CropBox& box) {
-  const Eigen::Matrix3d R = box.rotation.toRotationMatrix();
-  vtkNew<vtkMatrix4x4> matrix;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      matrix->SetElement(row, column, R(row, column) * box.half_size_m(column));
+vtkSmartPointer<vtkTransform> as_transform(const Eigen::Matrix4d& matrix) {
+  vtkNew<vtkMatrix4x4> elements;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      elements->SetElement(row, column, matrix(row, column));
     }
-    matrix->SetElement(row, 3, box.center_m(row));
   }
   auto transform = vtkSmartPointer<vtkTransform>::New();
-  transform->SetMatrix(matrix);
+  transform->SetMatrix(elements);
   return transform;
 }
 
-CropBox as_box(vtkTransform* transform) {
-  CropBox box;
-  Eigen::Matrix3d axes;
-  const vtkMatrix4x4* matrix = transform->GetMatrix();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) axes(row, column) = matrix->GetElement(row, column);
-    box.center_m(row) = matrix->GetElement(row, 3);
+Eigen::Matrix4d as_eigen(const vtkMatrix4x4* matrix) {
+  Eigen::Matrix4d out;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) out(row, column) = matrix->GetElement(row, column);
   }
-  for (int k = 0; k < 3; ++k) {
-    box.half_size_m(k) = std::max(axes.col(k).norm(), 1e-3);
-    axes.col(k) /= box.half_size_m(k);
+  return out;
+}
+
+// The event of VTK that a mouse event stands for.
+unsigned long vtk_event(const CanvasMouse& mouse) {
+  const bool press = mouse.kind == CanvasMouse::Kind::kPress;
+  switch (mouse.kind) {
+    case CanvasMouse::Kind::kMove:
+      return vtkCommand::MouseMoveEvent;
+    case CanvasMouse::Kind::kWheelUp:
+      return vtkCommand::MouseWheelForwardEvent;
+    case CanvasMouse::Kind::kWheelDown:
+      return vtkCommand::MouseWheelBackwardEvent;
+    default:
+      break;
   }
-  if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
-  box.rotation = Eigen::Quaterniond(axes).normalized();
-  return box;
+  switch (mouse.button) {
+    case CanvasMouse::Button::kLeft:
+      return press ? vtkCommand::LeftButtonPressEvent : vtkCommand::LeftButtonReleaseEvent;
+    case CanvasMouse::Button::kMiddle:
+      return press ? vtkCommand::MiddleButtonPressEvent : vtkCommand::MiddleButtonReleaseEvent;
+    case CanvasMouse::Button::kRight:
+      return press ? vtkCommand::RightButtonPressEvent : vtkCommand::RightButtonReleaseEvent;
+    case CanvasMouse::Button::kNone:
+      break;
+  }
+  return vtkCommand::NoEvent;
 }
 
 }  // namespace
@@ -147,7 +163,7 @@ struct CloudPipeline::Vtk {
               auto* vtk = static_cast<Vtk*>(self);
               vtkNew<vtkTransform> transform;
               vtk->box->GetTransform(transform);
-              vtk->hooks.box_edited(as_box(transform));
+              vtk->hooks.box_edited(box_of_cube(as_eigen(transform->GetMatrix())));
             });
   }
 
@@ -326,38 +342,25 @@ void CloudPipeline::setBackground(double red, double green, double blue, bool da
 void CloudPipeline::setBox(const std::optional<CropBox>& box, bool editable) {
   vtk_->box_shown = box.has_value();
   vtk_->box_editable = editable && box.has_value();
-  if (box) vtk_->box->SetTransform(as_transform(*box));
+  if (box) vtk_->box->SetTransform(as_transform(cube_to_box(*box)));
   vtk_->applyBox();
 }
 
 void CloudPipeline::look(CloudViewpoint viewpoint) {
   vtkCamera* camera = vtk_->renderer->GetActiveCamera();
   const Eigen::Vector3d focus = vtk_->scene ? vtk_->scene->center_m : Eigen::Vector3d::UnitX();
+  const ViewerPose pose = viewer_pose(viewpoint, focus);
   camera->SetFocalPoint(focus.x(), focus.y(), focus.z());
-  if (viewpoint == CloudViewpoint::kSensor) {
-    camera->SetPosition(0, 0, 0);
-    camera->SetViewUp(0, 0, 1);
-    if (focus.head<2>().norm() < 0.01 * std::abs(focus.z())) camera->SetViewUp(1, 0, 0);
-    camera->SetViewAngle(60.0);
-  } else {
-    const bool top = viewpoint == CloudViewpoint::kTop;
-    // Obliquely from behind the sensor, as if standing there.
-    const Eigen::Vector3d ahead =
-        focus.norm() > 1e-6 ? focus.normalized() : Eigen::Vector3d::UnitX();
-    const Eigen::Vector3d eye =
-        top ? Eigen::Vector3d(focus + Eigen::Vector3d::UnitZ())
-            : Eigen::Vector3d(focus - ahead +
-                              Eigen::Vector3d(0.35 * ahead.y(), -0.35 * ahead.x(), 0.45));
-    camera->SetPosition(eye.x(), eye.y(), eye.z());
-    if (top) {
-      camera->SetViewUp(1, 0, 0);
-    } else {
-      camera->SetViewUp(0, 0, 1);
-    }
-    camera->SetViewAngle(30.0);
+  camera->SetPosition(pose.eye_m.x(), pose.eye_m.y(), pose.eye_m.z());
+  camera->SetViewUp(pose.up.x(), pose.up.y(), pose.up.z());
+  camera->SetViewAngle(pose.angle_deg);
+  if (pose.fits_bounds) {
     vtk_->renderer->ResetCamera(vtk_->bounds.data());
-    // ResetCamera() makes room for the sphere about the points; they fill less of it.
-    camera->Dolly(1.35);
+    // ResetCamera() fits the sphere about the points into the height; they fill less of it, but
+    // the width may be the smaller side.
+    const int* size = vtk_->interactor->GetSize();
+    const double aspect = size[1] > 0 ? static_cast<double>(size[0]) / size[1] : 1.0;
+    camera->Dolly(1.2 * std::clamp(aspect, 0.3, 1.0));
   }
   vtk_->looked = true;
 }
@@ -388,28 +391,8 @@ void CloudPipeline::handle(const CanvasMouse& mouse) {
   if (mouse.kind == CanvasMouse::Kind::kPress) vtk_->editing = false;
   vtk_->interactor->SetEventInformationFlipY(mouse.x, mouse.y, mouse.control ? 1 : 0,
                                              mouse.shift ? 1 : 0);
-  const bool press = mouse.kind == CanvasMouse::Kind::kPress;
-  unsigned long event = vtkCommand::MouseMoveEvent;
-  if (mouse.kind == CanvasMouse::Kind::kWheelUp) {
-    event = vtkCommand::MouseWheelForwardEvent;
-  } else if (mouse.kind == CanvasMouse::Kind::kWheelDown) {
-    event = vtkCommand::MouseWheelBackwardEvent;
-  } else if (mouse.kind != CanvasMouse::Kind::kMove) {
-    switch (mouse.button) {
-      case CanvasMouse::Button::kLeft:
-        event = press ? vtkCommand::LeftButtonPressEvent : vtkCommand::LeftButtonReleaseEvent;
-        break;
-      case CanvasMouse::Button::kMiddle:
-        event = press ? vtkCommand::MiddleButtonPressEvent : vtkCommand::MiddleButtonReleaseEvent;
-        break;
-      case CanvasMouse::Button::kRight:
-        event = press ? vtkCommand::RightButtonPressEvent : vtkCommand::RightButtonReleaseEvent;
-        break;
-      case CanvasMouse::Button::kNone:
-        return;
-    }
-  }
-  vtk_->interactor->InvokeEvent(event, nullptr);
+  const unsigned long event = vtk_event(mouse);
+  if (event != vtkCommand::NoEvent) vtk_->interactor->InvokeEvent(event, nullptr);
 }
 
 bool CloudPipeline::editingBox() const {
@@ -477,11 +460,7 @@ Eigen::Matrix4d CloudPipeline::clipFromWorld() const {
   const double aspect = vtk_->renderer->GetTiledAspectRatio();
   const vtkMatrix4x4* matrix =
       vtk_->renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(aspect, -1, 1);
-  Eigen::Matrix4d out;
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) out(row, column) = matrix->GetElement(row, column);
-  }
-  return out;
+  return as_eigen(matrix);
 }
 
 }  // namespace lvcalib::widgets

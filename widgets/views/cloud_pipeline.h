@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "pipeline/crop_box.h"
+#include "views/cloud_geometry.h"
 #include "views/cloud_scene.h"
 
 namespace lvcalib::widgets {
@@ -20,13 +21,6 @@ struct CloudLine {
   std::vector<Eigen::Vector3d> points_m;
   std::array<double, 3> color{1, 1, 1};
   bool closed = true;
-};
-
-/// Where the viewer stands.
-enum class CloudViewpoint {
-  kWhole,   ///< Obliquely, everything in sight.
-  kTop,     ///< From above, x up.
-  kSensor,  ///< From the LiDAR's origin towards the middle of the points.
 };
 
 /// A mouse event in device pixels, from the top left.
