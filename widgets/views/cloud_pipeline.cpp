@@ -360,7 +360,7 @@ void CloudPipeline::look(CloudViewpoint viewpoint) {
     // the width may be the smaller side.
     const int* size = vtk_->interactor->GetSize();
     const double aspect = size[1] > 0 ? static_cast<double>(size[0]) / size[1] : 1.0;
-    camera->Dolly(1.2 * std::clamp(aspect, 0.3, 1.0));
+    camera->Dolly(1.05 * std::clamp(aspect, 0.3, 1.0));
   }
   vtk_->looked = true;
 }
