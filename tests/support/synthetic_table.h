@@ -58,7 +58,7 @@ inline BeamPoint table_beam(const SceneGeometry& geometry, const Target& target,
   beam.scene = scene;
   const Eigen::Vector3d p =
       geometry.lidar_from_board() * Eigen::Vector3d(board_m.x(), board_m.y(), 0.0);
-  geometry.describe(p.normalized(), beam);
+  (void)geometry.describe(p.normalized(), beam);
   const bool black = target.albedo(board_m).value_or(1.0) < 0.5;
   beam.darkness = black ? 1.0 : 0.0;
   if (recipe.time) {
@@ -114,15 +114,15 @@ inline void add_table_scene(SyntheticTable& out, int scene, const TableRecipe& r
       if (wrong.edge_m) d += wrong.edge_m(row);
       const Eigen::Vector2d at = node.center_m + (row.radius_m + d) * outward;
       const Eigen::Vector3d p = geometry.lidar_from_board() * Eigen::Vector3d(at.x(), at.y(), 0.0);
-      geometry.describe(p.normalized(), row.beam);
+      (void)geometry.describe(p.normalized(), row.beam);
       // The LiDAR's angles across the edge, by finite differences of the ray's board point.
       const double step = 1e-6;
       const auto board_at = [&](double daz, double del) {
         const double az = row.beam.azimuth_rad + daz / std::cos(row.beam.elevation_rad);
         const double el = row.beam.elevation_rad + del;
         BeamPoint moved;
-        geometry.describe({std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)},
-                          moved);
+        (void)geometry.describe(
+            {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)}, moved);
         return moved.board_m.dot(outward);
       };
       row.edge_normal_rad << (board_at(step, 0) - board_at(-step, 0)) / (2 * step),
