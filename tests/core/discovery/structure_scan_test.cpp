@@ -18,7 +18,7 @@ TEST(StructureScan, FindsNothingInNoise) {
 
 TEST(StructureScan, NamesChannelAndCovariateOfARipple) {
   test::Disturbance wrong;
-  wrong.range_m = [](const BeamPoint& beam) { return 0.006 * std::sin(40.0 * beam.azimuth_rad); };
+  wrong.range_m = [](const BeamPoint& beam) { return 0.006 * std::sin(12.0 * beam.azimuth_rad); };
   const auto made = test::synthetic_table({}, wrong);
   const auto scores = scan_structure(made.table, made.truth, {}, {});
   ASSERT_FALSE(scores.empty());
