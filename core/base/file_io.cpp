@@ -106,12 +106,17 @@ Status check_folder_usable(const fs::path& path) {
   fs::path existing = fs::absolute(path, code);
   while (!existing.empty() && !fs::exists(existing, code) && existing != existing.root_path())
     existing = existing.parent_path();
+  const bool itself = existing == fs::absolute(path, code);
   if (!fs::is_directory(existing, code)) {
-    return Error::output("a file is in the way of this folder: " + existing.string(), path.string(),
-                         "give another folder");
+    return Error::output("folder cannot be created: a file is in the way" +
+                             (itself ? "" : " (" + existing.string() + ")"),
+                         path.string(), "give another folder");
   }
   if (::access(existing.c_str(), W_OK | X_OK) != 0) {
-    return Error::output("no right to write here", existing.string(), "give another folder");
+    return Error::output(
+        itself ? "folder cannot be written: no right to do so"
+               : "folder cannot be created: no right to write to " + existing.string(),
+        path.string(), "give another folder");
   }
   return Done{};
 }

@@ -28,7 +28,7 @@ struct ResponseOptions {
   /// has σ per axis then leaves σ per axis in the residuals, since uniformly lying points within
   /// ±kσ have the variance k²σ²/3 across the edge, and pairing with the nearest boundary point
   /// keeps one axis of two.
-  double overlap_sigmas = 2.449489742783178;
+  double overlap_sigmas = 2.45;
   /// Fewer overlap samples say nothing about a standard deviation: 200 give it to 5 %.
   int min_samples = 200;
   int min_node_samples = 30;        ///< The same for a single node: it is only shown, not judged.
