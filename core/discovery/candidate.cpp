@@ -48,6 +48,18 @@ double f_test(const ModelFit& fit, Eigen::Index p) {
       boost::math::complement(boost::math::fisher_f(static_cast<double>(p), freedom), f));
 }
 
+// What is excluded at the size that matters is not worth a place in the model, however sure.
+bool is_material(const EffectColumns& columns, const ModelFit& fit) {
+  constexpr double kUpper95 = 1.645;
+  const Eigen::VectorXd theta = fit.solution.tail(columns.count());
+  const Eigen::VectorXd sigma = fit.covariance.diagonal().tail(columns.count()).cwiseSqrt();
+  for (int k = 0; k < columns.count(); ++k) {
+    const double material = columns.parameters[static_cast<std::size_t>(k)].material;
+    if (std::abs(theta(k)) + kUpper95 * sigma(k) >= material) return true;
+  }
+  return false;
+}
+
 Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
   const Eigen::MatrixXd l = m.llt().matrixL();
   return l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(m.rows(), m.cols()));
@@ -100,6 +112,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   append_columns(c, nullptr, subset);
   out.fit = fit_model(linear, subset, reference.fit.variances, options);
   out.p_value = f_test(out.fit, c.count());
+  out.material = is_material(c, out.fit);
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};
   const auto heldout = heldout_squares(linear, out.fit);
@@ -124,7 +137,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options) {
   const double searched = static_cast<double>(std::max<std::size_t>(tried, 1));
-  if (candidate.p_value * searched > options.false_alarm) return false;
+  if (candidate.p_value * searched > options.false_alarm || !candidate.material) return false;
   const MeanAndError gain = mean_of(candidate.scene_gain);
   if (!(gain.mean > gain.error)) return false;
   // The best of so many would gain this much by chance.

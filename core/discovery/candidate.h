@@ -16,6 +16,7 @@ struct Candidate {
   std::array<double, kChannels> heldout_gain{};  ///< Relative fall of squares, per channel.
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
+  bool material = true;  ///< Some parameter may be as large as matters (upper 95 % limit).
   [[nodiscard]] double total_gain() const;
   [[nodiscard]] double best_heldout_gain() const;
 };

@@ -95,7 +95,9 @@ class Discoverer {
       context_.report("rank", 0.3 + 0.55 * step / (options_.max_effects + 1.0),
                       "ranking effects, " + std::to_string(selections_.size()) + " in the model");
       search.rank();
-      if (context_.stopped() || static_cast<int>(selections_.size()) >= options_.max_effects)
+      // Steps are counted as well: what is dropped may come back.
+      if (context_.stopped() || static_cast<int>(selections_.size()) >= options_.max_effects ||
+          step >= 2 * options_.max_effects)
         return;
       const auto best = search.best();
       if (!best) return;

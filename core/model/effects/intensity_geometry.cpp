@@ -19,7 +19,7 @@ class IntensityGeometry final : public CatalogueEffect {
              .source = "Laconte 2019; Livox manuals",
              .breaker = "boards at several distances and angles",
              .needs = {.intensity = true}},
-            {{"n", "1", 1.0, 0.2, 3.0}, {"p", "1", 1.0, 0.2, 4.0}}) {}
+            {{"n", "1", 1.0, 0.3, 3.0}, {"p", "1", 1.0, 0.3, 4.0}}) {}
 
   void intensity(const IntensityRow& row, const MeasurementTable& /*table*/, double /*shape*/,
                  std::span<double> by) const override {

@@ -48,6 +48,16 @@ TEST_F(Candidates, AnEffectInOneSceneOnlyIsNotAccepted) {
   EXPECT_FALSE(is_accepted(evaluate(0), 60, 6, options_));
 }
 
+TEST_F(Candidates, ASureButTinyEffectIsNotMaterial) {
+  test::Disturbance wrong;
+  wrong.edge_m = [](const BoundaryRow&) { return 0.0001; };
+  prepare(test::synthetic_table({}, wrong), {"boundary_bias"});
+  const Candidate bias = evaluate(0);
+  EXPECT_LT(bias.p_value, 1e-3);
+  EXPECT_FALSE(bias.material);
+  EXPECT_FALSE(is_accepted(bias, 1, 6, options_));
+}
+
 TEST_F(Candidates, TheSearchRaisesTheBar) {
   Candidate c;
   c.p_value = 0.002;
@@ -74,6 +84,9 @@ TEST_F(Candidates, EveryConditionCounts) {
   EXPECT_FALSE(is_accepted(c, 60, 6, options_));
   c.extrinsic_move_sigmas = 2.0;  // … but to the extrinsic
   EXPECT_TRUE(is_accepted(c, 60, 6, options_));
+  c = good;
+  c.material = false;  // excluded at the size that matters
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
   // With three scenes three times the fall is asked for.
   c = good;
   c.scene_gain = {4.0, 5.0, 4.5};
