@@ -60,7 +60,7 @@ struct CalibrationResult {
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
   ExtrinsicSolution extrinsic;
-  std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
+  std::vector<ModelEffect> model;     ///< Effects beyond the base model; see discover().
   std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.

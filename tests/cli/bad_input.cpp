@@ -25,6 +25,8 @@ SpoiledRun::SpoiledRun(const BadInput& input) : input_(input), folder_("bad_" + 
   RunSettings settings;
   settings.folder = folder_.path();
   settings.unprivileged = input_.unprivileged;
+  // Only what the case forbids is forbidden.
+  if (input_.unprivileged) fs::permissions(folder_.path(), fs::perms::all);
   outcome_ = run_lvcalib(arguments, settings);
 }
 

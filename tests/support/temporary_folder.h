@@ -16,9 +16,8 @@ class TemporaryFolder {
   TemporaryFolder() {
     const auto* unit = ::testing::UnitTest::GetInstance();
     const auto* info = unit->current_test_info();
-    std::string name = info != nullptr
-                           ? std::string(info->test_suite_name()) + "-" + info->name()
-                           : std::string(unit->current_test_suite()->name());
+    std::string name = info != nullptr ? std::string(info->test_suite_name()) + "-" + info->name()
+                                       : std::string(unit->current_test_suite()->name());
     name += "-" + std::to_string(getpid());
     for (char& c : name) c = c == '/' ? '-' : c;
     path_ = std::filesystem::temp_directory_path() / ("lvcalib-test-" + name);

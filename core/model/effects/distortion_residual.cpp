@@ -17,9 +17,9 @@ class DistortionResidual final : public CatalogueEffect {
                          .source = "mrcal",
                          .breaker = "boards in the corners of the image",
                          .needs = {}},
-                        {{"k", "1", 1.0, 2e-3, 0.5},
-                         {"p1", "1", 1.0, 5e-4, 0.1},
-                         {"p2", "1", 1.0, 5e-4, 0.1}}) {}
+                        {{"k", "1", 1.0, 5e-4, 0.5},
+                         {"p1", "1", 1.0, 2e-4, 0.1},
+                         {"p2", "1", 1.0, 2e-4, 0.1}}) {}
 
   void camera(const CornerRow& /*row*/, const Eigen::Vector2d& normalized, const Camera& camera,
               double /*shape*/, std::span<Eigen::Vector2d> by) const override {

@@ -15,16 +15,12 @@ class InkGain final : public CatalogueEffect {
                          .physics = "Ink spreads, so that every black edge moves outwards.",
                          .formula = "edges move out by g",
                          .source = "ISO 12647 dot gain",
-                         .breaker = "measure a printed circle and tag with a caliper",
-                         .needs = {.tags = true}},
-                        {{"g", "mm", 1e-3, 0.1e-3, 0.01}}) {}
+                         .breaker = "measure a printed circle with a caliper",
+                         .needs = {.circles = true, .intensity = true}},
+                        {{"g", "mm", 1e-3, 0.3e-3, 0.01}}) {}
 
-  void board(const PrintPoint& point, const Target& /*target*/, double /*shape*/,
-             std::span<Eigen::Vector3d> by) const override {
-    // A corner moves outwards along both of its edges.
-    by[0].head<2>() = point.from_tag_m.cwiseSign();
-  }
-
+  // Circles alone show it: the fit of a tag's corners has a coefficient of its own for ink that
+  // moves all edges to one side.
   void edge(const BoundaryRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {
     by[0] = 1.0;

@@ -119,13 +119,13 @@ TEST_F(EdgeSamples, OverlapRegionFollowsTheWidthAndKeepsClearOfTags) {
   BoundarySample s;
   s.outward = Eigen::Vector2f(1.0F, 0.0F);  // Along the gap: no tag near.
   s.width_m = 0.004F;
-  EXPECT_NEAR(overlap_half_width_m(s, target_, {}), std::sqrt(6.0) * 0.004, 1e-6);
+  EXPECT_NEAR(overlap_half_width_m(s, target_, {}), ResponseOptions{}.overlap_sigmas * 0.004, 1e-6);
   EXPECT_TRUE(clear_of_tags(s, target_));
   // Towards a tag's corner, which is this far from the circle's edge:
   s.outward = Eigen::Vector2f(1.0F, 1.0F).normalized();
   const double corner =
       0.5 * std::sqrt(2.0) * target_.tag_spacing * target_.tag_size_m - target_.circle_radius_m;
-  EXPECT_NEAR(overlap_half_width_m(s, target_, {}), std::sqrt(6.0) * 0.004, 1e-6);
+  EXPECT_NEAR(overlap_half_width_m(s, target_, {}), ResponseOptions{}.overlap_sigmas * 0.004, 1e-6);
   s.width_m = 0.008F;
   EXPECT_NEAR(overlap_half_width_m(s, target_, {}), corner - 2.0 * 0.008, 1e-3);
   s.distance_m = 0.005F;
