@@ -63,7 +63,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
       tabs->setCurrentIndex(tab);
       camera.take(QStringLiteral("%1-%2").arg(
           QStringList{QStringLiteral("scene"), QStringLiteral("refinement"),
-                      QStringLiteral("extrinsic")}
+                      QStringLiteral("extrinsic"), QStringLiteral("response")}
               .value(tab),
           QLatin1String(theme)));
     }
