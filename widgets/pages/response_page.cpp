@@ -104,7 +104,9 @@ void ResponsePage::refresh() {
 // Row 0 is all scenes together, row k scene k − 1 of the response.
 void ResponsePage::fillTables() {
   const QSignalBlocker quiet(scenes_);
+  scenes_->clearSpans();
   scenes_->setRowCount(0);
+  classes_->clearSpans();
   classes_->setRowCount(0);
   if (!result_) return;
   const BoundaryResponse& response = result_->response;

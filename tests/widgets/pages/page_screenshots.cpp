@@ -100,7 +100,12 @@ void photograph(Photographer& photographer, const test::CalibratedDemo& demo) {
   extrinsic.setResult(demo.result);
   extrinsic.setSceneData(0, demo.clouds[0], demo.images[0]);
   photographer.take(extrinsic, "extrinsic", at_once);
-  extrinsic.findChild<QTabWidget*>()->setCurrentIndex(1);
+  auto* tabs = extrinsic.findChild<QTabWidget*>();
+  tabs->setCurrentIndex(1);
+  photographer.take(extrinsic, "extrinsic-methods", at_once);
+  tabs->setCurrentIndex(2);
+  photographer.take(extrinsic, "extrinsic-uncertainty", at_once);
+  tabs->setCurrentIndex(3);
   photographer.take(extrinsic, "extrinsic-cloud", [&] {
     return extrinsic.cloudView()->scene() && drawn(*extrinsic.cloudView());
   });
