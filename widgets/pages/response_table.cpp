@@ -15,7 +15,7 @@ constexpr int kFirstNumber = 2;
 constexpr int kNumbers = 6;
 
 QString tr(const char* text) {
-  return QCoreApplication::translate("ResponseTable", text);
+  return QCoreApplication::translate("lvcalib::widgets", text);
 }
 
 QString plus_minus(double value, double sigma, int decimals) {

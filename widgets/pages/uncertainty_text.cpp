@@ -12,7 +12,7 @@ namespace lvcalib::widgets {
 namespace {
 
 QString tr(const char* text) {
-  return QCoreApplication::translate("UncertaintyText", text);
+  return QCoreApplication::translate("lvcalib::widgets", text);
 }
 
 QString words(const std::string& text) {
