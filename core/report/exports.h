@@ -32,6 +32,7 @@ struct ExportFormat {
   std::string description;  ///< One line: for whom, and what it holds.
   bool needs_imu = false;
   Result<std::string> (*write)(const ExportInput&) = nullptr;
+  std::string suffix = "txt";  ///< Of its files' names.
 };
 
 /// All formats, in the order of lists.

@@ -122,12 +122,15 @@ void ExportPane::readImu() {
 }
 
 void ExportPane::save() {
-  const QString name = formats_->currentItem()->text();
+  const ExportFormat& format = export_formats()[static_cast<std::size_t>(formats_->currentRow())];
+  const QString name = QString::fromStdString(format.name + "." + format.suffix);
   const QString path = choices_.file_to_export(
-      this, QDir(folder_).filePath(name + QLatin1String(".txt")), QString());
+      this, QDir(folder_).filePath(name),
+      tr("%1 (*.%2);;All files (*)")
+          .arg(formats_->currentItem()->text(), QString::fromStdString(format.suffix)));
   if (path.isEmpty()) return;
   // The format's own text: what the preview shows may have other ends of lines.
-  const auto text = export_result(input_, name.toStdString());
+  const auto text = export_result(input_, format.name);
   const Status status =
       text ? write_file_atomically(path.toStdString(), *text) : Status(text.error());
   if (status) {
