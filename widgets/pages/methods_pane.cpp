@@ -62,6 +62,8 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   table_->setHorizontalHeaderLabels(titles);
   for (int k = 0; k < titles.size(); ++k) table_->horizontalHeaderItem(k)->setToolTip(tips[k]);
   table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
+  table_->horizontalHeader()->setHighlightSections(false);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setTabKeyNavigation(false);

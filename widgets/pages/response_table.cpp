@@ -70,6 +70,8 @@ QTableWidget* new_response_table(QWidget* parent, const QString& name_title) {
       tr("Where the intensity is half way, from the circle's edge, outside positive"));
   table->horizontalHeaderItem(9)->setToolTip(tr("Width of the error function on the board"));
   table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
+  table->horizontalHeader()->setHighlightSections(false);
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table->setSelectionBehavior(QAbstractItemView::SelectRows);
   table->setSelectionMode(QAbstractItemView::SingleSelection);

@@ -42,6 +42,7 @@ void add_caption(QCustomPlot& plot, const QString& text, const QColor& color) {
 QCPGraph* add_dots(QCustomPlot& plot, const QColor& color, double size) {
   QCPGraph* graph = plot.addGraph();
   graph->setLineStyle(QCPGraph::lsNone);
+  graph->setPen(Qt::NoPen);  // Else it would edge the dots.
   graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(Qt::NoPen), color, size});
   return graph;
 }
@@ -200,6 +201,7 @@ AnglePlot::AnglePlot(QWidget* parent) : PlotView(parent) {
     const double wanted = yAxis->range().size() * aspect;
     if (std::abs(wanted - xAxis->range().size()) < 1e-6 * wanted) return;
     setHome({-0.5 * wanted, 0.5 * wanted}, yAxis->range());
+    replot(rpQueuedReplot);  // The ticks of this one are made already.
   });
 }
 

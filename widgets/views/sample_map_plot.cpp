@@ -23,6 +23,7 @@ SampleMapPlot::SampleMapPlot(QWidget* parent) : PlotView(parent) {
     if (axisRect()->size() == fitted_to_) return;
     fitted_to_ = axisRect()->size();
     fit();
+    replot(rpQueuedReplot);  // The ticks of this one are made already.
   });
 }
 
@@ -60,6 +61,7 @@ void SampleMapPlot::rebuild() {
     color.setAlpha(overlap ? 170 : 90);
     graphs[overlap] = addGraph();
     graphs[overlap]->setLineStyle(QCPGraph::lsNone);
+    graphs[overlap]->setPen(Qt::NoPen);
     graphs[overlap]->setScatterStyle({QCPScatterStyle::ssDisc, QPen(Qt::NoPen), color, 1.8});
   }
   for (const BoundarySample* s : scope_.samples(false, kMostDots)) {

@@ -92,7 +92,9 @@ TEST_F(HtmlReportTest, IsTheSameOfAStoredAndOfAFreshResult) {
     const auto a = export_result(*read, format.name);
     const auto b = export_result(export_input_of(*result_), format.name);
     ASSERT_EQ(a.ok(), b.ok()) << format.name;
-    if (a.ok()) EXPECT_EQ(*a, *b);
+    if (a.ok()) {
+      EXPECT_EQ(*a, *b);
+    }
   }
 }
 

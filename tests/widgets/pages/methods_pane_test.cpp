@@ -37,7 +37,9 @@ TEST(MethodsPane, EightMethodsWithTheResultsNumbers) {
     EXPECT_NEAR(table->item(k, 4)->text().toDouble(), *m.heldout_px, 6e-4);
     const bool joint = m.name == "joint_refined";
     EXPECT_EQ(table->item(k, 6)->text() == "–", joint);
-    if (!joint) EXPECT_NEAR(table->item(k, 6)->text().toDouble(), m.translation_mm, 6e-3);
+    if (!joint) {
+      EXPECT_NEAR(table->item(k, 6)->text().toDouble(), m.translation_mm, 6e-3);
+    }
     for (const MethodScene& scene : m.scenes) corners += scene.errors_px.size();
   }
   const auto boxes = pane.findChildren<BoxPlot*>();

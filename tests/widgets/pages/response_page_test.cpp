@@ -43,7 +43,9 @@ TEST_F(ResponsePageTest, TheTableCarriesTheResultsNumbers) {
   for (int s = 0; s < 3; ++s) {
     const SceneResponse& scene = response.scenes[static_cast<std::size_t>(s)];
     EXPECT_EQ(table()->item(s + 1, 0)->text().toStdString(), scene.name);
-    if (scene.statistics) EXPECT_EQ(table()->item(s + 1, 1)->text().toInt(), scene.statistics->n);
+    if (scene.statistics) {
+      EXPECT_EQ(table()->item(s + 1, 1)->text().toInt(), scene.statistics->n);
+    }
   }
 }
 
