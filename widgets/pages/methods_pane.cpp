@@ -67,6 +67,7 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setTabKeyNavigation(false);
+  table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
   boxes_px_ = new BoxPlot(this);
   boxes_mm_ = new BoxPlot(this);
   boxes_px_->setValueLabel(tr("corner residual (px)"), "method_residual_px");
@@ -83,7 +84,6 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   grid->addWidget(table_, 1, 0, 1, 2);
   grid->addWidget(boxes_px_, 2, 0);
   grid->addWidget(boxes_mm_, 2, 1);
-  grid->setRowStretch(1, 1);
   grid->setRowStretch(2, 1);
   setResult(nullptr);
 }

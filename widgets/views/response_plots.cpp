@@ -42,8 +42,8 @@ void add_caption(QCustomPlot& plot, const QString& text, const QColor& color) {
 QCPGraph* add_dots(QCustomPlot& plot, const QColor& color, double size) {
   QCPGraph* graph = plot.addGraph();
   graph->setLineStyle(QCPGraph::lsNone);
-  graph->setPen(Qt::NoPen);  // Else it would edge the dots.
-  graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(Qt::NoPen), color, size});
+  graph->setPen(Qt::NoPen);  // Else it would edge the dots; discs take their colour from it.
+  graph->setScatterStyle({QCPScatterStyle::ssCircle, QPen(Qt::NoPen), color, size});
   return graph;
 }
 
@@ -126,8 +126,8 @@ void TransitionPlot::rebuild() {
 }
 
 void TransitionPlot::drawSamples() {
-  QCPGraph* plain = add_dots(*this, faint(colors().axis, 70), 2.0);
-  QCPGraph* overlap = add_dots(*this, faint(colors().emphasis, 110), 2.0);
+  QCPGraph* plain = add_dots(*this, faint(colors().axis, 110), 2.6);
+  QCPGraph* overlap = add_dots(*this, faint(colors().emphasis, 150), 2.6);
   for (const SceneResponse* scene : scope_.scenes) {
     if (scope_.scenes.size() > 1 && !scene->transition) continue;
     const Levels levels = levelsOf(*scene);
@@ -225,7 +225,7 @@ void AnglePlot::fit() {
 void AnglePlot::rebuild() {
   clearFigure();
   std::vector<QStringList> rows;
-  QCPGraph* dots = add_dots(*this, faint(colors().fill, 130), 3.0);
+  QCPGraph* dots = add_dots(*this, faint(colors().fill, 190), 3.2);
   for (const BoundarySample* s : scope_.samples(true, kMostDots)) {
     const Eigen::Vector3d d = s->residual.cast<double>();
     dots->addData(kDegrees * d.y(), kDegrees * d.x());

@@ -58,11 +58,11 @@ void SampleMapPlot::rebuild() {
   QCPGraph* graphs[2];
   for (const bool overlap : {false, true}) {
     QColor color = overlap ? colors().emphasis : colors().axis;
-    color.setAlpha(overlap ? 170 : 90);
+    color.setAlpha(overlap ? 255 : 110);
     graphs[overlap] = addGraph();
     graphs[overlap]->setLineStyle(QCPGraph::lsNone);
     graphs[overlap]->setPen(Qt::NoPen);
-    graphs[overlap]->setScatterStyle({QCPScatterStyle::ssDisc, QPen(Qt::NoPen), color, 1.8});
+    graphs[overlap]->setScatterStyle({QCPScatterStyle::ssCircle, QPen(Qt::NoPen), color, 2.2});
   }
   for (const BoundarySample* s : scope_.samples(false, kMostDots)) {
     const Eigen::Vector2d p = kMm * s->board_m.cast<double>();

@@ -35,6 +35,7 @@ TEST(TransitionPlot, ShowsMeansAndTheFitOfOneSceneInItsIntensities) {
   plot.setScope(test::scope_of({&scene}));
   plot.show();
   EXPECT_TRUE(test::shows(plot, plot.colors().fit));
+  EXPECT_TRUE(test::shows(plot, plot.colors().mark));  // The means.
   const auto rows = test::rows_of(plot.csv());
   ASSERT_GT(rows.size(), 20);
   // Far outside the means are the white level, far inside the black one.

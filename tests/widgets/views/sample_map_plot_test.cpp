@@ -25,6 +25,7 @@ TEST(SampleMapPlot, ShowsTheSamplesOnTheBoardInMillimetres) {
   plot.setTarget(Target());
   plot.setScope(test::scope_of({&scene}));
   plot.show();
+  EXPECT_TRUE(test::shows(plot, plot.colors().emphasis));  // The overlap region.
   const auto rows = test::rows_of(plot.csv());
   ASSERT_EQ(rows.size(), 2000);
   for (const QByteArray& row : rows) {
