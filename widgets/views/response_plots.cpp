@@ -73,7 +73,7 @@ TransitionPlot::TransitionPlot(QWidget* parent) : PlotView(parent) {
   xAxis->setLabel(tr("distance from the circle (mm), outside positive"));
   setToolTip(
       tr("Intensity of the returns about the circles against the signed distance to the nearest "
-         "one. Small dots: samples (of many, some), in the warm colour those of the overlap "
+         "one. Small dots: samples (of many, some), blue those of the overlap "
          "region. Marks: means in classes of a millimetre with their standard deviation. Line: "
          "the fitted error function; δ is where it is half way, σ its width."));
 }

@@ -16,8 +16,8 @@ SampleMapPlot::SampleMapPlot(QWidget* parent) : PlotView(parent) {
   xAxis->setLabel(tr("board x (mm)"));
   yAxis->setLabel(tr("board y (mm)"));
   setToolTip(
-      tr("The board from the front with the returns about its circles (of many, some), in the "
-         "warm colour those of the overlap region. Dashed red: circles that are left out in one "
+      tr("The board from the front with the returns about its circles (of many, some), blue "
+         "those of the overlap region. Dashed red: circles that are left out in one "
          "of the scenes shown; the reasons are in the table below."));
   connect(this, &QCustomPlot::afterLayout, this, [this] {
     if (axisRect()->size() == fitted_to_) return;
