@@ -78,6 +78,7 @@ void MainActions::make_file_menu(QMainWindow& window) {
   save_as = add(file_, "save_as", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S));
   file_->addSeparator();
   results = add(file_, "results", QKeySequence(Qt::CTRL | Qt::Key_E));
+  report = add(file_, "report", QKeySequence(Qt::CTRL | Qt::Key_R));
   file_->addSeparator();
   quit = add(file_, "quit", QKeySequence::Quit);
   quit->setMenuRole(QAction::QuitRole);
@@ -140,6 +141,7 @@ void MainActions::retranslate() {
   describe(save, tr("&Save"), tr("Save the decisions as a project"));
   describe(save_as, tr("Save &as…"), tr("Save the project under another name"));
   describe(results, tr("R&esults…"), tr("Show and export the result"));
+  describe(report, tr("Repor&t…"), tr("Write the result as one HTML file with its figures"));
   describe(quit, tr("&Quit"), tr("Leave the program"));
   describe(run, tr("&Run all"), tr("Run everything that is not up to date"));
   describe(cancel, tr("&Cancel"), tr("Stop what is running"));

@@ -28,7 +28,7 @@ class MainActions : public QObject {
   void add_view_toggles(const QList<QAction*>& toggles);
   void set_recent(const QStringList& paths);
 
-  QAction *open_dataset, *open_project, *demo, *save, *save_as, *results, *quit;
+  QAction *open_dataset, *open_project, *demo, *save, *save_as, *results, *report, *quit;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;
   QActionGroup* themes;     ///< data(): name_of(Theme).
   QActionGroup* languages;  ///< data(): code of the language.

@@ -13,7 +13,6 @@
 
 #include "dialogs/error_dialog.h"
 #include "dialogs/guide_dialog.h"
-#include "dialogs/results_dialog.h"
 #include "docks/log_dock.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
@@ -23,6 +22,7 @@
 #include "workbench/language.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
+#include "workbench/result_actions.h"
 #include "workbench/status_line.h"
 
 namespace lvcalib::widgets {
@@ -38,7 +38,8 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       parameters_(new ParametersDock(this)),
       log_(new LogDock(this)),
       pages_(new PageStack(this)),
-      status_(new StatusLine(this)) {
+      status_(new StatusLine(this)),
+      results_(new ResultActions(choices, settings, *this)) {
   setObjectName(QStringLiteral("main_window"));
   setAcceptDrops(true);
   setCentralWidget(pages_);
@@ -54,6 +55,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   connect_docks();
   connect_workspace();
   connect_pages();
+  connect_results();
   restore_window();
   pages_->welcome().set_recent(settings_.recent());
   actions_->set_recent(settings_.recent());
@@ -99,9 +101,13 @@ void MainWindow::connect_actions() {
   on(actions_->about, [this] { show_about(); });
   on(actions_->save, [this] { save(false); });
   on(actions_->save_as, [this] { save(true); });
-  on(actions_->results, [this] { show_results(); });
+  on(actions_->results, [this] { results_->show(workspace_->result()); });
+  on(actions_->report, [this] { results_->write_report(workspace_->result()); });
   on(actions_->run, [this] { workspace_->run(); });
-  on(actions_->cancel, [this] { workspace_->cancel(); });
+  on(actions_->cancel, [this] {
+    workspace_->cancel();
+    results_->cancel();
+  });
   on(actions_->use_crops, [this](bool use) { workspace_->set_use_crops(use); });
   connect(actions_, &MainActions::recent_wanted, this, &MainWindow::open);
   const WelcomePage& welcome = pages_->welcome();
@@ -202,6 +208,16 @@ void MainWindow::connect_pages() {
           [this](int scene) { scenes_->select(scene_name(scene)); });
   connect(pages_, &PageStack::failed, this,
           [this](const QString& message) { show_error(Error::output(message.toStdString())); });
+}
+
+void MainWindow::connect_results() {
+  connect(results_, &ResultActions::failed, this, &MainWindow::show_error);
+  connect(results_, &ResultActions::progressed, status_, &StatusLine::show_progress);
+  connect(results_, &ResultActions::logged, log_, &LogDock::append);
+  connect(results_, &ResultActions::busy_changed, this, &MainWindow::update_actions);
+  connect(results_, &ResultActions::done, this, [this](const QString& message) {
+    if (!workspace_->busy()) status_->show_idle(message);
+  });
 }
 
 void MainWindow::open(const QString& path) {
@@ -311,18 +327,6 @@ void MainWindow::show_error(const Error& error) {
   (new ErrorDialog(error, this))->show();
 }
 
-void MainWindow::show_results() {
-  if (!workspace_->result()) return;
-  auto* dialog = new ResultsDialog(workspace_->result(), choices_, settings_.last_folder(), this);
-  connect(dialog, &ResultsDialog::failed, this, &MainWindow::show_error);
-  connect(dialog, &ResultsDialog::exported, this, [this](const QString& path) {
-    settings_.set_last_folder(QFileInfo(path).absolutePath());
-    log_->append(tr("Exported %1.").arg(path));
-    status_->show_idle(tr("Exported %1").arg(QFileInfo(path).fileName()));
-  });
-  dialog->show();
-}
-
 void MainWindow::show_about() {
   auto* box = new QMessageBox(QMessageBox::Information, tr("About"),
                               tr("LV-Calib Workbench %1\n\nLiDAR–camera calibration with a printed "
@@ -339,11 +343,12 @@ void MainWindow::update_actions() {
   const bool open = workspace_->is_open();
   const bool busy = workspace_->busy();
   actions_->run->setEnabled(open && !busy);
-  actions_->cancel->setEnabled(busy);
+  actions_->cancel->setEnabled(busy || results_->busy());
   actions_->save->setEnabled(open);
   actions_->save_as->setEnabled(open);
   actions_->use_crops->setEnabled(open);
   actions_->results->setEnabled(workspace_->result() != nullptr);
+  actions_->report->setEnabled(workspace_->result() != nullptr);
   parameters_->widget()->setEnabled(open);
 }
 
@@ -363,6 +368,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   }
   settings_.set_window(saveGeometry(), saveState());
   workspace_->cancel();
+  results_->cancel();
   loader_.clear();
   event->accept();
 }

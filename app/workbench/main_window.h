@@ -17,6 +17,7 @@ class LogDock;
 class MainActions;
 class PageStack;
 class ParametersDock;
+class ResultActions;
 class ScenesDock;
 class StatusLine;
 
@@ -50,11 +51,11 @@ class MainWindow : public QMainWindow {
   void connect_docks();
   void connect_workspace();
   void connect_pages();
+  void connect_results();
   void restore_window();
   bool may_drop_decisions();
   bool save(bool ask_for_path);
   void show_error(const Error& error);
-  void show_results();
   void show_about();
   void take_opened();
   void take_result();
@@ -77,6 +78,7 @@ class MainWindow : public QMainWindow {
   LogDock* log_;
   PageStack* pages_;
   StatusLine* status_;
+  ResultActions* results_;
 };
 
 }  // namespace lvcalib::widgets

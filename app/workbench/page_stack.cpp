@@ -6,6 +6,7 @@
 
 #include "pages/extrinsic_page.h"
 #include "pages/refinement_page.h"
+#include "pages/response_page.h"
 #include "pages/scene_page.h"
 #include "start/welcome_page.h"
 
@@ -22,12 +23,14 @@ PageStack::PageStack(QWidget* parent)
       tabs_(new QTabWidget(this)),
       scene_(new ScenePage(tabs_)),
       refinement_(new RefinementPage(tabs_)),
-      extrinsic_(new ExtrinsicPage(tabs_)) {
+      extrinsic_(new ExtrinsicPage(tabs_)),
+      response_(new ResponsePage(tabs_)) {
   tabs_->setObjectName(QStringLiteral("pages"));
   tabs_->setDocumentMode(true);
   tabs_->addTab(scene_, {});
   tabs_->addTab(refinement_, {});
   tabs_->addTab(extrinsic_, {});
+  tabs_->addTab(response_, {});
   addWidget(welcome_);
   addWidget(tabs_);
   connect(scene_, &ScenePage::cropChanged, this,
@@ -38,6 +41,8 @@ PageStack::PageStack(QWidget* parent)
   connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
+  connect(response_, &ResponsePage::failed, this, &PageStack::failed);
+  connect(response_, &ResponsePage::sceneActivated, this, &PageStack::scene_wanted);
   live_.setSingleShot(true);
   live_.setInterval(kLiveIntervalMs);
   connect(&live_, &QTimer::timeout, this, &PageStack::show_latest);
@@ -71,6 +76,7 @@ void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& resul
   scene_->setResult(result);
   refinement_->setResult(result);
   extrinsic_->setResult(result);
+  response_->setResult(result);
 }
 
 void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {
@@ -117,6 +123,7 @@ void PageStack::retranslate() {
   tabs_->setTabText(0, tr("Scene"));
   tabs_->setTabText(1, tr("Refinement"));
   tabs_->setTabText(2, tr("Extrinsic"));
+  tabs_->setTabText(3, tr("Boundary response"));
 }
 
 }  // namespace lvcalib::widgets

@@ -15,6 +15,7 @@ namespace lvcalib::widgets {
 
 class ExtrinsicPage;
 class RefinementPage;
+class ResponsePage;
 class ScenePage;
 class WelcomePage;
 
@@ -64,6 +65,7 @@ class PageStack : public QStackedWidget {
   ScenePage* scene_;
   RefinementPage* refinement_;
   ExtrinsicPage* extrinsic_;
+  ResponsePage* response_;
 };
 
 }  // namespace lvcalib::widgets

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "base/statistics.h"
 #include "report/json_values.h"
+#include "response/response_curves.h"
 
 namespace lvcalib {
 namespace {
@@ -91,28 +91,18 @@ ordered_json transition_json(const TransitionFit& t) {
 
 // Mean intensity by distance, in classes of a millimetre.
 ordered_json curve_json(const SceneResponse& scene) {
-  std::map<int, std::pair<double, int>> bins;
-  for (const BoundarySample& s : scene.samples) {
-    if (scene.nodes[static_cast<std::size_t>(s.node)].state != NodeResponseState::kUsed) continue;
-    auto& bin = bins[static_cast<int>(std::floor(1e3 * static_cast<double>(s.distance_m)))];
-    bin.first += static_cast<double>(s.intensity);
-    ++bin.second;
-  }
   ordered_json curve = ordered_json::array();
-  for (const auto& [at, bin] : bins)
-    curve.push_back({{"d_mm", at + 0.5}, {"mean", bin.first / bin.second}, {"n", bin.second}});
+  for (const TransitionBin& bin : transition_curve(scene))
+    curve.push_back({{"d_mm", 1e3 * bin.distance_m}, {"mean", bin.mean}, {"n", bin.n}});
   return curve;
 }
 
 // Range residuals of the overlap samples in classes of 2 mm.
 ordered_json histogram_json(const SceneResponse& scene) {
-  std::map<int, int> bins;
-  for (const BoundarySample& s : scene.samples) {
-    if (s.overlap)
-      ++bins[static_cast<int>(std::floor(500.0 * static_cast<double>(s.range_residual_m)))];
-  }
+  const SceneResponse* const one[] = {&scene};
   ordered_json out = ordered_json::array();
-  for (const auto& [at, n] : bins) out.push_back({{"low_mm", 2 * at}, {"n", n}});
+  for (const RangeBin& bin : range_histogram(one))
+    out.push_back({{"low_mm", std::lround(1e3 * bin.low_m)}, {"n", bin.n}});
   return out;
 }
 

@@ -86,6 +86,16 @@ Result<Camera> camera_from_json_text(const std::string& result_json, const std::
   return camera_of(j, where);
 }
 
+ExportInput export_input_of(const CalibrationResult& result) {
+  ExportInput input;
+  input.camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
+  input.camera = result.camera;
+  input.dataset = result.dataset;
+  input.quality = name_of(result.quality);
+  input.result_json = result_as_json(result);
+  return input;
+}
+
 Result<ExportInput> read_export_input(const std::filesystem::path& result_json) {
   auto stored = read_result(result_json);
   if (!stored) return stored.error();

@@ -305,20 +305,23 @@ const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> formats = {
       {"matrix", "T_camera_lidar, 4x4 numbers", false, &write_matrix},
       {"opencv", "rvec and tvec as cv::projectPoints takes them (FileStorage YAML)", false,
-       &write_opencv},
+       &write_opencv, "yaml"},
       {"ros1-tf", "static_transform_publisher of ROS 1, camera in LiDAR", false, &write_ros1},
       {"ros2-tf", "static_transform_publisher of ROS 2, camera in LiDAR", false, &write_ros2},
-      {"urdf", "fixed joint, camera in LiDAR", false, &write_urdf},
-      {"kalibr", "camchain with T_cam_lidar", false, &write_kalibr},
+      {"urdf", "fixed joint, camera in LiDAR", false, &write_urdf, "urdf"},
+      {"kalibr", "camchain with T_cam_lidar", false, &write_kalibr, "yaml"},
       {"autoware", "sensor_kit_calibration.yaml with camera_link (x forward)", false,
-       &write_autoware},
-      {"fast-livo2", "Rcl and Pcl of FAST-LIVO2, LiDAR to camera", false, &write_fast_livo2},
-      {"r3live", "camera_ext_R and camera_ext_t of R3LIVE, camera to IMU", true, &write_r3live},
-      {"lvi-sam", "lidar_to_cam_* of LVI-SAM, LiDAR to x-forward camera", false, &write_lvi_sam},
+       &write_autoware, "yaml"},
+      {"fast-livo2", "Rcl and Pcl of FAST-LIVO2, LiDAR to camera", false, &write_fast_livo2,
+       "yaml"},
+      {"r3live", "camera_ext_R and camera_ext_t of R3LIVE, camera to IMU", true, &write_r3live,
+       "yaml"},
+      {"lvi-sam", "lidar_to_cam_* of LVI-SAM, LiDAR to x-forward camera", false, &write_lvi_sam,
+       "yaml"},
       {"koide", "calib.json of direct_visual_lidar_calibration, T_lidar_camera", false,
-       &write_koide},
+       &write_koide, "json"},
       {"boundary-response", "noise of points at reflectivity edges, for SLAM front ends (YAML)",
-       false, &export_boundary_response}};
+       false, &export_boundary_response, "yaml"}};
   return formats;
 }
 

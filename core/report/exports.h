@@ -12,6 +12,8 @@
 
 namespace lvcalib {
 
+struct CalibrationResult;
+
 /// What an export is made of.
 struct ExportInput {
   Rigid3 camera_from_lidar;
@@ -30,6 +32,7 @@ struct ExportFormat {
   std::string description;  ///< One line: for whom, and what it holds.
   bool needs_imu = false;
   Result<std::string> (*write)(const ExportInput&) = nullptr;
+  std::string suffix = "txt";  ///< Of its files' names.
 };
 
 /// All formats, in the order of lists.
@@ -38,6 +41,9 @@ const std::vector<ExportFormat>& export_formats();
 /// The text of a result in a format. Errors: kUsage for an unknown format (naming the nearest) or
 /// a missing T_imu_lidar; kUntrusted for a boundary response that the result does not have.
 Result<std::string> export_result(const ExportInput& input, const std::string& format);
+
+/// What exports need of a calibration just made.
+ExportInput export_input_of(const CalibrationResult& result);
 
 /// Reads what exports need from result.json.
 Result<ExportInput> read_export_input(const std::filesystem::path& result_json);

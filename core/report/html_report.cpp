@@ -4,6 +4,7 @@
 #include "base/file_io.h"
 #include "report/report_figures.h"
 #include "report/report_sections.h"
+#include "report/result_file.h"
 
 namespace lvcalib {
 namespace {
@@ -46,15 +47,11 @@ std::string page(const json& result, const std::string& body) {
          "</body>\n</html>\n";
 }
 
-}  // namespace
-
-Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunContext& context) {
-  const std::filesystem::path path = folder / "result.json";
-  auto text = read_text_file(path, kMaxResultBytes);
-  if (!text) return text.error();
-  const json result = json::parse(*text, nullptr, false);
-  if (result.is_discarded() || !result.is_object())
-    return Error::input("not a JSON object", path.string());
+// `text` is a result.json, `where` names it in errors.
+Result<HtmlReport> report_of(const std::string& text, const std::string& where,
+                             const RunContext& context) {
+  const json result = json::parse(text, nullptr, false);
+  if (result.is_discarded() || !result.is_object()) return Error::input("not a JSON object", where);
   HtmlReport report;
   try {
     std::string body = verdict_section(result) + pose_section(result) +
@@ -69,11 +66,24 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
     body += response_section(result) + provenance_section(result);
     report.html = page(result, body);
   } catch (const json::exception& e) {
-    return Error::input(std::string("this result lacks what a report shows: ") + e.what(),
-                        path.string(), "calibrate again with this version");
+    return Error::input(std::string("this result lacks what a report shows: ") + e.what(), where,
+                        "calibrate again with this version");
   }
   context.report("report", 1.0, "done");
   return report;
+}
+
+}  // namespace
+
+Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunContext& context) {
+  const std::filesystem::path path = folder / "result.json";
+  auto text = read_text_file(path, kMaxResultBytes);
+  if (!text) return text.error();
+  return report_of(*text, path.string(), context);
+}
+
+Result<HtmlReport> html_report(const CalibrationResult& result, const RunContext& context) {
+  return report_of(result_as_json(result), "the result", context);
 }
 
 }  // namespace lvcalib

@@ -10,6 +10,8 @@
 
 namespace lvcalib {
 
+struct CalibrationResult;
+
 /// A report, and what it had to do without (images that are gone).
 struct HtmlReport {
   std::string html;
@@ -22,5 +24,8 @@ struct HtmlReport {
 /// on A4. `folder` holds result.json; photographs come from the dataset it names.
 /// Errors: kInput for a missing or malformed result; kCancelled.
 Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunContext& context);
+
+/// The same of a calibration that is not stored.
+Result<HtmlReport> html_report(const CalibrationResult& result, const RunContext& context);
 
 }  // namespace lvcalib

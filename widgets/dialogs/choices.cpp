@@ -48,6 +48,12 @@ QString Choices::file_to_export(QWidget* parent, const QString& suggestion, cons
       parent, words(QT_TRANSLATE_NOOP("Choices", "Export the result")), suggestion, filter);
 }
 
+QString Choices::transform_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a file with T_imu_lidar")), folder,
+      words(QT_TRANSLATE_NOOP("Choices", "YAML (*.yaml *.yml)")));
+}
+
 UnsavedAnswer Choices::unsaved(QWidget* parent, const QString& name) {
   const auto answer = QMessageBox::question(
       parent, words(QT_TRANSLATE_NOOP("Choices", "Unsaved decisions")),

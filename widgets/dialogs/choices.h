@@ -26,6 +26,8 @@ class Choices {
   virtual QString project_to_save(QWidget* parent, const QString& suggestion);
   virtual QStringList scenes_to_add(QWidget* parent, const QString& folder);
   virtual QString file_to_export(QWidget* parent, const QString& suggestion, const QString& filter);
+  /// A YAML file with T_imu_lidar.
+  virtual QString transform_to_open(QWidget* parent, const QString& folder);
   virtual UnsavedAnswer unsaved(QWidget* parent, const QString& name);
   /// A project's dataset is not at `old_path`: where is it now?
   virtual QString moved_dataset(QWidget* parent, const QString& old_path);

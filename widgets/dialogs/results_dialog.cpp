@@ -8,6 +8,7 @@
 #include <QGuiApplication>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QTabWidget>
 #include <QTextBrowser>
 #include <QVBoxLayout>
 #include <cmath>
@@ -16,6 +17,8 @@
 
 #include "base/file_io.h"
 #include "base/roll_pitch_yaw.h"
+#include "dialogs/export_pane.h"
+#include "report/exports.h"
 #include "report/result_file.h"
 #include "style/theme.h"
 
@@ -126,20 +129,15 @@ ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Ch
   setAttribute(Qt::WA_DeleteOnClose);
   setObjectName(QStringLiteral("results_dialog"));
   setWindowTitle(tr("Results"));
-  resize(680, 620);
-  auto* text = new QTextBrowser(this);
-  text->setObjectName(QStringLiteral("results"));
-  text->setHtml(results_html(*result_));
-  auto* matrix = new QPlainTextEdit(matrix_text(*result_), this);
-  matrix->setObjectName(QStringLiteral("matrix"));
-  matrix->setReadOnly(true);
-  matrix->setLineWrapMode(QPlainTextEdit::NoWrap);
-  matrix->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  matrix->setFixedHeight(6 * matrix->fontMetrics().lineSpacing());
-  matrix->setToolTip(
-      tr("Takes a point from the LiDAR frame to the camera frame (x right, y down, "
-         "z forward); lengths in metres"));
-  matrix->setTabChangesFocus(true);
+  resize(800, 660);
+  auto* tabs = new QTabWidget(this);
+  tabs->setObjectName(QStringLiteral("results_tabs"));
+  tabs->setDocumentMode(true);
+  tabs->addTab(create_pose(), tr("Pose"));
+  auto* exports = new ExportPane(export_input_of(*result_), choices_, folder_, tabs);
+  connect(exports, &ExportPane::exported, this, &ResultsDialog::exported);
+  connect(exports, &ExportPane::failed, this, &ResultsDialog::failed);
+  tabs->addTab(exports, tr("For other tools"));
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   const auto add = [&](const QString& title, const char* name) {
     QPushButton* button = buttons->addButton(title, QDialogButtonBox::ActionRole);
@@ -156,9 +154,30 @@ ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Ch
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);
+  layout->addWidget(tabs, 1);
+  layout->addWidget(buttons);
+}
+
+QWidget* ResultsDialog::create_pose() {
+  auto* page = new QWidget(this);
+  auto* text = new QTextBrowser(page);
+  text->setObjectName(QStringLiteral("results"));
+  text->setHtml(results_html(*result_));
+  auto* matrix = new QPlainTextEdit(matrix_text(*result_), page);
+  matrix->setObjectName(QStringLiteral("matrix"));
+  matrix->setReadOnly(true);
+  matrix->setLineWrapMode(QPlainTextEdit::NoWrap);
+  matrix->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  matrix->setFixedHeight(6 * matrix->fontMetrics().lineSpacing());
+  matrix->setToolTip(
+      tr("Takes a point from the LiDAR frame to the camera frame (x right, y down, "
+         "z forward); lengths in metres"));
+  matrix->setTabChangesFocus(true);
+  auto* layout = new QVBoxLayout(page);
+  layout->setContentsMargins(0, 4, 0, 0);
   layout->addWidget(text, 1);
   layout->addWidget(matrix);
-  layout->addWidget(buttons);
+  return page;
 }
 
 void ResultsDialog::export_file(const QString& suffix, const QString& filter,

@@ -14,7 +14,7 @@ QString matrix_text(const CalibrationResult& result);
 /// Translation, quaternion, roll–pitch–yaw, each with its standard deviations, quality, warnings.
 QString results_html(const CalibrationResult& result);
 
-/// The result in all usual forms, with export and copy.
+/// The result in all usual forms and in the formats of other tools, with export and copy.
 class ResultsDialog : public QDialog {
   Q_OBJECT
 
@@ -28,6 +28,7 @@ class ResultsDialog : public QDialog {
   void failed(const lvcalib::Error& error);
 
  private:
+  QWidget* create_pose();
   void export_file(const QString& suffix, const QString& filter, const std::string& text);
 
   std::shared_ptr<const CalibrationResult> result_;

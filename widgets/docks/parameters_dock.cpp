@@ -84,6 +84,13 @@ OptionDisplay display_of(const OptionDeclaration& option) {
     return count - 1 - static_cast<int>(std::floor(std::log10(value * display.factor)));
   };
   display.decimals = std::clamp(std::max(digits(magnitude, 3), digits(option.low, 1)), 1, 9);
+  // No default may change by being shown.
+  const double shown = option.default_value() * display.factor;
+  const auto changes = [&] {
+    const double scale = std::pow(10.0, display.decimals);
+    return std::abs(std::round(shown * scale) / scale - shown) > 1e-9 * std::abs(shown);
+  };
+  while (display.decimals < 9 && changes()) ++display.decimals;
   return display;
 }
 

@@ -10,8 +10,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "pages/methods_pane.h"
 #include "pages/pose_text.h"
 #include "pages/scene_overlay.h"
+#include "pages/uncertainty_text.h"
 #include "views/category_plots.h"
 #include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
@@ -49,6 +51,13 @@ ExtrinsicPage::ExtrinsicPage(QWidget* parent) : QWidget(parent) {
   tabs_ = new QTabWidget(splitter);
   tabs_->setDocumentMode(true);
   tabs_->addTab(createPlots(), tr("Residuals and influence"));
+  methods_ = new MethodsPane(tabs_);
+  connect(methods_, &MethodsPane::failed, this, &ExtrinsicPage::failed);
+  tabs_->addTab(methods_, tr("Methods"));
+  uncertainty_ = new QTextBrowser(tabs_);
+  uncertainty_->setObjectName("uncertainty");
+  uncertainty_->setAccessibleName(tr("Uncertainty"));
+  tabs_->addTab(uncertainty_, tr("Uncertainty"));
   tabs_->addTab(createCloud(), tr("Cloud in camera colours"));
   splitter->addWidget(pose_);
   splitter->addWidget(tabs_);
@@ -120,7 +129,8 @@ void ExtrinsicPage::activate(int index) {
 
 void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
-  fillPose();
+  fillTexts();
+  methods_->setResult(result_.get());
   fillPlots();
   fillInfluence();
   colourise();
@@ -135,12 +145,13 @@ void ExtrinsicPage::setSceneData(int scene, std::shared_ptr<const Cloud> full_cl
 
 void ExtrinsicPage::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) fillPose();
+  if (event->type() == QEvent::PaletteChange) fillTexts();
 }
 
-void ExtrinsicPage::fillPose() {
+void ExtrinsicPage::fillTexts() {
   pose_->setHtml(result_ ? pose_html(*result_, palette())
                          : "<p>" + tr("Run the calibration to see its result.") + "</p>");
+  uncertainty_->setHtml(result_ ? uncertainty_html(*result_, palette()) : QString());
 }
 
 // One column per scene of the result in every plot, so that a column names its scene.

@@ -17,10 +17,11 @@ class BoxPlot;
 class CategoryPlot;
 class CloudSceneBuilder;
 class CloudView;
+class MethodsPane;
 
 /// The extrinsic: the pose with its standard deviations, weak directions, quality and warnings;
-/// residuals per scene as bars and boxes; how the pose moves without each scene; the cloud in the
-/// camera's colours.
+/// residuals per scene as bars and boxes; how the pose moves without each scene; the methods side
+/// by side; how far the pose can be trusted; the cloud in the camera's colours.
 class ExtrinsicPage : public QWidget {
   Q_OBJECT
 
@@ -49,7 +50,7 @@ class ExtrinsicPage : public QWidget {
   void activate(int index);
   void fillPlots();
   void fillInfluence();
-  void fillPose();
+  void fillTexts();
   void colourise();
 
   std::shared_ptr<const CalibrationResult> result_;
@@ -57,6 +58,8 @@ class ExtrinsicPage : public QWidget {
   QImage image_;
   int scene_ = -1;
   QTextBrowser* pose_ = nullptr;
+  QTextBrowser* uncertainty_ = nullptr;
+  MethodsPane* methods_ = nullptr;
   QTabWidget* tabs_ = nullptr;
   BarPlot* bars_px_ = nullptr;
   BarPlot* bars_mm_ = nullptr;

@@ -15,7 +15,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kMm = 1e3;
 
 QString tr(const char* text) {
-  return QCoreApplication::translate("PoseText", text);
+  return QCoreApplication::translate("lvcalib::widgets", text);
 }
 
 QString number(double value, int decimals) {

@@ -34,12 +34,13 @@ void CategoryPlot::layoutColumns(const QStringList& names, double low, double hi
   for (int k = 0; k < columns_; ++k) ticker->addTick(k + 1, names[k]);
   xAxis->setTicker(ticker);
   xAxis->setSubTicks(false);
-  // Many or long names do not fit side by side.
+  // Many or long names do not fit side by side. Turned, they end below their tick: the other way
+  // the last ones would leave the figure.
   const auto longest = std::max_element(
       names.begin(), names.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   const bool crowded =
       columns_ > 0 && static_cast<double>(columns_) * static_cast<double>(longest->size()) > 40.0;
-  xAxis->setTickLabelRotation(crowded ? 60.0 : 0.0);
+  xAxis->setTickLabelRotation(crowded ? -60.0 : 0.0);
   const double span = std::max(high - low, 1e-12);
   setHome({0.4, std::max(columns_, 1) + 0.6},
           {low < 0 ? low - 0.05 * span : 0.0, high > 0 ? high + 0.08 * span : 1.0});

@@ -17,7 +17,7 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 QString tr(const char* text) {
-  return QCoreApplication::translate("CloudScene", text);
+  return QCoreApplication::translate("lvcalib::widgets", text);
 }
 
 // Steps through the points by the golden section of their number: every beginning of the order

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "report/exports.h"
 #include "report/result_file.h"
 #include "support/simulated_dataset.h"
 
@@ -76,6 +77,25 @@ TEST_F(HtmlReportTest, HoldsEverySectionAndLoadsNothing) {
   for (const InputFile& file : result_->inputs) EXPECT_THAT(html, HasSubstr(file.sha256));
   for (const char* no_number : {">nan", "\"nan", ",nan", " nan", "-nan"})
     EXPECT_THAT(html, Not(HasSubstr(no_number)));
+}
+
+TEST_F(HtmlReportTest, IsTheSameOfAStoredAndOfAFreshResult) {
+  ASSERT_TRUE(write_results(*result_, out_.path()).ok());
+  const auto stored = html_report(out_.path(), {});
+  const auto fresh = html_report(*result_, {});
+  ASSERT_TRUE(stored.ok() && fresh.ok());
+  EXPECT_EQ(stored->html, fresh->html);
+  const auto read = read_export_input(out_.path() / "result.json");
+  ASSERT_TRUE(read.ok()) << read.error().text();
+  for (const ExportFormat& format : export_formats()) {
+    if (format.needs_imu) continue;
+    const auto a = export_result(*read, format.name);
+    const auto b = export_result(export_input_of(*result_), format.name);
+    ASSERT_EQ(a.ok(), b.ok()) << format.name;
+    if (a.ok()) {
+      EXPECT_EQ(*a, *b);
+    }
+  }
 }
 
 TEST_F(HtmlReportTest, TextIsEscapedAndAMissingDatasetIsSaid) {

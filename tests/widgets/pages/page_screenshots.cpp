@@ -8,6 +8,7 @@
 #include <QElapsedTimer>
 #include <QSurfaceFormat>
 #include <QTabWidget>
+#include <QTableWidget>
 #include <cstdio>
 #include <functional>
 
@@ -15,6 +16,7 @@
 #include "pages/extrinsic_page.h"
 #include "pages/image_pane.h"
 #include "pages/refinement_page.h"
+#include "pages/response_page.h"
 #include "pages/scene_page.h"
 #include "style/theme.h"
 #include "views/cloud_view.h"
@@ -98,14 +100,26 @@ void photograph(Photographer& photographer, const test::CalibratedDemo& demo) {
   extrinsic.setResult(demo.result);
   extrinsic.setSceneData(0, demo.clouds[0], demo.images[0]);
   photographer.take(extrinsic, "extrinsic", at_once);
-  extrinsic.findChild<QTabWidget*>()->setCurrentIndex(1);
+  auto* tabs = extrinsic.findChild<QTabWidget*>();
+  tabs->setCurrentIndex(1);
+  photographer.take(extrinsic, "extrinsic-methods", at_once);
+  tabs->setCurrentIndex(2);
+  photographer.take(extrinsic, "extrinsic-uncertainty", at_once);
+  tabs->setCurrentIndex(3);
   photographer.take(extrinsic, "extrinsic-cloud", [&] {
     return extrinsic.cloudView()->scene() && drawn(*extrinsic.cloudView());
   });
+  ResponsePage response;
+  response.setResult(demo.result);
+  photographer.take(response, "response", at_once);
+  response.findChild<QTableWidget*>("response-scenes")->setCurrentCell(1, 0);
+  photographer.take(response, "response-scene", at_once);
   RefinementPage empty;
   photographer.take(empty, "refinement-empty", at_once);
   ExtrinsicPage none;
   photographer.take(none, "extrinsic-empty", at_once);
+  ResponsePage bare;
+  photographer.take(bare, "response-empty", at_once);
 }
 
 }  // namespace

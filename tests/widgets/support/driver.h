@@ -45,7 +45,7 @@ class Watchdog : public QObject {
 /// Answers in the user's place.
 class Answers : public widgets::Choices {
  public:
-  QString dataset, project, save_as, export_to, moved_to;
+  QString dataset, project, save_as, export_to, transform, moved_to;
   QStringList scenes;
   widgets::UnsavedAnswer unsaved_answer = widgets::UnsavedAnswer::kDiscard;
   bool recover_answer = false;
@@ -56,6 +56,7 @@ class Answers : public widgets::Choices {
   QString project_to_save(QWidget*, const QString&) override { return save_as; }
   QStringList scenes_to_add(QWidget*, const QString&) override { return scenes; }
   QString file_to_export(QWidget*, const QString&, const QString&) override { return export_to; }
+  QString transform_to_open(QWidget*, const QString&) override { return transform; }
   widgets::UnsavedAnswer unsaved(QWidget*, const QString&) override {
     ++asked_unsaved;
     return unsaved_answer;

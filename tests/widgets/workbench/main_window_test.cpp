@@ -6,6 +6,7 @@
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
+#include <QFile>
 #include <QListWidget>
 #include <QMimeData>
 #include <QProgressBar>
@@ -308,6 +309,17 @@ TEST_F(MainWindowTest, ResultsAreShownCopiedAndExported) {
   auto* error = find<QDialog>(*window_, "error_dialog");
   ASSERT_NE(error, nullptr);
   error->close();
+}
+
+TEST_F(MainWindowTest, TheReportIsWrittenFromTheMenu) {
+  EXPECT_FALSE(trigger(*window_, "report"));
+  run();
+  answers_.export_to = folder_.filePath("report.html");
+  ASSERT_TRUE(trigger(*window_, "report"));
+  ASSERT_TRUE(wait_until([&] { return QFile::exists(answers_.export_to); }));
+  const auto html = read_text_file(answers_.export_to.toStdString(), 1 << 26);
+  ASSERT_TRUE(html.ok());
+  EXPECT_NE(html->find("data:image/jpeg;base64,"), std::string::npos);  // With its photographs.
 }
 
 TEST_F(MainWindowTest, UnusableThingsAreNamedAndNothingOpens) {

@@ -20,8 +20,8 @@ TEST(PageStack, ShowsTheWelcomePageFirstAndATabPerPage) {
   stack.show_pages();
   EXPECT_FALSE(stack.welcome().isVisible());
   const auto* tabs = stack.findChild<QTabWidget*>("pages");
-  ASSERT_EQ(stack.tab_count(), 3);
-  for (int tab = 0; tab < 3; ++tab) {
+  ASSERT_EQ(stack.tab_count(), 4);
+  for (int tab = 0; tab < 4; ++tab) {
     stack.show_tab(tab);
     EXPECT_EQ(tabs->currentIndex(), tab);
     EXPECT_FALSE(tabs->tabText(tab).isEmpty());

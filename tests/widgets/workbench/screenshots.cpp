@@ -5,6 +5,7 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDir>
+#include <QListWidget>
 #include <QScreen>
 #include <QSurfaceFormat>
 #include <QTabWidget>
@@ -63,13 +64,18 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
       tabs->setCurrentIndex(tab);
       camera.take(QStringLiteral("%1-%2").arg(
           QStringList{QStringLiteral("scene"), QStringLiteral("refinement"),
-                      QStringLiteral("extrinsic")}
+                      QStringLiteral("extrinsic"), QStringLiteral("response")}
               .value(tab),
           QLatin1String(theme)));
     }
     test::trigger(window, "results");
     if (auto* results = test::find<QDialog>(window, "results_dialog")) {
       camera.take(QStringLiteral("results-") + QLatin1String(theme), results);
+      test::find<QTabWidget>(*results, "results_tabs")->setCurrentIndex(1);
+      auto* formats = test::find<QListWidget>(*results, "formats");
+      formats->setCurrentItem(
+          formats->findItems(QStringLiteral("kalibr"), Qt::MatchExactly).value(0));
+      camera.take(QStringLiteral("exports-") + QLatin1String(theme), results);
       results->close();
     }
   }

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/result_actions.h"
+
+#include <QDir>
+#include <QFileInfo>
+
+#include "dialogs/results_dialog.h"
+
+namespace lvcalib::widgets {
+
+ResultActions::ResultActions(Choices& choices, AppSettings& settings, QWidget& window)
+    : QObject(&window), choices_(choices), settings_(settings), window_(window) {
+  connect(&report_, &ReportWriter::progressed, this, &ResultActions::progressed);
+  connect(&report_, &ReportWriter::written, this,
+          [this](const QString& path, const QStringList& warnings) {
+            for (const QString& warning : warnings) Q_EMIT logged(warning);
+            remember(path);
+            Q_EMIT logged(tr("Report written to %1.").arg(path));
+            Q_EMIT done(tr("Report written to %1").arg(QFileInfo(path).fileName()));
+            Q_EMIT busy_changed();
+          });
+  connect(&report_, &ReportWriter::cancelled, this, [this] {
+    Q_EMIT done(tr("Report cancelled"));
+    Q_EMIT busy_changed();
+  });
+  connect(&report_, &ReportWriter::failed, this, [this](const Error& error) {
+    Q_EMIT done(tr("The report could not be written"));
+    Q_EMIT busy_changed();
+    Q_EMIT failed(error);
+  });
+}
+
+void ResultActions::show(const std::shared_ptr<const CalibrationResult>& result) {
+  if (!result) return;
+  auto* dialog = new ResultsDialog(result, choices_, settings_.last_folder(), &window_);
+  connect(dialog, &ResultsDialog::failed, this, &ResultActions::failed);
+  connect(dialog, &ResultsDialog::exported, this, [this](const QString& path) {
+    remember(path);
+    Q_EMIT logged(tr("Exported %1.").arg(path));
+    Q_EMIT done(tr("Exported %1").arg(QFileInfo(path).fileName()));
+  });
+  dialog->show();
+}
+
+void ResultActions::write_report(const std::shared_ptr<const CalibrationResult>& result) {
+  if (!result) return;
+  const QString suggestion = QDir(settings_.last_folder()).filePath(QStringLiteral("report.html"));
+  QString path = choices_.file_to_export(&window_, suggestion, tr("HTML (*.html)"));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".html");
+  report_.write(result, path);
+  Q_EMIT busy_changed();
+}
+
+void ResultActions::remember(const QString& path) {
+  settings_.set_last_folder(QFileInfo(path).absolutePath());
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <memory>
+
+#include "dialogs/choices.h"
+#include "runner/report_writer.h"
+#include "start/app_settings.h"
+
+namespace lvcalib::widgets {
+
+/// What is done with a result: the results dialog and the report.
+class ResultActions : public QObject {
+  Q_OBJECT
+
+ public:
+  /// `window` owns this and the dialogs; all three must outlive this.
+  ResultActions(Choices& choices, AppSettings& settings, QWidget& window);
+
+  /// Nothing without a result.
+  void show(const std::shared_ptr<const CalibrationResult>& result);
+  /// Asks for a file and writes the report in the background.
+  void write_report(const std::shared_ptr<const CalibrationResult>& result);
+  void cancel() { report_.cancel(); }
+  /// A report is being written.
+  [[nodiscard]] bool busy() const { return report_.busy(); }
+
+ Q_SIGNALS:
+  void progressed(const QString& stage, double fraction, const QString& text);
+  /// Something was written or not; a line for the status.
+  void done(const QString& message);
+  void busy_changed();
+  void logged(const QString& line);
+  void failed(const lvcalib::Error& error);
+
+ private:
+  void remember(const QString& path);
+
+  Choices& choices_;
+  AppSettings& settings_;
+  QWidget& window_;
+  ReportWriter report_;
+};
+
+}  // namespace lvcalib::widgets

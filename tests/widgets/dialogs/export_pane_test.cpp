@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dialogs/export_pane.h"
+
+#include <QClipboard>
+#include <QFile>
+#include <QGuiApplication>
+#include <QLabel>
+#include <QListWidget>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+#include "base/file_io.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class Answers : public Choices {
+ public:
+  QString save, transform, suggested;
+  QString file_to_export(QWidget*, const QString& suggestion, const QString&) override {
+    suggested = suggestion;
+    return save;
+  }
+  QString transform_to_open(QWidget*, const QString&) override { return transform; }
+};
+
+ExportInput example() {
+  ExportInput input;
+  input.camera_from_lidar = {so3_exp({1.2, -1.1, 1.0}), {0.1, -0.2345, 0.3}};
+  input.camera.fx = input.camera.fy = 800.0;
+  input.camera.cx = 500.0;
+  input.camera.cy = 320.0;
+  input.camera.width_px = 1000;
+  input.camera.height_px = 640;
+  input.dataset = "/data/rig";
+  input.quality = "good";
+  return input;
+}
+
+class ExportPaneTest : public ::testing::Test {
+ protected:
+  template <class T>
+  [[nodiscard]] T* part(const char* name) const {
+    return pane_.findChild<T*>(QString::fromLatin1(name));
+  }
+  [[nodiscard]] QString preview() const { return part<QPlainTextEdit>("preview")->toPlainText(); }
+  QTemporaryDir folder_;
+  Answers answers_;
+  ExportPane pane_{example(), answers_, folder_.path(), nullptr};
+  QSignalSpy failed_{&pane_, &ExportPane::failed};
+  QSignalSpy exported_{&pane_, &ExportPane::exported};
+};
+
+TEST_F(ExportPaneTest, EveryFormatIsPreviewedAsItWouldBeWritten) {
+  const auto* list = part<QListWidget>("formats");
+  ASSERT_EQ(list->count(), static_cast<int>(export_formats().size()));
+  for (const ExportFormat& format : export_formats()) {
+    pane_.chooseFormat(QString::fromStdString(format.name));
+    const auto text = export_result(example(), format.name);
+    EXPECT_EQ(preview().toStdString(), text ? *text : std::string()) << format.name;
+    EXPECT_EQ(part<QPushButton>("save_export")->isEnabled(), text.ok()) << format.name;
+  }
+}
+
+TEST_F(ExportPaneTest, CopyAndSaveGiveTheSameText) {
+  pane_.chooseFormat("kalibr");
+  part<QPushButton>("copy_export")->click();
+  EXPECT_EQ(QGuiApplication::clipboard()->text(), preview());
+  answers_.save = folder_.filePath("camchain.yaml");
+  part<QPushButton>("save_export")->click();
+  EXPECT_TRUE(answers_.suggested.endsWith("/kalibr.yaml")) << answers_.suggested.toStdString();
+  ASSERT_EQ(exported_.size(), 1);
+  EXPECT_EQ(*read_text_file(answers_.save.toStdString(), 1 << 20), preview().toStdString());
+  // A place that cannot be written is named.
+  answers_.save = folder_.filePath("no/such/camchain.yaml");
+  part<QPushButton>("save_export")->click();
+  ASSERT_EQ(failed_.size(), 1);
+  EXPECT_NE(failed_[0][0].value<Error>().text().find("no/such"), std::string::npos);
+}
+
+TEST_F(ExportPaneTest, AMissingImuIsAskedFor) {
+  pane_.chooseFormat("r3live");
+  EXPECT_TRUE(preview().isEmpty());
+  EXPECT_FALSE(part<QPushButton>("choose_imu")->isHidden());
+  EXPECT_TRUE(part<QLabel>("format_about")->text().contains("T_imu_lidar"));
+  QFile bad(folder_.filePath("bad.yaml"));
+  ASSERT_TRUE(bad.open(QIODevice::WriteOnly));
+  bad.write("T_imu_lidar: [1, 2]\n");
+  bad.close();
+  answers_.transform = bad.fileName();
+  part<QPushButton>("choose_imu")->click();
+  ASSERT_EQ(failed_.size(), 1);
+  EXPECT_TRUE(preview().isEmpty());
+  QFile good(folder_.filePath("imu.yaml"));
+  ASSERT_TRUE(good.open(QIODevice::WriteOnly));
+  good.write(
+      "T_imu_lidar:\n  translation_m: [0.05, -0.02, 0.11]\n"
+      "  quaternion_xyzw: [0, 0, 0, 1]\n");
+  good.close();
+  answers_.transform = good.fileName();
+  part<QPushButton>("choose_imu")->click();
+  EXPECT_EQ(failed_.size(), 1);
+  EXPECT_TRUE(preview().contains("camera_ext_R"));
+  EXPECT_TRUE(part<QPushButton>("save_export")->isEnabled());
+  pane_.chooseFormat("matrix");
+  EXPECT_TRUE(part<QPushButton>("choose_imu")->isHidden());
+}
+
+TEST_F(ExportPaneTest, AResultWithoutBoundaryResponseSaysWhy) {
+  pane_.chooseFormat("boundary-response");
+  const auto text = export_result(example(), "boundary-response");
+  ASSERT_FALSE(text.ok());
+  EXPECT_TRUE(
+      part<QLabel>("format_about")->text().contains(QString::fromStdString(text.error().text())));
+  EXPECT_FALSE(part<QPushButton>("copy_export")->isEnabled());
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/response_page.h"
+
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QSignalSpy>
+#include <QTableWidget>
+#include <QTextBrowser>
+
+#include <gtest/gtest.h>
+
+#include "views/sample_map_plot.h"
+#include "widgets/support/calibrated_demo.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class ResponsePageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    page_.resize(1280, 760);
+    page_.show();
+  }
+  [[nodiscard]] QTableWidget* table() const {
+    return page_.findChild<QTableWidget*>("response-scenes");
+  }
+  template <class Plot>
+  [[nodiscard]] QByteArray csv() const {
+    return page_.findChild<Plot*>()->csv();
+  }
+  const test::CalibratedDemo& demo_ = test::calibrated_demo();
+  ResponsePage page_;
+};
+
+TEST_F(ResponsePageTest, TheTableCarriesTheResultsNumbers) {
+  page_.setResult(demo_.result);
+  const BoundaryResponse& response = demo_.result->response;
+  ASSERT_TRUE(response.all) << response.reason;
+  ASSERT_EQ(table()->rowCount(), 4);
+  EXPECT_EQ(table()->item(0, 1)->text().toInt(), response.all->n);
+  const double sigma_range_mm = 1e3 * response.all->std_dev().z();
+  EXPECT_NEAR(table()->item(0, 7)->text().section(' ', 0, 0).toDouble(), sigma_range_mm, 0.006);
+  for (int s = 0; s < 3; ++s) {
+    const SceneResponse& scene = response.scenes[static_cast<std::size_t>(s)];
+    EXPECT_EQ(table()->item(s + 1, 0)->text().toStdString(), scene.name);
+    if (scene.statistics) {
+      EXPECT_EQ(table()->item(s + 1, 1)->text().toInt(), scene.statistics->n);
+    }
+  }
+}
+
+TEST_F(ResponsePageTest, ARowChoosesWhatTheFiguresShow) {
+  page_.setResult(demo_.result);
+  const QByteArray all = csv<TransitionPlot>();
+  QSignalSpy activated(&page_, &ResponsePage::sceneActivated);
+  table()->setCurrentCell(2, 0);
+  ASSERT_EQ(activated.size(), 1);
+  EXPECT_EQ(activated[0][0].toInt(), 1);
+  const std::string name = demo_.result->scenes[1].name;
+  for (const QByteArray& line : csv<TransitionPlot>().trimmed().split('\n').mid(1))
+    EXPECT_TRUE(line.startsWith(QByteArray::fromStdString(name) + ","));
+  table()->setCurrentCell(0, 0);
+  EXPECT_EQ(csv<TransitionPlot>(), all);
+  EXPECT_EQ(activated.size(), 1);
+}
+
+TEST_F(ResponsePageTest, ARejectedSceneLeavesAtOnceAndTheChoiceStays) {
+  page_.setResult(demo_.result);
+  table()->setCurrentCell(3, 0);
+  const auto less = resolve_calibration(*demo_.result, {true, false, true}, {}, {});
+  ASSERT_TRUE(less.ok()) << less.error().text();
+  QElapsedTimer clock;
+  clock.start();
+  page_.setResult(std::make_shared<CalibrationResult>(*less));
+  const auto took_ms = clock.elapsed();
+  EXPECT_EQ(table()->rowCount(), 3);
+  EXPECT_EQ(table()->currentRow(), 2);  // Still the third scene.
+  EXPECT_EQ(table()->item(2, 0)->text().toStdString(), demo_.result->scenes[2].name);
+  // Its share of the 100 ms between a tick and the new picture, with room for a loaded machine.
+  EXPECT_LT(took_ms, 400);
+}
+
+TEST_F(ResponsePageTest, HiddenItWaitsUntilItIsSeen) {
+  page_.hide();
+  page_.setResult(demo_.result);
+  EXPECT_TRUE(csv<RangePlot>().isEmpty());
+  page_.show();
+  EXPECT_FALSE(csv<RangePlot>().isEmpty());
+}
+
+TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  BoundaryResponse& response = changed->response;
+  response.all.reset();
+  response.reason = "not enough samples: 12 of <200>";
+  response.scenes[0].statistics.reset();
+  response.scenes[0].reason = "3 circles in use";
+  response.scenes[0].nodes[0].state = NodeResponseState::kClipped;
+  response.scenes[0].nodes[0].reason = "40 % of its white is at the end of the scale";
+  page_.setResult(changed);
+  EXPECT_EQ(table()->item(0, 2)->text(), "not enough samples: 12 of <200>");
+  EXPECT_EQ(page_.findChild<QLabel*>("response-message")->text(),
+            "not enough samples: 12 of <200>");
+  const QString reasons = page_.findChild<QTextBrowser*>("response-reasons")->toPlainText();
+  EXPECT_TRUE(reasons.contains("3 circles in use"));
+  EXPECT_TRUE(reasons.contains("at the end of the scale"));
+  page_.setResult(nullptr);
+  EXPECT_EQ(table()->rowCount(), 0);
+  EXPECT_TRUE(csv<SampleMapPlot>().isEmpty());
+  EXPECT_TRUE(page_.findChild<QLabel*>("response-message")->text().contains("Run the calibration"));
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dialogs/export_pane.h"
+
+#include <QClipboard>
+#include <QDir>
+#include <QFontDatabase>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "base/file_io.h"
+#include "pipeline/dataset.h"
+
+namespace lvcalib::widgets {
+
+ExportPane::ExportPane(ExportInput input, Choices& choices, QString folder, QWidget* parent)
+    : QWidget(parent), input_(std::move(input)), choices_(choices), folder_(std::move(folder)) {
+  auto* layout = new QHBoxLayout(this);
+  auto* splitter = new QSplitter(Qt::Horizontal, this);
+  splitter->setChildrenCollapsible(false);
+  splitter->addWidget(createList());
+  splitter->addWidget(createPreview());
+  splitter->setStretchFactor(1, 1);
+  splitter->setSizes({170, 500});
+  layout->setContentsMargins(0, 4, 0, 0);
+  layout->addWidget(splitter);
+  connect(formats_, &QListWidget::currentRowChanged, this, &ExportPane::preview);
+  formats_->setCurrentRow(0);
+}
+
+QWidget* ExportPane::createList() {
+  formats_ = new QListWidget(this);
+  formats_->setObjectName(QStringLiteral("formats"));
+  formats_->setAccessibleName(tr("Formats"));
+  for (const ExportFormat& format : export_formats()) {
+    auto* item = new QListWidgetItem(QString::fromStdString(format.name), formats_);
+    item->setToolTip(QString::fromStdString(format.description));
+  }
+  return formats_;
+}
+
+QWidget* ExportPane::createPreview() {
+  auto* page = new QWidget(this);
+  about_ = new QLabel(page);
+  about_->setObjectName(QStringLiteral("format_about"));
+  about_->setWordWrap(true);
+  text_ = new QPlainTextEdit(page);
+  text_->setObjectName(QStringLiteral("preview"));
+  text_->setAccessibleName(tr("Preview"));
+  text_->setReadOnly(true);
+  text_->setTabChangesFocus(true);
+  text_->setLineWrapMode(QPlainTextEdit::NoWrap);
+  text_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  imu_ = new QPushButton(tr("T_imu_lidar…"), page);
+  imu_->setObjectName(QStringLiteral("choose_imu"));
+  imu_->setToolTip(
+      tr("A YAML file with T_imu_lidar, which takes a LiDAR point to the IMU frame: a matrix, or "
+         "translation_m and quaternion_xyzw"));
+  copy_ = new QPushButton(tr("Copy"), page);
+  copy_->setObjectName(QStringLiteral("copy_export"));
+  save_ = new QPushButton(tr("Save…"), page);
+  save_->setObjectName(QStringLiteral("save_export"));
+  connect(imu_, &QPushButton::clicked, this, &ExportPane::readImu);
+  connect(copy_, &QPushButton::clicked, this,
+          [this] { QGuiApplication::clipboard()->setText(text_->toPlainText()); });
+  connect(save_, &QPushButton::clicked, this, &ExportPane::save);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(imu_);
+  buttons->addStretch(1);
+  buttons->addWidget(copy_);
+  buttons->addWidget(save_);
+  auto* layout = new QVBoxLayout(page);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(about_);
+  layout->addWidget(text_, 1);
+  layout->addLayout(buttons);
+  return page;
+}
+
+void ExportPane::chooseFormat(const QString& name) {
+  const auto found = formats_->findItems(name, Qt::MatchExactly);
+  if (!found.isEmpty()) formats_->setCurrentItem(found.first());
+}
+
+void ExportPane::preview() {
+  const int row = formats_->currentRow();
+  if (row < 0) return;
+  const ExportFormat& format = export_formats()[static_cast<std::size_t>(row)];
+  const bool lacks_imu = format.needs_imu && !input_.imu_from_lidar;
+  const auto text =
+      lacks_imu ? Result<std::string>(std::string()) : export_result(input_, format.name);
+  QString about = QString::fromStdString(format.description);
+  if (lacks_imu) {
+    about += QLatin1Char('\n') + tr("Needs T_imu_lidar: choose the YAML file that holds it.");
+  } else if (!text) {
+    about += QLatin1Char('\n') + QString::fromStdString(text.error().text());
+  }
+  const bool usable = text.ok() && !lacks_imu;
+  about_->setText(about);
+  text_->setPlainText(usable ? QString::fromStdString(*text) : QString());
+  imu_->setVisible(format.needs_imu);
+  copy_->setEnabled(usable);
+  save_->setEnabled(usable);
+}
+
+void ExportPane::readImu() {
+  const QString path = choices_.transform_to_open(this, folder_);
+  if (path.isEmpty()) return;
+  auto imu = read_transform(path.toStdString(), "T_imu_lidar");
+  if (!imu) {
+    Q_EMIT failed(imu.error());
+    return;
+  }
+  input_.imu_from_lidar = *imu;
+  preview();
+}
+
+void ExportPane::save() {
+  const ExportFormat& format = export_formats()[static_cast<std::size_t>(formats_->currentRow())];
+  const QString name = QString::fromStdString(format.name + "." + format.suffix);
+  const QString path = choices_.file_to_export(
+      this, QDir(folder_).filePath(name),
+      tr("%1 (*.%2);;All files (*)")
+          .arg(formats_->currentItem()->text(), QString::fromStdString(format.suffix)));
+  if (path.isEmpty()) return;
+  // The format's own text: what the preview shows may have other ends of lines.
+  const auto text = export_result(input_, format.name);
+  const Status status =
+      text ? write_file_atomically(path.toStdString(), *text) : Status(text.error());
+  if (status) {
+    Q_EMIT exported(path);
+  } else {
+    Q_EMIT failed(status.error());
+  }
+}
+
+}  // namespace lvcalib::widgets

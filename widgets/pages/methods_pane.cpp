@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/methods_pane.h"
+
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QTableWidget>
+
+#include "views/category_plots.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+QString number(double value, int decimals) {
+  return QString::number(value, 'f', decimals);
+}
+
+QString number(const std::optional<double>& value, int decimals) {
+  return value ? number(*value, decimals) : QStringLiteral("–");
+}
+
+}  // namespace
+
+QString method_title(const std::string& name) {
+  const QString all = QString::fromStdString(name);
+  const QString method = all.section('_', 0, 0);
+  const QString centers = all.section('_', 1);
+  const QString title = method == "svd"     ? MethodsPane::tr("3D-SVD")
+                        : method == "wsvd"  ? MethodsPane::tr("W-SVD")
+                        : method == "pnp"   ? MethodsPane::tr("PnP")
+                        : method == "joint" ? MethodsPane::tr("Joint")
+                                            : QString();
+  if (title.isEmpty()) return all;
+  if (centers == "raw") return MethodsPane::tr("%1, raw").arg(title);
+  return centers == "refined" ? MethodsPane::tr("%1, refined").arg(title) : all;
+}
+
+MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 4, 0, 0);
+  grid->setSpacing(4);
+  message_ = new QLabel(this);
+  message_->setObjectName("methods-message");
+  message_->setWordWrap(true);
+  const QStringList titles = {tr("Method, centres"), tr("corners (px)"),     tr("nodes (mm)"),
+                              tr("transfer (px)"),   tr("held out (px)"),    tr("held out (mm)"),
+                              tr("from joint (mm)"), tr("from joint (mrad)")};
+  const QStringList tips = {
+      tr("How the extrinsic is found, and from which circle centres: as initialised (raw) or as "
+         "refined"),
+      tr("Root mean square of the corners' reprojection residuals"),
+      tr("Root mean square of the residuals of the refined nodes"),
+      tr("Corners predicted from the LiDAR alone against the corners found: an extrinsic's error "
+         "undiminished by the board poses"),
+      tr("Corners of scenes that the method has not seen"),
+      tr("Nodes of scenes that the method has not seen"),
+      tr("Distance of the LiDAR's origin to where the joint result has it"),
+      tr("Rotation against the joint result")};
+  table_ = new QTableWidget(0, static_cast<int>(titles.size()), this);
+  table_->setObjectName("methods");
+  table_->setAccessibleName(tr("Methods side by side"));
+  table_->setHorizontalHeaderLabels(titles);
+  for (int k = 0; k < titles.size(); ++k) table_->horizontalHeaderItem(k)->setToolTip(tips[k]);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
+  table_->horizontalHeader()->setHighlightSections(false);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setTabKeyNavigation(false);
+  table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  boxes_px_ = new BoxPlot(this);
+  boxes_mm_ = new BoxPlot(this);
+  boxes_px_->setValueLabel(tr("corner residual (px)"), "method_residual_px");
+  boxes_mm_->setValueLabel(tr("node residual (mm)"), "method_residual_mm");
+  boxes_px_->setToolTip(
+      tr("What each method leaves at the corners (px): median, quartiles, whiskers to 1.5 box "
+         "lengths, circles beyond"));
+  boxes_mm_->setToolTip(
+      tr("What each method leaves at the refined nodes (mm): median, quartiles, whiskers to 1.5 "
+         "box lengths, circles beyond"));
+  for (BoxPlot* plot : {boxes_px_, boxes_mm_})
+    connect(plot->figureActions(), &FigureActions::failed, this, &MethodsPane::failed);
+  grid->addWidget(message_, 0, 0, 1, 2);
+  grid->addWidget(table_, 1, 0, 1, 2);
+  grid->addWidget(boxes_px_, 2, 0);
+  grid->addWidget(boxes_mm_, 2, 1);
+  grid->setRowStretch(2, 1);
+  setResult(nullptr);
+}
+
+void MethodsPane::setResult(const CalibrationResult* result) {
+  static const CalibrationResult nothing;
+  const CalibrationResult& shown = result != nullptr ? *result : nothing;
+  QString text;
+  if (result == nullptr) {
+    text = tr("Run the calibration to compare the methods.");
+  } else if (shown.methods.empty()) {
+    text = tr("There is no extrinsic to compare.");
+  } else if (!shown.target.has_circles()) {
+    text = tr("This board has no circles: there are no nodes for the other methods.");
+  } else {
+    text = tr("All methods on the same %n scene(s), measured alike.", nullptr,
+              static_cast<int>(shown.methods.front().scenes.size()));
+    if (!shown.methods.front().heldout_px)
+      text += " " + tr("Not enough scenes for held-out residuals: two are needed.");
+  }
+  message_->setText(text);
+  fillTable(shown.methods);
+  fillBoxes(shown);
+}
+
+void MethodsPane::fillTable(const std::vector<MethodResult>& methods) {
+  table_->setRowCount(static_cast<int>(methods.size()));
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    const MethodResult& m = methods[k];
+    const bool joint = m.name == "joint_refined";
+    const QStringList cells = {method_title(m.name),
+                               number(m.rms_px, 3),
+                               number(m.rms_mm, 2),
+                               number(m.transfer_px, 3),
+                               number(m.heldout_px, 3),
+                               number(m.heldout_mm, 2),
+                               joint ? QStringLiteral("–") : number(m.translation_mm, 2),
+                               joint ? QStringLiteral("–") : number(m.rotation_mrad, 3)};
+    for (int c = 0; c < cells.size(); ++c) {
+      auto* item = new QTableWidgetItem(cells[c]);
+      item->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+      QFont font = item->font();
+      font.setBold(joint);
+      item->setFont(font);
+      table_->setItem(static_cast<int>(k), c, item);
+    }
+  }
+  table_->resizeColumnsToContents();
+}
+
+void MethodsPane::fillBoxes(const CalibrationResult& result) {
+  std::vector<BoxPlot::Box> px;
+  std::vector<BoxPlot::Box> mm;
+  for (const MethodResult& m : result.methods) {
+    const QString name = method_title(m.name);
+    px.push_back({name, {}});
+    mm.push_back({name, {}});
+    for (const MethodScene& scene : m.scenes) {
+      px.back().values.insert(px.back().values.end(), scene.errors_px.begin(),
+                              scene.errors_px.end());
+      mm.back().values.insert(mm.back().values.end(), scene.errors_mm.begin(),
+                              scene.errors_mm.end());
+    }
+  }
+  boxes_px_->setBoxes(std::move(px));
+  boxes_mm_->setBoxes(std::move(mm));
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/response_page.h"
+
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QTextBrowser>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "pages/response_table.h"
+#include "views/sample_map_plot.h"
+
+namespace lvcalib::widgets {
+
+ResponsePage::ResponsePage(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  message_ = new QLabel(this);
+  message_->setObjectName("response-message");
+  message_->setWordWrap(true);
+  auto* splitter = new QSplitter(Qt::Vertical, this);
+  splitter->setChildrenCollapsible(false);
+  splitter->addWidget(createPlots());
+  splitter->addWidget(createTables());
+  splitter->setStretchFactor(0, 1);
+  splitter->setStretchFactor(1, 0);
+  splitter->setSizes({560, 190});
+  layout->addWidget(message_);
+  layout->addWidget(splitter, 1);
+  setResult(nullptr);
+}
+
+QWidget* ResponsePage::createPlots() {
+  auto* page = new QWidget(this);
+  auto* grid = new QGridLayout(page);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(4);
+  transition_ = new TransitionPlot(page);
+  map_ = new SampleMapPlot(page);
+  angles_ = new AnglePlot(page);
+  ranges_ = new RangePlot(page);
+  PlotView* plots[] = {transition_, map_, angles_, ranges_};
+  for (int k = 0; k < 4; ++k) {
+    grid->addWidget(plots[k], k / 2, k % 2);
+    connect(plots[k]->figureActions(), &FigureActions::failed, this, &ResponsePage::failed);
+  }
+  return page;
+}
+
+QWidget* ResponsePage::createTables() {
+  auto* tabs = new QTabWidget(this);
+  tabs->setDocumentMode(true);
+  scenes_ = new_response_table(tabs, tr("Scene"));
+  scenes_->setObjectName("response-scenes");
+  scenes_->setAccessibleName(tr("Boundary response per scene"));
+  classes_ = new_response_table(tabs, tr("Range, incidence"));
+  classes_->setObjectName("response-classes");
+  classes_->setSelectionMode(QAbstractItemView::NoSelection);
+  reasons_ = new QTextBrowser(tabs);
+  reasons_->setObjectName("response-reasons");
+  tabs->addTab(scenes_, tr("Scenes"));
+  tabs->addTab(classes_, tr("By range and incidence"));
+  tabs->addTab(reasons_, tr("Circles left out"));
+  connect(scenes_, &QTableWidget::currentCellChanged, this, [this](int row) { activate(row); });
+  return tabs;
+}
+
+void ResponsePage::setResult(std::shared_ptr<const CalibrationResult> result) {
+  // The figures borrow from the result they show: the one before stays until they have let go.
+  const std::shared_ptr<const CalibrationResult> before = std::exchange(result_, std::move(result));
+  stale_ = true;
+  if (isVisible() || !result_) {
+    refresh();
+  } else {
+    showScope(ResponseScope());
+  }
+}
+
+void ResponsePage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (stale_) refresh();
+}
+
+void ResponsePage::refresh() {
+  stale_ = false;
+  if (!result_) {
+    message_->setText(tr("Run the calibration to see how returns scatter at the circles' edges."));
+  } else {
+    message_->setText(QString::fromStdString(result_->response.reason));
+  }
+  message_->setVisible(!message_->text().isEmpty());
+  map_->setTarget(result_ ? result_->target : Target());
+  fillTables();
+  fillReasons();
+  showScope(scopeOf(scenes_->currentRow()));
+}
+
+// Row 0 is all scenes together, row k scene k − 1 of the response.
+void ResponsePage::fillTables() {
+  const QSignalBlocker quiet(scenes_);
+  scenes_->clearSpans();
+  scenes_->setRowCount(0);
+  classes_->clearSpans();
+  classes_->setRowCount(0);
+  if (!result_) return;
+  const BoundaryResponse& response = result_->response;
+  add_response_row(*scenes_, tr("All scenes"), response.all, response.transition,
+                   QString::fromStdString(response.reason));
+  int chosen = 0;
+  for (const SceneResponse& scene : response.scenes) {
+    if (scene.name == chosen_) chosen = scenes_->rowCount();
+    add_response_row(*scenes_, QString::fromStdString(scene.name), scene.statistics,
+                     scene.transition, QString::fromStdString(scene.reason));
+  }
+  if (chosen == 0) chosen_.clear();
+  scenes_->setCurrentCell(chosen, 0);
+  for (const ResponseCell& cell : response.by_both) {
+    const QString name = tr("%1–%2 m, %3–%4°")
+                             .arg(cell.range_low_m)
+                             .arg(cell.range_high_m)
+                             .arg(cell.incidence_low_deg)
+                             .arg(cell.incidence_high_deg);
+    add_response_row(*classes_, name, cell.statistics, std::nullopt,
+                     tr("not enough samples: %1").arg(cell.n));
+  }
+  scenes_->resizeColumnsToContents();
+  classes_->resizeColumnsToContents();
+}
+
+void ResponsePage::fillReasons() {
+  QString html;
+  if (result_) {
+    for (const SceneResponse& scene : result_->response.scenes) {
+      const QString name = QString::fromStdString(scene.name).toHtmlEscaped();
+      if (!scene.reason.empty()) {
+        html += "<li>" + tr("Scene %1:").arg(name) + " " +
+                QString::fromStdString(scene.reason).toHtmlEscaped() + "</li>";
+      }
+      for (const NodeResponse& node : scene.nodes) {
+        if (node.state == NodeResponseState::kUsed) continue;
+        html += "<li>" + tr("Scene %1, circle %2:").arg(name).arg(node.id) + " " +
+                QString::fromStdString(node.reason).toHtmlEscaped() + "</li>";
+      }
+    }
+  }
+  reasons_->setHtml(html.isEmpty() ? "<p>" + tr("None.") + "</p>" : "<ul>" + html + "</ul>");
+}
+
+ResponseScope ResponsePage::scopeOf(int row) const {
+  ResponseScope scope;
+  if (!result_ || row < 0) return scope;
+  const BoundaryResponse& response = result_->response;
+  const bool all = row == 0;
+  for (std::size_t s = 0; s < response.scenes.size(); ++s) {
+    if (!all && static_cast<int>(s) + 1 != row) continue;
+    scope.scenes.push_back(&response.scenes[s]);
+    scope.colors.push_back(static_cast<int>(s));
+  }
+  const auto address = [](const auto& found) { return found ? &*found : nullptr; };
+  if (all) {
+    scope.transition = address(response.transition);
+    scope.statistics = address(response.all);
+    scope.reason = QString::fromStdString(response.reason);
+  } else if (!scope.scenes.empty()) {
+    scope.transition = address(scope.scenes.front()->transition);
+    scope.statistics = address(scope.scenes.front()->statistics);
+    scope.reason = QString::fromStdString(scope.scenes.front()->reason);
+  }
+  return scope;
+}
+
+void ResponsePage::showScope(const ResponseScope& scope) {
+  transition_->setScope(scope);
+  map_->setScope(scope);
+  angles_->setScope(scope);
+  ranges_->setScope(scope);
+}
+
+void ResponsePage::activate(int row) {
+  if (!result_ || row < 0) return;
+  chosen_.clear();
+  if (row > 0) chosen_ = result_->response.scenes[static_cast<std::size_t>(row) - 1].name;
+  showScope(scopeOf(row));
+  const auto found = std::find_if(result_->scenes.begin(), result_->scenes.end(),
+                                  [&](const SceneResult& s) { return s.name == chosen_; });
+  if (found != result_->scenes.end())
+    Q_EMIT sceneActivated(static_cast<int>(found - result_->scenes.begin()));
+}
+
+}  // namespace lvcalib::widgets

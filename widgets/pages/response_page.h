@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "pipeline/calibration.h"
+#include "views/response_plots.h"
+
+class QLabel;
+class QTableWidget;
+class QTextBrowser;
+
+namespace lvcalib::widgets {
+
+class SampleMapPlot;
+
+/// The boundary response: the transition, the samples on the board, pitch against yaw, ranges, and
+/// the table per scene and of all; a row of the table chooses what the figures show. What there is
+/// not says why. Figures are made when the page is seen.
+class ResponsePage : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ResponsePage(QWidget* parent = nullptr);
+
+  /// Keeps the chosen row where the new result has its scene.
+  void setResult(std::shared_ptr<const CalibrationResult> result);
+
+ Q_SIGNALS:
+  /// A scene was chosen in the table; index into the result's scenes.
+  void sceneActivated(int scene);
+  void failed(const QString& message);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  QWidget* createPlots();
+  QWidget* createTables();
+  void refresh();
+  void fillTables();
+  void fillReasons();
+  void showScope(const ResponseScope& scope);
+  void activate(int row);
+  [[nodiscard]] ResponseScope scopeOf(int row) const;
+
+  std::shared_ptr<const CalibrationResult> result_;
+  bool stale_ = false;  // The figures show an older result.
+  std::string chosen_;  // Name of the scene; empty: all.
+  QLabel* message_ = nullptr;
+  TransitionPlot* transition_ = nullptr;
+  SampleMapPlot* map_ = nullptr;
+  AnglePlot* angles_ = nullptr;
+  RangePlot* ranges_ = nullptr;
+  QTableWidget* scenes_ = nullptr;
+  QTableWidget* classes_ = nullptr;
+  QTextBrowser* reasons_ = nullptr;
+};
+
+}  // namespace lvcalib::widgets

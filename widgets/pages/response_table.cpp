@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/response_table.h"
+
+#include <QCoreApplication>
+#include <QHeaderView>
+#include <QTableWidget>
+#include <numbers>
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kMm = 1e3;
+constexpr int kFirstNumber = 2;
+constexpr int kNumbers = 6;
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("lvcalib::widgets", text);
+}
+
+QString plus_minus(double value, double sigma, int decimals) {
+  return QString("%1 ± %2")
+      .arg(QString::number(value, 'f', decimals).replace('-', QChar(0x2212)))
+      .arg(sigma, 0, 'f', decimals);
+}
+
+void put(QTableWidget& table, int row, int column, const QString& text) {
+  auto* item = new QTableWidgetItem(text);
+  item->setTextAlignment(column == 0 ? Qt::AlignLeft | Qt::AlignVCenter
+                                     : Qt::AlignRight | Qt::AlignVCenter);
+  table.setItem(row, column, item);
+}
+
+void put_statistics(QTableWidget& table, int row, const ResponseStatistics& s) {
+  const Eigen::Vector3d unit(kDegrees, kDegrees, kMm);
+  const Eigen::Vector3d mean = s.mean.cwiseProduct(unit);
+  const Eigen::Vector3d mean_sigma = s.mean_sigma.cwiseProduct(unit);
+  const Eigen::Vector3d std_dev = s.std_dev().cwiseProduct(unit);
+  const Eigen::Vector3d std_sigma = s.std_sigma.cwiseProduct(unit);
+  put(table, row, 1, QString::number(s.n));
+  for (int k = 0; k < 3; ++k) {
+    const int decimals = k < 2 ? 4 : 2;
+    put(table, row, kFirstNumber + k, plus_minus(mean(k), mean_sigma(k), decimals));
+    put(table, row, kFirstNumber + 3 + k, plus_minus(std_dev(k), std_sigma(k), decimals));
+  }
+}
+
+}  // namespace
+
+QTableWidget* new_response_table(QWidget* parent, const QString& name_title) {
+  auto* table = new QTableWidget(parent);
+  const QStringList titles = {name_title,
+                              tr("N"),
+                              tr("mean pitch (°)"),
+                              tr("mean yaw (°)"),
+                              tr("mean range (mm)"),
+                              tr("σ pitch (°)"),
+                              tr("σ yaw (°)"),
+                              tr("σ range (mm)"),
+                              tr("δ (mm)"),
+                              tr("σ transition (mm)")};
+  table->setColumnCount(static_cast<int>(titles.size()));
+  table->setHorizontalHeaderLabels(titles);
+  const QString mean = tr("Mean of the residuals to the nearest ideal boundary points");
+  const QString sigma = tr("Standard deviation of a beam on the edge");
+  for (int k = 0; k < kNumbers; ++k)
+    table->horizontalHeaderItem(kFirstNumber + k)->setToolTip(k < 3 ? mean : sigma);
+  table->horizontalHeaderItem(1)->setToolTip(tr("Samples of the overlap region"));
+  table->horizontalHeaderItem(8)->setToolTip(
+      tr("Where the intensity is half way, from the circle's edge, outside positive"));
+  table->horizontalHeaderItem(9)->setToolTip(tr("Width of the error function on the board"));
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
+  table->horizontalHeader()->setHighlightSections(false);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setSelectionMode(QAbstractItemView::SingleSelection);
+  table->setTabKeyNavigation(false);
+  table->setToolTip(tr("Numbers are given ± their own standard deviation."));
+  return table;
+}
+
+void add_response_row(QTableWidget& table, const QString& name,
+                      const std::optional<ResponseStatistics>& statistics,
+                      const std::optional<TransitionFit>& transition, const QString& reason) {
+  const int row = table.rowCount();
+  table.insertRow(row);
+  put(table, row, 0, name);
+  if (statistics) {
+    put_statistics(table, row, *statistics);
+  } else {
+    put(table, row, 1, QStringLiteral("–"));
+    put(table, row, kFirstNumber, reason.isEmpty() ? tr("no statistics") : reason);
+    table.item(row, kFirstNumber)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    table.item(row, kFirstNumber)->setToolTip(reason);
+    table.setSpan(row, kFirstNumber, 1, kNumbers);
+  }
+  if (transition) {
+    put(table, row, 8, plus_minus(kMm * transition->delta_m, kMm * transition->delta_sigma_m, 3));
+    put(table, row, 9, plus_minus(kMm * transition->sigma_m, kMm * transition->sigma_sigma_m, 3));
+  }
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/report_writer.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "base/file_io.h"
+#include "report/html_report.h"
+
+namespace lvcalib::widgets {
+
+ReportWriter::ReportWriter(QObject* parent) : QObject(parent) {
+  connect(&runner_, &Runner::progressed, this,
+          [this](quint64, const QString& stage, double fraction, const QString& text) {
+            Q_EMIT progressed(stage, fraction, text);
+          });
+  connect(&runner_, &Runner::cancelled, this, &ReportWriter::cancelled);
+  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
+    Q_EMIT failed(Error::output(message.toStdString()));
+  });
+}
+
+void ReportWriter::write(std::shared_ptr<const CalibrationResult> result, const QString& path) {
+  runner_.start([this, result = std::move(result), path](const RunContext& context,
+                                                         const Runner::Post&) -> Runner::Deliver {
+    const auto report = html_report(*result, context);
+    if (context.stopped()) return {};
+    if (!report) return [this, error = report.error()] { Q_EMIT failed(error); };
+    if (const Status s = write_file_atomically(path.toStdString(), report->html); !s)
+      return [this, error = s.error()] { Q_EMIT failed(error); };
+    QStringList warnings;
+    for (const std::string& warning : report->warnings)
+      warnings.push_back(QString::fromStdString(warning));
+    return [this, path, warnings] { Q_EMIT written(path, warnings); };
+  });
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/sample_map_plot.h"
+
+#include <algorithm>
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr double kMm = 1e3;
+constexpr std::size_t kMostDots = 12'000;
+
+}  // namespace
+
+SampleMapPlot::SampleMapPlot(QWidget* parent) : PlotView(parent) {
+  figureActions()->setName("boundary-samples");
+  xAxis->setLabel(tr("board x (mm)"));
+  yAxis->setLabel(tr("board y (mm)"));
+  setToolTip(
+      tr("The board from the front with the returns about its circles (of many, some), blue "
+         "those of the overlap region. Dashed red: circles that are left out in one "
+         "of the scenes shown; the reasons are in the table below."));
+  connect(this, &QCustomPlot::afterLayout, this, [this] {
+    if (axisRect()->size() == fitted_to_) return;
+    fitted_to_ = axisRect()->size();
+    fit();
+    replot(rpQueuedReplot);  // The ticks of this one are made already.
+  });
+}
+
+void SampleMapPlot::setTarget(const Target& target) {
+  target_ = target;
+  fit();
+  rebuild();
+}
+
+void SampleMapPlot::setScope(const ResponseScope& scope) {
+  scope_ = scope;
+  rebuild();
+}
+
+// The board in the middle, with equal scales along both axes.
+void SampleMapPlot::fit() {
+  const BoardOutline outline = target_.outline();
+  const Eigen::Vector2d center = kMm * outline.center_m();
+  const Eigen::Vector2d half = 0.54 * kMm * outline.size_m();
+  const QRect rect = axisRect()->rect();
+  const double aspect =
+      rect.height() > 10 ? static_cast<double>(rect.width()) / rect.height() : 1.0;
+  const double half_y = std::max(half.y(), half.x() / aspect);
+  setHome({center.x() - half_y * aspect, center.x() + half_y * aspect},
+          {center.y() - half_y, center.y() + half_y});
+}
+
+void SampleMapPlot::rebuild() {
+  clearFigure();
+  drawBoard();
+  std::vector<QStringList> rows;
+  QCPGraph* graphs[2];
+  for (const bool overlap : {false, true}) {
+    QColor color = overlap ? colors().emphasis : colors().axis;
+    color.setAlpha(overlap ? 255 : 110);
+    graphs[overlap] = addGraph();
+    graphs[overlap]->setLineStyle(QCPGraph::lsNone);
+    graphs[overlap]->setPen(Qt::NoPen);
+    graphs[overlap]->setScatterStyle({QCPScatterStyle::ssCircle, QPen(Qt::NoPen), color, 2.2});
+  }
+  for (const BoundarySample* s : scope_.samples(false, kMostDots)) {
+    const Eigen::Vector2d p = kMm * s->board_m.cast<double>();
+    graphs[s->overlap]->addData(p.x(), p.y());
+    rows.push_back({csv_number(p.x()), csv_number(p.y()),
+                    csv_number(kMm * static_cast<double>(s->distance_m)),
+                    csv_number(static_cast<double>(s->intensity)), s->overlap ? "1" : "0"});
+  }
+  if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : scope_.reason);
+  setTable({"x_mm", "y_mm", "distance_mm", "intensity", "overlap"}, std::move(rows));
+  replot(rpQueuedReplot);
+}
+
+void SampleMapPlot::drawBoard() {
+  const BoardOutline outline = target_.outline();
+  auto* board = new QCPItemRect(this);
+  board->topLeft->setCoords(kMm * outline.lower_left_m.x(), kMm * outline.upper_right_m.y());
+  board->bottomRight->setCoords(kMm * outline.upper_right_m.x(), kMm * outline.lower_left_m.y());
+  board->setPen(QPen(colors().axis));
+  const auto refused = [&](int id) {
+    return std::any_of(scope_.scenes.begin(), scope_.scenes.end(), [&](const SceneResponse* scene) {
+      return std::any_of(scene->nodes.begin(), scene->nodes.end(), [&](const NodeResponse& node) {
+        return node.id == id && node.state != NodeResponseState::kUsed;
+      });
+    });
+  };
+  for (const TargetNode& node : target_.nodes()) {
+    const double r = target_.circle_radius_m;
+    auto* circle = new QCPItemEllipse(this);
+    circle->topLeft->setCoords(kMm * (node.center_m.x() - r), kMm * (node.center_m.y() + r));
+    circle->bottomRight->setCoords(kMm * (node.center_m.x() + r), kMm * (node.center_m.y() - r));
+    circle->setPen(refused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine)
+                                    : QPen(colors().axis));
+  }
+}
+
+}  // namespace lvcalib::widgets
