@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kFinalists = 12;  // candidates whose variances are settled fully
 constexpr std::size_t kFewShapes = 8;   // more than these are first sieved on the residuals
 constexpr std::size_t kSievedShapes = 3;
+constexpr std::size_t kRefitted = 3;  // candidates that get a full refit when they need one
 
 }  // namespace
 
@@ -150,6 +151,34 @@ void EffectSearch::rank() {
   std::stable_sort(
       candidates_.begin(), candidates_.end(),
       [](const Candidate& a, const Candidate& b) { return a.total_gain() > b.total_gain(); });
+  refit_promising();
+}
+
+// A strong effect has moved poses so far that the linearisation about them misjudges single scenes.
+void EffectSearch::refit_promising() {
+  const std::size_t tried = candidates_.size();
+  for (std::size_t k = 0; k < std::min(kRefitted, tried) && !context_.stopped(); ++k) {
+    Candidate& c = candidates_[k];
+    if (is_accepted(c, tried, table_.scenes.size(), options_)) return;
+    const bool promising =
+        c.material && c.p_value * static_cast<double>(tried) <= options_.false_alarm;
+    if (!promising) continue;
+    const EffectColumns& columns = linear_.columns.list()[c.columns];
+    EffectSearch trial(*this);
+    trial.add(columns.effect, columns.shape);
+    if (context_.stopped()) return;
+    std::array<double, kChannels> with{};
+    std::array<double, kChannels> without{};
+    for (std::size_t s = 0; s < table_.scenes.size(); ++s) {
+      c.scene_gain[s] = trial.reference_.density[s] - reference_.density[s];
+      for (std::size_t channel = 0; channel < kChannels; ++channel) {
+        with[channel] += trial.reference_.heldout[s][channel];
+        without[channel] += reference_.heldout[s][channel];
+      }
+    }
+    for (std::size_t channel = 0; channel < kChannels; ++channel)
+      c.heldout_gain[channel] = without[channel] > 0.0 ? 1.0 - with[channel] / without[channel] : 0;
+  }
 }
 
 std::optional<std::size_t> EffectSearch::best() const {

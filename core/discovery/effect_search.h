@@ -35,6 +35,8 @@ class EffectSearch {
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
 
  private:
+  // Judges promising candidates again after a full refit, until one is accepted.
+  void refit_promising();
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;
