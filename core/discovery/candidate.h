@@ -13,6 +13,7 @@ struct Candidate {
   std::size_t columns = 0;  ///< Index into the linearisation's list.
   ModelFit fit;
   std::vector<double> scene_gain;  ///< Predictive log-density over that without it, per scene.
+  std::vector<double> scene_squares_fall;        ///< Held-out squares over all channels, per scene.
   std::array<double, kChannels> heldout_gain{};  ///< Relative fall of squares, per channel.
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
