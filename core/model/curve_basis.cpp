@@ -63,13 +63,15 @@ CurveBasis::CurveBasis(std::vector<CurveAxis> axes, int splines)
   }
   free_ = axes_.size() == 1 ? 1 : 3;
   make_penalised();
-  mean_ = Eigen::VectorXd::Zero(columns());
+  // evaluate() subtracts the mean once there is one.
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(columns());
   Eigen::VectorXd all(columns());
   const auto samples = samples_of(axes_);
   for (const auto& at : samples) {
     evaluate(std::span(at).first(axes_.size()), {all.data(), static_cast<std::size_t>(all.size())});
-    mean_ += all / static_cast<double>(samples.size());
+    mean += all / static_cast<double>(samples.size());
   }
+  mean_ = std::move(mean);
 }
 
 // Eigenvectors of the penalty, each divided by the root of its eigenvalue.

@@ -47,10 +47,12 @@ TEST(BoardGrid, DirectionsOfTiltAreAsDescribed) {
     };
     const double mid_x = o.center_m().x();
     const double mid_y = o.center_m().y();
-    if (pose.tilt_x_deg > 0.0)
+    if (pose.tilt_x_deg > 0.0) {
       EXPECT_LT(depth(mid_x, o.upper_right_m.y()), depth(mid_x, o.lower_left_m.y()));
-    if (pose.tilt_y_deg > 0.0)
+    }
+    if (pose.tilt_y_deg > 0.0) {
       EXPECT_GT(depth(o.upper_right_m.x(), mid_y), depth(o.lower_left_m.x(), mid_y));
+    }
   }
 }
 
