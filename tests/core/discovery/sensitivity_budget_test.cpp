@@ -23,7 +23,7 @@ const BudgetItem* find(const std::vector<BudgetItem>& budget, const std::string&
 test::SyntheticTable boards_alike(double offset_m, std::uint64_t seed) {
   test::TableRecipe recipe;
   recipe.alike = true;
-  recipe.edge_sigma_m = 0.01;
+  recipe.edge_sigma_m = 0.1;
   recipe.range_rows = 150;
   recipe.seed = seed;
   test::Disturbance wrong;
