@@ -24,6 +24,7 @@ void ask_for_opengl() {
 
 int run(QApplication& application) {
   using namespace lvcalib::widgets;
+  use_language({});  // For the help; the settings may say otherwise below.
   QCommandLineParser parser;
   parser.setApplicationDescription(
       QCoreApplication::translate("main", "LiDAR-camera calibration with a printed board"));
