@@ -6,19 +6,19 @@
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QShortcut>
 #include <QToolBar>
 
+#include "dialogs/about_dialog.h"
 #include "dialogs/error_dialog.h"
 #include "dialogs/guide_dialog.h"
 #include "docks/log_dock.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
-#include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
+#include "style/texts.h"
 #include "workbench/language.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
@@ -98,7 +98,7 @@ void MainWindow::connect_actions() {
   on(actions_->open_project, open_project);
   on(actions_->demo, demo);
   on(actions_->guide, guide);
-  on(actions_->about, [this] { show_about(); });
+  on(actions_->about, [this] { (new AboutDialog(this))->show(); });
   on(actions_->save, [this] { save(false); });
   on(actions_->save_as, [this] { save(true); });
   on(actions_->results, [this] { results_->show(workspace_->result()); });
@@ -186,7 +186,8 @@ void MainWindow::connect_workspace() {
   connect(w, &Workspace::failed, this, [this](const Error& error, bool modest) {
     if (!modest) show_error(error);  // Else the status line says it.
   });
-  connect(w, &Workspace::logged, log_, &LogDock::append);
+  connect(w, &Workspace::logged, log_,
+          [this](const QString& line) { log_->append(core_text(line)); });
   connect(w, &Workspace::dirty_changed, this, &MainWindow::update_title);
 }
 
@@ -327,18 +328,6 @@ void MainWindow::show_error(const Error& error) {
   (new ErrorDialog(error, this))->show();
 }
 
-void MainWindow::show_about() {
-  auto* box = new QMessageBox(QMessageBox::Information, tr("About"),
-                              tr("LV-Calib Workbench %1\n\nLiDAR–camera calibration with a printed "
-                                 "board.\nGPL-3.0-or-later "
-                                 "(core library: BSD-3-Clause)")
-                                  .arg(QString::fromStdString(version())),
-                              QMessageBox::Close, this);
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setModal(false);
-  box->show();
-}
-
 void MainWindow::update_actions() {
   const bool open = workspace_->is_open();
   const bool busy = workspace_->busy();
@@ -389,6 +378,8 @@ void MainWindow::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) {
     actions_->retranslate();
     update_title();
+    if (!workspace_->busy()) status_->show_idle({});  // What it said was in the other language.
+    status_->show_quality(workspace_->result(), workspace_->up_to_date());
   } else if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
     actions_->repaint_icons(palette());
   }

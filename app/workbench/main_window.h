@@ -56,7 +56,6 @@ class MainWindow : public QMainWindow {
   bool may_drop_decisions();
   bool save(bool ask_for_path);
   void show_error(const Error& error);
-  void show_about();
   void take_opened();
   void take_result();
   void look_at(const QString& scene);

@@ -117,6 +117,7 @@ void ScenesDock::changeEvent(QEvent* event) {
 }
 
 void ScenesDock::retranslate() {
+  model_.retranslate();
   setWindowTitle(tr("Scenes"));
   view_->setAccessibleName(tr("Scenes"));
   const auto describe = [](QAction* action, const QString& text, const QString& tip) {

@@ -46,6 +46,7 @@ class ExtrinsicPage : public QWidget {
  private:
   QWidget* createPlots();
   QWidget* createCloud();
+  void retranslate();
   void watch(CategoryPlot* plot);
   void activate(int index);
   void fillPlots();

@@ -55,6 +55,7 @@ class RefinementPage : public QWidget {
  private:
   QWidget* createDetail();
   QWidget* createReplay();
+  void retranslate();
   void display(std::shared_ptr<const BoardRefinement> refinement,
                std::shared_ptr<const Cloud> points, const QString& message);
   void showResult();
