@@ -137,7 +137,13 @@ ordered_json to_json(const CalibrationResult& result) {
     }
     ordered_json e = {{"id", effect.id}, {"parameters", std::move(parameters)}};
     if (effect.shape != 0.0) e["shape"] = effect.shape;
+    if (effect.shape_sigma > 0.0) e["shape_sigma"] = effect.shape_sigma;
+    if (!effect.spec.empty()) e["spec"] = effect.spec;
     j["model"]["effects"].push_back(std::move(e));
+  }
+  if (!result.covariance_with_budget.isZero(0.0)) {
+    j["sensitivity_budget"] = budget_json(result.budget);
+    j["covariance_with_budget"] = rows_of(result.covariance_with_budget);
   }
   const StageTimes& t = result.times;
   j["timing_ms"] = {{"load", t.load_ms},         {"detect", t.detect_ms},
