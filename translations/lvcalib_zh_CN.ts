@@ -918,6 +918,17 @@ were saved. Take them up again?</source>
     </message>
 </context>
 <context>
+    <name>Docks</name>
+    <message>
+        <source>Detach or attach</source>
+        <translation>分离或停靠</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>隐藏</translation>
+    </message>
+</context>
+<context>
     <name>QPlatformTheme</name>
     <message>
         <source>OK</source>
