@@ -877,6 +877,14 @@ were saved. Take them up again?</source>
         <source>weak direction ratio</source>
         <translation>弱方向比值</translation>
     </message>
+    <message>
+        <source>%1 in the overlap region, %2 on the circle, %3 on the paper; needed %4, %5 and %6</source>
+        <translation>重叠区 %1 个，圆内 %2 个，纸面 %3 个；各需 %4、%5 和 %6 个</translation>
+    </message>
+    <message>
+        <source>black %1, white %2, noise %3</source>
+        <translation>黑 %1，白 %2，噪声 %3</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -915,6 +923,17 @@ were saved. Take them up again?</source>
     <message>
         <source>add %1</source>
         <translation>添加 %1</translation>
+    </message>
+</context>
+<context>
+    <name>Docks</name>
+    <message>
+        <source>Detach or attach</source>
+        <translation>分离或停靠</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>隐藏</translation>
     </message>
 </context>
 <context>
@@ -1705,7 +1724,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     </message>
     <message>
         <source>Points</source>
-        <translation>点数</translation>
+        <translation>点</translation>
     </message>
     <message>
         <source>The points of the cloud view, projected with the extrinsic</source>

@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QStyle>
 #include <QToolBar>
 #include <QUndoStack>
@@ -155,6 +156,9 @@ void MainActions::retranslate() {
   tool_bar->setWindowTitle(tr("Tool bar"));
   const auto describe = [](QAction* action, const QString& text, const QString& tip) {
     action->setText(text);
+    // Tool buttons have no keys of their own; Chinese texts give theirs in brackets.
+    static const QRegularExpression key(QStringLiteral("\\(&.\\)|&"));
+    action->setIconText(QString(text).remove(key));
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
     action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));
     action->setStatusTip({});

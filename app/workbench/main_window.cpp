@@ -72,7 +72,7 @@ MainWindow::~MainWindow() {
 
 void MainWindow::restore_window() {
   resize(1500, 940);
-  resizeDocks({scenes_, parameters_}, {470, 470}, Qt::Horizontal);
+  resizeDocks({scenes_, parameters_}, {500, 500}, Qt::Horizontal);
   resizeDocks({log_}, {140}, Qt::Vertical);
   restoreGeometry(settings_.geometry());
   restoreState(settings_.window_state());

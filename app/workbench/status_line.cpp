@@ -61,6 +61,7 @@ void StatusLine::show_progress(const QString& stage, double fraction, const QStr
 
 void StatusLine::show_idle(const QString& message) {
   stage_->hide();
+  stage_->clear();
   bar_->hide();
   text_->setText(message);
   text_->setToolTip(message);

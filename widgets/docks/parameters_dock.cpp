@@ -96,6 +96,7 @@ OptionDisplay display_of(const OptionDeclaration& option) {
 
 ParametersDock::ParametersDock(QWidget* parent) : QDockWidget(parent) {
   setObjectName(QStringLiteral("parameters_dock"));
+  follow_language_in_title(*this);
   auto* body = new QWidget(this);
   auto* layout = new QVBoxLayout(body);
   layout->setContentsMargins(0, 0, 0, 0);

@@ -37,6 +37,11 @@ RefinementPage::RefinementPage(QWidget* parent) : QWidget(parent) {
   grid_layout_ = new QGridLayout(grid_);
   grid_layout_->setContentsMargins(0, 0, 0, 0);
   grid_layout_->setSpacing(3);
+  notice_ = new QLabel(grid_);
+  notice_->setObjectName("refinement-notice");
+  notice_->setAlignment(Qt::AlignCenter);
+  notice_->setWordWrap(true);
+  grid_layout_->addWidget(notice_, 0, 0);
   splitter->addWidget(grid_);
   splitter->addWidget(createDetail());
   splitter->setStretchFactor(0, 5);
@@ -235,6 +240,7 @@ void RefinementPage::rebuildGrid() {
     connect(plot->figureActions(), &FigureActions::failed, this, &RefinementPage::failed);
     plots_.push_back(plot);
   }
+  notice_->setVisible(plots_.empty());  // Else half of the page would be bare.
 }
 
 int RefinementPage::iteration() const {
@@ -317,8 +323,9 @@ void RefinementPage::updateDetail() {
     large_->clear(message_.isEmpty() ? tr("no data") : QString());
   }
   fillBins(node);
+  notice_->setText(message_);
   if (node == nullptr) {
-    verdict_->setText(message_);
+    verdict_->setText(plots_.empty() ? QString() : message_);
     return;
   }
   const auto used = std::count_if(node->bins.begin(), node->bins.end(),

@@ -93,6 +93,7 @@ class RefinementPage : public QWidget {
   QSlider* slider_ = nullptr;
   QToolButton* play_ = nullptr;
   QLabel* iteration_text_ = nullptr;
+  QLabel* notice_ = nullptr;  // In place of the small plots, if the board has no circles.
 };
 
 }  // namespace lvcalib::widgets

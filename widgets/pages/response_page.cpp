@@ -44,7 +44,7 @@ void ResponsePage::retranslate() {
   tabs_->setTabText(0, tr("Scenes"));
   tabs_->setTabText(1, tr("By range and incidence"));
   tabs_->setTabText(2, tr("Circles left out"));
-  setResult(result_);
+  refresh();
 }
 
 QWidget* ResponsePage::createPlots() {

@@ -115,6 +115,10 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core", "not refined: %1"),
     QT_TRANSLATE_NOOP("Core", "not enough samples: %1"),
     QT_TRANSLATE_NOOP("Core", "no contrast: %1"),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 in the overlap region, %2 on the circle, %3 on the paper; needed %4, %5 "
+                      "and %6"),
+    QT_TRANSLATE_NOOP("Core", "black %1, white %2, noise %3"),
     QT_TRANSLATE_NOOP("Core", "intensity clipped: %1 of the paper's samples at the highest value"),
     QT_TRANSLATE_NOOP("Core", "intensity clipped: %1 of the circle's samples at the highest value"),
     QT_TRANSLATE_NOOP("Core", "intensity clipped: %1 of the paper's samples at the lowest value"),

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "style/texts.h"
 
+#include <QAbstractButton>
 #include <QCoreApplication>
+#include <QDockWidget>
 #include <QEvent>
 #include <QHash>
 #include <QRegularExpression>
@@ -102,6 +104,20 @@ QString translated(const QString& text, int depth) {
 void follow_language(QWidget* widget, std::function<void()> set_texts) {
   set_texts();
   new LanguageFollower(widget, std::move(set_texts));
+}
+
+void follow_language_in_title(QDockWidget& dock) {
+  follow_language(&dock, [&dock] {
+    const std::pair<const char*, QString> texts[] = {
+        {"qt_dockwidget_floatbutton", QCoreApplication::translate("Docks", "Detach or attach")},
+        {"qt_dockwidget_closebutton", QCoreApplication::translate("Docks", "Hide")}};
+    for (const auto& [name, text] : texts) {
+      auto* button = dock.findChild<QAbstractButton*>(QLatin1String(name));
+      if (button == nullptr) continue;
+      button->setToolTip(text);
+      button->setAccessibleName(text);
+    }
+  });
 }
 
 QString core_text(const QString& text) {
