@@ -45,6 +45,7 @@ class Discoverer {
     out_.advice = advise(out_.effects);
     for (const Selection& s : selections_) out_.selected.push_back(s.id);
     out_.state = search.state();
+    out_.scales = scales_of(table);
     out_.covariance = search.reference().fit.covariance.topLeftCorner<6, 6>();
     out_.model = search.in_use();
     if (context_.stopped()) return Error::cancelled();

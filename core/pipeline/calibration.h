@@ -61,6 +61,7 @@ struct CalibrationResult {
   SceneConsensus consensus;
   ExtrinsicSolution extrinsic;
   std::vector<ModelEffect> model;     ///< Effects beyond the base model; see discover().
+  ModelScales model_scales;           ///< What the numbers of the model refer to.
   std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.

@@ -62,6 +62,7 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
     }
     ++next;
   }
+  result.model_scales = discovery.scales;
   result.model.clear();
   for (const EffectFinding& f : discovery.effects) {
     for (const EffectInUse& use : discovery.model) {
