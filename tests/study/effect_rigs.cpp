@@ -122,6 +122,11 @@ simulation::SimulationOptions effect_rig_options(const EffectTask& task) {
   options.scenes = 6;
   options.target.tag_spacing = 0.1 / 0.12;
   options.lidar.kind = simulation::LidarKind::kAvia;
+  options.lidar.points = 120'000;
+  // Nothing but what is planted: these three are effects of the catalogue themselves.
+  options.lidar.incidence_exponent = 0.0;
+  options.lidar.range_exponent = 0.0;
+  options.lidar.range_follows_power = task.planted.contains("boundary_range_pull");
   options.placement.min_distance_m = 1.5;
   options.placement.max_distance_m = 4.0;
   options.placement.max_tilt_deg = 50.0;
@@ -191,8 +196,7 @@ Channel main_channel(const std::string& id) {
 }
 
 const std::vector<std::string>& always_simulated() {
-  static const std::vector<std::string> ids = {"intensity_geometry", "beam_divergence",
-                                               "boundary_range_pull"};
+  static const std::vector<std::string> ids = {"beam_divergence", "footprint_anisotropy"};
   return ids;
 }
 

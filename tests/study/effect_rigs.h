@@ -26,7 +26,8 @@ struct EffectTask {
 /// Task number k of an endless list in which all sets and effects take turns.
 EffectTask effect_task(std::size_t k, std::uint64_t first_seed);
 
-/// Six scenes of a six-line rosette at 1.5 to 4 m, tilts to 50°. Absorbed: boards that face the
+/// Six scenes of a six-line rosette (120 000 points) at 1.5 to 4 m, tilts to 50°, nothing else
+/// planted or left from the device. Absorbed: boards that face the
 /// LiDAR at one distance.
 simulation::SimulationOptions effect_rig_options(const EffectTask& task);
 
@@ -38,7 +39,8 @@ std::map<std::string, double> true_parameters(const std::string& id,
 /// Channel in which an effect of the catalogue or outside it shows first.
 Channel main_channel(const std::string& id);
 
-/// Effects that every simulated scan has: what they add to a rig is no mistake.
+/// Effects that every simulated scan has, as its footprint has a size and is not round: that they
+/// are found as well is no mistake.
 const std::vector<std::string>& always_simulated();
 
 /// Channel and covariates that name an effect outside the catalogue.
