@@ -76,6 +76,8 @@ class Probe {
     b.incidence_rad = 0.3 + 0.2 * k;
     b.slope_rad = 0.4 * k;
     b.darkness = 0.3 * k;
+    b.time_s = 0.02 * (k + 1);
+    b.scan_rad_s = {20.0 - 7.0 * k, 5.0 * k - 8.0};
     b.line = table_.lines[static_cast<std::size_t>(k) % table_.lines.size()];
     return b;
   }
