@@ -202,6 +202,11 @@ std::vector<HandCase> edge_cases() {
       {"Anisotropy", "footprint_anisotropy", Hook::kEdge, {along_x(-57.6), along_x(-102.4)}},
       {"FootprintOffset", "footprint_offset", Hook::kEdge, {along_x(2.4), along_x(3.2)}},
       {"Blooming", "blooming", Hook::kEdge, {along_x(-0.02)}},
+      // Contrast 7.389: (7.389 - 4.1945 ln 4.1945) 0.01 m √2π / 6.389; toward white for g > 0.
+      {"Nonlinearity",
+       "intensity_nonlinearity",
+       Hook::kEdge,
+       {along_x(0.01 * 2.5066283 * (7.3890561 - 4.1945280 * 1.4337804) / 6.3890561)}},
       {"DetectorLag", "detector_lag", Hook::kEdge, {along_x(40.0)}},
   };
 }
@@ -243,7 +248,7 @@ std::vector<HandCase> print_and_camera_cases() {
        Hook::kCamera,
        {{75, 100, 0}, {240, 570, 0}, {430, 240, 0}}},
       {"CornerBias", "corner_bias", Hook::kCamera, {{0.6, 0.8, 0}}},
-      {"Shutter", "rolling_shutter", Hook::kCamera, {{0.25, 0, 0}, {0, 0.25, 0}}},
+      {"Shutter", "rolling_shutter", Hook::kCamera, {{0.8175, 0.09, 0}, {0.09, 0.87, 0}}},
   };
 }
 
