@@ -8,6 +8,7 @@
 #include "discovery/channel_summary.h"
 #include "discovery/effect_search.h"
 #include "discovery/structure_scan.h"
+#include "model/user_effect.h"
 
 namespace lvcalib {
 namespace {
@@ -133,7 +134,8 @@ std::optional<std::size_t> ModelStep::find(const std::string& spec) const {
   return static_cast<std::size_t>(at - terms.begin());
 }
 
-Result<EffectPtr> make_effect(const std::string& spec) {
+Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table) {
+  if (is_user_effect(spec)) return make_user_effect(spec, table, {});
   if (EffectPtr effect = find_effect(spec)) return effect;
   std::vector<std::string> known;
   for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
@@ -166,12 +168,13 @@ Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOpt
 
 Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spec,
                                 std::optional<double> shape, const RunContext& context) {
-  if (const auto there = from->find(spec)) {
-    if (!from->terms[*there].on) return switch_effect(from, *there, true, context);
-    return Error::usage("the effect '" + spec + "' is in the model already");
-  }
-  auto effect = make_effect(spec);
+  auto effect = make_effect(spec, from->table());
   if (!effect) return effect.error();
+  const std::string& id = (*effect)->info().id;
+  if (const auto there = from->find(id)) {
+    if (!from->terms[*there].on) return switch_effect(from, *there, true, context);
+    return Error::usage("the effect '" + id + "' is in the model already");
+  }
   if (const std::string why = why_not_testable(**effect, from->table()); !why.empty())
     return Error::input("the effect '" + spec + "' cannot be used: " + why);
   context.report("model", 0.0, "fitting the model");
@@ -180,8 +183,8 @@ Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spe
     if (!preferred) return preferred.error();
     shape = *preferred;
   }
-  ModelStep step = changed(from, ModelChange::kAdd, spec);
-  step.terms.push_back(new_term(spec, *effect, *shape, from->table()));
+  ModelStep step = changed(from, ModelChange::kAdd, id);
+  step.terms.push_back(new_term(id, *effect, *shape, from->table()));
   return fitted(std::move(step), context);
 }
 

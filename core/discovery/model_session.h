@@ -51,9 +51,9 @@ struct ModelStep {
 };
 using ModelStepPtr = std::shared_ptr<const ModelStep>;
 
-/// The effect that a specification stands for. Error (kUsage) if there is none, with the nearest
-/// known one.
-Result<EffectPtr> make_effect(const std::string& spec);
+/// The effect that a specification stands for: an id of the catalogue, or a user's own formula or
+/// curve (see make_user_effect()). Error (kUsage) if there is none, with the nearest known one.
+Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table);
 
 /// Collects the measurements and fits the base model. Errors as discover_effects().
 Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOptions& options,

@@ -56,7 +56,7 @@ class Adaptation {
   void solve(const ModelStep& step, const EffectInUse& effect) {
     EffectColumnsList columns;
     columns.add(effect.effect, effect.shape, step.table());
-    const Linearization linear = linearize(step.table(), step.state, {}, columns, {});
+    const Linearization linear = linearize(step.table(), step.state, step.in_use(), columns, {});
     const auto& parameters = columns.list().front().parameters;
     ColumnSubset subset;
     append_columns(columns.list().front(), nullptr, subset);

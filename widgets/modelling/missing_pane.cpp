@@ -158,6 +158,7 @@ void MissingPane::setRanking(std::shared_ptr<const ModelRanking> ranking, bool h
   has_model_ = has_model;
   busy_ = busy;
   if (!same) {
+    described_ = nullptr;
     fill();
     fillBudget();
   }
@@ -261,15 +262,7 @@ void MissingPane::fillBudget() {
   for (int column = 1; column < 3; ++column) budget_->resizeColumnToContents(column);
 }
 
-void MissingPane::describe() {
-  const EffectProposal* p = current();
-  const QTreeWidgetItem* item = list_->currentItem();
-  const bool unknown = ranking_ && item != nullptr && item->data(kEffect, kUnknown).isValid();
-  add_->setEnabled(!busy_ && ((p != nullptr && !p->finding.parameters.empty()) || unknown));
-  add_->setText(unknown ? tr("Add &curve…") : tr("A&dd"));
-  all_->setEnabled(!busy_ && has_model_);
-  look_->setEnabled(busy_ || has_model_);
-  look_->setText(busy_ ? tr("Cancel") : tr("&Look again"));
+void MissingPane::updateVerdict() {
   if (busy_) {
     verdict_->setText(tr("Looking for what is missing …"));
   } else if (!ranking_) {
@@ -283,6 +276,23 @@ void MissingPane::describe() {
     const auto& top = ranking_->proposals.front();
     verdict_->setText(tr("<b>%1 is missing.</b>").arg(effect_title(top.finding.id)));
   }
+}
+
+void MissingPane::describe() {
+  updateVerdict();
+  const EffectProposal* p = current();
+  const QTreeWidgetItem* item = list_->currentItem();
+  const StructureScore* unknown = nullptr;
+  if (ranking_ && item != nullptr && item->data(kEffect, kUnknown).isValid())
+    unknown = &ranking_->unknown[item->data(kEffect, kUnknown).toUInt()];
+  add_->setEnabled(!busy_ && ((p != nullptr && !p->finding.parameters.empty()) || unknown));
+  add_->setText(unknown != nullptr ? tr("Add &curve…") : tr("A&dd"));
+  all_->setEnabled(!busy_ && has_model_);
+  look_->setEnabled(busy_ || has_model_);
+  look_->setText(busy_ ? tr("Cancel") : tr("&Look again"));
+  const void* shown = p != nullptr ? static_cast<const void*>(p) : unknown;
+  if (shown == described_ && shown != nullptr) return;
+  described_ = shown;
   if (p != nullptr) {
     QString html = QStringLiteral("<p>%1</p>")
                        .arg(QString::fromStdString(p->finding.explanation).toHtmlEscaped());
@@ -294,21 +304,24 @@ void MissingPane::describe() {
     }
     text_->setHtml(html);
     Q_EMIT chosen();
-  } else if (unknown) {
-    const StructureScore& s = ranking_->unknown[item->data(kEffect, kUnknown).toUInt()];
-    text_->setHtml(
-        tr("<p>In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). "
-           "No effect of the catalogue explains it: a smooth curve can stand in for it.</p>")
-            .arg(100.0 * s.score, 0, 'f', 1)
-            .arg(channel_name(s.channel), covariate_name(s.covariate))
-            .arg(s.amplitude, 0, 'g', 2)
-            .arg(unit_text(s.channel)));
-    setPattern(nullptr);
-    Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
+  } else if (unknown != nullptr) {
+    describeStructure(*unknown);
   } else {
     text_->clear();
     setPattern(nullptr);
   }
+}
+
+void MissingPane::describeStructure(const StructureScore& s) {
+  text_->setHtml(
+      tr("<p>In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). No "
+         "effect of the catalogue explains it: a smooth curve can stand in for it.</p>")
+          .arg(100.0 * s.score, 0, 'f', 1)
+          .arg(channel_name(s.channel), covariate_name(s.covariate))
+          .arg(s.amplitude, 0, 'g', 2)
+          .arg(unit_text(s.channel)));
+  setPattern(nullptr);
+  Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
 }
 
 void MissingPane::changeEvent(QEvent* event) {
@@ -330,6 +343,7 @@ void MissingPane::retranslate() {
   all_->setText(tr("&Find all"));
   all_->setToolTip(tr("Add what scenes held out speak for, one after the other"));
   add_->setToolTip(tr("Add the chosen effect to the model"));
+  described_ = nullptr;
   fill();
   fillBudget();
   describe();

@@ -54,11 +54,14 @@ class MissingPane : public QWidget {
   void addProposal(const EffectProposal& proposal, int index);
   void addUnknown(int index);
   void describe();
+  void updateVerdict();
+  void describeStructure(const StructureScore& structure);
   void add();
 
   std::shared_ptr<const ModelRanking> ranking_;
   bool has_model_ = false;
   bool busy_ = false;
+  const void* described_ = nullptr;  // The proposal or structure whose text is shown.
   QLabel* verdict_;
   QTabWidget* tabs_;
   QTreeWidget* list_;

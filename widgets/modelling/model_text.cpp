@@ -102,9 +102,9 @@ QString verdict_name(EffectVerdict verdict) {
 }
 
 QString effect_title(const std::string& spec) {
-  const auto effect = make_effect(spec);
-  if (!effect || (*effect)->info().title.empty()) return QString::fromStdString(spec);
-  return QString::fromStdString((*effect)->info().title);
+  const EffectPtr effect = find_effect(spec);
+  if (!effect || effect->info().title.empty()) return QString::fromStdString(spec);
+  return QString::fromStdString(effect->info().title);
 }
 
 QString value_text(const ParameterEstimate& p, bool held) {

@@ -4,7 +4,10 @@
 #include <QLabel>
 #include <QSplitter>
 #include <QVBoxLayout>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <set>
 
 #include "extrinsic/cloud_projection.h"
 #include "pages/cloud_pane.h"
@@ -19,6 +22,26 @@ namespace {
 constexpr std::size_t kNeighbours = 12;
 constexpr double kNeighbourhood_px = 25.0;
 constexpr std::size_t kTagPoints = 400;
+constexpr std::size_t kMostRings = 400;
+
+// Points of a cloud that lie in given directions.
+std::vector<std::uint32_t> same_directions(const Cloud& cloud,
+                                           const std::vector<Eigen::Vector3d>& wanted) {
+  constexpr double kCell_rad = 1e-5;  // Far below the distance of beams, far above rounding.
+  const auto key = [](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d d = p.normalized() / kCell_rad;
+    return std::array<std::int64_t, 3>{std::llround(d.x()), std::llround(d.y()),
+                                       std::llround(d.z())};
+  };
+  std::set<std::array<std::int64_t, 3>> directions;
+  for (const Eigen::Vector3d& p : wanted) directions.insert(key(p));
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (directions.contains(key(cloud.points_m[i].cast<double>())))
+      found.push_back(static_cast<std::uint32_t>(i));
+  }
+  return found;
+}
 
 // A cloud that lives as long as the result it is part of.
 std::shared_ptr<const Cloud> board_points(const std::shared_ptr<const CalibrationResult>& result,
@@ -229,6 +252,31 @@ void ScenePage::selectTag(int id) {
   if (!residuals.isEmpty()) text += tr(": corner residuals %1 px").arg(residuals.join(", "));
   if (!inside.empty()) text += tr("; LiDAR points on it: %1").arg(inside.size());
   selection_->setText(text);
+}
+
+void ScenePage::selectSamples(const std::vector<Eigen::Vector3d>& points_in_lidar_m,
+                              const std::vector<Eigen::Vector2d>& pixels) {
+  std::vector<QPointF> places;
+  for (const Eigen::Vector2d& pixel : pixels) {
+    if (places.size() < kMostRings) places.emplace_back(pixel.x(), pixel.y());
+  }
+  std::vector<std::uint32_t> found;
+  const auto& scene = cloud_->view()->scene();
+  if (scene && scene->cloud && !points_in_lidar_m.empty()) {
+    found = same_directions(*scene->cloud, points_in_lidar_m);
+    const std::size_t stride = 1 + found.size() / kMostRings;
+    for (std::size_t k = 0; k < found.size(); k += stride) {
+      if (found[k] >= scene->pixels.size() || !std::isfinite(scene->pixels[found[k]].x())) continue;
+      places.emplace_back(static_cast<double>(scene->pixels[found[k]].x()),
+                          static_cast<double>(scene->pixels[found[k]].y()));
+    }
+  }
+  const std::size_t count = points_in_lidar_m.size() + pixels.size();
+  cloud_->view()->setHighlights(found);
+  image_->view()->overlay().setHighlights(std::move(places), -1);
+  if (count > 0)
+    selection_->setText(
+        tr("%n measurements selected on the Model page", nullptr, static_cast<int>(count)));
 }
 
 void ScenePage::clearSelection() {

@@ -37,6 +37,10 @@ class ScenePage : public QWidget {
   /// The crop box in force for the current scene, or none.
   void setCropBox(const std::optional<CropBox>& box);
 
+  /// Highlights measurements of the current scene: LiDAR points (by their directions) and pixels.
+  void selectSamples(const std::vector<Eigen::Vector3d>& points_in_lidar_m,
+                     const std::vector<Eigen::Vector2d>& pixels);
+
   [[nodiscard]] CloudPane* cloudPane() const { return cloud_; }
   [[nodiscard]] ImagePane* imagePane() const { return image_; }
 

@@ -205,6 +205,21 @@ TEST_F(Session, WhatCannotBeDoneIsSaid) {
   EXPECT_EQ(start_model(made.table, made.truth, {}, context_).error().kind, ErrorKind::kUntrusted);
 }
 
+TEST_F(Session, FormulasAndCurvesAreEffectsLikeOthers) {
+  const ModelStepPtr base = start(two_effects());
+  const auto formula = add_effect(base, "formula:range: a * darkness", std::nullopt, context_);
+  ASSERT_TRUE(formula) << formula.error().text();
+  const ParameterEstimate a = (*formula)->terms[0].estimates().front();
+  EXPECT_NEAR(a.value, 0.008, 5.0 * a.sigma);
+  EXPECT_LT(unexplained(**formula, Channel::kRange), 1.3);
+  const auto curve = add_effect(base, "curve:range:darkness", std::nullopt, context_);
+  ASSERT_TRUE(curve) << curve.error().text();
+  EXPECT_LT(unexplained(**curve, Channel::kRange), 1.6);
+  EXPECT_FALSE(add_effect(base, "formula:range:a*no_such_thing", std::nullopt, context_));
+  EXPECT_FALSE(add_effect(*curve, "curve:range: darkness", std::nullopt, context_))
+      << "the same, written otherwise";
+}
+
 TEST_F(Session, AStoppedOperationSaysSo) {
   const ModelStepPtr base = start({});
   std::stop_source stop;
