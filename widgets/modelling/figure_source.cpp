@@ -41,6 +41,7 @@ void FigureSource::setSteps(const ModelStepPtr& step, const ModelStepPtr& before
   step_ = step;
   before_ = before;
   views_ = {};
+  laid_over_ = {};
   figure_.cancel();
   pattern_.cancel();
   board_.cancel();
@@ -51,10 +52,18 @@ void FigureSource::keep(const ModelStepPtr& step, Channel channel,
   if (step == step_) views_[static_cast<std::size_t>(channel)] = view;
 }
 
+bool FigureSource::LaidOver::is(Channel wanted, const EffectInUse& other) const {
+  return overlay && channel == wanted && effect.effect == other.effect &&
+         effect.shape == other.shape && effect.values.size() == other.values.size() &&
+         effect.values == other.values;
+}
+
 void FigureSource::request(Channel channel, const QString& covariate,
                            const std::optional<EffectInUse>& effect) {
   if (!step_) return;
-  figure_.start([this, step = step_, before = before_, channel, covariate, effect,
+  std::shared_ptr<const Overlay> laid_over;
+  if (effect && laid_over_.is(channel, *effect)) laid_over = laid_over_.overlay;
+  figure_.start([this, step = step_, before = before_, channel, covariate, effect, laid_over,
                  view = views_[static_cast<std::size_t>(channel)]](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
     auto shown = view;
@@ -63,11 +72,14 @@ void FigureSource::request(Channel channel, const QString& covariate,
       post([this, step, channel, shown] { keep(step, channel, shown); });
     }
     if (context.stopped()) return {};
-    std::shared_ptr<const Overlay> overlay;
-    if (effect) {
+    auto overlay = laid_over;
+    if (effect && !overlay) {
       overlay =
           std::make_shared<const Overlay>(Overlay{QString::fromStdString(effect->effect->info().id),
                                                   effect_pattern(*step, *effect, channel, true)});
+      post([this, step, channel, effect, overlay] {
+        if (step == step_) laid_over_ = {channel, *effect, overlay};
+      });
     }
     const auto figure = make_residual_figure(shown, covariate, overlay, context.stop);
     if (context.stopped()) return {};

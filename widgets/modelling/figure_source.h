@@ -42,9 +42,18 @@ class FigureSource : public QObject {
   void keep(const ModelStepPtr& step, Channel channel,
             const std::shared_ptr<const ChannelView>& view);
 
+  /// The last pattern laid over: another covariate needs the same one.
+  struct LaidOver {
+    Channel channel = Channel::kCorner;
+    EffectInUse effect;
+    std::shared_ptr<const Overlay> overlay;
+    [[nodiscard]] bool is(Channel wanted, const EffectInUse& other) const;
+  };
+
   ModelStepPtr step_;
   ModelStepPtr before_;
   Views views_;
+  LaidOver laid_over_;
   Runner board_, pattern_, figure_;  // Last: abandoned before what they use goes.
 };
 

@@ -153,12 +153,14 @@ void ModelPage::takeChosen() {
   const EffectPtr effect = p == nullptr ? nullptr : find_effect(p->finding.id);
   if (!effect || p->finding.parameters.empty() || !shown_) {
     missing_->setPattern(nullptr);
+    where_->setOverlay(std::nullopt);
     return;
   }
   EffectInUse use{effect, p->finding.shape,
                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p->finding.parameters.size()))};
   for (std::size_t k = 0; k < p->finding.parameters.size(); ++k)
     use.values(static_cast<Eigen::Index>(k)) = p->finding.parameters[k].value;
+  where_->setOverlay(use);
   source_.requestPattern(use);
 }
 

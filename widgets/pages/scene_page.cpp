@@ -23,13 +23,13 @@ constexpr std::size_t kNeighbours = 12;
 constexpr double kNeighbourhood_px = 25.0;
 constexpr std::size_t kTagPoints = 400;
 constexpr std::size_t kMostRings = 400;
+constexpr double kSameDirection = 1e-5;  // Far below the distance of beams, far above rounding.
 
 // Points of a cloud that lie in given directions.
 std::vector<std::uint32_t> same_directions(const Cloud& cloud,
                                            const std::vector<Eigen::Vector3d>& wanted) {
-  constexpr double kCell_rad = 1e-5;  // Far below the distance of beams, far above rounding.
   const auto key = [](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d d = p.normalized() / kCell_rad;
+    const Eigen::Vector3d d = p.normalized() / kSameDirection;
     return std::array<std::int64_t, 3>{std::llround(d.x()), std::llround(d.y()),
                                        std::llround(d.z())};
   };

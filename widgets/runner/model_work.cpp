@@ -225,7 +225,7 @@ void ModelWork::rank() {
   Q_EMIT started();
 }
 
-void ModelWork::add(const QString& spec, std::optional<double> /*shape*/) {
+void ModelWork::add(const QString& spec) {
   decide({ModelChange::kAdd, spec.toStdString(), {}}, tr("add %1").arg(spec));
 }
 

@@ -49,7 +49,7 @@ class ModelWork : public QObject {
   void start();
   /// Looks for what is missing in the step shown.
   void rank();
-  void add(const QString& spec, std::optional<double> shape = std::nullopt);
+  void add(const QString& spec);
   void remove(std::size_t k);
   void set_on(std::size_t k, bool on);
   /// Values in SI; none: fitted again.

@@ -68,10 +68,13 @@ TEST_F(Columns, ThePatternOfAnEffectIsWhatItAdds) {
   ASSERT_EQ(raw.size(), rows.size());
   for (std::size_t k = 0; k < raw.size(); k += 97)
     EXPECT_NEAR(static_cast<double>(raw[k]), 5.0 * rows[k].beam.darkness, 1e-3);
-  // The extrinsic can take over most of a constant, which then leaves a small pattern.
-  EffectInUse offset{find_effect("range_offset"), 0.0, Eigen::VectorXd::Constant(1, 0.01)};
-  EXPECT_NEAR(rms_of(effect_pattern(*base_, offset, Channel::kRange, false)), 10.0, 1e-2);
-  EXPECT_LT(rms_of(effect_pattern(*base_, offset, Channel::kRange, true)), 5.0);
+  // The extrinsic takes over a turn of the LiDAR's axes, which then leaves no pattern.
+  const EffectPtr turn = find_effect("angle_zero");
+  const auto n = static_cast<Eigen::Index>(turn->parameters(base_->table()).size());
+  EffectInUse turned{turn, 0.0, Eigen::VectorXd::Constant(n, 1e-3)};
+  const double whole = rms_of(effect_pattern(*walk_, turned, Channel::kBoundary, false));
+  EXPECT_GT(whole, 1.0);
+  EXPECT_LT(rms_of(effect_pattern(*walk_, turned, Channel::kBoundary, true)), 0.05 * whole);
   // Linear in the size.
   use.values *= 2.0;
   const auto twice = effect_pattern(*base_, use, Channel::kRange, true);
