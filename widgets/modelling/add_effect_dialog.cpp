@@ -93,7 +93,12 @@ AddEffectDialog::AddEffectDialog(const ModelStepPtr& step, QWidget* parent)
   fillCovariates();
 }
 
-AddEffectDialog::~AddEffectDialog() = default;
+AddEffectDialog::~AddEffectDialog() {
+  // They change while they go.
+  for (QObject* part : std::initializer_list<QObject*>{tabs_, list_, search_, curve_first_,
+                                                       curve_second_, curve_channel_})
+    part->disconnect(this);
+}
 
 QWidget* AddEffectDialog::createCatalogue() {
   auto* page = new QWidget(tabs_);
@@ -110,7 +115,8 @@ QWidget* AddEffectDialog::createCatalogue() {
   right->setChildrenCollapsible(false);
   text_ = new QTextBrowser(right);
   pattern_ = new ResidualPlot(right);
-  pattern_->setBeforeShown(false);
+  pattern_->setMeansOnly(true);
+  right->setSizes({220, 240});
   splitter->setStretchFactor(1, 1);
   splitter->setSizes({260, 480});
   layout->addWidget(search_);

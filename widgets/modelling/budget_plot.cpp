@@ -50,6 +50,14 @@ BudgetPlot::Shares BudgetPlot::shares(const ChannelSummary& base, const ChannelS
   return out;
 }
 
+QColor BudgetPlot::noiseColor(const PlotColors& colors) {
+  return colors.dark ? QColor(105, 110, 116) : QColor(190, 193, 197);
+}
+
+QColor BudgetPlot::explainedColor(const PlotColors& colors) {
+  return QColor::fromHsl(140, 110, colors.dark ? 110 : 150);
+}
+
 void BudgetPlot::setSteps(std::vector<ModelStepPtr> steps, std::size_t current) {
   steps_ = std::move(steps);
   current_ = current;
@@ -113,9 +121,7 @@ void BudgetPlot::rebuild() {
 
 void BudgetPlot::drawChannel(int channel, int first) {
   const ChannelSummary& base = steps_.front()->channels[static_cast<std::size_t>(channel)];
-  const QColor noise = colors().grid.darker(colors().dark ? 80 : 115);
-  QColor explained = QColor::fromHsl(140, 110, colors().dark ? 110 : 150);
-  const QColor parts[] = {noise, colors().refused, explained};
+  const QColor parts[] = {noiseColor(colors()), colors().refused, explainedColor(colors())};
   QVector<double> held_x, held_y;
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     if (!steps_[k]) continue;

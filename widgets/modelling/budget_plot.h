@@ -26,6 +26,8 @@ class BudgetPlot : public PlotView {
     double unexplained = 0.0;
     double heldout = 0.0;  ///< Squared held-out error by the base model's squared error.
   };
+  static QColor noiseColor(const PlotColors& colors);
+  static QColor explainedColor(const PlotColors& colors);
   static Shares shares(const ChannelSummary& base, const ChannelSummary& now);
 
  Q_SIGNALS:

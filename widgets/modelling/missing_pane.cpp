@@ -36,7 +36,10 @@ class FallDelegate : public QStyledItemDelegate {
   using QStyledItemDelegate::QStyledItemDelegate;
   void paint(QPainter* painter, const QStyleOptionViewItem& option,
              const QModelIndex& index) const override {
-    QStyledItemDelegate::paint(painter, option, {});
+    QStyleOptionViewItem ground = option;
+    initStyleOption(&ground, index);
+    ground.text.clear();
+    ground.widget->style()->drawControl(QStyle::CE_ItemViewItem, &ground, painter, ground.widget);
     const QVariant share = index.data(kShare);
     if (!share.isValid()) return;
     const double width = std::clamp(share.toDouble(), 0.0, 1.0);
@@ -113,6 +116,7 @@ MissingPane::MissingPane(QWidget* parent)
   text_->setObjectName(QStringLiteral("proposal_text"));
   text_->setMinimumHeight(70);
   pattern_->setObjectName(QStringLiteral("pattern_plot"));
+  pattern_->setMeansOnly(true);
   add_->setObjectName(QStringLiteral("add_proposal"));
   all_->setObjectName(QStringLiteral("find_all"));
   look_->setObjectName(QStringLiteral("look_missing"));
@@ -127,6 +131,7 @@ MissingPane::MissingPane(QWidget* parent)
   details->setStretchFactor(0, 3);
   details->setStretchFactor(1, 2);
   details->setStretchFactor(2, 2);
+  details->setSizes({270, 130, 200});
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(add_, 1);
   buttons->addWidget(all_, 1);
@@ -149,6 +154,10 @@ MissingPane::MissingPane(QWidget* parent)
     }
   });
   retranslate();
+}
+
+MissingPane::~MissingPane() {
+  list_->disconnect(this);  // It changes while it goes.
 }
 
 void MissingPane::setRanking(std::shared_ptr<const ModelRanking> ranking, bool has_model,
@@ -255,7 +264,7 @@ void MissingPane::fillBudget() {
     auto* item = new QTreeWidgetItem(
         budget_, {effect_title(p->finding.id),
                   move_text(p->finding.extrinsic_move_mm, p->finding.extrinsic_move_mrad),
-                  QStringLiteral("%1 %").arg(100.0 * p->finding.kept, 0, 'g', 2)});
+                  percent_text(p->finding.kept)});
     for (int column = 0; column < 3; ++column)
       item->setToolTip(column, QString::fromStdString(p->finding.explanation));
   }
@@ -303,6 +312,7 @@ void MissingPane::describe() {
                            .arg(move_text(p->gained_mm, p->gained_mrad)));
     }
     text_->setHtml(html);
+    pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));
     Q_EMIT chosen();
   } else if (unknown != nullptr) {
     describeStructure(*unknown);

@@ -26,6 +26,7 @@ class MissingPane : public QWidget {
 
  public:
   explicit MissingPane(QWidget* parent = nullptr);
+  ~MissingPane() override;
   /// `ranking` null: nobody has looked yet (or is looking: `busy`).
   void setRanking(std::shared_ptr<const ModelRanking> ranking, bool has_model, bool busy);
   /// The chosen effect's pattern; null: it leaves none.

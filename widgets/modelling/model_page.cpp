@@ -21,6 +21,7 @@ ModelPage::ModelPage(ModelWork& work, QWidget* parent)
     : QWidget(parent),
       work_(work),
       title_(new QLabel(this)),
+      legend_(new QLabel(this)),
       budget_(new BudgetPlot(this)),
       terms_(new TermList(this)),
       what_if_(new WhatIfPane(this)),
@@ -54,7 +55,14 @@ void ModelPage::createLayout() {
   auto* rows = new QSplitter(Qt::Vertical, this);
   rows->setChildrenCollapsible(false);
   budget_->setMinimumHeight(90);
-  rows->addWidget(budget_);
+  legend_->setObjectName(QStringLiteral("model_legend"));
+  auto* top = new QWidget(this);
+  auto* history = new QVBoxLayout(top);
+  history->setContentsMargins(0, 0, 0, 0);
+  history->setSpacing(0);
+  history->addWidget(legend_);
+  history->addWidget(budget_, 1);
+  rows->addWidget(top);
   rows->addWidget(columns);
   rows->setStretchFactor(0, 0);
   rows->setStretchFactor(1, 1);
@@ -81,7 +89,13 @@ void ModelPage::connectParts() {
   connect(terms_, &TermList::removeWanted, this,
           [this](int k) { work_.remove(static_cast<std::size_t>(k)); });
   connect(terms_, &TermList::addWanted, this, [this] { openDialog({}, std::nullopt); });
-  connect(what_if_, &WhatIfPane::effectChosen, where_, &WherePane::setOverlay);
+  connect(what_if_, &WhatIfPane::effectChosen, this,
+          [this](const std::optional<EffectInUse>& effect, double scale) {
+            where_->setOverlay(effect, scale);
+            if (!effect) return;
+            pattern_is_proposal_ = false;
+            source_.requestPattern(*effect);
+          });
   connect(what_if_, &WhatIfPane::scaleChanged, where_, &WherePane::setOverlayScale);
   connect(missing_, &MissingPane::addWanted, &work_,
           [this](const QString& spec) { work_.add(spec); });
@@ -94,7 +108,7 @@ void ModelPage::connectParts() {
           [this](Channel channel, const QString& covariate) { openDialog(covariate, channel); });
   connect(&source_, &FigureSource::patternReady, this,
           [this](const std::shared_ptr<const ResidualFigure>& figure) {
-            missing_->setPattern(figure);
+            if (pattern_is_proposal_) missing_->setPattern(figure);
             if (figure)
               where_->look(figure->view->columns.channel,
                            QString::fromStdString(figure->along().name));
@@ -133,6 +147,7 @@ void ModelPage::takeSteps() {
   title_->setText(step ? QString() : reason_);
   title_->setVisible(!title_->text().isEmpty());
   budget_->setSteps(work_.steps(), work_.current());
+  describeSteps();
   if (step != shown_ || !step) {
     shown_ = step;
     source_.setSteps(step, base);
@@ -141,6 +156,29 @@ void ModelPage::takeSteps() {
     what_if_->setStep(step);
   }
   takeRanking();
+}
+
+// What the colours mean, and the steps by name with the present one in bold.
+void ModelPage::describeSteps() {
+  const PlotColors colors = PlotColors::of(palette());
+  const auto entry = [](const QColor& color, const QChar& sign, const QString& text) {
+    return QStringLiteral("<span style=\"color:%1\">%2</span> %3")
+        .arg(color.name(), QString(sign), text);
+  };
+  QStringList steps;
+  for (std::size_t k = 0; k < work_.steps().size(); ++k) {
+    const ModelStepPtr& step = work_.steps()[k];
+    const QString text = step ? step_text(*step).toHtmlEscaped() : QStringLiteral("…");
+    steps << (k == work_.current() ? QStringLiteral("<b>%1</b>").arg(text) : text);
+  }
+  const QStringList legend = {entry(BudgetPlot::noiseColor(colors), u'■', tr("noise")),
+                              entry(colors.refused, u'■', tr("unexplained")),
+                              entry(BudgetPlot::explainedColor(colors), u'■', tr("explained")),
+                              entry(colors.mark, u'◇', tr("scenes held out"))};
+  legend_->setText(legend.join(QStringLiteral("&nbsp;&nbsp;")) +
+                   (steps.isEmpty() ? QString()
+                                    : QStringLiteral("&nbsp;&nbsp;&nbsp;&nbsp;") +
+                                          tr("Steps: %1").arg(steps.join(QStringLiteral(" → ")))));
 }
 
 void ModelPage::takeRanking() {
@@ -161,6 +199,7 @@ void ModelPage::takeChosen() {
   for (std::size_t k = 0; k < p->finding.parameters.size(); ++k)
     use.values(static_cast<Eigen::Index>(k)) = p->finding.parameters[k].value;
   where_->setOverlay(use);
+  pattern_is_proposal_ = true;
   source_.requestPattern(use);
 }
 
@@ -194,6 +233,7 @@ void ModelPage::forward(const std::vector<SelectedSample>& samples) {
 
 void ModelPage::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::PaletteChange) describeSteps();
   QWidget::changeEvent(event);
 }
 

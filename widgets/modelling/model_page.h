@@ -49,6 +49,7 @@ class ModelPage : public QWidget {
   void takeSteps();
   void takeRanking();
   void takeChosen();
+  void describeSteps();
   void openDialog(const QString& covariate, std::optional<Channel> channel);
   void forward(const std::vector<SelectedSample>& samples);
 
@@ -56,7 +57,9 @@ class ModelPage : public QWidget {
   FigureSource source_;
   QString reason_;
   ModelStepPtr shown_;
+  bool pattern_is_proposal_ = true;  // Else it is a question of what if.
   QLabel* title_;
+  QLabel* legend_;
   BudgetPlot* budget_;
   TermList* terms_;
   WhatIfPane* what_if_;

@@ -48,6 +48,22 @@ void ResidualPlot::setBeforeShown(bool shown) {
   rebuild();
 }
 
+void ResidualPlot::setMeansOnly(bool on) {
+  means_only_ = on;
+  before_ = before_ && !on;
+  rebuild();
+}
+
+double ResidualPlot::halfHeight() const {
+  if (!means_only_) return figure_->y_high;
+  double most = 0.0;
+  for (const ResidualBin& bin : figure_->now)
+    most = std::max(most, std::abs(bin.residual.mean) + kSigmas * bin.residual.sigma);
+  for (const ResidualBin& bin : figure_->predicted)
+    most = std::max(most, std::abs(scale_ * bin.residual.mean));
+  return most > 0.0 ? 1.2 * most : figure_->y_high;
+}
+
 void ResidualPlot::setOverlayScale(double scale) {
   scale_ = scale;
   rebuild();
@@ -114,7 +130,8 @@ void ResidualPlot::setLabels() {
       ticker->addTick(static_cast<double>(k + 1), category_name(c.name, figure_->labels[k]));
     xAxis->setTicker(ticker);
   }
-  setHome({figure_->x_low, figure_->x_high}, {figure_->y_low, figure_->y_high});
+  const double half = halfHeight();
+  setHome({figure_->x_low, figure_->x_high}, {-half, half});
 }
 
 void ResidualPlot::drawNoise() {
@@ -141,12 +158,13 @@ void ResidualPlot::drawMeans(const std::vector<ResidualBin>& bins, const QColor&
   }
   QCPGraph* line = addGraph();
   line->setData(x, y, true);
-  line->setPen(QPen(color, bars ? 1.6 : 2.0, bars || scale != 1.0 ? Qt::SolidLine : Qt::SolidLine));
+  line->setPen(QPen(color, bars ? 1.6 : 2.0));
   if (!figure_->labels.empty()) line->setLineStyle(QCPGraph::lsNone);
-  const bool marks = bars || !figure_->labels.empty();
-  if (marks) {
+  if (bars) {
     line->setScatterStyle(
         {QCPScatterStyle::ssCircle, QPen(color, 1.4), QBrush(colors().background), 6.0});
+  } else if (!figure_->labels.empty()) {
+    line->setScatterStyle({QCPScatterStyle::ssDiamond, QPen(color, 2.0), Qt::NoBrush, 13.0});
   }
   if (!bars) return;
   auto* errors = new QCPErrorBars(xAxis, yAxis);

@@ -22,6 +22,8 @@ class ResidualPlot : public PlotView {
   void setBeforeShown(bool shown);
   /// Factor on the effect laid over.
   void setOverlayScale(double scale);
+  /// Shows the means at full height instead of the whole scatter.
+  void setMeansOnly(bool on);
   /// Dragging selects instead of moving the plot.
   void setBrushing(bool brushing);
   /// Emphasises residuals, by index.
@@ -40,6 +42,7 @@ class ResidualPlot : public PlotView {
                  double scale);
   void drawSelected();
   void setLabels();
+  [[nodiscard]] double halfHeight() const;
   void emitBrush(const QRect& rect);
 
   std::shared_ptr<const ResidualFigure> figure_;
@@ -47,6 +50,7 @@ class ResidualPlot : public PlotView {
   QString message_;
   double scale_ = 1.0;
   bool before_ = true;
+  bool means_only_ = false;
 };
 
 /// A quantity with its unit: "range (m)".

@@ -66,6 +66,10 @@ TermList::TermList(QWidget* parent)
   retranslate();
 }
 
+TermList::~TermList() {
+  tree_->disconnect(this);  // It changes while it goes.
+}
+
 int TermList::current() const {
   const QTreeWidgetItem* item = tree_->currentItem();
   if (item == nullptr || !item->data(kName, kTerm).isValid()) return -1;

@@ -19,6 +19,7 @@ class TermList : public QWidget {
 
  public:
   explicit TermList(QWidget* parent = nullptr);
+  ~TermList() override;
   /// Null: no model yet.
   void setStep(const ModelStepPtr& step, const ModelStepPtr& base);
   /// Whether the model may be changed now.

@@ -33,6 +33,11 @@ WherePane::WherePane(FigureSource& source, QWidget* parent) : QWidget(parent), s
   setStep(nullptr, {});
 }
 
+WherePane::~WherePane() {
+  for (QObject* part : std::initializer_list<QObject*>{tabs_, channels_, covariates_, scenes_})
+    part->disconnect(this);  // They change while they go.
+}
+
 void WherePane::createBar() {
   auto* bar = new QHBoxLayout;
   channel_label_ = new QLabel(this);

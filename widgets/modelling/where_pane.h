@@ -33,6 +33,7 @@ class WherePane : public QWidget {
 
  public:
   explicit WherePane(FigureSource& source, QWidget* parent = nullptr);
+  ~WherePane() override;
 
   /// What the source shows now; null: nothing, for the reason given.
   void setStep(const ModelStepPtr& step, const QString& reason);

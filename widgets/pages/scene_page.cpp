@@ -80,7 +80,10 @@ ScenePage::~ScenePage() = default;
 void ScenePage::connectPanes() {
   connect(cloud_->view(), &CloudView::pointPicked, this, &ScenePage::selectPoint);
   connect(cloud_->view(), &CloudView::nothingPicked, this, &ScenePage::clearSelection);
-  connect(cloud_, &CloudPane::sceneShown, this, &ScenePage::refreshOverlay);
+  connect(cloud_, &CloudPane::sceneShown, this, [this] {
+    refreshOverlay();
+    showSamples();
+  });
   connect(cloud_, &CloudPane::cropApplied, this, [this](const CropBox& box) {
     if (scene_ >= 0) Q_EMIT cropChanged(scene_, box);
   });
@@ -160,6 +163,8 @@ void ScenePage::refreshOverlay() {
 }
 
 void ScenePage::selectPoint(std::uint32_t point) {
+  sample_points_m_.clear();
+  sample_pixels_.clear();
   const auto& scene = cloud_->view()->scene();
   if (!scene || !scene->cloud || point >= scene->cloud->size()) return;
   cloud_->view()->setHighlights({point});
@@ -256,14 +261,23 @@ void ScenePage::selectTag(int id) {
 
 void ScenePage::selectSamples(const std::vector<Eigen::Vector3d>& points_in_lidar_m,
                               const std::vector<Eigen::Vector2d>& pixels) {
+  sample_points_m_ = points_in_lidar_m;
+  sample_pixels_ = pixels;
+  showSamples();
+}
+
+// Again when the cloud's picture is ready: its points are known only then.
+void ScenePage::showSamples() {
+  const std::size_t count = sample_points_m_.size() + sample_pixels_.size();
+  if (count == 0) return;
   std::vector<QPointF> places;
-  for (const Eigen::Vector2d& pixel : pixels) {
+  for (const Eigen::Vector2d& pixel : sample_pixels_) {
     if (places.size() < kMostRings) places.emplace_back(pixel.x(), pixel.y());
   }
   std::vector<std::uint32_t> found;
   const auto& scene = cloud_->view()->scene();
-  if (scene && scene->cloud && !points_in_lidar_m.empty()) {
-    found = same_directions(*scene->cloud, points_in_lidar_m);
+  if (scene && scene->cloud && !sample_points_m_.empty()) {
+    found = same_directions(*scene->cloud, sample_points_m_);
     const std::size_t stride = 1 + found.size() / kMostRings;
     for (std::size_t k = 0; k < found.size(); k += stride) {
       if (found[k] >= scene->pixels.size() || !std::isfinite(scene->pixels[found[k]].x())) continue;
@@ -271,15 +285,15 @@ void ScenePage::selectSamples(const std::vector<Eigen::Vector3d>& points_in_lida
                           static_cast<double>(scene->pixels[found[k]].y()));
     }
   }
-  const std::size_t count = points_in_lidar_m.size() + pixels.size();
   cloud_->view()->setHighlights(found);
   image_->view()->overlay().setHighlights(std::move(places), -1);
-  if (count > 0)
-    selection_->setText(
-        tr("%n measurements selected on the Model page", nullptr, static_cast<int>(count)));
+  selection_->setText(
+      tr("%n measurements selected on the Model page", nullptr, static_cast<int>(count)));
 }
 
 void ScenePage::clearSelection() {
+  sample_points_m_.clear();
+  sample_pixels_.clear();
   cloud_->view()->setHighlights({});
   image_->view()->overlay().setHighlights({}, -1);
   selection_->setText(tr("Click a point, a pixel or a tag to see its values in both views."));

@@ -59,12 +59,15 @@ class ScenePage : public QWidget {
   void selectPixel(const QPointF& pixel);
   void selectTag(int id);
   void clearSelection();
+  void showSamples();
   [[nodiscard]] const SceneResult* current() const;
   [[nodiscard]] QString describePoint(const Cloud& cloud, std::uint32_t point) const;
 
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const Cloud> full_cloud_;
   QImage picture_;
+  std::vector<Eigen::Vector3d> sample_points_m_;  // Selected elsewhere; LiDAR frame.
+  std::vector<Eigen::Vector2d> sample_pixels_;
   int scene_ = -1;
   CloudPane* cloud_ = nullptr;
   ImagePane* image_ = nullptr;

@@ -40,7 +40,7 @@ TEST_F(ReportWriterTest, WritesTheReportAndSaysWhatItLacks) {
 }
 
 TEST_F(ReportWriterTest, APlaceThatCannotBeWrittenIsNamed) {
-  writer_.write(test::calibrated_demo().result, folder_.filePath("no/such/report.html"));
+  writer_.write(test::calibrated_demo().result, nullptr, folder_.filePath("no/such/report.html"));
   ASSERT_TRUE(failed_.wait(30'000));
   const auto error = failed_[0][0].value<Error>();
   EXPECT_NE(error.text().find("no/such"), std::string::npos) << error.text();
