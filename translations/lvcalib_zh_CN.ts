@@ -864,6 +864,10 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+
         <source>&amp;Dark</source>
         <translation>深色(&amp;D)</translation>
     </message>
+    <message>
+        <source>Simulate four scenes and open them, with a guided tour</source>
+        <translation>模拟四个场景并打开，附带导览</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::MainWindow</name>
@@ -904,6 +908,10 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     <message>
         <source>Extrinsic</source>
         <translation>外参</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>模型</translation>
     </message>
 </context>
 <context>
@@ -1315,6 +1323,12 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <source>Click a point, a pixel or a tag to see its values in both views.</source>
         <translation type="unfinished"></translation>
     </message>
+    <message numerus="yes">
+        <source>%n measurements selected on the Model page</source>
+        <translation>
+            <numerusform>模型页上选中了 %n 个测量值</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ScenesDock</name>
@@ -1452,6 +1466,10 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <source>Recent (or drop a folder on this window)</source>
         <translation>最近打开（也可将文件夹拖到此窗口）</translation>
     </message>
+    <message>
+        <source>Simulates four scenes with an effect hidden in them, and a tour to find it</source>
+        <translation>模拟四个藏有一个效应的场景，并带您找到它</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::Workspace</name>
@@ -1541,6 +1559,746 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     <message>
         <source>Dataset folder or project.</source>
         <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ModelText</name>
+    <message>
+        <source>board x</source>
+        <translation>板面 x</translation>
+    </message>
+    <message>
+        <source>board y</source>
+        <translation>板面 y</translation>
+    </message>
+    <message>
+        <source>board radius</source>
+        <translation>板面半径</translation>
+    </message>
+    <message>
+        <source>range</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>azimuth</source>
+        <translation>方位角</translation>
+    </message>
+    <message>
+        <source>elevation</source>
+        <translation>仰角</translation>
+    </message>
+    <message>
+        <source>incidence</source>
+        <translation>入射角</translation>
+    </message>
+    <message>
+        <source>tilt direction</source>
+        <translation>倾斜方向</translation>
+    </message>
+    <message>
+        <source>scene clock</source>
+        <translation>场景时序</translation>
+    </message>
+    <message>
+        <source>time in scan</source>
+        <translation>扫描内时间</translation>
+    </message>
+    <message>
+        <source>scan speed</source>
+        <translation>扫描速度</translation>
+    </message>
+    <message>
+        <source>scan direction</source>
+        <translation>扫描方向</translation>
+    </message>
+    <message>
+        <source>laser line</source>
+        <translation>激光线</translation>
+    </message>
+    <message>
+        <source>image x</source>
+        <translation>图像 x</translation>
+    </message>
+    <message>
+        <source>image y</source>
+        <translation>图像 y</translation>
+    </message>
+    <message>
+        <source>image radius</source>
+        <translation>图像半径</translation>
+    </message>
+    <message>
+        <source>radial from image centre</source>
+        <translation>相对图像中心的径向</translation>
+    </message>
+    <message>
+        <source>radial from tag centre</source>
+        <translation>相对标签中心的径向</translation>
+    </message>
+    <message>
+        <source>tag size</source>
+        <translation>标签大小</translation>
+    </message>
+    <message>
+        <source>sub-pixel phase</source>
+        <translation>亚像素相位</translation>
+    </message>
+    <message>
+        <source>tag</source>
+        <translation>标签</translation>
+    </message>
+    <message>
+        <source>corner and axis</source>
+        <translation>角点与轴</translation>
+    </message>
+    <message>
+        <source>darkness</source>
+        <translation>暗度</translation>
+    </message>
+    <message>
+        <source>print</source>
+        <translation>印刷</translation>
+    </message>
+    <message>
+        <source>intensity</source>
+        <translation>强度</translation>
+    </message>
+    <message>
+        <source>inverse range</source>
+        <translation>距离倒数</translation>
+    </message>
+    <message>
+        <source>distance to edge</source>
+        <translation>到边缘的距离</translation>
+    </message>
+    <message>
+        <source>polar angle</source>
+        <translation>极角</translation>
+    </message>
+    <message>
+        <source>polar angle to tilt</source>
+        <translation>相对倾斜的极角</translation>
+    </message>
+    <message>
+        <source>polar angle to LiDAR axes</source>
+        <translation>相对激光雷达轴的极角</translation>
+    </message>
+    <message>
+        <source>scan across edge</source>
+        <translation>横过边缘的扫描</translation>
+    </message>
+    <message>
+        <source>contrast</source>
+        <translation>对比度</translation>
+    </message>
+    <message>
+        <source>circle</source>
+        <translation>圆</translation>
+    </message>
+    <message>
+        <source>corner</source>
+        <translation>角点</translation>
+    </message>
+    <message>
+        <source>boundary</source>
+        <translation>边界</translation>
+    </message>
+    <message>
+        <source>log. intensity</source>
+        <translation>对数强度</translation>
+    </message>
+    <message>
+        <source>white</source>
+        <translation>白</translation>
+    </message>
+    <message>
+        <source>black</source>
+        <translation>黑</translation>
+    </message>
+    <message>
+        <source>present</source>
+        <translation>存在</translation>
+    </message>
+    <message>
+        <source>absent</source>
+        <translation>不存在</translation>
+    </message>
+    <message>
+        <source>one of several</source>
+        <translation>若干之一</translation>
+    </message>
+    <message>
+        <source>cannot tell</source>
+        <translation>无法判断</translation>
+    </message>
+    <message>
+        <source>%1%2 (held)</source>
+        <translation>%1%2（固定）</translation>
+    </message>
+    <message>
+        <source>base model</source>
+        <translation>基础模型</translation>
+    </message>
+    <message>
+        <source>%1 held</source>
+        <translation>%1 固定</translation>
+    </message>
+    <message>
+        <source>%1 fitted</source>
+        <translation>%1 拟合</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::AddEffectDialog</name>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>添加(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Add an effect</source>
+        <translation>添加效应</translation>
+    </message>
+    <message>
+        <source>Catalogue</source>
+        <translation>目录</translation>
+    </message>
+    <message>
+        <source>Formula</source>
+        <translation>公式</translation>
+    </message>
+    <message>
+        <source>Curve</source>
+        <translation>曲线</translation>
+    </message>
+    <message>
+        <source>leaves no pattern in these scenes</source>
+        <translation>在这些场景中不留下图样</translation>
+    </message>
+    <message>
+        <source>Search by name, physics or formula</source>
+        <translation>按名称、物理含义或公式搜索</translation>
+    </message>
+    <message>
+        <source>What is added to the measurement, in m (range, boundary), px (corner) or the logarithm of the intensity. Covariates are in m, rad and px. Other names are coefficients, which are fitted; the formula must be linear in them.</source>
+        <translation>加到测量值上的量，单位为 m（距离、边界）、px（角点）或强度的对数。协变量的单位为 m、rad 和 px。其他名称是待拟合的系数；公式对它们必须是线性的。</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Covariates</source>
+        <translation>协变量</translation>
+    </message>
+    <message>
+        <source>A smooth curve stands in for a cause that nobody knows yet. Of two covariates it is a surface.</source>
+        <translation>平滑曲线用来代替尚不知道的原因；两个协变量时为曲面。</translation>
+    </message>
+    <message>
+        <source>Along</source>
+        <translation>沿</translation>
+    </message>
+    <message>
+        <source>and</source>
+        <translation>和</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;No effect matches.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;没有匹配的效应。&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Formula:</source>
+        <translation>公式：</translation>
+    </message>
+    <message>
+        <source>To tell it from others:</source>
+        <translation>与其他效应区分的办法：</translation>
+    </message>
+    <message>
+        <source>Source:</source>
+        <translation>来源：</translation>
+    </message>
+    <message>
+        <source>its pattern is being drawn …</source>
+        <translation>正在绘制其图样……</translation>
+    </message>
+    <message>
+        <source>not with these measurements</source>
+        <translation>这些测量值无法使用</translation>
+    </message>
+    <message>
+        <source>nothing else</source>
+        <translation>无其他</translation>
+    </message>
+    <message>
+        <source>Cannot be used here: %1</source>
+        <translation>此处无法使用：%1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BoardIntensityView</name>
+    <message>
+        <source>Intensity over the board: measured, as the model predicts it, and the difference (blue: darker than predicted, red: brighter).</source>
+        <translation>标定板上的强度：测量值、模型预测值和差值（蓝色：比预测暗，红色：比预测亮）。</translation>
+    </message>
+    <message>
+        <source>no intensity in these clouds</source>
+        <translation>这些点云没有强度</translation>
+    </message>
+    <message>
+        <source>measured (%1 … %2)</source>
+        <translation>测量（%1 … %2）</translation>
+    </message>
+    <message>
+        <source>predicted</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>difference (±%1)</source>
+        <translation>差值（±%1）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BudgetPlot</name>
+    <message>
+        <source>The history of the error appears here.</source>
+        <translation>误差的历史显示在这里。</translation>
+    </message>
+    <message>
+        <source>squared error (%)</source>
+        <translation>平方误差 (%)</translation>
+    </message>
+    <message>
+        <source>Squared error by the base model&apos;s: grey noise, red unexplained, green explained by effects; diamonds: scenes held out. Click to go to a step.</source>
+        <translation>相对于基础模型的平方误差：灰色为噪声，红色为未解释，绿色为效应已解释；菱形：留出的场景。单击可转到某一步。</translation>
+    </message>
+    <message>
+        <source>Step %1, %2: %3
+RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
+        <translation>第 %1 步，%2：%3
+均方根 %4，噪声 %5，未解释 %6，留出 %7（%8）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CoachMarks</name>
+    <message>
+        <source>Done</source>
+        <translation>完成</translation>
+    </message>
+    <message>
+        <source>Next</source>
+        <translation>下一步</translation>
+    </message>
+    <message>
+        <source>End the tour</source>
+        <translation>结束导览</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::DemoTour</name>
+    <message>
+        <source>These scenes were simulated just now, by a LiDAR with an error that the calibration does not know. Press &lt;b&gt;Run all&lt;/b&gt;.</source>
+        <translation>这些场景刚刚模拟生成，所用激光雷达有一个标定并不知道的误差。请按&lt;b&gt;全部运行&lt;/b&gt;。</translation>
+    </message>
+    <message>
+        <source>The calibration is done, and its figures look fine. Open the &lt;b&gt;Model&lt;/b&gt; page to ask what it misses.</source>
+        <translation>标定已完成，数值看起来不错。打开&lt;b&gt;模型&lt;/b&gt;页，看看它遗漏了什么。</translation>
+    </message>
+    <message>
+        <source>The effects that may be missing are being tried; scenes held out decide. The best one comes first, with a sentence on what was seen and how sure that is.</source>
+        <translation>正在逐一尝试可能遗漏的效应，由留出的场景决定。最好的排在最前，并用一句话说明看到了什么、有多大把握。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Range walk&lt;/b&gt;: dark print reads too far. The orange curve is its pattern at the size found; the marks are what is measured.</source>
+        <translation>&lt;b&gt;Range walk&lt;/b&gt;（距离随强度漂移）：深色印刷读数偏远。橙色曲线是按所得大小绘出的图样，标记是测量值。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Add&lt;/b&gt; it to the model.</source>
+        <translation>把它&lt;b&gt;添加&lt;/b&gt;到模型中。</translation>
+    </message>
+    <message>
+        <source>The red, unexplained share is gone, in scenes held out as well (diamonds), and the extrinsic has moved. Click an earlier step or undo to compare.</source>
+        <translation>红色的未解释部分消失了，留出的场景（菱形）也一样，外参随之移动。单击较早的步骤或撤销以作比较。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::MissingPane</name>
+    <message>
+        <source>its pattern cannot be seen</source>
+        <translation>看不到其图样</translation>
+    </message>
+    <message>
+        <source>or: %1</source>
+        <translation>或：%1</translation>
+    </message>
+    <message>
+        <source>Predicted fall of the squared error in scenes held out</source>
+        <translation>留出场景中平方误差的预计降幅</translation>
+    </message>
+    <message>
+        <source>%1 against %2</source>
+        <translation>%1 对 %2</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>未知</translation>
+    </message>
+    <message>
+        <source>Looking for what is missing …</source>
+        <translation>正在查找遗漏的效应……</translation>
+    </message>
+    <message>
+        <source>Nobody has looked yet.</source>
+        <translation>尚未查找。</translation>
+    </message>
+    <message>
+        <source>Run the calibration first.</source>
+        <translation>请先运行标定。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Nothing is missing&lt;/b&gt; in the model, as far as these scenes can tell.</source>
+        <translation>就这些场景而言，模型中&lt;b&gt;没有遗漏&lt;/b&gt;。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Something is left&lt;/b&gt; that no known effect explains.</source>
+        <translation>&lt;b&gt;仍有残余&lt;/b&gt;，没有已知效应能解释。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;%1 is missing.&lt;/b&gt;</source>
+        <translation>&lt;b&gt;遗漏了 %1。&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>Add &amp;curve…</source>
+        <translation>添加曲线(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>添加(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>&amp;Look again</source>
+        <translation>重新查找(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Adding it moves the extrinsic by %1.</source>
+        <translation>添加后外参移动 %1。</translation>
+    </message>
+    <message>
+        <source>its pattern is being drawn …</source>
+        <translation>正在绘制其图样……</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). No effect of the catalogue explains it: a smooth curve can stand in for it.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;在留出的场景中，%2 残差的方差有 %1 % 随 %3 变化（%4 %5）。目录中没有效应能解释它：可用平滑曲线代替。&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>What is missing</source>
+        <translation>遗漏了什么</translation>
+    </message>
+    <message>
+        <source>What cannot be seen</source>
+        <translation>看不到什么</translation>
+    </message>
+    <message>
+        <source>Effects that these scenes could not show, and by how much they would spoil the extrinsic at the size that matters</source>
+        <translation>这些场景无法显示的效应，以及达到有影响的大小时会使外参偏离多少</translation>
+    </message>
+    <message>
+        <source>Effect</source>
+        <translation>效应</translation>
+    </message>
+    <message>
+        <source>Verdict</source>
+        <translation>结论</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>误差</translation>
+    </message>
+    <message>
+        <source>Could move by</source>
+        <translation>可能移动</translation>
+    </message>
+    <message>
+        <source>Left</source>
+        <translation>残留</translation>
+    </message>
+    <message>
+        <source>Share of its squared effect that the poses leave</source>
+        <translation>位姿吸收后剩下的平方效应份额</translation>
+    </message>
+    <message>
+        <source>&amp;Find all</source>
+        <translation>全部查找(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Add what scenes held out speak for, one after the other</source>
+        <translation>逐个添加留出场景所支持的效应</translation>
+    </message>
+    <message>
+        <source>Add the chosen effect to the model</source>
+        <translation>把所选效应添加到模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ModelPage</name>
+    <message>
+        <source>Run the calibration to see what its model explains and what it misses.</source>
+        <translation>运行标定，查看模型解释了什么、遗漏了什么。</translation>
+    </message>
+    <message>
+        <source>noise</source>
+        <translation>噪声</translation>
+    </message>
+    <message>
+        <source>unexplained</source>
+        <translation>未解释</translation>
+    </message>
+    <message>
+        <source>explained</source>
+        <translation>已解释</translation>
+    </message>
+    <message>
+        <source>scenes held out</source>
+        <translation>留出的场景</translation>
+    </message>
+    <message>
+        <source>Steps: %1</source>
+        <translation>步骤：%1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ModelWork</name>
+    <message>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>add %1</source>
+        <translation>添加 %1</translation>
+    </message>
+    <message>
+        <source>remove %1</source>
+        <translation>移除 %1</translation>
+    </message>
+    <message>
+        <source>switch %1 on</source>
+        <translation>启用 %1</translation>
+    </message>
+    <message>
+        <source>switch %1 off</source>
+        <translation>停用 %1</translation>
+    </message>
+    <message>
+        <source>hold %1</source>
+        <translation>固定 %1</translation>
+    </message>
+    <message>
+        <source>fit %1 again</source>
+        <translation>重新拟合 %1</translation>
+    </message>
+    <message>
+        <source>go to step %1</source>
+        <translation>转到第 %1 步</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResidualMapPlot</name>
+    <message>
+        <source>Mean residual of each cell. Outlined: different from zero beyond chance, all cells taken together. Corners are arrows, enlarged.</source>
+        <translation>每格的平均残差。带框：全部格子一并考虑，显著不为零。角点以放大的箭头表示。</translation>
+    </message>
+    <message>
+        <source>only corners lie in the image</source>
+        <translation>只有角点位于图像中</translation>
+    </message>
+    <message>
+        <source>corners have no direction</source>
+        <translation>角点没有方向</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>没有数据</translation>
+    </message>
+    <message>
+        <source>mean residual (%1)</source>
+        <translation>平均残差（%1）</translation>
+    </message>
+    <message>
+        <source>longest arrow: %1 px</source>
+        <translation>最长箭头：%1 px</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResidualPlot</name>
+    <message>
+        <source>Each residual (measured − predicted) as a dot, denser where there are more. Marks: means of groups with two standard deviations, filled where they differ from zero beyond chance. Dashed lines: the noise of a single residual. Grey: the means of the base model.</source>
+        <translation>每个残差（测量 − 预测）为一点，越多越密。标记：分组均值及两倍标准差，显著不为零者填实。虚线：单个残差的噪声。灰色：基础模型的均值。</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>没有数据</translation>
+    </message>
+    <message>
+        <source>residual (%1)</source>
+        <translation>残差（%1）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::TermList</name>
+    <message>
+        <source>base model</source>
+        <translation>基础模型</translation>
+    </message>
+    <message>
+        <source>Pinhole camera, rigid board poses and one extrinsic</source>
+        <translation>针孔相机、刚性标定板位姿和一个外参</translation>
+    </message>
+    <message>
+        <source>Extrinsic moved by %1; it is known to %2.</source>
+        <translation>外参移动了 %1；其已知精度为 %2。</translation>
+    </message>
+    <message>
+        <source>Held: the value is yours and is not fitted</source>
+        <translation>固定：采用您的值，不拟合</translation>
+    </message>
+    <message>
+        <source>Value and standard deviation; believable: ±%1 %2. Double-click to hold it at a value of yours.</source>
+        <translation>值与标准差；可信范围：±%1 %2。双击可固定为您的值。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Model&lt;/b&gt;</source>
+        <translation>&lt;b&gt;模型&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>Effect</source>
+        <translation>效应</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>值</translation>
+    </message>
+    <message>
+        <source>Held</source>
+        <translation>固定</translation>
+    </message>
+    <message>
+        <source>Effects in the model</source>
+        <translation>模型中的效应</translation>
+    </message>
+    <message>
+        <source>&amp;Add…</source>
+        <translation>添加(&amp;A)…</translation>
+    </message>
+    <message>
+        <source>Add an effect of the catalogue, a formula or a curve</source>
+        <translation>添加目录中的效应、公式或曲线</translation>
+    </message>
+    <message>
+        <source>Re&amp;move</source>
+        <translation>移除(&amp;M)</translation>
+    </message>
+    <message>
+        <source>Take the chosen effect out of the model</source>
+        <translation>把所选效应移出模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::WhatIfPane</name>
+    <message>
+        <source>no effect</source>
+        <translation>无效应</translation>
+    </message>
+    <message>
+        <source>Choose an effect to see, before it is in the model, what it would leave in the residuals (orange).</source>
+        <translation>选择一个效应，在加入模型之前查看它会在残差中留下什么（橙色）。</translation>
+    </message>
+    <message>
+        <source>Orange: what the poses would leave of it; %1 %2 is the size that matters.</source>
+        <translation>橙色：位姿吸收后的残留；有影响的大小为 %1 %2。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;What if&lt;/b&gt;</source>
+        <translation>&lt;b&gt;假如&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>Size of the effect</source>
+        <translation>效应的大小</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::WherePane</name>
+    <message>
+        <source>all scenes</source>
+        <translation>所有场景</translation>
+    </message>
+    <message>
+        <source>no intensity in these clouds</source>
+        <translation>这些点云没有强度</translation>
+    </message>
+    <message>
+        <source>&amp;Channel</source>
+        <translation>通道(&amp;C)</translation>
+    </message>
+    <message>
+        <source>a&amp;gainst</source>
+        <translation>对(&amp;G)</translation>
+    </message>
+    <message>
+        <source>What the residuals may depend on, best first. The percentage is the share of the variance in scenes held out that a smooth curve of it explains.</source>
+        <translation>残差可能依赖的量，最好的在前。百分比是其平滑曲线在留出场景中解释的方差份额。</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Dragging selects measurements, in all figures and in cloud and image of their scene</source>
+        <translation>拖动以选择测量值，在所有图以及其场景的点云和图像中</translation>
+    </message>
+    <message>
+        <source>Before</source>
+        <translation>之前</translation>
+    </message>
+    <message>
+        <source>Show the means of the base model in grey</source>
+        <translation>以灰色显示基础模型的均值</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>闪烁</translation>
+    </message>
+    <message>
+        <source>Show measured and predicted in turns at the same place</source>
+        <translation>在同一位置交替显示测量值和预测值</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>Directions</source>
+        <translation>方向</translation>
+    </message>
+    <message>
+        <source>Board intensity</source>
+        <translation>板面强度</translation>
     </message>
 </context>
 </TS>
