@@ -43,6 +43,7 @@ WIDGET_DOORS = {
     "models": ["style", "runner"],
     "views": ["style"],
     "pages": ["style", "views"],
+    "modelling": ["style", "views", "runner"],
     "dialogs": ["style"],
     "docks": ["style", "models"],
     "start": ["style"],

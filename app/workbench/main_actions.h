@@ -5,10 +5,11 @@
 #include <QActionGroup>
 #include <QMenu>
 #include <QObject>
+#include <QPointer>
+#include <QUndoStack>
 #include <vector>
 
 class QMainWindow;
-class QUndoStack;
 class QToolBar;
 
 namespace lvcalib::widgets {
@@ -41,7 +42,9 @@ class MainActions : public QObject {
   QAction* add(QMenu* menu, const char* name, const QKeySequence& keys);
   void make_file_menu(QMainWindow& window);
   void make_view_menu(QMainWindow& window);
+  void describe_undo();
 
+  QPointer<QUndoStack> undo_stack_;
   QMenu *file_, *edit_, *run_menu_, *view_, *help_, *recent_, *theme_menu_, *language_menu_;
   QAction* before_toggles_ = nullptr;
 };

@@ -62,6 +62,7 @@ class Discoverer {
     out_.advice.insert(out_.advice.end(), about_unknown.begin(), about_unknown.end());
     for (const Selection& s : selections_) out_.selected.push_back(s.id);
     out_.state = search.state();
+    out_.scales = scales_of(table_);
     out_.covariance = search.joint_covariance().topLeftCorner<6, 6>();
     out_.budget = sensitivity_budget(search);
     out_.covariance_with_budget = covariance_with_budget(out_.covariance, out_.budget);

@@ -12,6 +12,7 @@
 #include "discovery/board_grid.h"
 #include "model/linear_model.h"
 #include "model/mixed_model.h"
+#include "model/model_scales.h"
 #include "model/table_builder.h"
 #include "model/user_effect.h"
 
@@ -145,6 +146,7 @@ struct Discovery {
   ModelState state;
   Matrix6d covariance = Matrix6d::Zero();  ///< Left perturbation, camera frame.
   std::vector<EffectInUse> model;
+  ModelScales scales;  ///< What the model's numbers refer to.
 };
 
 /// What discovery starts from: the scenes in use and the state of the plain calibration.

@@ -15,11 +15,31 @@ constexpr std::size_t kFewShapes = 8;   // more than these are first sieved on t
 constexpr std::size_t kSievedShapes = 3;
 constexpr std::size_t kRefitted = 3;  // candidates that get a full refit when they need one
 
+// Keeps the columns just appended where they are: their increments are known to be zero.
+void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
+  const std::size_t first = subset.columns.size() - columns.parameters.size();
+  for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
+    subset.prior_sigma[first + k] = 1e-6 * columns.parameters[k].material;
+    subset.prior_mean[first + k] = 0.0;
+  }
+}
+
 }  // namespace
 
 EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
                            const DiscoveryOptions& options, const RunContext& context)
     : table_(table), state_(std::move(state)), options_(options), context_(context) {
+  refit();
+}
+
+EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
+                           std::vector<EffectInUse> in_use, const DiscoveryOptions& options,
+                           const RunContext& context)
+    : table_(table),
+      state_(std::move(state)),
+      options_(options),
+      context_(context),
+      in_use_(std::move(in_use)) {
   refit();
 }
 
@@ -31,8 +51,10 @@ EffectColumnsList EffectSearch::own_columns() const {
 
 ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
   ColumnSubset subset;
-  for (std::size_t k = 0; k < in_use_.size(); ++k)
+  for (std::size_t k = 0; k < in_use_.size(); ++k) {
     append_columns(columns.list()[k], &in_use_[k].values, subset);
+    if (in_use_[k].held) hold_last(columns.list()[k], subset);
+  }
   return subset;
 }
 

@@ -13,6 +13,9 @@ class EffectSearch {
  public:
   EffectSearch(const MeasurementTable& table, ModelState state, const DiscoveryOptions& options,
                const RunContext& context);
+  /// Takes up the search at a model with effects in use, whose values are fitted again.
+  EffectSearch(const MeasurementTable& table, ModelState state, std::vector<EffectInUse> in_use,
+               const DiscoveryOptions& options, const RunContext& context);
 
   /// Adds an effect without asking and refits.
   void add(const EffectPtr& effect, double shape);
@@ -45,6 +48,9 @@ class EffectSearch {
   /// within its standard error.
   [[nodiscard]] std::optional<std::size_t> superfluous();
 
+  /// Shape numbers of an effect; of very many the few that the range residuals speak for.
+  [[nodiscard]] std::vector<double> shapes_worth_trying(const Effect& effect) const;
+
   [[nodiscard]] const MeasurementTable& table() const { return table_; }
   [[nodiscard]] const ModelState& state() const { return state_; }
   [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
@@ -58,7 +64,6 @@ class EffectSearch {
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;
-  [[nodiscard]] std::vector<double> shapes_worth_trying(const Effect& effect) const;
   [[nodiscard]] double profile(std::size_t k, double shape) const;
   void estimate_joint_covariance();
   [[nodiscard]] std::size_t own_count() const { return in_use_.size(); }

@@ -66,6 +66,7 @@ struct CalibrationResult {
   std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
   /// The extrinsic's covariance with the budget; zero before discover().
   Matrix6d covariance_with_budget = Matrix6d::Zero();
+  ModelScales model_scales;           ///< What the numbers of the model refer to.
   std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.

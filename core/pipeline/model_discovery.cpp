@@ -64,6 +64,7 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   }
   result.budget = discovery.budget;
   result.covariance_with_budget = discovery.covariance_with_budget;
+  result.model_scales = discovery.scales;
   result.model.clear();
   for (const EffectFinding& f : discovery.effects) {
     for (const EffectInUse& use : discovery.model) {
