@@ -40,7 +40,7 @@
         <translation>找不到数据集</translation>
     </message>
     <message>
-        <source>The project&apos;s dataset is not at
+        <source>The project's dataset is not at
 %1
 any more. Where is it now?</source>
         <translation>项目的数据集已不在
@@ -71,11 +71,11 @@ were saved. Take them up again?</source>
 <context>
     <name>CloudSceneText</name>
     <message>
-        <source>Only the board&apos;s points are loaded.</source>
+        <source>Only the board's points are loaded.</source>
         <translation>仅载入了标定板上的点。</translation>
     </message>
     <message>
-        <source>No board was found in this scene&apos;s cloud yet.</source>
+        <source>No board was found in this scene's cloud yet.</source>
         <translation>尚未在该场景的点云中找到标定板。</translation>
     </message>
     <message>
@@ -103,7 +103,7 @@ were saved. Take them up again?</source>
         <translation>该点云没有强度；现显示距离。</translation>
     </message>
     <message>
-        <source>The board&apos;s plane is not known in this scene; range is shown.</source>
+        <source>The board's plane is not known in this scene; range is shown.</source>
         <translation>该场景的标定板平面未知；现显示距离。</translation>
     </message>
     <message>
@@ -115,7 +115,7 @@ were saved. Take them up again?</source>
         <translation>距离 (m)</translation>
     </message>
     <message>
-        <source>range beyond the board&apos;s plane (mm)</source>
+        <source>range beyond the board's plane (mm)</source>
         <translation>超出标定板平面的距离 (mm)</translation>
     </message>
     <message>
@@ -146,19 +146,19 @@ were saved. Take them up again?</source>
         <translation>这些场景不足以确定外参：最差轴上为 ± %1 mm 和 ± %2 mrad；请增加标定板朝向不同的场景</translation>
     </message>
     <message>
-        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR measures it %1 % larger than target.yaml says; measure the print and correct tagSize</source>
+        <source>LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % larger than target.yaml says; measure the print and correct tagSize</source>
         <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 大 %1 %；请测量打印件并修正 tagSize</translation>
     </message>
     <message>
-        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR measures it %1 % smaller than target.yaml says; measure the print and correct tagSize</source>
+        <source>LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % smaller than target.yaml says; measure the print and correct tagSize</source>
         <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 小 %1 %；请测量打印件并修正 tagSize</translation>
     </message>
     <message>
-        <source>black print reads %1 mm farther than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
+        <source>black print reads %1 mm farther than white: the LiDAR's range depends on the reflectivity, an effect is missing in the model</source>
         <translation>黑色印刷区测距比白色远 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
-        <source>black print reads %1 mm nearer than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
+        <source>black print reads %1 mm nearer than white: the LiDAR's range depends on the reflectivity, an effect is missing in the model</source>
         <translation>黑色印刷区测距比白色近 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
@@ -202,27 +202,27 @@ were saved. Take them up again?</source>
         <translation>%1的精度比典型方向差 %2 倍：%3</translation>
     </message>
     <message>
-        <source>translation along the camera&apos;s x axis</source>
+        <source>translation along the camera's x axis</source>
         <translation>沿相机 x 轴的平移</translation>
     </message>
     <message>
-        <source>translation along the camera&apos;s y axis</source>
+        <source>translation along the camera's y axis</source>
         <translation>沿相机 y 轴的平移</translation>
     </message>
     <message>
-        <source>translation along the camera&apos;s z axis</source>
+        <source>translation along the camera's z axis</source>
         <translation>沿相机 z 轴的平移</translation>
     </message>
     <message>
-        <source>rotation about the camera&apos;s x axis</source>
+        <source>rotation about the camera's x axis</source>
         <translation>绕相机 x 轴的旋转</translation>
     </message>
     <message>
-        <source>rotation about the camera&apos;s y axis</source>
+        <source>rotation about the camera's y axis</source>
         <translation>绕相机 y 轴的旋转</translation>
     </message>
     <message>
-        <source>rotation about the camera&apos;s z axis</source>
+        <source>rotation about the camera's z axis</source>
         <translation>绕相机 z 轴的旋转</translation>
     </message>
     <message>
@@ -246,7 +246,7 @@ were saved. Take them up again?</source>
         <translation>增加一个近得多或远得多、或位于图像最左或最右的场景</translation>
     </message>
     <message>
-        <source>add a scene with the board near the image&apos;s edge</source>
+        <source>add a scene with the board near the image's edge</source>
         <translation>增加一个标定板靠近图像边缘的场景</translation>
     </message>
     <message>
@@ -374,19 +374,19 @@ were saved. Take them up again?</source>
         <translation>没有对比度：%1</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the paper&apos;s samples at the highest value</source>
+        <source>intensity clipped: %1 of the paper's samples at the highest value</source>
         <translation>强度被截断：纸面样本的 %1 处于最大值</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the circle&apos;s samples at the highest value</source>
+        <source>intensity clipped: %1 of the circle's samples at the highest value</source>
         <translation>强度被截断：圆内样本的 %1 处于最大值</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the paper&apos;s samples at the lowest value</source>
+        <source>intensity clipped: %1 of the paper's samples at the lowest value</source>
         <translation>强度被截断：纸面样本的 %1 处于最小值</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the circle&apos;s samples at the lowest value</source>
+        <source>intensity clipped: %1 of the circle's samples at the lowest value</source>
         <translation>强度被截断：圆内样本的 %1 处于最小值</translation>
     </message>
     <message>
@@ -502,15 +502,15 @@ were saved. Take them up again?</source>
         <translation>偏差更大（以 σ 计）的标签或节点将被剔除。</translation>
     </message>
     <message>
-        <source>A tag that misses the board&apos;s pose by more is dropped.</source>
+        <source>A tag that misses the board's pose by more is dropped.</source>
         <translation>偏离标定板位姿更多的标签将被丢弃。</translation>
     </message>
     <message>
-        <source>Added in quadrature to every node&apos;s standard deviation.</source>
+        <source>Added in quadrature to every node's standard deviation.</source>
         <translation>以平方和方式加到每个节点的标准差上。</translation>
     </message>
     <message>
-        <source>Added in quadrature to the plane&apos;s height.</source>
+        <source>Added in quadrature to the plane's height.</source>
         <translation>以平方和方式加到平面高度的标准差上。</translation>
     </message>
     <message>
@@ -558,7 +558,7 @@ were saved. Take them up again?</source>
         <translation>候选平面的平整度；0：由测得的噪声决定。</translation>
     </message>
     <message>
-        <source>Half-width of the overlap region in units of the transition&apos;s width.</source>
+        <source>Half-width of the overlap region in units of the transition's width.</source>
         <translation>重叠区的半宽，以过渡宽度为单位。</translation>
     </message>
     <message>
@@ -1026,7 +1026,7 @@ were saved. Take them up again?</source>
         <translation>四元数 x y z w</translation>
     </message>
     <message>
-        <source>Standard deviations along the camera&apos;s axes</source>
+        <source>Standard deviations along the camera's axes</source>
         <translation>沿相机各轴的标准差</translation>
     </message>
     <message>
@@ -1090,7 +1090,7 @@ were saved. Take them up again?</source>
         <translation>重叠区的样本数</translation>
     </message>
     <message>
-        <source>Where the intensity is half way, from the circle&apos;s edge, outside positive</source>
+        <source>Where the intensity is half way, from the circle's edge, outside positive</source>
         <translation>强度居中处到圆边缘的距离，向外为正</translation>
     </message>
     <message>
@@ -1182,7 +1182,7 @@ were saved. Take them up again?</source>
         <translation>留一法</translation>
     </message>
     <message>
-        <source>In the camera&apos;s view, one standard deviation</source>
+        <source>In the camera's view, one standard deviation</source>
         <translation>相机视野中的一倍标准差</translation>
     </message>
 </context>
@@ -1261,7 +1261,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>标定板 y (mm)</translation>
     </message>
     <message>
-        <source>The board from the front. Lines: how each circle&apos;s centre moved from the first to the last iteration, enlarged. Ellipse: twice the standard deviation of the refined centre, enlarged alike. Cross: where the model has it.</source>
+        <source>The board from the front. Lines: how each circle's centre moved from the first to the last iteration, enlarged. Ellipse: twice the standard deviation of the refined centre, enlarged alike. Cross: where the model has it.</source>
         <translation>标定板正面。线：各圆心从首次到末次迭代的移动（放大）。椭圆：精化圆心的两倍标准差（同样放大）。十字：模型中的位置。</translation>
     </message>
     <message>
@@ -1307,7 +1307,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>相机颜色</translation>
     </message>
     <message>
-        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), or the camera&apos;s own colours</source>
+        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board's plane (mm), or the camera's own colours</source>
         <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、超出标定板平面的距离 (mm) 或相机自身的颜色</translation>
     </message>
     <message>
@@ -1331,7 +1331,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>边界样本</translation>
     </message>
     <message>
-        <source>Which points are shown: all, those in the crop box, those about the board, or those beside the circles&apos; edges</source>
+        <source>Which points are shown: all, those in the crop box, those about the board, or those beside the circles' edges</source>
         <translation>显示哪些点：全部、裁剪框内、标定板附近或圆边缘附近</translation>
     </message>
     <message>
@@ -1370,7 +1370,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     </message>
     <message>
         <source>The cloud cannot be drawn: no OpenGL 3.2 on this screen.
-Install a graphics driver (or Mesa&apos;s software renderer).</source>
+Install a graphics driver (or Mesa's software renderer).</source>
         <translation>无法绘制点云：此屏幕不支持 OpenGL 3.2。
 请安装显卡驱动（或 Mesa 软件渲染器）。</translation>
     </message>
@@ -1399,10 +1399,14 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>传感器</translation>
     </message>
     <message>
-        <source>Look from the LiDAR&apos;s origin</source>
+        <source>Look from the LiDAR's origin</source>
         <translation>从激光雷达原点看</translation>
     </message>
-</context>
+<message>
+        <source>%1 (%2)</source>
+        <translation type="unfinished" />
+    </message>
+    </context>
 <context>
     <name>lvcalib::widgets::ConvergencePlot</name>
     <message>
@@ -1414,7 +1418,7 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>移动量 (mm)</translation>
     </message>
     <message>
-        <source>Thin lines: size of each circle&apos;s own correction in every iteration (mm), which ends at its measurement noise. Thick line: largest move of a centre after the projection to the layout; the refinement ends when it is small.</source>
+        <source>Thin lines: size of each circle's own correction in every iteration (mm), which ends at its measurement noise. Thick line: largest move of a centre after the projection to the layout; the refinement ends when it is small.</source>
         <translation>细线：每次迭代中各圆自身修正量的大小 (mm)，最终降到其测量噪声。粗线：投影到布局之后圆心的最大移动量；足够小时精化结束。</translation>
     </message>
     <message>
@@ -1441,7 +1445,7 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>中心 %1</translation>
     </message>
     <message>
-        <source>Middle of the box along the LiDAR&apos;s %1 axis, in metres</source>
+        <source>Middle of the box along the LiDAR's %1 axis, in metres</source>
         <translation>框中心沿激光雷达 %1 轴的坐标（米）</translation>
     </message>
     <message>
@@ -1472,7 +1476,15 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <source>Search the board in the whole cloud again</source>
         <translation>重新在完整点云中搜索标定板</translation>
     </message>
-</context>
+<message>
+        <source> m</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>°</source>
+        <translation type="unfinished" />
+    </message>
+    </context>
 <context>
     <name>lvcalib::widgets::ErrorDialog</name>
     <message>
@@ -1566,11 +1578,11 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>去掉后的转动 (mrad)</translation>
     </message>
     <message>
-        <source>Root mean square of the tag corners&apos; reprojection residuals, per scene (px). Pale: not used. Click: go to the scene.</source>
+        <source>Root mean square of the tag corners' reprojection residuals, per scene (px). Pale: not used. Click: go to the scene.</source>
         <translation>各场景标签角点重投影残差的均方根 (px)。浅色：未使用。单击：转到该场景。</translation>
     </message>
     <message>
-        <source>Root mean square of the refined LiDAR nodes against the board&apos;s model, per scene (mm); without circles, of the plane&apos;s height</source>
+        <source>Root mean square of the refined LiDAR nodes against the board's model, per scene (mm); without circles, of the plane's height</source>
         <translation>各场景精化后的激光节点与标定板模型之差的均方根 (mm)；没有圆时为平面高度之差</translation>
     </message>
     <message>
@@ -1582,7 +1594,7 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>各场景节点残差的长度 (mm)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
     </message>
     <message>
-        <source>How far the LiDAR&apos;s origin moves when the scene is left out (mm)</source>
+        <source>How far the LiDAR's origin moves when the scene is left out (mm)</source>
         <translation>去掉该场景时激光雷达原点的移动量 (mm)</translation>
     </message>
     <message>
@@ -1658,9 +1670,9 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
 
 # Pages
 - **Scene**: cloud and image of the scene that is selected in the list, with what was found in them. A crop box helps where the board is not found.
-- **Refinement**: how each circle&apos;s centre was found, bin by bin.
+- **Refinement**: how each circle's centre was found, bin by bin.
 - **Extrinsic**: the pose, its standard deviations, how the scenes agree, and the same scenes solved by other methods.
-- **Boundary response**: how returns scatter at the circles&apos; edges.
+- **Boundary response**: how returns scatter at the circles' edges.
 
 # Keys
 F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.
@@ -1682,6 +1694,25 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctr
 # 按键
 F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面，Ctrl+J 剔除、Ctrl+U 采用所选场景，空格键勾选或取消勾选。
 </translation>
+    </message>
+<message>
+        <source># From the board to a result
+1. **Print the board** at 1:1 with `lvcalib target target.yaml -o board.pdf`, glue it on something flat and measure a tag.
+2. **Take three to ten scenes**: an image and a cloud each, the board at 2–4 m, turned differently each time, seen whole by both sensors.
+3. **Lay out the folder**: `target.yaml`, `camera.yaml`, `scenes/NAME/image.png` and `scenes/NAME/cloud.pcd`.
+4. **Open it and press F5.** No rough guess is needed.
+5. **Look**: every scene should be *used*; a scene whose px, mm or influence stands out deserves a look on the Scene page. Untick it and the result follows at once.
+6. **Export** with Ctrl+E.
+
+# Pages
+- **Scene**: cloud and image of the scene that is selected in the list, with what was found in them. A crop box helps where the board is not found.
+- **Refinement**: how each circle's centre was found, bin by bin.
+- **Extrinsic**: the pose, its standard deviations and how the scenes agree.
+
+# Keys
+F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.
+</source>
+        <translation type="unfinished" />
     </message>
 </context>
 <context>
@@ -1773,6 +1804,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Pixel under the cursor (x, y) and its grey value</source>
         <translation>光标处的像素 (x, y) 及其灰度值</translation>
+    </message>
+<message>
+        <source>1:1</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>(%1, %2): %3</source>
+        <translation type="unfinished" />
     </message>
 </context>
 <context>
@@ -1916,7 +1955,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>使用 board.pcd 文件(&amp;F)</translation>
     </message>
     <message>
-        <source>Take a scene&apos;s board.pcd instead of its whole cloud where there is one</source>
+        <source>Take a scene's board.pcd instead of its whole cloud where there is one</source>
         <translation>若场景有 board.pcd，则用它代替完整点云</translation>
     </message>
     <message>
@@ -1979,6 +2018,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>Write the result as one HTML file with its figures</source>
         <translation>将结果连同图表写成一个 HTML 文件</translation>
     </message>
+<message>
+        <source>Simulate four scenes and open them, with a guided tour</source>
+        <translation>模拟四个场景并打开，附带导览</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::MainWindow</name>
@@ -1986,7 +2029,26 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>LV-Calib Workbench</source>
         <translation>LV-Calib 工作台</translation>
     </message>
-</context>
+<message>
+        <source>Exported %1.</source>
+        <translation>已导出 %1。</translation>
+    </message>
+    <message>
+        <source>Exported %1</source>
+        <translation>已导出 %1</translation>
+    </message>
+    <message>
+        <source>About</source>
+        <translation>关于</translation>
+    </message>
+    <message>
+        <source>LV-Calib Workbench %1
+
+LiDAR–camera calibration with a printed board.
+GPL-3.0-or-later (core library: BSD-3-Clause)</source>
+        <translation type="unfinished" />
+    </message>
+    </context>
 <context>
     <name>lvcalib::widgets::MethodsPane</name>
     <message>
@@ -2050,7 +2112,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>外参的求法，以及所用的圆心：初始（原始）或精化</translation>
     </message>
     <message>
-        <source>Root mean square of the corners&apos; reprojection residuals</source>
+        <source>Root mean square of the corners' reprojection residuals</source>
         <translation>角点重投影残差的均方根</translation>
     </message>
     <message>
@@ -2058,7 +2120,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>精化节点残差的均方根</translation>
     </message>
     <message>
-        <source>Corners predicted from the LiDAR alone against the corners found: an extrinsic&apos;s error undiminished by the board poses</source>
+        <source>Corners predicted from the LiDAR alone against the corners found: an extrinsic's error undiminished by the board poses</source>
         <translation>仅由激光雷达预测的角点与检测角点之差：未被标定板位姿吸收的外参误差</translation>
     </message>
     <message>
@@ -2070,7 +2132,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>该方法未使用的场景的节点</translation>
     </message>
     <message>
-        <source>Distance of the LiDAR&apos;s origin to where the joint result has it</source>
+        <source>Distance of the LiDAR's origin to where the joint result has it</source>
         <translation>激光雷达原点与联合解中位置的距离</translation>
     </message>
     <message>
@@ -2137,6 +2199,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Boundary response</source>
         <translation>边界响应</translation>
+    </message>
+<message>
+        <source>Model</source>
+        <translation>模型</translation>
     </message>
 </context>
 <context>
@@ -2208,7 +2274,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
 <context>
     <name>lvcalib::widgets::RangePlot</name>
     <message>
-        <source>range off the board&apos;s plane (mm)</source>
+        <source>range off the board's plane (mm)</source>
         <translation>偏离标定板平面的距离 (mm)</translation>
     </message>
     <message>
@@ -2216,7 +2282,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>样本数</translation>
     </message>
     <message>
-        <source>Ranges of the samples of the overlap region, less the range of the board&apos;s plane along the same ray, in classes of 2 mm. Lines: one standard deviation of the range of a beam on the edge.</source>
+        <source>Ranges of the samples of the overlap region, less the range of the board's plane along the same ray, in classes of 2 mm. Lines: one standard deviation of the range of a beam on the edge.</source>
         <translation>重叠区样本的距离减去同一光线上标定板平面的距离，每组 2 mm。竖线：边缘上光束距离的一倍标准差。</translation>
     </message>
     <message>
@@ -2354,7 +2420,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>未采用的圆</translation>
     </message>
     <message>
-        <source>Run the calibration to see how returns scatter at the circles&apos; edges.</source>
+        <source>Run the calibration to see how returns scatter at the circles' edges.</source>
         <translation>运行标定后可查看回波在圆边缘处的散布。</translation>
     </message>
     <message>
@@ -2586,7 +2652,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>px</translation>
     </message>
     <message>
-        <source>Root mean square of the tag corners&apos; reprojection errors, px.</source>
+        <source>Root mean square of the tag corners' reprojection errors, px.</source>
         <translation>标签角点重投影误差的均方根（px）。</translation>
     </message>
     <message>
@@ -2594,7 +2660,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>mm</translation>
     </message>
     <message>
-        <source>Root mean square distance of LiDAR nodes to the board&apos;s, mm.</source>
+        <source>Root mean square distance of LiDAR nodes to the board's, mm.</source>
         <translation>激光节点到标定板节点距离的均方根（mm）。</translation>
     </message>
     <message>
@@ -2641,7 +2707,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>，时间 %1 ms</translation>
     </message>
     <message>
-        <source>, %1 mm beyond the board&apos;s plane</source>
+        <source>, %1 mm beyond the board's plane</source>
         <translation>，超出标定板平面 %1 mm</translation>
     </message>
     <message>
@@ -2683,6 +2749,16 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Click a point, a pixel or a tag to see its values in both views.</source>
         <translation>单击点、像素或标签，可在两个视图中查看其数值。</translation>
+    </message>
+<message>
+        <source>(%1, %2)</source>
+        <translation type="unfinished" />
+    </message>
+    <message numerus="yes">
+        <source>%n measurements selected on the Model page</source>
+        <translation>
+            <numerusform>模型页上选中了 %n 个测量值</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2854,6 +2930,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>Recent (or drop a folder on this window)</source>
         <translation>最近打开（也可将文件夹拖到此窗口）</translation>
     </message>
+<message>
+        <source>Simulates four scenes with an effect hidden in them, and a tour to find it</source>
+        <translation>模拟四个藏有一个效应的场景，并带您找到它</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::Workspace</name>
@@ -2903,7 +2983,45 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>failed</source>
         <translation>失败</translation>
     </message>
-</context>
+<message>
+        <source>accept %1</source>
+        <translation>采用 %1</translation>
+    </message>
+    <message>
+        <source>reject %1</source>
+        <translation>剔除 %1</translation>
+    </message>
+    <message>
+        <source>crop %1</source>
+        <translation>裁剪 %1</translation>
+    </message>
+    <message>
+        <source>uncrop %1</source>
+        <translation>取消裁剪 %1</translation>
+    </message>
+    <message>
+        <source>change %1</source>
+        <translation>修改 %1</translation>
+    </message>
+    <message>
+        <source>reset all parameters</source>
+        <translation>重置全部参数</translation>
+    </message>
+    <message>
+        <source>use board.pcd files</source>
+        <translation>使用 board.pcd 文件</translation>
+    </message>
+    <message>
+        <source>use whole clouds</source>
+        <translation>使用完整点云</translation>
+    </message>
+    <message numerus="yes">
+        <source>add %n scenes</source>
+        <translation type="unfinished">
+            <numerusform />
+        </translation>
+    </message>
+    </context>
 <context>
     <name>main</name>
     <message>
@@ -2911,12 +3029,807 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>用打印标定板标定激光雷达与相机</translation>
     </message>
     <message>
-        <source>Folder for settings and data, instead of the user&apos;s.</source>
+        <source>Folder for settings and data, instead of the user's.</source>
         <translation>存放设置和数据的文件夹，代替用户默认位置。</translation>
     </message>
     <message>
         <source>Dataset folder or project.</source>
         <translation>数据集文件夹或项目。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::Builder</name>
+    <message>
+        <source>Only the board's points are loaded.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>No board was found in this scene's cloud yet.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>The cloud is not loaded yet.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>There are no boundary samples in this scene.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>No crop box is set: all points are shown.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>Camera colours need an image and an extrinsic; intensity is shown.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>camera colour (grey: not in the image)</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>This cloud has no intensity; range is shown.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>The board's plane is not known in this scene; range is shown.</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>height z (m)</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>range (m)</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>range beyond the board's plane (mm)</source>
+        <translation type="unfinished" />
+    </message>
+    <message>
+        <source>intensity</source>
+        <translation type="unfinished" />
+    </message>
+</context>
+<context>
+    <name>ModelText</name>
+    <message>
+        <source>board x</source>
+        <translation>板面 x</translation>
+    </message>
+    <message>
+        <source>board y</source>
+        <translation>板面 y</translation>
+    </message>
+    <message>
+        <source>board radius</source>
+        <translation>板面半径</translation>
+    </message>
+    <message>
+        <source>range</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>azimuth</source>
+        <translation>方位角</translation>
+    </message>
+    <message>
+        <source>elevation</source>
+        <translation>仰角</translation>
+    </message>
+    <message>
+        <source>incidence</source>
+        <translation>入射角</translation>
+    </message>
+    <message>
+        <source>tilt direction</source>
+        <translation>倾斜方向</translation>
+    </message>
+    <message>
+        <source>scene clock</source>
+        <translation>场景时序</translation>
+    </message>
+    <message>
+        <source>time in scan</source>
+        <translation>扫描内时间</translation>
+    </message>
+    <message>
+        <source>scan speed</source>
+        <translation>扫描速度</translation>
+    </message>
+    <message>
+        <source>scan direction</source>
+        <translation>扫描方向</translation>
+    </message>
+    <message>
+        <source>laser line</source>
+        <translation>激光线</translation>
+    </message>
+    <message>
+        <source>image x</source>
+        <translation>图像 x</translation>
+    </message>
+    <message>
+        <source>image y</source>
+        <translation>图像 y</translation>
+    </message>
+    <message>
+        <source>image radius</source>
+        <translation>图像半径</translation>
+    </message>
+    <message>
+        <source>radial from image centre</source>
+        <translation>相对图像中心的径向</translation>
+    </message>
+    <message>
+        <source>radial from tag centre</source>
+        <translation>相对标签中心的径向</translation>
+    </message>
+    <message>
+        <source>tag size</source>
+        <translation>标签大小</translation>
+    </message>
+    <message>
+        <source>sub-pixel phase</source>
+        <translation>亚像素相位</translation>
+    </message>
+    <message>
+        <source>tag</source>
+        <translation>标签</translation>
+    </message>
+    <message>
+        <source>corner and axis</source>
+        <translation>角点与轴</translation>
+    </message>
+    <message>
+        <source>darkness</source>
+        <translation>暗度</translation>
+    </message>
+    <message>
+        <source>print</source>
+        <translation>印刷</translation>
+    </message>
+    <message>
+        <source>intensity</source>
+        <translation>强度</translation>
+    </message>
+    <message>
+        <source>inverse range</source>
+        <translation>距离倒数</translation>
+    </message>
+    <message>
+        <source>distance to edge</source>
+        <translation>到边缘的距离</translation>
+    </message>
+    <message>
+        <source>polar angle</source>
+        <translation>极角</translation>
+    </message>
+    <message>
+        <source>polar angle to tilt</source>
+        <translation>相对倾斜的极角</translation>
+    </message>
+    <message>
+        <source>polar angle to LiDAR axes</source>
+        <translation>相对激光雷达轴的极角</translation>
+    </message>
+    <message>
+        <source>scan across edge</source>
+        <translation>横过边缘的扫描</translation>
+    </message>
+    <message>
+        <source>contrast</source>
+        <translation>对比度</translation>
+    </message>
+    <message>
+        <source>circle</source>
+        <translation>圆</translation>
+    </message>
+    <message>
+        <source>corner</source>
+        <translation>角点</translation>
+    </message>
+    <message>
+        <source>boundary</source>
+        <translation>边界</translation>
+    </message>
+    <message>
+        <source>log. intensity</source>
+        <translation>对数强度</translation>
+    </message>
+    <message>
+        <source>white</source>
+        <translation>白</translation>
+    </message>
+    <message>
+        <source>black</source>
+        <translation>黑</translation>
+    </message>
+    <message>
+        <source>present</source>
+        <translation>存在</translation>
+    </message>
+    <message>
+        <source>absent</source>
+        <translation>不存在</translation>
+    </message>
+    <message>
+        <source>one of several</source>
+        <translation>若干之一</translation>
+    </message>
+    <message>
+        <source>cannot tell</source>
+        <translation>无法判断</translation>
+    </message>
+    <message>
+        <source>%1%2 (held)</source>
+        <translation>%1%2（固定）</translation>
+    </message>
+    <message>
+        <source>base model</source>
+        <translation>基础模型</translation>
+    </message>
+    <message>
+        <source>%1 held</source>
+        <translation>%1 固定</translation>
+    </message>
+    <message>
+        <source>%1 fitted</source>
+        <translation>%1 拟合</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::AddEffectDialog</name>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>添加(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Add an effect</source>
+        <translation>添加效应</translation>
+    </message>
+    <message>
+        <source>Catalogue</source>
+        <translation>目录</translation>
+    </message>
+    <message>
+        <source>Formula</source>
+        <translation>公式</translation>
+    </message>
+    <message>
+        <source>Curve</source>
+        <translation>曲线</translation>
+    </message>
+    <message>
+        <source>leaves no pattern in these scenes</source>
+        <translation>在这些场景中不留下图样</translation>
+    </message>
+    <message>
+        <source>Search by name, physics or formula</source>
+        <translation>按名称、物理含义或公式搜索</translation>
+    </message>
+    <message>
+        <source>What is added to the measurement, in m (range, boundary), px (corner) or the logarithm of the intensity. Covariates are in m, rad and px. Other names are coefficients, which are fitted; the formula must be linear in them.</source>
+        <translation>加到测量值上的量，单位为 m（距离、边界）、px（角点）或强度的对数。协变量的单位为 m、rad 和 px。其他名称是待拟合的系数；公式对它们必须是线性的。</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Covariates</source>
+        <translation>协变量</translation>
+    </message>
+    <message>
+        <source>A smooth curve stands in for a cause that nobody knows yet. Of two covariates it is a surface.</source>
+        <translation>平滑曲线用来代替尚不知道的原因；两个协变量时为曲面。</translation>
+    </message>
+    <message>
+        <source>Along</source>
+        <translation>沿</translation>
+    </message>
+    <message>
+        <source>and</source>
+        <translation>和</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;No effect matches.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;没有匹配的效应。&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Formula:</source>
+        <translation>公式：</translation>
+    </message>
+    <message>
+        <source>To tell it from others:</source>
+        <translation>与其他效应区分的办法：</translation>
+    </message>
+    <message>
+        <source>Source:</source>
+        <translation>来源：</translation>
+    </message>
+    <message>
+        <source>its pattern is being drawn …</source>
+        <translation>正在绘制其图样……</translation>
+    </message>
+    <message>
+        <source>not with these measurements</source>
+        <translation>这些测量值无法使用</translation>
+    </message>
+    <message>
+        <source>nothing else</source>
+        <translation>无其他</translation>
+    </message>
+    <message>
+        <source>Cannot be used here: %1</source>
+        <translation>此处无法使用：%1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BoardIntensityView</name>
+    <message>
+        <source>Intensity over the board: measured, as the model predicts it, and the difference (blue: darker than predicted, red: brighter).</source>
+        <translation>标定板上的强度：测量值、模型预测值和差值（蓝色：比预测暗，红色：比预测亮）。</translation>
+    </message>
+    <message>
+        <source>no intensity in these clouds</source>
+        <translation>这些点云没有强度</translation>
+    </message>
+    <message>
+        <source>measured (%1 … %2)</source>
+        <translation>测量（%1 … %2）</translation>
+    </message>
+    <message>
+        <source>predicted</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>difference (±%1)</source>
+        <translation>差值（±%1）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BudgetPlot</name>
+    <message>
+        <source>The history of the error appears here.</source>
+        <translation>误差的历史显示在这里。</translation>
+    </message>
+    <message>
+        <source>squared error (%)</source>
+        <translation>平方误差 (%)</translation>
+    </message>
+    <message>
+        <source>Squared error by the base model's: grey noise, red unexplained, green explained by effects; diamonds: scenes held out. Click to go to a step.</source>
+        <translation>相对于基础模型的平方误差：灰色为噪声，红色为未解释，绿色为效应已解释；菱形：留出的场景。单击可转到某一步。</translation>
+    </message>
+    <message>
+        <source>Step %1, %2: %3
+RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
+        <translation>第 %1 步，%2：%3
+均方根 %4，噪声 %5，未解释 %6，留出 %7（%8）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CoachMarks</name>
+    <message>
+        <source>Done</source>
+        <translation>完成</translation>
+    </message>
+    <message>
+        <source>Next</source>
+        <translation>下一步</translation>
+    </message>
+    <message>
+        <source>End the tour</source>
+        <translation>结束导览</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::DemoTour</name>
+    <message>
+        <source>These scenes were simulated just now, by a LiDAR with an error that the calibration does not know. Press &lt;b&gt;Run all&lt;/b&gt;.</source>
+        <translation>这些场景刚刚模拟生成，所用激光雷达有一个标定并不知道的误差。请按&lt;b&gt;全部运行&lt;/b&gt;。</translation>
+    </message>
+    <message>
+        <source>The calibration is done, and its figures look fine. Open the &lt;b&gt;Model&lt;/b&gt; page to ask what it misses.</source>
+        <translation>标定已完成，数值看起来不错。打开&lt;b&gt;模型&lt;/b&gt;页，看看它遗漏了什么。</translation>
+    </message>
+    <message>
+        <source>The effects that may be missing are being tried; scenes held out decide. The best one comes first, with a sentence on what was seen and how sure that is.</source>
+        <translation>正在逐一尝试可能遗漏的效应，由留出的场景决定。最好的排在最前，并用一句话说明看到了什么、有多大把握。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Range walk&lt;/b&gt;: dark print reads too far. The orange curve is its pattern at the size found; the marks are what is measured.</source>
+        <translation>&lt;b&gt;Range walk&lt;/b&gt;（距离随强度漂移）：深色印刷读数偏远。橙色曲线是按所得大小绘出的图样，标记是测量值。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Add&lt;/b&gt; it to the model.</source>
+        <translation>把它&lt;b&gt;添加&lt;/b&gt;到模型中。</translation>
+    </message>
+    <message>
+        <source>The red, unexplained share is gone, in scenes held out as well (diamonds), and the extrinsic has moved. Click an earlier step or undo to compare.</source>
+        <translation>红色的未解释部分消失了，留出的场景（菱形）也一样，外参随之移动。单击较早的步骤或撤销以作比较。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::MissingPane</name>
+    <message>
+        <source>its pattern cannot be seen</source>
+        <translation>看不到其图样</translation>
+    </message>
+    <message>
+        <source>or: %1</source>
+        <translation>或：%1</translation>
+    </message>
+    <message>
+        <source>Predicted fall of the squared error in scenes held out</source>
+        <translation>留出场景中平方误差的预计降幅</translation>
+    </message>
+    <message>
+        <source>%1 against %2</source>
+        <translation>%1 对 %2</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>未知</translation>
+    </message>
+    <message>
+        <source>Looking for what is missing …</source>
+        <translation>正在查找遗漏的效应……</translation>
+    </message>
+    <message>
+        <source>Nobody has looked yet.</source>
+        <translation>尚未查找。</translation>
+    </message>
+    <message>
+        <source>Run the calibration first.</source>
+        <translation>请先运行标定。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Nothing is missing&lt;/b&gt; in the model, as far as these scenes can tell.</source>
+        <translation>就这些场景而言，模型中&lt;b&gt;没有遗漏&lt;/b&gt;。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Something is left&lt;/b&gt; that no known effect explains.</source>
+        <translation>&lt;b&gt;仍有残余&lt;/b&gt;，没有已知效应能解释。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;%1 is missing.&lt;/b&gt;</source>
+        <translation>&lt;b&gt;遗漏了 %1。&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>Add &amp;curve…</source>
+        <translation>添加曲线(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>添加(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>&amp;Look again</source>
+        <translation>重新查找(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Adding it moves the extrinsic by %1.</source>
+        <translation>添加后外参移动 %1。</translation>
+    </message>
+    <message>
+        <source>its pattern is being drawn …</source>
+        <translation>正在绘制其图样……</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). No effect of the catalogue explains it: a smooth curve can stand in for it.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;在留出的场景中，%2 残差的方差有 %1 % 随 %3 变化（%4 %5）。目录中没有效应能解释它：可用平滑曲线代替。&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>What is missing</source>
+        <translation>遗漏了什么</translation>
+    </message>
+    <message>
+        <source>What cannot be seen</source>
+        <translation>看不到什么</translation>
+    </message>
+    <message>
+        <source>Effects that these scenes could not show, and by how much they would spoil the extrinsic at the size that matters</source>
+        <translation>这些场景无法显示的效应，以及达到有影响的大小时会使外参偏离多少</translation>
+    </message>
+    <message>
+        <source>Effect</source>
+        <translation>效应</translation>
+    </message>
+    <message>
+        <source>Verdict</source>
+        <translation>结论</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>误差</translation>
+    </message>
+    <message>
+        <source>Could move by</source>
+        <translation>可能移动</translation>
+    </message>
+    <message>
+        <source>Left</source>
+        <translation>残留</translation>
+    </message>
+    <message>
+        <source>Share of its squared effect that the poses leave</source>
+        <translation>位姿吸收后剩下的平方效应份额</translation>
+    </message>
+    <message>
+        <source>&amp;Find all</source>
+        <translation>全部查找(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Add what scenes held out speak for, one after the other</source>
+        <translation>逐个添加留出场景所支持的效应</translation>
+    </message>
+    <message>
+        <source>Add the chosen effect to the model</source>
+        <translation>把所选效应添加到模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ModelPage</name>
+    <message>
+        <source>Run the calibration to see what its model explains and what it misses.</source>
+        <translation>运行标定，查看模型解释了什么、遗漏了什么。</translation>
+    </message>
+    <message>
+        <source>noise</source>
+        <translation>噪声</translation>
+    </message>
+    <message>
+        <source>unexplained</source>
+        <translation>未解释</translation>
+    </message>
+    <message>
+        <source>explained</source>
+        <translation>已解释</translation>
+    </message>
+    <message>
+        <source>scenes held out</source>
+        <translation>留出的场景</translation>
+    </message>
+    <message>
+        <source>Steps: %1</source>
+        <translation>步骤：%1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ModelWork</name>
+    <message>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>add %1</source>
+        <translation>添加 %1</translation>
+    </message>
+    <message>
+        <source>remove %1</source>
+        <translation>移除 %1</translation>
+    </message>
+    <message>
+        <source>switch %1 on</source>
+        <translation>启用 %1</translation>
+    </message>
+    <message>
+        <source>switch %1 off</source>
+        <translation>停用 %1</translation>
+    </message>
+    <message>
+        <source>hold %1</source>
+        <translation>固定 %1</translation>
+    </message>
+    <message>
+        <source>fit %1 again</source>
+        <translation>重新拟合 %1</translation>
+    </message>
+    <message>
+        <source>go to step %1</source>
+        <translation>转到第 %1 步</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResidualMapPlot</name>
+    <message>
+        <source>Mean residual of each cell. Outlined: different from zero beyond chance, all cells taken together. Corners are arrows, enlarged.</source>
+        <translation>每格的平均残差。带框：全部格子一并考虑，显著不为零。角点以放大的箭头表示。</translation>
+    </message>
+    <message>
+        <source>only corners lie in the image</source>
+        <translation>只有角点位于图像中</translation>
+    </message>
+    <message>
+        <source>corners have no direction</source>
+        <translation>角点没有方向</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>没有数据</translation>
+    </message>
+    <message>
+        <source>mean residual (%1)</source>
+        <translation>平均残差（%1）</translation>
+    </message>
+    <message>
+        <source>longest arrow: %1 px</source>
+        <translation>最长箭头：%1 px</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResidualPlot</name>
+    <message>
+        <source>Each residual (measured − predicted) as a dot, denser where there are more. Marks: means of groups with two standard deviations, filled where they differ from zero beyond chance. Dashed lines: the noise of a single residual. Grey: the means of the base model.</source>
+        <translation>每个残差（测量 − 预测）为一点，越多越密。标记：分组均值及两倍标准差，显著不为零者填实。虚线：单个残差的噪声。灰色：基础模型的均值。</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>没有数据</translation>
+    </message>
+    <message>
+        <source>residual (%1)</source>
+        <translation>残差（%1）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::TermList</name>
+    <message>
+        <source>base model</source>
+        <translation>基础模型</translation>
+    </message>
+    <message>
+        <source>Pinhole camera, rigid board poses and one extrinsic</source>
+        <translation>针孔相机、刚性标定板位姿和一个外参</translation>
+    </message>
+    <message>
+        <source>Extrinsic moved by %1; it is known to %2.</source>
+        <translation>外参移动了 %1；其已知精度为 %2。</translation>
+    </message>
+    <message>
+        <source>Held: the value is yours and is not fitted</source>
+        <translation>固定：采用您的值，不拟合</translation>
+    </message>
+    <message>
+        <source>Value and standard deviation; believable: ±%1 %2. Double-click to hold it at a value of yours.</source>
+        <translation>值与标准差；可信范围：±%1 %2。双击可固定为您的值。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Model&lt;/b&gt;</source>
+        <translation>&lt;b&gt;模型&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>Effect</source>
+        <translation>效应</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>值</translation>
+    </message>
+    <message>
+        <source>Held</source>
+        <translation>固定</translation>
+    </message>
+    <message>
+        <source>Effects in the model</source>
+        <translation>模型中的效应</translation>
+    </message>
+    <message>
+        <source>&amp;Add…</source>
+        <translation>添加(&amp;A)…</translation>
+    </message>
+    <message>
+        <source>Add an effect of the catalogue, a formula or a curve</source>
+        <translation>添加目录中的效应、公式或曲线</translation>
+    </message>
+    <message>
+        <source>Re&amp;move</source>
+        <translation>移除(&amp;M)</translation>
+    </message>
+    <message>
+        <source>Take the chosen effect out of the model</source>
+        <translation>把所选效应移出模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::WhatIfPane</name>
+    <message>
+        <source>no effect</source>
+        <translation>无效应</translation>
+    </message>
+    <message>
+        <source>Choose an effect to see, before it is in the model, what it would leave in the residuals (orange).</source>
+        <translation>选择一个效应，在加入模型之前查看它会在残差中留下什么（橙色）。</translation>
+    </message>
+    <message>
+        <source>Orange: what the poses would leave of it; %1 %2 is the size that matters.</source>
+        <translation>橙色：位姿吸收后的残留；有影响的大小为 %1 %2。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;What if&lt;/b&gt;</source>
+        <translation>&lt;b&gt;假如&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>Size of the effect</source>
+        <translation>效应的大小</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::WherePane</name>
+    <message>
+        <source>all scenes</source>
+        <translation>所有场景</translation>
+    </message>
+    <message>
+        <source>no intensity in these clouds</source>
+        <translation>这些点云没有强度</translation>
+    </message>
+    <message>
+        <source>&amp;Channel</source>
+        <translation>通道(&amp;C)</translation>
+    </message>
+    <message>
+        <source>a&amp;gainst</source>
+        <translation>对(&amp;G)</translation>
+    </message>
+    <message>
+        <source>What the residuals may depend on, best first. The percentage is the share of the variance in scenes held out that a smooth curve of it explains.</source>
+        <translation>残差可能依赖的量，最好的在前。百分比是其平滑曲线在留出场景中解释的方差份额。</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Dragging selects measurements, in all figures and in cloud and image of their scene</source>
+        <translation>拖动以选择测量值，在所有图以及其场景的点云和图像中</translation>
+    </message>
+    <message>
+        <source>Before</source>
+        <translation>之前</translation>
+    </message>
+    <message>
+        <source>Show the means of the base model in grey</source>
+        <translation>以灰色显示基础模型的均值</translation>
+    </message>
+    <message>
+        <source>Flicker</source>
+        <translation>闪烁</translation>
+    </message>
+    <message>
+        <source>Show measured and predicted in turns at the same place</source>
+        <translation>在同一位置交替显示测量值和预测值</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>Directions</source>
+        <translation>方向</translation>
+    </message>
+    <message>
+        <source>Board intensity</source>
+        <translation>板面强度</translation>
     </message>
 </context>
 </TS>

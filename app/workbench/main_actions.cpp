@@ -165,7 +165,7 @@ void MainActions::retranslate() {
   };
   describe(open_dataset, tr("&Open dataset…"), tr("Open a dataset folder"));
   describe(open_project, tr("Open &project…"), tr("Open a .lvcalib file"));
-  describe(demo, tr("Try the &demo"), tr("Simulate three scenes and open them"));
+  describe(demo, tr("Try the &demo"), tr("Simulate four scenes and open them, with a guided tour"));
   describe(save, tr("&Save"), tr("Save the decisions as a project"));
   describe(save_as, tr("Save &as…"), tr("Save the project under another name"));
   describe(results, tr("R&esults…"), tr("Show and export the result"));

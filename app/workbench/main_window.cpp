@@ -9,6 +9,7 @@
 #include <QMimeData>
 #include <QShortcut>
 #include <QToolBar>
+#include <utility>
 
 #include "dialogs/about_dialog.h"
 #include "dialogs/error_dialog.h"
@@ -16,9 +17,12 @@
 #include "docks/log_dock.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
+#include "modelling/model_page.h"
+#include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
 #include "style/texts.h"
+#include "workbench/demo_tour.h"
 #include "workbench/language.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
@@ -33,6 +37,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       choices_(choices),
       demo_(demo_options()),
       workspace_(std::make_unique<Workspace>(settings.data_folder())),
+      model_work_(std::make_unique<ModelWork>(*workspace_)),
       actions_(new MainActions(*this, workspace_->undo_stack())),
       scenes_(new ScenesDock(model_, this)),
       parameters_(new ParametersDock(this)),
@@ -41,6 +46,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       status_(new StatusLine(this)),
       results_(new ResultActions(choices, settings, *this)) {
   setObjectName(QStringLiteral("main_window"));
+  pages_->add_model_page(*model_work_);
   setAcceptDrops(true);
   setCentralWidget(pages_);
   setStatusBar(status_);
@@ -56,6 +62,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   connect_workspace();
   connect_pages();
   connect_results();
+  connect_model();
   restore_window();
   pages_->welcome().set_recent(settings_.recent());
   actions_->set_recent(settings_.recent());
@@ -65,6 +72,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
 
 MainWindow::~MainWindow() {
   // Nothing may be told to parts that are already gone.
+  model_work_->disconnect(this);
   workspace_->disconnect(this);
   workspace_->undo_stack().disconnect(this);
   delete scenes_;  // Before the model that it shows; other children go after the members.
@@ -91,7 +99,9 @@ void MainWindow::connect_actions() {
     if (!path.isEmpty()) open(path);
   };
   const auto demo = [this] {
-    if (may_drop_decisions()) workspace_->open_demo(demo_);
+    if (!may_drop_decisions()) return;
+    demo_opening_ = true;
+    workspace_->open_demo(demo_);
   };
   const auto guide = [this] { (new GuideDialog(this))->show(); };
   on(actions_->open_dataset, open_dataset);
@@ -101,11 +111,13 @@ void MainWindow::connect_actions() {
   on(actions_->about, [this] { (new AboutDialog(this))->show(); });
   on(actions_->save, [this] { save(false); });
   on(actions_->save_as, [this] { save(true); });
-  on(actions_->results, [this] { results_->show(workspace_->result()); });
-  on(actions_->report, [this] { results_->write_report(workspace_->result()); });
+  on(actions_->results, [this] { results_->show(final_result()); });
+  on(actions_->report,
+     [this] { results_->write_report(final_result(), model_work_->discovery()); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();
+    model_work_->cancel();
     results_->cancel();
   });
   on(actions_->use_crops, [this](bool use) { workspace_->set_use_crops(use); });
@@ -245,11 +257,17 @@ void MainWindow::take_opened() {
   pages_->start(dataset.target);
   pages_->show_pages();
   if (!dataset.scenes.empty()) scenes_->select(scene_name(0));
+  if (std::exchange(demo_opening_, false)) {
+    start_tour();
+  } else if (tour_ != nullptr) {
+    tour_->end();
+  }
   update_title();
   update_actions();
 }
 
 void MainWindow::take_result() {
+  pages_->model_page()->setReason({});
   model_.set_result(workspace_->result());
   pages_->set_result(workspace_->result());
   status_->show_quality(workspace_->result(), workspace_->up_to_date());
@@ -332,7 +350,7 @@ void MainWindow::update_actions() {
   const bool open = workspace_->is_open();
   const bool busy = workspace_->busy();
   actions_->run->setEnabled(open && !busy);
-  actions_->cancel->setEnabled(busy || results_->busy());
+  actions_->cancel->setEnabled(busy || results_->busy() || model_work_->busy());
   actions_->save->setEnabled(open);
   actions_->save_as->setEnabled(open);
   actions_->use_crops->setEnabled(open);
@@ -357,6 +375,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   }
   settings_.set_window(saveGeometry(), saveState());
   workspace_->cancel();
+  model_work_->cancel();
   results_->cancel();
   loader_.clear();
   event->accept();

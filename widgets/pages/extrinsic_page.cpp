@@ -13,7 +13,7 @@
 #include "pages/methods_pane.h"
 #include "pages/pose_text.h"
 #include "pages/scene_overlay.h"
-#include "pages/uncertainty_text.h"
+#include "pages/uncertainty_pane.h"
 #include "style/texts.h"
 #include "views/category_plots.h"
 #include "views/cloud_scene_builder.h"
@@ -54,8 +54,8 @@ ExtrinsicPage::ExtrinsicPage(QWidget* parent) : QWidget(parent) {
   methods_ = new MethodsPane(tabs_);
   connect(methods_, &MethodsPane::failed, this, &ExtrinsicPage::failed);
   tabs_->addTab(methods_, {});
-  uncertainty_ = new QTextBrowser(tabs_);
-  uncertainty_->setObjectName("uncertainty");
+  uncertainty_ = new UncertaintyPane(tabs_);
+  connect(uncertainty_, &UncertaintyPane::failed, this, &ExtrinsicPage::failed);
   tabs_->addTab(uncertainty_, {});
   tabs_->addTab(createCloud(), {});
   splitter->addWidget(pose_);
@@ -91,7 +91,6 @@ QWidget* ExtrinsicPage::createPlots() {
 
 void ExtrinsicPage::retranslate() {
   pose_->setAccessibleName(tr("Pose and quality"));
-  uncertainty_->setAccessibleName(tr("Uncertainty"));
   const QStringList titles = {tr("Residuals and influence"), tr("Methods"), tr("Uncertainty"),
                               tr("Cloud in camera colours")};
   for (int k = 0; k < titles.size(); ++k) tabs_->setTabText(k, titles[k]);
@@ -139,6 +138,7 @@ void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
   fillTexts();
   methods_->setResult(result_.get());
+  uncertainty_->setResult(result_.get());
   fillPlots();
   fillInfluence();
   colourise();
@@ -159,7 +159,7 @@ void ExtrinsicPage::changeEvent(QEvent* event) {
 void ExtrinsicPage::fillTexts() {
   pose_->setHtml(result_ ? pose_html(*result_, palette())
                          : "<p>" + tr("Run the calibration to see its result.") + "</p>");
-  uncertainty_->setHtml(result_ ? uncertainty_html(*result_, palette()) : QString());
+  uncertainty_->setText(result_.get());
 }
 
 // One column per scene of the result in every plot, so that a column names its scene.

@@ -67,7 +67,7 @@ Workspace::~Workspace() {
 }
 
 Project Workspace::project() const {
-  return {dataset_.path, decisions_};
+  return {dataset_.path, decisions_, model_};
 }
 
 void Workspace::start(const Runner::Work& work) {
@@ -184,6 +184,7 @@ void Workspace::take_opened(Opening opening) {
   }
   dataset_ = std::move(opening.opened.dataset);
   decisions_ = std::move(opening.project.decisions);
+  model_ = std::move(opening.project.model);
   project_path_ = opening.project_path;
   missing_.clear();
   for (const std::string& name : opening.opened.missing_scenes) missing_ << to_qt(name);

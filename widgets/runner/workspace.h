@@ -47,6 +47,10 @@ class Workspace : public QObject {
   [[nodiscard]] bool busy() const { return runner_.running(); }
   [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
   [[nodiscard]] Project project() const;
+  /// What was done to the model of effects, in order; part of the project.
+  [[nodiscard]] const std::vector<ModelDecision>& model() const { return model_; }
+  /// To be called by commands on the undo stack.
+  void set_model(std::vector<ModelDecision> model) { model_ = std::move(model); }
 
   /// Opens in the background; opened(), dataset_moved() or failed() follows.
   void open_dataset(const QString& path);
@@ -111,6 +115,7 @@ class Workspace : public QObject {
   QString data_folder_;
   Dataset dataset_;
   Decisions decisions_;
+  std::vector<ModelDecision> model_;
   QStringList missing_;
   QString project_path_;
   std::unique_ptr<Opening> waiting_;  // A project whose dataset has moved.

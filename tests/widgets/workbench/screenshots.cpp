@@ -3,15 +3,20 @@
 // demo), runs it and writes a picture of every page and dialog to the folder, in light and dark.
 
 #include <QApplication>
+#include <QComboBox>
 #include <QDialog>
 #include <QDir>
 #include <QListWidget>
+#include <QPushButton>
 #include <QScreen>
 #include <QSurfaceFormat>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QToolButton>
+#include <QTreeWidget>
 #include <cstdio>
 
+#include "modelling/residual_plot.h"
 #include "widgets/support/driver.h"
 
 namespace {
@@ -47,7 +52,8 @@ void choose(const widgets::MainWindow& window, const char* what, const QString& 
 
 void photograph_pages(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
   const QStringList names = {QStringLiteral("scene"), QStringLiteral("refinement"),
-                             QStringLiteral("extrinsic"), QStringLiteral("response")};
+                             QStringLiteral("extrinsic"), QStringLiteral("response"),
+                             QStringLiteral("model")};
   auto* tabs = test::find<QTabWidget>(window, "pages");
   for (int tab = 0; tab < tabs->count(); ++tab) {
     tabs->setCurrentIndex(tab);
@@ -94,6 +100,70 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   take("error_dialog", QStringLiteral("error"));
 }
 
+bool wait_for_model(widgets::MainWindow& window) {
+  return test::wait_until([&] { return window.model_work().step() && !window.model_work().busy(); },
+                          600'000);
+}
+
+// The Model page from the first look to the fallen error, and everything that it can show.
+void photograph_model(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  const auto name = [&](const char* state) {
+    return QStringLiteral("model-%1-%2").arg(QLatin1String(state), theme);
+  };
+  window.model_work().go_to(0);
+  if (!wait_for_model(window)) return;
+  auto* where = test::find<QTabWidget>(window, "where_tabs");
+  camera.take(name("missing"));
+  auto* missing_tabs = test::find<QTreeWidget>(window, "sensitivity");
+  auto* right = qobject_cast<QTabWidget*>(missing_tabs->parentWidget()->parentWidget());
+  if (right != nullptr) {
+    right->setCurrentIndex(1);
+    camera.take(name("unseen"));
+    right->setCurrentIndex(0);
+  }
+  auto* effect = test::find<QComboBox>(window, "what_if_effect");
+  effect->setCurrentIndex(effect->findData(QStringLiteral("range_cyclic")));
+  camera.take(name("what-if"));
+  effect->setCurrentIndex(0);
+  test::find<QPushButton>(window, "add_effect")->click();
+  if (auto* dialog = test::find<QDialog>(window, "add_effect_dialog")) {
+    camera.take(name("add"), dialog);
+    for (auto* tabs : dialog->findChildren<QTabWidget*>()) tabs->setCurrentIndex(1);
+    camera.take(name("formula"), dialog);
+    dialog->close();
+  }
+  if (window.model_work().steps().size() > 1) {
+    window.model_work().go_to(1);
+  } else {
+    test::find<QPushButton>(window, "add_proposal")->click();
+    test::wait_until([&] { return window.model_work().current() == 1; }, 600'000);
+  }
+  if (!wait_for_model(window)) return;
+  camera.take(name("added"));
+  auto* channel = test::find<QComboBox>(window, "channel");
+  const char* const maps[] = {"residuals", "image", "board", "directions", "intensity"};
+  for (int tab = 1; tab < where->count(); ++tab) {
+    const Channel shown = tab == 1 ? Channel::kCorner : Channel::kRange;
+    channel->setCurrentIndex(channel->findData(static_cast<int>(shown)));
+    where->setCurrentIndex(tab);
+    camera.take(name(maps[tab]));
+  }
+  where->setCurrentIndex(0);
+  auto* plot = test::find<widgets::ResidualPlot>(window, "residual_plot");
+  test::find<QToolButton>(window, "brush")->click();
+  QTest::qWait(800);
+  if (plot->figure()) {
+    const auto& f = *plot->figure();
+    Q_EMIT plot->brushed(QRectF(QPointF(f.x_low, 0.4 * f.y_high), QPointF(f.x_high, f.y_high)));
+  }
+  camera.take(name("brush"));
+  test::find<QTabWidget>(window, "pages")->setCurrentIndex(0);
+  QTest::qWait(1500);
+  camera.take(name("brush-scene"));
+  test::find<QTabWidget>(window, "pages")->setCurrentIndex(4);
+  test::find<QToolButton>(window, "brush")->click();
+}
+
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset) {
   Photographer camera(window, folder);
   window.move(0, 0);
@@ -105,6 +175,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
     window.open(dataset);
   }
   if (!test::wait_until([&] { return window.workspace().is_open(); })) return 1;
+  if (!test::wait_until([&] { return !window.workspace().busy(); })) return 1;
   camera.take(QStringLiteral("opened"));
   test::trigger(window, "run");
   QTest::qWait(500);
@@ -112,9 +183,17 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (!test::wait_until(
           [&] { return window.workspace().result() != nullptr && !window.workspace().busy(); }))
     return 1;
+  auto* tabs = test::find<QTabWidget>(window, "pages");
+  tabs->setCurrentIndex(4);
+  camera.take(QStringLiteral("model-looking"));
+  wait_for_model(window);
+  camera.take(QStringLiteral("model-tour"));
+  if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
   for (const char* theme : {"light", "dark"}) {
     choose(window, "theme", QString::fromLatin1(theme));
     photograph_pages(window, camera, QString::fromLatin1(theme));
+    tabs->setCurrentIndex(4);
+    photograph_model(window, camera, QLatin1String(theme));
     photograph_dialogs(window, camera, QString::fromLatin1(theme));
   }
   return 0;
