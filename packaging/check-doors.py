@@ -43,6 +43,7 @@ WIDGET_DOORS = {
     "models": ["style", "runner"],
     "views": ["style"],
     "pages": ["style", "views"],
+    "modelling": ["style", "views", "runner"],
     "dialogs": ["style"],
     "docks": ["style", "models"],
     "start": ["style"],
@@ -52,7 +53,7 @@ WIDGET_DOORS = {
 SIMULATION_CLOUD_HEADERS = {"cloud/cloud.h"}
 
 GUI = re.compile(r"^(Q[A-Z]\w*(/\w+)?|Qt\w*/.*|vtk\w*\.h(xx)?)$")
-HIDDEN = re.compile(r"^(opencv2|ceres|pcl|yaml-cpp|apriltag|cairo)(/|\.h$)|^(apriltag|cairo|tag)\w*\.h$")
+HIDDEN = re.compile(r"^(opencv2|ceres|pcl|yaml-cpp|apriltag|cairo|muParser)(/|\.h$)|^(apriltag|cairo|tag|muParser)\w*\.h$")
 # Not installed (see core/CMakeLists.txt): cost functions are Ceres types by nature.
 INTERNAL_HEADERS = {"cost_functions.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

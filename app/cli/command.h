@@ -35,6 +35,7 @@ Command add_discover_command(CLI::App& app);
 Command add_correct_command(CLI::App& app);
 Command add_evaluate_command(CLI::App& app);
 Command add_export_command(CLI::App& app);
+Command add_plan_command(CLI::App& app);
 Command add_report_command(CLI::App& app);
 
 }  // namespace lvcalib::cli

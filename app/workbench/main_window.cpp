@@ -6,20 +6,23 @@
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QShortcut>
 #include <QToolBar>
+#include <utility>
 
+#include "dialogs/about_dialog.h"
 #include "dialogs/error_dialog.h"
 #include "dialogs/guide_dialog.h"
 #include "docks/log_dock.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
+#include "modelling/model_page.h"
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
-#include "workbench/language.h"
+#include "style/texts.h"
+#include "workbench/demo_tour.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
 #include "workbench/result_actions.h"
@@ -33,6 +36,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       choices_(choices),
       demo_(demo_options()),
       workspace_(std::make_unique<Workspace>(settings.data_folder())),
+      model_work_(std::make_unique<ModelWork>(*workspace_)),
       actions_(new MainActions(*this, workspace_->undo_stack())),
       scenes_(new ScenesDock(model_, this)),
       parameters_(new ParametersDock(this)),
@@ -41,6 +45,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       status_(new StatusLine(this)),
       results_(new ResultActions(choices, settings, *this)) {
   setObjectName(QStringLiteral("main_window"));
+  pages_->add_model_page(*model_work_);
   setAcceptDrops(true);
   setCentralWidget(pages_);
   setStatusBar(status_);
@@ -51,11 +56,12 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   actions_->add_view_toggles({scenes_->toggleViewAction(), parameters_->toggleViewAction(),
                               log_->toggleViewAction(), actions_->tool_bar->toggleViewAction()});
   connect_actions();
-  connect_appearance();
+  actions_->follow(settings_);
   connect_docks();
   connect_workspace();
   connect_pages();
   connect_results();
+  connect_model();
   restore_window();
   pages_->welcome().set_recent(settings_.recent());
   actions_->set_recent(settings_.recent());
@@ -65,6 +71,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
 
 MainWindow::~MainWindow() {
   // Nothing may be told to parts that are already gone.
+  model_work_->disconnect(this);
   workspace_->disconnect(this);
   workspace_->undo_stack().disconnect(this);
   delete scenes_;  // Before the model that it shows; other children go after the members.
@@ -72,7 +79,7 @@ MainWindow::~MainWindow() {
 
 void MainWindow::restore_window() {
   resize(1500, 940);
-  resizeDocks({scenes_, parameters_}, {470, 470}, Qt::Horizontal);
+  resizeDocks({scenes_, parameters_}, {500, 500}, Qt::Horizontal);
   resizeDocks({log_}, {140}, Qt::Vertical);
   restoreGeometry(settings_.geometry());
   restoreState(settings_.window_state());
@@ -91,21 +98,25 @@ void MainWindow::connect_actions() {
     if (!path.isEmpty()) open(path);
   };
   const auto demo = [this] {
-    if (may_drop_decisions()) workspace_->open_demo(demo_);
+    if (!may_drop_decisions()) return;
+    demo_opening_ = true;
+    workspace_->open_demo(demo_);
   };
   const auto guide = [this] { (new GuideDialog(this))->show(); };
   on(actions_->open_dataset, open_dataset);
   on(actions_->open_project, open_project);
   on(actions_->demo, demo);
   on(actions_->guide, guide);
-  on(actions_->about, [this] { show_about(); });
+  on(actions_->about, [this] { (new AboutDialog(this))->show(); });
   on(actions_->save, [this] { save(false); });
   on(actions_->save_as, [this] { save(true); });
-  on(actions_->results, [this] { results_->show(workspace_->result()); });
-  on(actions_->report, [this] { results_->write_report(workspace_->result()); });
+  on(actions_->results, [this] { results_->show(final_result()); });
+  on(actions_->report,
+     [this] { results_->write_report(final_result(), model_work_->discovery()); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();
+    model_work_->cancel();
     results_->cancel();
   });
   on(actions_->use_crops, [this](bool use) { workspace_->set_use_crops(use); });
@@ -120,22 +131,6 @@ void MainWindow::connect_actions() {
     auto* keys = new QShortcut(QKeySequence(static_cast<int>(Qt::CTRL) | (Qt::Key_1 + tab)), this);
     connect(keys, &QShortcut::activated, this, [this, tab] { pages_->show_tab(tab); });
   }
-}
-
-void MainWindow::connect_appearance() {
-  for (QAction* action : actions_->themes->actions())
-    action->setChecked(action->data().toString() == name_of(settings_.theme()));
-  const QString code = settings_.language().isEmpty() ? use_language({}) : settings_.language();
-  for (QAction* action : actions_->languages->actions())
-    action->setChecked(action->data().toString() == code);
-  connect(actions_->themes, &QActionGroup::triggered, this, [this](const QAction* action) {
-    settings_.set_theme(theme_named(action->data().toString()));
-    apply_theme(*qApp, settings_.theme());
-  });
-  connect(actions_->languages, &QActionGroup::triggered, this, [this](const QAction* action) {
-    settings_.set_language(action->data().toString());
-    use_language(settings_.language());
-  });
 }
 
 void MainWindow::connect_docks() {
@@ -186,7 +181,8 @@ void MainWindow::connect_workspace() {
   connect(w, &Workspace::failed, this, [this](const Error& error, bool modest) {
     if (!modest) show_error(error);  // Else the status line says it.
   });
-  connect(w, &Workspace::logged, log_, &LogDock::append);
+  connect(w, &Workspace::logged, log_,
+          [this](const QString& line) { log_->append(core_text(line)); });
   connect(w, &Workspace::dirty_changed, this, &MainWindow::update_title);
 }
 
@@ -244,11 +240,17 @@ void MainWindow::take_opened() {
   pages_->start(dataset.target);
   pages_->show_pages();
   if (!dataset.scenes.empty()) scenes_->select(scene_name(0));
+  if (std::exchange(demo_opening_, false)) {
+    start_tour();
+  } else if (tour_ != nullptr) {
+    tour_->end();
+  }
   update_title();
   update_actions();
 }
 
 void MainWindow::take_result() {
+  pages_->model_page()->setReason({});
   model_.set_result(workspace_->result());
   pages_->set_result(workspace_->result());
   status_->show_quality(workspace_->result(), workspace_->up_to_date());
@@ -327,23 +329,11 @@ void MainWindow::show_error(const Error& error) {
   (new ErrorDialog(error, this))->show();
 }
 
-void MainWindow::show_about() {
-  auto* box = new QMessageBox(QMessageBox::Information, tr("About"),
-                              tr("LV-Calib Workbench %1\n\nLiDAR–camera calibration with a printed "
-                                 "board.\nGPL-3.0-or-later "
-                                 "(core library: BSD-3-Clause)")
-                                  .arg(QString::fromStdString(version())),
-                              QMessageBox::Close, this);
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setModal(false);
-  box->show();
-}
-
 void MainWindow::update_actions() {
   const bool open = workspace_->is_open();
   const bool busy = workspace_->busy();
   actions_->run->setEnabled(open && !busy);
-  actions_->cancel->setEnabled(busy || results_->busy());
+  actions_->cancel->setEnabled(busy || results_->busy() || model_work_->busy());
   actions_->save->setEnabled(open);
   actions_->save_as->setEnabled(open);
   actions_->use_crops->setEnabled(open);
@@ -368,6 +358,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   }
   settings_.set_window(saveGeometry(), saveState());
   workspace_->cancel();
+  model_work_->cancel();
   results_->cancel();
   loader_.clear();
   event->accept();
@@ -389,6 +380,8 @@ void MainWindow::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) {
     actions_->retranslate();
     update_title();
+    if (!workspace_->busy()) status_->show_idle({});  // What it said was in the other language.
+    status_->show_quality(workspace_->result(), workspace_->up_to_date());
   } else if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
     actions_->repaint_icons(palette());
   }

@@ -7,12 +7,14 @@
 #include "base/error.h"
 #include "dialogs/choices.h"
 #include "models/scene_model.h"
+#include "runner/model_work.h"
 #include "runner/scene_data.h"
 #include "runner/workspace.h"
 #include "start/app_settings.h"
 
 namespace lvcalib::widgets {
 
+class DemoTour;
 class LogDock;
 class MainActions;
 class PageStack;
@@ -38,6 +40,7 @@ class MainWindow : public QMainWindow {
   void offer_recovery();
 
   [[nodiscard]] Workspace& workspace() { return *workspace_; }
+  [[nodiscard]] ModelWork& model_work() { return *model_work_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -47,21 +50,23 @@ class MainWindow : public QMainWindow {
 
  private:
   void connect_actions();
-  void connect_appearance();
   void connect_docks();
   void connect_workspace();
   void connect_pages();
   void connect_results();
+  void connect_model();
+  void start_tour();
   void restore_window();
   bool may_drop_decisions();
   bool save(bool ask_for_path);
   void show_error(const Error& error);
-  void show_about();
   void take_opened();
   void take_result();
   void look_at(const QString& scene);
   void update_actions();
   void update_title();
+  /// The calibration with the model's effects, or as it was run.
+  [[nodiscard]] std::shared_ptr<const CalibrationResult> final_result() const;
   [[nodiscard]] QString scene_name(int index) const;
   [[nodiscard]] int scene_index(const QString& name) const;
 
@@ -69,6 +74,7 @@ class MainWindow : public QMainWindow {
   Choices& choices_;
   simulation::SimulationOptions demo_;
   std::unique_ptr<Workspace> workspace_;
+  std::unique_ptr<ModelWork> model_work_;
   SceneLoader loader_;
   SceneModel model_;
   QString scene_;  // The one looked at.
@@ -79,6 +85,8 @@ class MainWindow : public QMainWindow {
   PageStack* pages_;
   StatusLine* status_;
   ResultActions* results_;
+  DemoTour* tour_ = nullptr;
+  bool demo_opening_ = false;  // What opens next is the demo.
 };
 
 }  // namespace lvcalib::widgets

@@ -4,6 +4,7 @@
 #include <QEvent>
 #include <QTabWidget>
 
+#include "modelling/model_page.h"
 #include "pages/extrinsic_page.h"
 #include "pages/refinement_page.h"
 #include "pages/response_page.h"
@@ -49,6 +50,30 @@ PageStack::PageStack(QWidget* parent)
   retranslate();
 }
 
+void PageStack::add_model_page(ModelWork& work) {
+  model_ = new ModelPage(work, tabs_);
+  tabs_->addTab(model_, {});
+  connect(model_, &ModelPage::failed, this, &PageStack::failed);
+  connect(model_, &ModelPage::samplesSelected, this,
+          [this](const QString& scene, const std::vector<Eigen::Vector3d>& points,
+                 const std::vector<Eigen::Vector2d>& pixels) {
+            samples_[scene] = {points, pixels};
+          });
+  // Not while they are being selected: only once the scene is looked at.
+  connect(tabs_, &QTabWidget::currentChanged, this, &PageStack::show_samples);
+  retranslate();
+}
+
+void PageStack::show_samples() {
+  if (tabs_->currentWidget() != scene_ || !result_ || current_ < 0) return;
+  if (current_ >= static_cast<int>(result_->scenes.size())) return;
+  const auto& name = result_->scenes[static_cast<std::size_t>(current_)].name;
+  const auto at = samples_.find(QString::fromStdString(name));
+  if (at == samples_.end()) return;
+  if (!at->second.points_in_lidar_m.empty() || !at->second.pixels.empty())
+    scene_->selectSamples(at->second.points_in_lidar_m, at->second.pixels);
+}
+
 void PageStack::show_welcome() {
   setCurrentWidget(welcome_);
 }
@@ -73,6 +98,8 @@ void PageStack::start(const Target& target) {
 
 void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& result) {
   latest_.reset();  // A finished run has more to show.
+  result_ = result;
+  samples_.clear();
   scene_->setResult(result);
   refinement_->setResult(result);
   extrinsic_->setResult(result);
@@ -97,6 +124,7 @@ void PageStack::set_crop_box(const std::optional<CropBox>& box) {
 void PageStack::set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image) {
   scene_->setSceneData(cloud, image);
   extrinsic_->setSceneData(current_, cloud, image);
+  show_samples();
 }
 
 void PageStack::show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points) {
@@ -124,6 +152,7 @@ void PageStack::retranslate() {
   tabs_->setTabText(1, tr("Refinement"));
   tabs_->setTabText(2, tr("Extrinsic"));
   tabs_->setTabText(3, tr("Boundary response"));
+  if (model_ != nullptr) tabs_->setTabText(4, tr("Model"));
 }
 
 }  // namespace lvcalib::widgets

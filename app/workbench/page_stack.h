@@ -4,8 +4,10 @@
 #include <QImage>
 #include <QStackedWidget>
 #include <QTimer>
+#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "pipeline/calibration.h"
 
@@ -14,6 +16,8 @@ class QTabWidget;
 namespace lvcalib::widgets {
 
 class ExtrinsicPage;
+class ModelPage;
+class ModelWork;
 class RefinementPage;
 class ResponsePage;
 class ScenePage;
@@ -26,6 +30,9 @@ class PageStack : public QStackedWidget {
 
  public:
   explicit PageStack(QWidget* parent = nullptr);
+  /// Adds the Model page; `work` must outlive this.
+  void add_model_page(ModelWork& work);
+  [[nodiscard]] ModelPage* model_page() const { return model_; }
   [[nodiscard]] WelcomePage& welcome() const { return *welcome_; }
   void show_welcome();
   void show_pages();
@@ -55,6 +62,13 @@ class PageStack : public QStackedWidget {
  private:
   void retranslate();
   void show_latest();
+  void show_samples();
+
+  /// Measurements of a scene that were selected on the Model page.
+  struct Samples {
+    std::vector<Eigen::Vector3d> points_in_lidar_m;
+    std::vector<Eigen::Vector2d> pixels;
+  };
 
   int current_ = -1;
   std::optional<CropBox> crop_;
@@ -66,6 +80,9 @@ class PageStack : public QStackedWidget {
   RefinementPage* refinement_;
   ExtrinsicPage* extrinsic_;
   ResponsePage* response_;
+  ModelPage* model_ = nullptr;
+  std::map<QString, Samples> samples_;
+  std::shared_ptr<const CalibrationResult> result_;
 };
 
 }  // namespace lvcalib::widgets

@@ -42,13 +42,14 @@ void ResultActions::show(const std::shared_ptr<const CalibrationResult>& result)
   dialog->show();
 }
 
-void ResultActions::write_report(const std::shared_ptr<const CalibrationResult>& result) {
+void ResultActions::write_report(const std::shared_ptr<const CalibrationResult>& result,
+                                 const std::shared_ptr<const Discovery>& discovery) {
   if (!result) return;
   const QString suggestion = QDir(settings_.last_folder()).filePath(QStringLiteral("report.html"));
   QString path = choices_.file_to_export(&window_, suggestion, tr("HTML (*.html)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".html");
-  report_.write(result, path);
+  report_.write(result, discovery, path);
   Q_EMIT busy_changed();
 }
 

@@ -21,7 +21,9 @@ class ResultActions : public QObject {
   /// Nothing without a result.
   void show(const std::shared_ptr<const CalibrationResult>& result);
   /// Asks for a file and writes the report in the background.
-  void write_report(const std::shared_ptr<const CalibrationResult>& result);
+  /// `discovery`: what was found out about the model, may be null.
+  void write_report(const std::shared_ptr<const CalibrationResult>& result,
+                    const std::shared_ptr<const Discovery>& discovery);
   void cancel() { report_.cancel(); }
   /// A report is being written.
   [[nodiscard]] bool busy() const { return report_.busy(); }

@@ -15,11 +15,31 @@ constexpr std::size_t kFewShapes = 8;   // more than these are first sieved on t
 constexpr std::size_t kSievedShapes = 3;
 constexpr std::size_t kRefitted = 3;  // candidates that get a full refit when they need one
 
+// Keeps the columns just appended where they are: their increments are known to be zero.
+void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
+  const std::size_t first = subset.columns.size() - columns.parameters.size();
+  for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
+    subset.prior_sigma[first + k] = 1e-6 * columns.parameters[k].material;
+    subset.prior_mean[first + k] = 0.0;
+  }
+}
+
 }  // namespace
 
 EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
                            const DiscoveryOptions& options, const RunContext& context)
     : table_(table), state_(std::move(state)), options_(options), context_(context) {
+  refit();
+}
+
+EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
+                           std::vector<EffectInUse> in_use, const DiscoveryOptions& options,
+                           const RunContext& context)
+    : table_(table),
+      state_(std::move(state)),
+      options_(options),
+      context_(context),
+      in_use_(std::move(in_use)) {
   refit();
 }
 
@@ -31,8 +51,10 @@ EffectColumnsList EffectSearch::own_columns() const {
 
 ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
   ColumnSubset subset;
-  for (std::size_t k = 0; k < in_use_.size(); ++k)
+  for (std::size_t k = 0; k < in_use_.size(); ++k) {
     append_columns(columns.list()[k], &in_use_[k].values, subset);
+    if (in_use_[k].held) hold_last(columns.list()[k], subset);
+  }
   return subset;
 }
 
@@ -48,8 +70,16 @@ void EffectSearch::remove(std::size_t k) {
   refit();
 }
 
+void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape) {
+  const auto parameters = effect->parameters(table_);
+  in_use_[k] = {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
+  refit();
+}
+
 void EffectSearch::refit() {
   constexpr int kSteps = 4;
+  joint_covariance_.reset();
+  shape_sigmas_.clear();
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     const EffectColumnsList columns = own_columns();
     linear_ = linearize(table_, state_, in_use_, columns, context_);
@@ -210,10 +240,10 @@ std::optional<std::size_t> EffectSearch::superfluous() {
       frozen.prior_mean.push_back(-in_use_[k].values(p));
     }
     const Reference without = make_reference(linear, frozen, variances_, {});
-    double gain = 0.0;
+    std::vector<double> gain;
     for (std::size_t s = 0; s < with.density.size(); ++s)
-      gain += with.density[s] - without.density[s];
-    if (gain < 0.0) return k;
+      gain.push_back(with.density[s] - without.density[s]);
+    if (!is_gain(gain)) return k;
   }
   return std::nullopt;
 }

@@ -41,6 +41,8 @@ struct EffectInfo {
   std::string source;   ///< Literature or manual.
   std::string breaker;  ///< The scene that tells it from its aliases.
   EffectNeeds needs;
+  /// Of a user's own effect: the text that make_user_effect() takes to make the same one again.
+  std::string spec = {};
 };
 
 /// A point of the print: its place, and for a tag's corner the vector from the tag's centre.
@@ -68,12 +70,17 @@ class Effect {
   [[nodiscard]] virtual std::vector<double> shapes(const MeasurementTable&) const { return {0.0}; }
   /// Name and unit of the shape number; empty if none.
   [[nodiscard]] virtual std::string shape_name() const { return {}; }
+  /// False if the shape number is a choice of the search rather than a quantity of nature.
+  [[nodiscard]] virtual bool has_smooth_shape() const { return !shape_name().empty(); }
   /// True for what no data can tell from the extrinsic itself.
   [[nodiscard]] virtual bool is_gauge() const { return false; }
 
   /// Displacement (LiDAR frame, m) of the measured point from the true one.
   virtual void lidar(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
                      std::span<Eigen::Vector3d> /*by_parameter*/) const {}
+  /// Change (m) of a measured range by what the beam alone does not tell (raw intensity, print).
+  virtual void range(const RangeRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
+                     std::span<double> /*by_parameter*/) const {}
   /// Displacement (board frame, m) of the board's material at a point of the print.
   virtual void board(const PrintPoint& /*point*/, const Target& /*target*/, double /*shape*/,
                      std::span<Eigen::Vector3d> /*by_parameter*/) const {}

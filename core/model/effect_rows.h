@@ -27,16 +27,20 @@ class EffectRows {
 
   /// Movements of a beam's measured point and of the board under it, projected on the row.
   template <class Sink>
-  void beam(const BeamPoint& beam, const Eigen::Vector3d& row,
-            const Eigen::Matrix3d& lidar_from_board, Sink&& sink) {
+  void range(const RangeRow& r, const Eigen::Vector3d& row, const Eigen::Matrix3d& lidar_from_board,
+             Sink&& sink) {
+    std::vector<double> further;
     for (const EffectColumns& c : columns_) {
       const std::size_t n = c.parameters.size();
       reset(n);
-      c.effect->lidar(beam, table_, c.shape, std::span(moves_).first(n));
-      c.effect->board({beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
+      further.assign(n, 0.0);
+      c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
+      c.effect->range(r, table_, c.shape, further);
+      c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
                       std::span(board_).first(n));
-      for (std::size_t k = 0; k < n; ++k)
-        scalars_[k] = row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]);
+      for (std::size_t k = 0; k < n; ++k) {
+        scalars_[k] = row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]) + further[k];
+      }
       sink(c, std::span(scalars_).first(n));
     }
   }

@@ -129,7 +129,7 @@ class SceneAccumulator {
     const Eigen::Vector3d a = geometry_.range_row(r.beam.direction);
     const Vector6d by_pose = geometry_.by_board_pose(a, *predicted * r.beam.direction);
     double residual = r.measured_m - *predicted;
-    used_rows_.beam(r.beam, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
+    used_rows_.range(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
       residual -= used_sum(c, by);
     });
     std::array<double, 15> z{};
@@ -138,9 +138,9 @@ class SceneAccumulator {
     set_pose(by_pose);
     for (int k = 0; k < 15; ++k) row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(k)]);
     set_extrinsic(by_pose);
-    candidate_rows_.beam(
-        r.beam, a, rotation_,
-        [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
+    candidate_rows_.range(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
+      set_effect(c, by);
+    });
     finish(Channel::kRange, residual, r.sigma_m);
   }
 

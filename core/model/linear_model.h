@@ -38,6 +38,7 @@ struct EffectInUse {
   EffectPtr effect;
   double shape = 0.0;
   Eigen::VectorXd values;  ///< SI
+  bool held = false;       ///< The values are given: a fit leaves them as they are.
 };
 
 /// Groups of random effects: systematic structure that is not white noise and that no effect

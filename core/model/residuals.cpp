@@ -83,8 +83,8 @@ class Collector {
     if (!predicted) return;
     const Eigen::Vector3d a = g.range_row(r.beam.direction);
     double residual = r.measured_m - *predicted;
-    rows_.beam(
-        r.beam, a, g.lidar_from_board().rotation.toRotationMatrix(),
+    rows_.range(
+        r, a, g.lidar_from_board().rotation.toRotationMatrix(),
         [&](const EffectColumns& c, std::span<const double> by) { residual -= used(c, by); });
     NuisanceRow nuisance = NuisanceRow::Zero();
     nuisance.head<6>() = g.by_board_pose(a, *predicted * r.beam.direction);

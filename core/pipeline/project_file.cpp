@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <system_error>
 
 #include <yaml-cpp/yaml.h>
@@ -92,18 +93,51 @@ Result<CropBox> crop_box(const YamlFile& file) {
   return box;
 }
 
+constexpr std::pair<ModelChange, const char*> kChanges[] = {
+    {ModelChange::kAdd, "add"},       {ModelChange::kRemove, "remove"},
+    {ModelChange::kSwitchOff, "off"}, {ModelChange::kSwitchOn, "on"},
+    {ModelChange::kHold, "hold"},     {ModelChange::kRelease, "release"}};
+
+std::optional<ModelChange> change_named(const std::string& name) {
+  for (const auto& [change, text] : kChanges) {
+    if (name == text) return change;
+  }
+  return std::nullopt;
+}
+
+void emit_model(YAML::Emitter& out, const std::vector<ModelDecision>& model) {
+  if (model.empty()) return;
+  out << YAML::Key << "model" << YAML::Value << YAML::BeginSeq;
+  for (const ModelDecision& decision : model) {
+    const char* name = "add";
+    for (const auto& [change, text] : kChanges) {
+      if (change == decision.change) name = text;
+    }
+    out << YAML::BeginMap << YAML::Key << "change" << YAML::Value << name;
+    out << YAML::Key << "effect" << YAML::Value << YAML::DoubleQuoted << decision.spec
+        << YAML::Auto;
+    if (!decision.values.empty()) {
+      emit_list(out, "values",
+                Eigen::Map<const Eigen::VectorXd>(
+                    decision.values.data(), static_cast<Eigen::Index>(decision.values.size())));
+    }
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+}
+
 class Reader {
  public:
   Reader(const YamlFile& file, const fs::path& path)
       : file_(file), folder_(fs::absolute(path).parent_path()) {}
 
   Result<ProjectFile> read() {
-    for (const auto step :
-         {&Reader::header, &Reader::paths, &Reader::guess, &Reader::options, &Reader::scenes}) {
+    for (const auto step : {&Reader::header, &Reader::paths, &Reader::guess, &Reader::options,
+                            &Reader::scenes, &Reader::model}) {
       if (Status s = (this->*step)(); !s) return s.error();
     }
     auto unknown = file_.unknown_keys({"format", "version", "dataset", "use_crops", "guess",
-                                       "options", "added_scenes", "scenes"});
+                                       "options", "added_scenes", "scenes", "model"});
     out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
     return std::move(out_);
   }
@@ -196,6 +230,34 @@ class Reader {
     return Done{};
   }
 
+  Status model() {
+    const YamlValue* list = map_or_null("model");
+    if (list == nullptr) return Done{};
+    if (list->kind != YamlValue::Kind::kList)
+      return file_.error_at(*list, "'model' must be a list of changes");
+    for (const YamlValue& item : list->list) {
+      ModelDecision decision;
+      const YamlValue* change = item.find("change");
+      const YamlValue* effect = item.find("effect");
+      if (change == nullptr || effect == nullptr || effect->scalar.empty())
+        return file_.error_at(item, "a change of the model needs 'change' and 'effect'");
+      const auto known = change_named(change->scalar);
+      if (!known) {
+        return file_.error_at(*change, "unknown change '" + change->scalar +
+                                           "' (add, remove, off, on, hold or release)");
+      }
+      decision.change = *known;
+      decision.spec = effect->scalar;
+      if (const YamlValue* values = item.find("values"); values != nullptr) {
+        auto numbers = file_.flatten(*values, "values");
+        if (!numbers) return numbers.error();
+        decision.values = *numbers;
+      }
+      out_.project.model.push_back(std::move(decision));
+    }
+    return Done{};
+  }
+
   [[nodiscard]] const YamlValue* map_or_null(const char* key) const {
     const YamlValue* value = file_.root().find(key);
     return value == nullptr || value->kind == YamlValue::Kind::kNull ? nullptr : value;
@@ -233,6 +295,7 @@ std::string project_as_text(const Project& project, const fs::path& folder) {
     out << YAML::DoubleQuoted << relative_path(path, folder) << YAML::Auto;
   out << YAML::EndSeq;
   emit_scenes(out, d);
+  emit_model(out, project.model);
   out << YAML::EndMap;
   return std::string("# LV-Calib Workbench project; paths are relative to this file.\n") +
          out.c_str() + "\n";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "discovery/model_session.h"
 #include "pipeline/session.h"
 
 namespace lvcalib {
@@ -15,6 +16,7 @@ namespace lvcalib {
 struct Project {
   std::filesystem::path dataset;  ///< Absolute.
   Decisions decisions;
+  std::vector<ModelDecision> model;  ///< What was done to the model of effects, in order.
 };
 
 /// A project read from a file.

@@ -2,6 +2,7 @@
 #include "report/html_report.h"
 
 #include "base/file_io.h"
+#include "report/discovery_file.h"
 #include "report/report_figures.h"
 #include "report/report_sections.h"
 #include "report/result_file.h"
@@ -49,7 +50,7 @@ std::string page(const json& result, const std::string& body) {
 
 // `text` is a result.json, `where` names it in errors.
 Result<HtmlReport> report_of(const std::string& text, const std::string& where,
-                             const RunContext& context) {
+                             const json& discovery, const RunContext& context) {
   const json result = json::parse(text, nullptr, false);
   if (result.is_discarded() || !result.is_object()) return Error::input("not a JSON object", where);
   HtmlReport report;
@@ -63,7 +64,8 @@ Result<HtmlReport> report_of(const std::string& text, const std::string& where,
                      "scene " + scenes[s].value("name", ""));
       body += scene_section(result, scenes[s], report.warnings);
     }
-    body += response_section(result) + provenance_section(result);
+    body +=
+        response_section(result) + model_section(result, discovery) + provenance_section(result);
     report.html = page(result, body);
   } catch (const json::exception& e) {
     return Error::input(std::string("this result lacks what a report shows: ") + e.what(), where,
@@ -79,11 +81,26 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
   const std::filesystem::path path = folder / "result.json";
   auto text = read_text_file(path, kMaxResultBytes);
   if (!text) return text.error();
-  return report_of(*text, path.string(), context);
+  json discovery;
+  const std::filesystem::path beside = folder / "discovery.json";
+  std::error_code code;
+  if (std::filesystem::exists(beside, code)) {
+    auto found = read_text_file(beside, kMaxResultBytes);
+    if (!found) return found.error();
+    discovery = json::parse(*found, nullptr, false);
+    if (!discovery.is_object()) {
+      return Error::input("not a JSON object", beside.string(),
+                          "run lvcalib discover again, or remove the file");
+    }
+  }
+  return report_of(*text, path.string(), discovery, context);
 }
 
-Result<HtmlReport> html_report(const CalibrationResult& result, const RunContext& context) {
-  return report_of(result_as_json(result), "the result", context);
+Result<HtmlReport> html_report(const CalibrationResult& result, const Discovery* discovery,
+                               const RunContext& context) {
+  const json found =
+      discovery != nullptr ? json::parse(discovery_as_json(*discovery), nullptr, false) : json();
+  return report_of(result_as_json(result), "the result", found, context);
 }
 
 }  // namespace lvcalib

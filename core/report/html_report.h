@@ -11,6 +11,7 @@
 namespace lvcalib {
 
 struct CalibrationResult;
+struct Discovery;
 
 /// A report, and what it had to do without (images that are gone).
 struct HtmlReport {
@@ -19,13 +20,15 @@ struct HtmlReport {
 };
 
 /// One self-contained HTML file of a calibration: verdict and reasons, pose, uncertainty, methods,
-/// a section per scene with its image, boundary response, conventions, versions, the inputs'
+/// a section per scene with its image, boundary response, the model with its missing effects
+/// (`folder`/discovery.json, if it is there), conventions, versions, the inputs'
 /// hashes. Figures are inline SVG, photographs data URIs; nothing is loaded from anywhere. Prints
 /// on A4. `folder` holds result.json; photographs come from the dataset it names.
 /// Errors: kInput for a missing or malformed result; kCancelled.
 Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunContext& context);
 
-/// The same of a calibration that is not stored.
-Result<HtmlReport> html_report(const CalibrationResult& result, const RunContext& context);
+/// The same of a calibration that is not stored. `discovery` may be null.
+Result<HtmlReport> html_report(const CalibrationResult& result, const Discovery* discovery,
+                               const RunContext& context);
 
 }  // namespace lvcalib

@@ -19,6 +19,9 @@ std::string methods_section(const nlohmann::json& result);
 std::string scene_section(const nlohmann::json& result, const nlohmann::json& scene,
                           std::vector<std::string>& warnings);
 std::string response_section(const nlohmann::json& result);
+/// Effects in use and, if `discovery` (a discovery file) is not null, error before and after,
+/// verdicts and what the scenes cannot show.
+std::string model_section(const nlohmann::json& result, const nlohmann::json& discovery);
 std::string provenance_section(const nlohmann::json& result);
 
 /// A table: the first row is the head. Cells are taken as HTML.

@@ -127,6 +127,10 @@ ordered_json to_json(const CalibrationResult& result) {
   j["uncertainty"] = uncertainty_json(result.uncertainty);
   j["boundary_response"] = response_json(result.response);
   j["model"] = model_json(result);
+  if (!result.covariance_with_budget.isZero(0.0)) {
+    j["sensitivity_budget"] = budget_json(result.budget);
+    j["covariance_with_budget"] = rows_of(result.covariance_with_budget);
+  }
   const StageTimes& t = result.times;
   j["timing_ms"] = {{"load", t.load_ms},         {"detect", t.detect_ms},
                     {"localize", t.localize_ms}, {"refine", t.refine_ms},

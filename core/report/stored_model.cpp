@@ -9,6 +9,7 @@
 
 #include "base/file_io.h"
 #include "base/yaml_file.h"
+#include "model/user_effect.h"
 #include "report/evidence_json.h"
 
 namespace lvcalib {
@@ -100,7 +101,13 @@ class Reader {
       return error(where + ".id", "is missing");
     const std::string id = j["id"].get<std::string>();
     EffectInUse use;
-    use.effect = find_effect(id);
+    if (j.contains("spec") && j["spec"].is_string()) {
+      auto own = make_user_effect(j["spec"].get<std::string>());
+      if (!own) return error(where + ".spec", "is no formula or curve: " + own.error().message);
+      use.effect = *own;
+    } else {
+      use.effect = find_effect(id);
+    }
     if (!use.effect) return unknown(id, where);
     use.shape = number(j, "shape").value_or(0.0);
     const auto parameters = use.effect->parameters(empty_table(out_.scales));
@@ -154,6 +161,8 @@ nlohmann::ordered_json model_json(const CalibrationResult& result) {
     }
     ordered_json e = {{"id", effect.id}, {"parameters", std::move(parameters)}};
     if (effect.shape != 0.0) e["shape"] = effect.shape;
+    if (effect.shape_sigma > 0.0) e["shape_sigma"] = effect.shape_sigma;
+    if (!effect.spec.empty()) e["spec"] = effect.spec;
     effects.push_back(std::move(e));
   }
   ordered_json model = {{"effects", std::move(effects)}};

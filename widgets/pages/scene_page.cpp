@@ -4,12 +4,16 @@
 #include <QLabel>
 #include <QSplitter>
 #include <QVBoxLayout>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <set>
 
 #include "extrinsic/cloud_projection.h"
 #include "pages/cloud_pane.h"
 #include "pages/image_pane.h"
 #include "pages/scene_overlay.h"
+#include "style/texts.h"
 #include "views/cloud_view.h"
 #include "views/image_view.h"
 
@@ -19,6 +23,26 @@ namespace {
 constexpr std::size_t kNeighbours = 12;
 constexpr double kNeighbourhood_px = 25.0;
 constexpr std::size_t kTagPoints = 400;
+constexpr std::size_t kMostRings = 400;
+constexpr double kSameDirection = 1e-5;  // Far below the distance of beams, far above rounding.
+
+// Points of a cloud that lie in given directions.
+std::vector<std::uint32_t> same_directions(const Cloud& cloud,
+                                           const std::vector<Eigen::Vector3d>& wanted) {
+  const auto key = [](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d d = p.normalized() / kSameDirection;
+    return std::array<std::int64_t, 3>{std::llround(d.x()), std::llround(d.y()),
+                                       std::llround(d.z())};
+  };
+  std::set<std::array<std::int64_t, 3>> directions;
+  for (const Eigen::Vector3d& p : wanted) directions.insert(key(p));
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (directions.contains(key(cloud.points_m[i].cast<double>())))
+      found.push_back(static_cast<std::uint32_t>(i));
+  }
+  return found;
+}
 
 // A cloud that lives as long as the result it is part of.
 std::shared_ptr<const Cloud> board_points(const std::shared_ptr<const CalibrationResult>& result,
@@ -48,8 +72,10 @@ ScenePage::ScenePage(QWidget* parent) : QWidget(parent) {
   selection_->setWordWrap(true);
   layout->addWidget(selection_);
   connectPanes();
-  clearSelection();
-  refresh();
+  follow_language(this, [this] {
+    clearSelection();
+    refresh();
+  });
 }
 
 ScenePage::~ScenePage() = default;
@@ -57,7 +83,10 @@ ScenePage::~ScenePage() = default;
 void ScenePage::connectPanes() {
   connect(cloud_->view(), &CloudView::pointPicked, this, &ScenePage::selectPoint);
   connect(cloud_->view(), &CloudView::nothingPicked, this, &ScenePage::clearSelection);
-  connect(cloud_, &CloudPane::sceneShown, this, &ScenePage::refreshOverlay);
+  connect(cloud_, &CloudPane::sceneShown, this, [this] {
+    refreshOverlay();
+    showSamples();
+  });
   connect(cloud_, &CloudPane::cropApplied, this, [this](const CropBox& box) {
     if (scene_ >= 0) Q_EMIT cropChanged(scene_, box);
   });
@@ -137,6 +166,8 @@ void ScenePage::refreshOverlay() {
 }
 
 void ScenePage::selectPoint(std::uint32_t point) {
+  sample_points_m_.clear();
+  sample_pixels_.clear();
   const auto& scene = cloud_->view()->scene();
   if (!scene || !scene->cloud || point >= scene->cloud->size()) return;
   cloud_->view()->setHighlights({point});
@@ -209,7 +240,7 @@ void ScenePage::selectTag(int id) {
   for (const ImageOverlay::Corner& c : overlay.corners) {
     if (c.feature_id != id || !c.has_prediction) continue;
     const QPointF r = c.detected - c.predicted;
-    residuals.push_back(tr("(%1, %2)").arg(r.x(), 0, 'f', 3).arg(r.y(), 0, 'f', 3));
+    residuals.push_back(QStringLiteral("(%1, %2)").arg(r.x(), 0, 'f', 3).arg(r.y(), 0, 'f', 3));
   }
   std::vector<std::uint32_t> inside;
   if (scene && !scene->pixels.empty() && !edge.isEmpty()) {
@@ -231,7 +262,41 @@ void ScenePage::selectTag(int id) {
   selection_->setText(text);
 }
 
+void ScenePage::selectSamples(const std::vector<Eigen::Vector3d>& points_in_lidar_m,
+                              const std::vector<Eigen::Vector2d>& pixels) {
+  sample_points_m_ = points_in_lidar_m;
+  sample_pixels_ = pixels;
+  showSamples();
+}
+
+// Again when the cloud's picture is ready: its points are known only then.
+void ScenePage::showSamples() {
+  const std::size_t count = sample_points_m_.size() + sample_pixels_.size();
+  if (count == 0) return;
+  std::vector<QPointF> places;
+  for (const Eigen::Vector2d& pixel : sample_pixels_) {
+    if (places.size() < kMostRings) places.emplace_back(pixel.x(), pixel.y());
+  }
+  std::vector<std::uint32_t> found;
+  const auto& scene = cloud_->view()->scene();
+  if (scene && scene->cloud && !sample_points_m_.empty()) {
+    found = same_directions(*scene->cloud, sample_points_m_);
+    const std::size_t stride = 1 + found.size() / kMostRings;
+    for (std::size_t k = 0; k < found.size(); k += stride) {
+      if (found[k] >= scene->pixels.size() || !std::isfinite(scene->pixels[found[k]].x())) continue;
+      places.emplace_back(static_cast<double>(scene->pixels[found[k]].x()),
+                          static_cast<double>(scene->pixels[found[k]].y()));
+    }
+  }
+  cloud_->view()->setHighlights(found);
+  image_->view()->overlay().setHighlights(std::move(places), -1);
+  selection_->setText(
+      tr("%n measurements selected on the Model page", nullptr, static_cast<int>(count)));
+}
+
 void ScenePage::clearSelection() {
+  sample_points_m_.clear();
+  sample_pixels_.clear();
   cloud_->view()->setHighlights({});
   image_->view()->overlay().setHighlights({}, -1);
   selection_->setText(tr("Click a point, a pixel or a tag to see its values in both views."));

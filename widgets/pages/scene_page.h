@@ -37,6 +37,10 @@ class ScenePage : public QWidget {
   /// The crop box in force for the current scene, or none.
   void setCropBox(const std::optional<CropBox>& box);
 
+  /// Highlights measurements of the current scene: LiDAR points (by their directions) and pixels.
+  void selectSamples(const std::vector<Eigen::Vector3d>& points_in_lidar_m,
+                     const std::vector<Eigen::Vector2d>& pixels);
+
   [[nodiscard]] CloudPane* cloudPane() const { return cloud_; }
   [[nodiscard]] ImagePane* imagePane() const { return image_; }
 
@@ -55,12 +59,15 @@ class ScenePage : public QWidget {
   void selectPixel(const QPointF& pixel);
   void selectTag(int id);
   void clearSelection();
+  void showSamples();
   [[nodiscard]] const SceneResult* current() const;
   [[nodiscard]] QString describePoint(const Cloud& cloud, std::uint32_t point) const;
 
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const Cloud> full_cloud_;
   QImage picture_;
+  std::vector<Eigen::Vector3d> sample_points_m_;  // Selected elsewhere; LiDAR frame.
+  std::vector<Eigen::Vector2d> sample_pixels_;
   int scene_ = -1;
   CloudPane* cloud_ = nullptr;
   ImagePane* image_ = nullptr;

@@ -9,7 +9,8 @@
 
 namespace lvcalib::widgets {
 
-/// What the demo simulates: three scenes of the standard board.
+/// What the demo simulates: four scenes of the standard board, and a LiDAR whose dark returns read
+/// far, for its user to find.
 simulation::SimulationOptions demo_options();
 
 /// Simulates a dataset into `folder`, in the place of an earlier demo. Reports stage "simulate".

@@ -20,10 +20,11 @@ ReportWriter::ReportWriter(QObject* parent) : QObject(parent) {
   });
 }
 
-void ReportWriter::write(std::shared_ptr<const CalibrationResult> result, const QString& path) {
-  runner_.start([this, result = std::move(result), path](const RunContext& context,
-                                                         const Runner::Post&) -> Runner::Deliver {
-    const auto report = html_report(*result, context);
+void ReportWriter::write(std::shared_ptr<const CalibrationResult> result,
+                         std::shared_ptr<const Discovery> discovery, const QString& path) {
+  runner_.start([this, result = std::move(result), discovery = std::move(discovery), path](
+                    const RunContext& context, const Runner::Post&) -> Runner::Deliver {
+    const auto report = html_report(*result, discovery.get(), context);
     if (context.stopped()) return {};
     if (!report) return [this, error = report.error()] { Q_EMIT failed(error); };
     if (const Status s = write_file_atomically(path.toStdString(), report->html); !s)

@@ -16,9 +16,11 @@ class ReportWriter : public QObject {
 
  public:
   explicit ReportWriter(QObject* parent = nullptr);
-  /// Writes to `path`; written(), failed() or cancelled() follows. Takes the place of a report
-  /// that is being written. A file at `path` is replaced only by a whole report.
-  void write(std::shared_ptr<const CalibrationResult> result, const QString& path);
+  /// Writes to `path` (`discovery`: what was found out about the model, may be null); written(),
+  /// failed() or cancelled() follows. Takes the place of a report that is being written. A file at
+  /// `path` is replaced only by a whole report.
+  void write(std::shared_ptr<const CalibrationResult> result,
+             std::shared_ptr<const Discovery> discovery, const QString& path);
   void cancel() { runner_.cancel(); }
   [[nodiscard]] bool busy() const { return runner_.running(); }
 

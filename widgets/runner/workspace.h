@@ -12,6 +12,7 @@
 #include "pipeline/project_file.h"
 #include "pipeline/session.h"
 #include "runner/autosave.h"
+#include "runner/decision_command.h"
 #include "runner/runner.h"
 #include "simulation/simulation_options.h"
 
@@ -46,6 +47,10 @@ class Workspace : public QObject {
   [[nodiscard]] bool busy() const { return runner_.running(); }
   [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
   [[nodiscard]] Project project() const;
+  /// What was done to the model of effects, in order; part of the project.
+  [[nodiscard]] const std::vector<ModelDecision>& model() const { return model_; }
+  /// To be called by commands on the undo stack.
+  void set_model(std::vector<ModelDecision> model) { model_ = std::move(model); }
 
   /// Opens in the background; opened(), dataset_moved() or failed() follows.
   void open_dataset(const QString& path);
@@ -96,13 +101,12 @@ class Workspace : public QObject {
   void logged(const QString& line);
 
  private:
-  class DecisionCommand;
   struct Opening;
   void start(const Runner::Work& work);
   void open_in_background(const Runner::Work& work);
   void take_opened(Opening opening);
   void take_run(SessionRun run);
-  void decide(const QString& text, Decisions after, const QString& merge_key = {});
+  void decide(DecisionCommand::Words words, Decisions after, const QString& merge_key = {});
   void apply(const Decisions& decisions);
   void schedule(int delay_ms);
   void set_dirty(bool dirty);
@@ -111,6 +115,7 @@ class Workspace : public QObject {
   QString data_folder_;
   Dataset dataset_;
   Decisions decisions_;
+  std::vector<ModelDecision> model_;
   QStringList missing_;
   QString project_path_;
   std::unique_ptr<Opening> waiting_;  // A project whose dataset has moved.

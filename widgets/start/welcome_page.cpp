@@ -87,7 +87,8 @@ void WelcomePage::retranslate() {
   project_->setText(tr("Open a project"));
   project_->setDescription(tr("A dataset with your decisions about it (.lvcalib)"));
   demo_->setText(tr("Try the demo"));
-  demo_->setDescription(tr("Simulates three scenes whose true calibration is known"));
+  demo_->setDescription(
+      tr("Simulates four scenes with an effect hidden in them, and a tour to find it"));
   guide_->setText(tr("Guide"));
   guide_->setDescription(tr("From the printed board to a result, step by step"));
   recent_title_->setText(tr("Recent (or drop a folder on this window)"));

@@ -28,6 +28,10 @@ Project example(const fs::path& dataset) {
   box.half_size_m = {0.7, 0.8, 1e-3};
   project.decisions.scenes["a: \"strange\" name"] = {true, box};
   project.decisions.added_scenes = {dataset.parent_path() / "more" / "X"};
+  project.model = {{ModelChange::kAdd, "range_walk", {}},
+                   {ModelChange::kAdd, "formula:range:a*sin(2*\"x\")", {}},
+                   {ModelChange::kHold, "range_walk", {0.1 + 0.2, -1e-9}},
+                   {ModelChange::kSwitchOff, "range_walk", {}}};
   return project;
 }
 
@@ -47,6 +51,22 @@ TEST(ProjectFile, ReadsBackExactlyAsWritten) {
   EXPECT_EQ(d.guess->rotation.coeffs(), written.decisions.guess->rotation.coeffs());
   EXPECT_EQ(d.scenes, written.decisions.scenes);
   EXPECT_EQ(d.added_scenes, written.decisions.added_scenes);
+  EXPECT_EQ(read->project.model, written.model);
+}
+
+TEST(ProjectFile, AModelThatMakesNoSenseIsRefusedWithItsLine) {
+  const std::string head = "format: lvcalib-project\nversion: 1\ndataset: d\n";
+  const std::pair<const char*, const char*> cases[] = {
+      {"model: 3\n", "list"},
+      {"model:\n  - {change: add}\n", "needs"},
+      {"model:\n  - {change: grow, effect: range_walk}\n", "grow"},
+      {"model:\n  - {change: hold, effect: range_walk, values: [x]}\n", "values"}};
+  for (const auto& [text, expected] : cases) {
+    const auto read = project_from_text(head + text, "p.lvcalib");
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_THAT(read.error().text(), HasSubstr(expected));
+    EXPECT_THAT(read.error().text(), HasSubstr("p.lvcalib:"));
+  }
 }
 
 TEST(ProjectFile, MovesTogetherWithItsDataset) {

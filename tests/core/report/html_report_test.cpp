@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "report/discovery_file.h"
 #include "report/exports.h"
 #include "report/result_file.h"
 #include "support/simulated_dataset.h"
@@ -64,6 +65,58 @@ class HtmlReportTest : public ::testing::Test {
 test::SimulatedDataset* HtmlReportTest::data_ = nullptr;
 CalibrationResult* HtmlReportTest::result_ = nullptr;
 
+// What a search that found range walk would hand over.
+Discovery example_discovery() {
+  Discovery d;
+  ChannelSummary range{Channel::kRange, 4321, 9.5, 8.25, 4.75, 9.6};
+  d.channels = {range};
+  d.history.push_back({"", {range}, {}});
+  range.rms = 8.3125;
+  range.unexplained = 0.625;
+  d.history.push_back({"range_walk", {range}, {}});
+  EffectFinding found;
+  found.id = "range_walk";
+  found.verdict = EffectVerdict::kPresent;
+  found.parameters = {{"a", "mm", 1e-3, 0.00812, 0.00013}};
+  found.heldout_gain = 0.42;
+  found.explanation = "Dark print reads far & wide.";
+  EffectFinding unseen;
+  unseen.id = "range_offset";
+  unseen.verdict = EffectVerdict::kNotTestable;
+  unseen.parameters = {{"a", "mm", 1e-3, 0.0, 0.004}};
+  unseen.extrinsic_move_mm = 8.765;
+  unseen.kept = 0.006;
+  unseen.explanation = "These scenes could not show it.";
+  d.effects = {found, unseen};
+  d.selected = {"range_walk"};
+  d.advice = {"Take one more scene at 60 degrees."};
+  return d;
+}
+
+TEST_F(HtmlReportTest, TellsTheModelAndWhatItStillMisses) {
+  ASSERT_TRUE(write_results(*result_, out_.path()).ok());
+  const auto without = html_report(out_.path(), {});
+  ASSERT_TRUE(without.ok());
+  EXPECT_THAT(without->html, HasSubstr("Missing effects were not looked for"));
+  const Discovery discovery = example_discovery();
+  ASSERT_TRUE(write_discovery(discovery, out_.path()).ok());
+  const auto stored = html_report(out_.path(), {});
+  ASSERT_TRUE(stored.ok()) << stored.error().text();
+  EXPECT_EQ(nesting_error(stored->html), "");
+  for (const char* part :
+       {"Error before and after", "8.312", "0.625", "Added: range_walk", "42 %", "far &amp; wide",
+        "What these scenes cannot show", "8.77", "0.6 %", "Take one more scene at 60 degrees."}) {
+    EXPECT_THAT(stored->html, HasSubstr(part));
+  }
+  CalibrationResult modelled = *result_;
+  modelled.model = {{"range_walk", discovery.effects[0].parameters, 0.0}};
+  const auto fresh = html_report(modelled, &discovery, {});
+  ASSERT_TRUE(fresh.ok());
+  EXPECT_THAT(fresh->html, HasSubstr("8.12"));
+  out_.write("discovery.json", "[1, 2");
+  EXPECT_FALSE(html_report(out_.path(), {}).ok()) << "a broken file is named, not passed over";
+}
+
 TEST_F(HtmlReportTest, HoldsEverySectionAndLoadsNothing) {
   ASSERT_TRUE(write_results(*result_, out_.path()).ok());
   const auto report = html_report(out_.path(), {});
@@ -88,7 +141,7 @@ TEST_F(HtmlReportTest, HoldsEverySectionAndLoadsNothing) {
 TEST_F(HtmlReportTest, IsTheSameOfAStoredAndOfAFreshResult) {
   ASSERT_TRUE(write_results(*result_, out_.path()).ok());
   const auto stored = html_report(out_.path(), {});
-  const auto fresh = html_report(*result_, {});
+  const auto fresh = html_report(*result_, nullptr, {});
   ASSERT_TRUE(stored.ok() && fresh.ok());
   EXPECT_EQ(stored->html, fresh->html);
   const auto read = read_export_input(out_.path() / "result.json");

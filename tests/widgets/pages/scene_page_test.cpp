@@ -68,6 +68,20 @@ TEST_F(ScenePageTest, ShowsCloudImageAndFindings) {
   EXPECT_GT(overlay.points.size(), 1000U);
 }
 
+TEST_F(ScenePageTest, MeasurementsSelectedElsewhereAreFoundInCloudAndImage) {
+  load();
+  const Cloud& board = demo_.result->scenes[1].board_points;
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t k = 0; k < board.size(); k += board.size() / 50)
+    points.push_back(1.02 * board.points_m[k].cast<double>());  // Same beams, other ranges.
+  page_.selectSamples(points, {});
+  EXPECT_GT(image().overlay().highlights().size(), 30U);
+  EXPECT_TRUE(selection().contains("selected on the Model page"));
+  page_.selectSamples({}, {Eigen::Vector2d(100.0, 50.0)});
+  ASSERT_EQ(image().overlay().highlights().size(), 1U);
+  EXPECT_EQ(image().overlay().highlights().front(), QPointF(100.0, 50.0));
+}
+
 TEST_F(ScenePageTest, FilterAndColourAreChosen) {
   load();
   choose("cloud-filter", 2);

@@ -14,7 +14,7 @@ namespace lvcalib::widgets {
 namespace {
 
 Project example() {
-  Project project{"/somewhere/dataset", {}};
+  Project project{"/somewhere/dataset", {}, {}};
   project.decisions.scenes["A"].use = false;
   return project;
 }

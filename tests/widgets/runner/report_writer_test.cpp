@@ -23,7 +23,7 @@ class ReportWriterTest : public ::testing::Test {
 
 TEST_F(ReportWriterTest, WritesTheReportAndSaysWhatItLacks) {
   QSignalSpy progressed(&writer_, &ReportWriter::progressed);
-  writer_.write(test::calibrated_demo().result, path());
+  writer_.write(test::calibrated_demo().result, nullptr, path());
   EXPECT_TRUE(writer_.busy());
   ASSERT_TRUE(written_.wait(30'000));
   EXPECT_FALSE(writer_.busy());
@@ -40,7 +40,7 @@ TEST_F(ReportWriterTest, WritesTheReportAndSaysWhatItLacks) {
 }
 
 TEST_F(ReportWriterTest, APlaceThatCannotBeWrittenIsNamed) {
-  writer_.write(test::calibrated_demo().result, folder_.filePath("no/such/report.html"));
+  writer_.write(test::calibrated_demo().result, nullptr, folder_.filePath("no/such/report.html"));
   ASSERT_TRUE(failed_.wait(30'000));
   const auto error = failed_[0][0].value<Error>();
   EXPECT_NE(error.text().find("no/such"), std::string::npos) << error.text();
@@ -49,7 +49,7 @@ TEST_F(ReportWriterTest, APlaceThatCannotBeWrittenIsNamed) {
 
 TEST_F(ReportWriterTest, CancelledItLeavesNoFile) {
   QSignalSpy cancelled(&writer_, &ReportWriter::cancelled);
-  writer_.write(test::calibrated_demo().result, path());
+  writer_.write(test::calibrated_demo().result, nullptr, path());
   writer_.cancel();
   ASSERT_TRUE(cancelled.wait(1000));
   EXPECT_TRUE(Runner::wait_for_workers(30'000));

@@ -20,6 +20,7 @@ TEST(MainActions, EveryActionHasTextAndNoShortcutIsTakenTwice) {
   for (const QAction* action : actions.findChildren<QAction*>()) {
     if (action->isSeparator() || action->menu() != nullptr) continue;
     EXPECT_FALSE(action->text().isEmpty()) << action->objectName().toStdString();
+    EXPECT_FALSE(action->iconText().contains('&')) << action->objectName().toStdString();
     const QString keys = action->shortcut().toString();
     if (keys.isEmpty()) continue;
     EXPECT_FALSE(taken.contains(keys)) << keys.toStdString();

@@ -31,7 +31,7 @@ class ResultActionsTest : public ::testing::Test {
 TEST_F(ResultActionsTest, TheReportIsWrittenAndItsFolderRemembered) {
   QSignalSpy logged(&actions_, &ResultActions::logged);
   answers_.export_to = folder_.filePath("r");  // Gets its suffix.
-  actions_.write_report(test::calibrated_demo().result);
+  actions_.write_report(test::calibrated_demo().result, nullptr);
   EXPECT_TRUE(actions_.busy());
   ASSERT_TRUE(done_.wait(30'000));
   EXPECT_FALSE(actions_.busy());
@@ -43,20 +43,20 @@ TEST_F(ResultActionsTest, TheReportIsWrittenAndItsFolderRemembered) {
 
 TEST_F(ResultActionsTest, NothingHappensWithoutResultOrWithoutAFile) {
   actions_.show(nullptr);
-  actions_.write_report(nullptr);
+  actions_.write_report(nullptr, nullptr);
   answers_.export_to.clear();
-  actions_.write_report(test::calibrated_demo().result);
+  actions_.write_report(test::calibrated_demo().result, nullptr);
   EXPECT_FALSE(actions_.busy());
   EXPECT_EQ(window_.findChild<QDialog*>("results_dialog"), nullptr);
 }
 
 TEST_F(ResultActionsTest, FailureAndCancelAreTold) {
   answers_.export_to = folder_.filePath("no/such/r.html");
-  actions_.write_report(test::calibrated_demo().result);
+  actions_.write_report(test::calibrated_demo().result, nullptr);
   ASSERT_TRUE(failed_.wait(30'000));
   EXPECT_EQ(done_.size(), 1);
   answers_.export_to = folder_.filePath("r.html");
-  actions_.write_report(test::calibrated_demo().result);
+  actions_.write_report(test::calibrated_demo().result, nullptr);
   actions_.cancel();
   ASSERT_TRUE(done_.wait(1000));
   EXPECT_FALSE(actions_.busy());

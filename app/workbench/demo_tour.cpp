@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workbench/demo_tour.h"
+
+#include <QAction>
+#include <QMainWindow>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QToolBar>
+
+#include "runner/model_work.h"
+#include "runner/workspace.h"
+#include "start/coach_marks.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+// A widget by name; null if it is not there.
+std::function<QWidget*()> widget(QMainWindow& window, const char* name) {
+  return [&window, name] { return window.findChild<QWidget*>(QString::fromLatin1(name)); };
+}
+
+}  // namespace
+
+DemoTour::DemoTour(QMainWindow& window, Workspace& workspace, ModelWork& work)
+    : QObject(&window),
+      window_(window),
+      workspace_(workspace),
+      work_(work),
+      marks_(new CoachMarks(&window)) {
+  connect(marks_, &CoachMarks::ended, marks_, &QWidget::hide);
+}
+
+void DemoTour::end() {
+  marks_->end();
+}
+
+void DemoTour::start() {
+  const auto run_button = [this]() -> QWidget* {
+    auto* bar = window_.findChild<QToolBar*>(QStringLiteral("tool_bar"));
+    auto* run = window_.findChild<QAction*>(QStringLiteral("run"));
+    return bar == nullptr || run == nullptr ? nullptr : bar->widgetForAction(run);
+  };
+  const auto tab_bar = [this]() -> QWidget* {
+    auto* tabs = window_.findChild<QTabWidget*>(QStringLiteral("pages"));
+    return tabs == nullptr ? nullptr : tabs->tabBar();
+  };
+  const auto on_model_page = [this] {
+    const auto* page = window_.findChild<QWidget*>(QStringLiteral("model_page"));
+    return page != nullptr && page->isVisible();
+  };
+  marks_->start({
+      {tr("These scenes were simulated just now, by a LiDAR with an error that the calibration "
+          "does "
+          "not know. Press <b>Run all</b>."),
+       run_button, [this] { return workspace_.result() && !workspace_.busy(); }},
+      {tr("The calibration is done, and its figures look fine. Open the <b>Model</b> page to ask "
+          "what it misses."),
+       tab_bar, on_model_page},
+      {tr("The effects that may be missing are being tried; scenes held out decide. The best one "
+          "comes first, with a sentence on what was seen and how sure that is."),
+       widget(window_, "proposals"), [this] { return work_.ranking() != nullptr; }},
+      {tr("<b>Range walk</b>: dark print reads too far. The orange curve is its pattern at the "
+          "size "
+          "found; the marks are what is measured."),
+       widget(window_, "residual_plot"),
+       {}},
+      {tr("<b>Add</b> it to the model."), widget(window_, "add_proposal"),
+       [this] { return work_.current() > 0; }},
+      {tr("The red, unexplained share is gone, in scenes held out as well (diamonds), and the "
+          "extrinsic has moved. Click an earlier step or undo to compare."),
+       widget(window_, "budget_plot"),
+       {}},
+  });
+}
+
+}  // namespace lvcalib::widgets

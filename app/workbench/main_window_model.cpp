@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The window's side of the Model page and of the demo's tour.
+#include "docks/log_dock.h"
+#include "modelling/model_page.h"
+#include "workbench/demo_tour.h"
+#include "workbench/main_actions.h"
+#include "workbench/main_window.h"
+#include "workbench/page_stack.h"
+#include "workbench/status_line.h"
+
+namespace lvcalib::widgets {
+
+void MainWindow::connect_model() {
+  const ModelWork* work = model_work_.get();
+  connect(work, &ModelWork::started, this, [this] {
+    status_->show_progress({}, 0.0, {});
+    update_actions();
+  });
+  connect(work, &ModelWork::progressed, status_, &StatusLine::show_progress);
+  connect(work, &ModelWork::ended, this, [this](const QString& message) {
+    if (!workspace_->busy()) status_->show_idle(message);
+    update_actions();
+  });
+  connect(work, &ModelWork::failed, this, [this](const Error& error) {
+    // Too few scenes is no accident: the page says so.
+    if (error.kind == ErrorKind::kUntrusted && model_work_->steps().empty()) {
+      pages_->model_page()->setReason(QString::fromStdString(error.text()));
+      status_->show_idle(QString::fromStdString(error.message));
+    } else {
+      show_error(error);
+    }
+  });
+  connect(work, &ModelWork::logged, log_, &LogDock::append);
+}
+
+std::shared_ptr<const CalibrationResult> MainWindow::final_result() const {
+  return model_work_->result() ? model_work_->result() : workspace_->result();
+}
+
+void MainWindow::start_tour() {
+  delete tour_;
+  tour_ = new DemoTour(*this, *workspace_, *model_work_);
+  tour_->start();
+}
+
+}  // namespace lvcalib::widgets

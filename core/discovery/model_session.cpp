@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/model_session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/yaml_file.h"
+#include "discovery/channel_summary.h"
+#include "discovery/effect_search.h"
+#include "discovery/structure_scan.h"
+#include "model/user_effect.h"
+
+namespace lvcalib {
+namespace {
+
+std::vector<EffectInUse> switched_on(const std::vector<ModelTerm>& terms) {
+  std::vector<EffectInUse> out;
+  for (const ModelTerm& term : terms) {
+    if (term.on) out.push_back(term.use);
+  }
+  return out;
+}
+
+ModelTerm new_term(const std::string& spec, const EffectPtr& effect, double shape,
+                   const MeasurementTable& table) {
+  ModelTerm term;
+  term.spec = spec;
+  term.parameters = effect->parameters(table);
+  const auto n = static_cast<Eigen::Index>(term.parameters.size());
+  term.use = {effect, shape, Eigen::VectorXd::Zero(n)};
+  term.sigma = Eigen::VectorXd::Zero(n);
+  return term;
+}
+
+// Takes values and standard deviations over from the fit.
+void read_back(const EffectSearch& search, std::vector<ModelTerm>& terms) {
+  std::size_t next = 0;
+  Eigen::Index at = 6;
+  for (ModelTerm& term : terms) {
+    if (!term.on) continue;
+    const EffectInUse& fitted = search.in_use()[next++];
+    const Eigen::Index n = fitted.values.size();
+    if (!term.use.held) {
+      term.use.values = fitted.values;
+      term.sigma =
+          search.reference().fit.covariance.diagonal().segment(at, n).cwiseMax(0.0).cwiseSqrt();
+    } else {
+      term.sigma.setZero(n);
+    }
+    at += n;
+  }
+}
+
+Result<ModelStepPtr> step_from(const EffectSearch& search, ModelStep step,
+                               const RunContext& context) {
+  if (context.stopped()) return Error::cancelled();
+  step.state = search.state();
+  step.covariance = search.reference().fit.covariance.topLeftCorner<6, 6>();
+  read_back(search, step.terms);
+  step.channels =
+      summarize_channels(search.table(), search.state(), search.in_use(), search.reference());
+  context.report("structure", 0.7, "looking for structure");
+  step.structure = scan_structure(search.table(), search.state(), search.in_use(), context);
+  if (context.stopped()) return Error::cancelled();
+  return ModelStepPtr(std::make_shared<const ModelStep>(std::move(step)));
+}
+
+Result<ModelStepPtr> fitted(ModelStep step, const RunContext& context) {
+  context.report("model", 0.1, "fitting the model");
+  const auto basis = step.basis;
+  const EffectSearch search(basis->table, step.state, switched_on(step.terms), basis->options,
+                            context);
+  return step_from(search, std::move(step), context);
+}
+
+ModelStep changed(const ModelStepPtr& from, ModelChange change, const std::string& spec) {
+  ModelStep step;
+  step.basis = from->basis;
+  step.change = change;
+  step.changed = spec;
+  step.state = from->state;
+  step.terms = from->terms;
+  return step;
+}
+
+// The shape number that held-out scenes prefer with the model as it is.
+Result<double> preferred_shape(const ModelStep& from, const EffectPtr& effect,
+                               const RunContext& context) {
+  const ModelBasis& basis = *from.basis;
+  if (effect->shapes(basis.table).size() < 2) return effect->shapes(basis.table).front();
+  const auto in_use = from.in_use();
+  const EffectSearch search(basis.table, from.state, in_use, basis.options, context);
+  if (context.stopped()) return Error::cancelled();
+  EffectColumnsList columns;
+  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, basis.table);
+  for (const double shape : search.shapes_worth_trying(*effect))
+    columns.add(effect, shape, basis.table);
+  const Linearization linear = linearize(basis.table, search.state(), in_use, columns, context);
+  if (context.stopped()) return Error::cancelled();
+  const Reference reference =
+      make_reference(linear, search.reference().subset, search.reference().fit.variances, {});
+  double best = 0.0;
+  double gain = -HUGE_VAL;
+  for (std::size_t k = in_use.size(); k < columns.list().size(); ++k) {
+    if (context.stopped()) return Error::cancelled();
+    const Candidate c = evaluate_candidate(linear, reference, k, {.rounds = 3});
+    if (c.total_gain() <= gain) continue;
+    gain = c.total_gain();
+    best = columns.list()[k].shape;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<ParameterEstimate> ModelTerm::estimates() const {
+  std::vector<ParameterEstimate> out;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const EffectParameter& p = parameters[k];
+    out.push_back({p.name, p.unit, p.unit_in_si, use.values(at), sigma(at)});
+  }
+  return out;
+}
+
+std::vector<EffectInUse> ModelStep::in_use() const {
+  return switched_on(terms);
+}
+
+std::optional<std::size_t> ModelStep::find(const std::string& spec) const {
+  const auto at = std::find_if(terms.begin(), terms.end(),
+                               [&](const ModelTerm& term) { return term.spec == spec; });
+  if (at == terms.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - terms.begin());
+}
+
+Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table) {
+  if (is_user_effect(spec)) return make_user_effect(spec, table, {});
+  if (EffectPtr effect = find_effect(spec)) return effect;
+  std::vector<std::string> known;
+  for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
+  const std::string near = nearest_word(spec, known);
+  return Error::usage("there is no effect '" + spec + "'" +
+                      (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
+Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state,
+                                 const DiscoveryOptions& options, const RunContext& context) {
+  if (table.scenes.size() < 3) {
+    return Error::untrusted(
+        "not enough scenes to look for effects: " + std::to_string(table.scenes.size()) +
+            ", three or more are needed to hold one out",
+        {}, "take scenes at other distances and with the board turned differently");
+  }
+  ModelStep step;
+  step.basis = std::make_shared<const ModelBasis>(ModelBasis{std::move(table), options});
+  step.state = state;
+  return fitted(std::move(step), context);
+}
+
+Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOptions& options,
+                                 const RunContext& context) {
+  context.report("table", 0.0, "collecting measurements");
+  return start_model(build_table(input.scenes, input.target, input.camera, input.state,
+                                 input.sigma_px, options.table),
+                     input.state, options, context);
+}
+
+Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spec,
+                                std::optional<double> shape, const RunContext& context) {
+  auto effect = make_effect(spec, from->table());
+  if (!effect) return effect.error();
+  const std::string& id = (*effect)->info().id;
+  if (const auto there = from->find(id)) {
+    if (!from->terms[*there].on) return switch_effect(from, *there, true, context);
+    return Error::usage("the effect '" + id + "' is in the model already");
+  }
+  if (const std::string why = why_not_testable(**effect, from->table()); !why.empty())
+    return Error::input("the effect '" + spec + "' cannot be used: " + why);
+  context.report("model", 0.0, "fitting the model");
+  if (!shape) {
+    auto preferred = preferred_shape(*from, *effect, context);
+    if (!preferred) return preferred.error();
+    shape = *preferred;
+  }
+  ModelStep step = changed(from, ModelChange::kAdd, id);
+  step.terms.push_back(new_term(id, *effect, *shape, from->table()));
+  return fitted(std::move(step), context);
+}
+
+Result<ModelStepPtr> remove_effect(const ModelStepPtr& from, std::size_t k,
+                                   const RunContext& context) {
+  ModelStep step = changed(from, ModelChange::kRemove, from->terms.at(k).spec);
+  step.terms.erase(step.terms.begin() + static_cast<std::ptrdiff_t>(k));
+  return fitted(std::move(step), context);
+}
+
+Result<ModelStepPtr> switch_effect(const ModelStepPtr& from, std::size_t k, bool on,
+                                   const RunContext& context) {
+  ModelStep step =
+      changed(from, on ? ModelChange::kSwitchOn : ModelChange::kSwitchOff, from->terms.at(k).spec);
+  step.terms[k].on = on;
+  return fitted(std::move(step), context);
+}
+
+Result<ModelStepPtr> hold_effect(const ModelStepPtr& from, std::size_t k,
+                                 const std::optional<Eigen::VectorXd>& values,
+                                 const RunContext& context) {
+  const ModelTerm& term = from->terms.at(k);
+  ModelStep step = changed(from, values ? ModelChange::kHold : ModelChange::kRelease, term.spec);
+  step.terms[k].use.held = values.has_value();
+  if (values) {
+    if (values->size() != term.use.values.size() || !values->allFinite()) {
+      return Error::usage("the effect '" + term.spec + "' takes " +
+                          std::to_string(term.use.values.size()) + " finite values");
+    }
+    step.terms[k].use.values = *values;
+  }
+  return fitted(std::move(step), context);
+}
+
+Result<ModelStepPtr> apply_decision(const ModelStepPtr& from, const ModelDecision& decision,
+                                    const RunContext& context) {
+  if (decision.change == ModelChange::kStart) return from;
+  if (decision.change == ModelChange::kAdd)
+    return add_effect(from, decision.spec, std::nullopt, context);
+  const auto k = from->find(decision.spec);
+  if (!k) return Error::usage("the effect '" + decision.spec + "' is not in the model");
+  switch (decision.change) {
+    case ModelChange::kRemove:
+      return remove_effect(from, *k, context);
+    case ModelChange::kSwitchOff:
+    case ModelChange::kSwitchOn:
+      return switch_effect(from, *k, decision.change == ModelChange::kSwitchOn, context);
+    case ModelChange::kHold:
+      return hold_effect(
+          from, *k,
+          Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
+              decision.values.data(), static_cast<Eigen::Index>(decision.values.size()))),
+          context);
+    default:
+      return hold_effect(from, *k, std::nullopt, context);
+  }
+}
+
+Result<ModelStepPtr> find_all(const ModelStepPtr& from,
+                              const std::function<void(const ModelStepPtr&)>& on_step,
+                              const RunContext& context) {
+  ModelStepPtr step = from;
+  const ModelBasis& basis = *from->basis;
+  EffectSearch search(basis.table, from->state, from->in_use(), basis.options, context);
+  const std::size_t protected_terms = search.in_use().size();
+  // Steps are counted as well: what is dropped may come back.
+  for (int k = 0; k < 2 * basis.options.max_effects; ++k) {
+    const std::size_t added = search.in_use().size() - protected_terms;
+    if (static_cast<int>(added) >= basis.options.max_effects) break;
+    context.report("rank", k / (2.0 * basis.options.max_effects), "ranking effects");
+    search.rank();
+    if (context.stopped()) return Error::cancelled();
+    const auto best = search.best();
+    if (!best) break;
+    const EffectColumns columns =
+        search.linear().columns.list()[search.candidates()[*best].columns];
+    const std::string id = columns.effect->info().id;
+    search.add(columns.effect, columns.shape);
+    ModelStep next = changed(step, ModelChange::kAdd, id);
+    // An effect that was switched off comes back with the shape found.
+    std::erase_if(next.terms, [&](const ModelTerm& term) { return term.spec == id; });
+    next.terms.push_back(new_term(id, columns.effect, columns.shape, basis.table));
+    while (!context.stopped()) {
+      const auto drop = search.superfluous();
+      if (!drop || *drop < protected_terms || *drop + 1 == search.in_use().size()) break;
+      const std::string dropped = search.in_use()[*drop].effect->info().id;
+      search.remove(*drop);
+      std::erase_if(next.terms,
+                    [&](const ModelTerm& t) { return t.on && t.use.effect->info().id == dropped; });
+    }
+    auto made = step_from(search, std::move(next), context);
+    if (!made) return made.error();
+    step = *made;
+    if (on_step) on_step(step);
+  }
+  return step;
+}
+
+}  // namespace lvcalib

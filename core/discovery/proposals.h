@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "discovery/model_session.h"
+
+namespace lvcalib {
+
+/// What adding an effect to a model would do, as held-out scenes judge it.
+struct EffectProposal {
+  EffectFinding finding;
+  bool suggested = false;  ///< Held-out scenes and the test speak for it.
+  std::string alias_of;    ///< Suggested effect that it cannot be told from; empty: none.
+  /// Relative fall of each channel's held-out squares; negative if they grow.
+  std::array<double, kChannels> heldout_fall{};
+  double gained_mm = 0.0;    ///< By how much the extrinsic moves when it is added, …
+  double gained_mrad = 0.0;  ///< … and turns.
+};
+
+/// What is missing in a model.
+struct ModelRanking {
+  /// Suggested ones first, each followed by its aliases; then the rest by gain. Effects in use are
+  /// not among them.
+  std::vector<EffectProposal> proposals;
+  /// Structure that is left although nothing is suggested: no known effect explains it.
+  std::vector<StructureScore> unknown;
+  std::vector<std::string> advice;  ///< Scenes worth taking.
+
+  [[nodiscard]] bool nothing_missing() const;
+};
+
+/// Tries every effect that is not in use. Deterministic. Errors: kCancelled.
+Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& context);
+
+/// A session as the outcome of a search: its steps (base first, the model shown last) and, if there
+/// is one, the last step's ranking. For files and reports.
+Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRanking* ranking);
+
+}  // namespace lvcalib

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/formula_effect.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "model/covariate_effect.h"
+#include "model/formula_expression.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr std::size_t kProbes = 200;  // rows on which linearity is tried
+
+class FormulaEffect final : public CovariateEffect {
+ public:
+  FormulaEffect(EffectInfo info, Channel channel, std::vector<const RowCovariate*> covariates,
+                FormulaExpression expression)
+      : CovariateEffect(std::move(info), channel, std::move(covariates)),
+        expression_(std::move(expression)) {
+    info_.physics = "A formula of the user.";
+    info_.spec = info_.id;
+  }
+
+  void columns(std::span<const double> covariates, double /*shape*/,
+               std::span<double> by_parameter) const override {
+    expression_.columns(covariates, by_parameter);
+  }
+
+  Status bind(const MeasurementTable& table, const UserEffectOptions& options);
+  void bind_without_data(const UserEffectOptions& options) {
+    std::vector<EffectParameter> out;
+    for (const std::string& name : expression_.coefficients())
+      out.push_back(user_parameter(name, acts_on(), 1.0, options));
+    set_parameters(std::move(out));
+  }
+
+ private:
+  [[nodiscard]] Error error(const std::string& what, const std::string& hint = {}) const {
+    return Error::input("the effect '" + info_.id + "' cannot be used: " + what, {}, hint);
+  }
+  [[nodiscard]] Status check_linear(const std::vector<std::vector<double>>& rows) const;
+  [[nodiscard]] bool adds_up(const std::vector<double>& row, std::span<const double> columns,
+                             const std::vector<double>& coefficients) const;
+
+  FormulaExpression expression_;
+};
+
+bool FormulaEffect::adds_up(const std::vector<double>& row, std::span<const double> columns,
+                            const std::vector<double>& coefficients) const {
+  double sum = 0.0;
+  double size = 0.0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    sum += coefficients[k] * columns[k];
+    size += std::abs(coefficients[k] * columns[k]);
+  }
+  const double value = expression_.evaluate(row, coefficients);
+  return std::isfinite(value) && std::abs(value - sum) <= 1e-9 * (size + std::abs(value));
+}
+
+// f(0) = 0, f(−2 eₖ) = −2 f(eₖ), and f(c) = Σ cₖ f(eₖ) for one c with all coefficients.
+Status FormulaEffect::check_linear(const std::vector<std::vector<double>>& rows) const {
+  const auto& names = expression_.coefficients();
+  const std::size_t stride = std::max<std::size_t>(1, rows.size() / kProbes);
+  std::vector<double> columns(names.size());
+  for (std::size_t r = 0; r < rows.size(); r += stride) {
+    expression_.columns(rows[r], columns);
+    std::vector<double> c(names.size(), 0.0);
+    if (expression_.evaluate(rows[r], c) != 0.0) {
+      return error("it is not zero when its coefficients are",
+                   "multiply every term with a coefficient");
+    }
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      c[k] = -2.0;
+      if (!adds_up(rows[r], columns, c)) {
+        return error("it is not linear in the coefficient " + names[k],
+                     "write a number in its place, such as the 3 in 'a*sin(3*azimuth)'");
+      }
+      c[k] = 0.0;
+    }
+    for (std::size_t k = 0; k < names.size(); ++k) c[k] = 0.3 + 0.7 * static_cast<double>(k);
+    if (!adds_up(rows[r], columns, c)) {
+      return error("its coefficients do not act one by one: it is not linear in them",
+                   "write a sum of terms with one coefficient each");
+    }
+  }
+  return Done{};
+}
+
+Status FormulaEffect::bind(const MeasurementTable& table, const UserEffectOptions& options) {
+  const auto& names = expression_.coefficients();
+  const auto sources = covariate_sources(table, acts_on());
+  std::vector<std::vector<double>> rows;
+  std::vector<double> columns(names.size());
+  const auto n = static_cast<Eigen::Index>(names.size());
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(n, n);
+  std::size_t bad = 0;
+  std::string first_bad;
+  for (const CovariateSource& source : sources) {
+    std::vector<double> at = values_at(table, source);
+    expression_.columns(at, columns);
+    const Eigen::Map<const Eigen::VectorXd> x(columns.data(), n);
+    if (!x.allFinite()) {
+      for (std::size_t k = 0; k < at.size() && bad == 0; ++k)
+        first_bad +=
+            (k == 0 ? "" : ", ") + covariates()[k]->identifier() + " = " + std::to_string(at[k]);
+      ++bad;
+      continue;
+    }
+    squares += x * x.transpose();
+    rows.push_back(std::move(at));
+  }
+  if (bad > 0) {
+    return error("it is not a finite number on " + std::to_string(bad) + " of " +
+                     std::to_string(sources.size()) + " rows of the channel " + name_of(acts_on()) +
+                     (first_bad.empty() ? "" : ", first where " + first_bad),
+                 "divisions by zero, roots and logarithms of negative numbers do that");
+  }
+  if (Status s = check_linear(rows); !s) return s;
+  squares /= std::max<double>(1.0, static_cast<double>(rows.size()));
+  const Eigen::VectorXd rms = squares.diagonal().cwiseSqrt();
+  std::vector<EffectParameter> parameters;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (!(rms(k) > 0.0))
+      return error("its coefficient " + names[static_cast<std::size_t>(k)] +
+                   " changes nothing on any row");
+    parameters.push_back(
+        user_parameter(names[static_cast<std::size_t>(k)], acts_on(), rms(k), options));
+  }
+  const Eigen::MatrixXd correlation =
+      rms.cwiseInverse().asDiagonal() * squares * rms.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
+  if (n > 1 && eigen.eigenvalues()(0) < 1e-9) {
+    std::string together;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (std::abs(eigen.eigenvectors()(k, 0)) > 0.05)
+        together += (together.empty() ? "" : " and ") + names[static_cast<std::size_t>(k)];
+    }
+    return error("its coefficients " + together + " cannot be told apart on these data",
+                 "leave one of them out");
+  }
+  set_parameters(std::move(parameters));
+  return Done{};
+}
+
+std::vector<std::string> identifiers_of(Channel channel) {
+  std::vector<std::string> out;
+  for (const RowCovariate& c : row_covariates(channel)) out.push_back(c.identifier());
+  return out;
+}
+
+}  // namespace
+
+Result<EffectPtr> make_formula_effect(const UserEffectSpec& spec, const MeasurementTable* table,
+                                      const UserEffectOptions& options) {
+  auto expression = FormulaExpression::parse(spec.body, identifiers_of(spec.channel));
+  if (!expression) return expression.error();
+  std::vector<const RowCovariate*> covariates;
+  for (const std::size_t v : expression->variables())
+    covariates.push_back(&row_covariates(spec.channel)[v]);
+  auto effect = std::make_shared<FormulaEffect>(user_effect_info(spec, covariates), spec.channel,
+                                                covariates, std::move(*expression));
+  if (table == nullptr) {
+    effect->bind_without_data(options);
+    return EffectPtr(effect);
+  }
+  if (Status s = effect->bind(*table, options); !s) return s.error();
+  return EffectPtr(effect);
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/missing_pane.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QTextBrowser>
+#include <QTreeWidget>
+
+#include <gtest/gtest.h>
+
+#include "model_example.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+TEST(MissingPaneTest, TheTopSuggestionIsChosenAndExplained) {
+  MissingPane pane;
+  QSignalSpy chosen(&pane, &MissingPane::chosen);
+  pane.setRanking(test::model_example().missing, true, false);
+  EXPECT_GE(chosen.count(), 1);
+  ASSERT_NE(pane.current(), nullptr);
+  EXPECT_EQ(pane.current()->finding.id, "range_walk");
+  const auto* list = pane.findChild<QTreeWidget*>("proposals");
+  EXPECT_EQ(list->topLevelItem(0)->text(0), "Range walk");
+  EXPECT_TRUE(list->topLevelItem(0)->text(2).startsWith(QString::fromUtf8("−")));
+  EXPECT_TRUE(pane.findChild<QTextBrowser*>("proposal_text")->toPlainText().contains("mm"));
+  EXPECT_TRUE(pane.findChild<QLabel*>("missing_verdict")->text().contains("Range walk"));
+  QSignalSpy add(&pane, &MissingPane::addWanted);
+  pane.findChild<QPushButton*>("add_proposal")->click();
+  ASSERT_EQ(add.count(), 1);
+  EXPECT_EQ(add.last().at(0).toString(), "range_walk");
+}
+
+TEST(MissingPaneTest, NothingMissingIsSaid) {
+  const auto clean = test::make_model_example(false);
+  MissingPane pane;
+  pane.setRanking(clean.missing, true, false);
+  EXPECT_TRUE(pane.findChild<QLabel*>("missing_verdict")->text().contains("Nothing is missing"));
+}
+
+TEST(MissingPaneTest, BusyItOffersToCancelOnly) {
+  MissingPane pane;
+  pane.setRanking(test::model_example().missing, true, true);
+  EXPECT_FALSE(pane.findChild<QPushButton*>("add_proposal")->isEnabled());
+  EXPECT_FALSE(pane.findChild<QPushButton*>("find_all")->isEnabled());
+  QSignalSpy cancel(&pane, &MissingPane::cancelWanted);
+  pane.findChild<QPushButton*>("look_missing")->click();
+  EXPECT_EQ(cancel.count(), 1);
+}
+
+TEST(MissingPaneTest, UnknownStructureOffersACurve) {
+  ModelRanking ranking;
+  ranking.unknown.push_back({Channel::kRange, "azimuth", 0.21, 3.0});
+  MissingPane pane;
+  QSignalSpy structure(&pane, &MissingPane::structureChosen);
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  EXPECT_EQ(structure.count(), 1);
+  QSignalSpy curve(&pane, &MissingPane::curveWanted);
+  pane.findChild<QPushButton*>("add_proposal")->click();
+  ASSERT_EQ(curve.count(), 1);
+  EXPECT_EQ(curve.last().at(1).toString(), "azimuth");
+}
+
+TEST(MissingPaneTest, WhatCannotBeSeenIsListedByWhatItCouldDo) {
+  MissingPane pane;
+  pane.setRanking(test::model_example().missing, true, false);
+  const auto* budget = pane.findChild<QTreeWidget*>("sensitivity");
+  std::size_t unseen = 0;
+  for (const EffectProposal& p : test::model_example().missing->proposals) {
+    if (p.finding.verdict == EffectVerdict::kNotTestable && !p.finding.parameters.empty()) ++unseen;
+  }
+  ASSERT_EQ(budget->topLevelItemCount(), static_cast<int>(unseen));
+  double last = HUGE_VAL;
+  for (int k = 0; k < budget->topLevelItemCount(); ++k) {
+    const double mm = budget->topLevelItem(k)->text(1).section(' ', 0, 0).toDouble();
+    EXPECT_LE(mm, last + 0.051);
+    last = mm;
+  }
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page by itself; with a dataset it is driven in workbench/model_flow_test.cpp.
+#include "modelling/model_page.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QTreeWidget>
+
+#include <gtest/gtest.h>
+
+#include "model_example.h"
+#include "runner/model_work.h"
+#include "runner/workspace.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+TEST(ModelPageTest, WithoutACalibrationItSaysWhatToDo) {
+  const QTemporaryDir folder;
+  Workspace workspace(folder.path());
+  ModelWork work(workspace);
+  ModelPage page(work);
+  page.resize(1100, 700);
+  page.show();
+  QTest::qWait(50);
+  const auto* message = page.findChild<QLabel*>("model_message");
+  EXPECT_TRUE(message->isVisible());
+  EXPECT_TRUE(message->text().contains("Run the calibration"));
+  EXPECT_FALSE(page.findChild<QPushButton*>("add_effect")->isEnabled());
+  EXPECT_FALSE(page.findChild<QPushButton*>("find_all")->isEnabled());
+  page.setReason("not enough scenes");
+  EXPECT_EQ(message->text(), "not enough scenes");
+  EXPECT_FALSE(work.busy());
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

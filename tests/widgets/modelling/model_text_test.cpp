@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/model_text.h"
+
+#include <gtest/gtest.h>
+
+#include "model_example.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+TEST(ModelText, ValuesHaveTheirUnitsAndDeviations) {
+  const ParameterEstimate a{"a", "mm", 1e-3, 0.00812, 0.00013};
+  EXPECT_EQ(value_text(a, false), QString::fromUtf8("8.12 ± 0.13 mm"));
+  EXPECT_EQ(value_text(a, true), "8.12 mm (held)");
+  EXPECT_EQ(value_text({"n", "1", 1.0, 2.0, 0.5}, false), QString::fromUtf8("2 ± 0.5"));
+  EXPECT_TRUE(values_text({a, a, a, a}, false).endsWith(QString::fromUtf8(", …")));
+}
+
+TEST(ModelText, EveryCovariateOfAChannelHasAName) {
+  const auto& base = *test::model_example().base;
+  for (const StructureScore& s : base.structure)
+    EXPECT_FALSE(covariate_name(s.covariate).isEmpty()) << s.covariate;
+  EXPECT_EQ(covariate_name("line"), "laser line");
+  EXPECT_EQ(covariate_name("something new"), "something new");
+  EXPECT_EQ(category_name("print", 1.0), "black");
+  EXPECT_EQ(category_name("tag", 7.0), "7");
+}
+
+TEST(ModelText, StepsSayWhatWasDone) {
+  const auto& example = test::model_example();
+  EXPECT_EQ(step_text(*example.base), "base model");
+  EXPECT_EQ(step_text(*example.mended), "+ Range walk");
+  EXPECT_EQ(effect_title("formula:range:a*range"), "formula:range:a*range");
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/residual_plot.h"
+
+#include <gtest/gtest.h>
+
+#include "model_example.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+std::shared_ptr<const ResidualFigure> figure(const QString& covariate) {
+  const auto& example = test::model_example();
+  auto view = std::make_shared<const ChannelView>(
+      make_channel_view(*example.base, *example.base, Channel::kRange));
+  return make_residual_figure(view, covariate, nullptr, {});
+}
+
+TEST(ResidualPlotTest, DrawsMeansAndTellsThemAsCsv) {
+  ResidualPlot plot;
+  plot.resize(500, 300);
+  plot.setFigure(figure("range"));
+  EXPECT_GT(plot.itemCount(), 2) << "the cloud and the noise";
+  EXPECT_GE(plot.plottableCount(), 3);
+  const QByteArray csv = plot.csv();
+  EXPECT_TRUE(csv.startsWith("range,mean,sigma,n,significant"));
+  EXPECT_EQ(csv.count('\n'), static_cast<qsizetype>(plot.figure()->now.size()) + 1);
+  const int with_before = plot.plottableCount();
+  plot.setBeforeShown(false);
+  EXPECT_LT(plot.plottableCount(), with_before);
+}
+
+TEST(ResidualPlotTest, SaysWhyItIsEmpty) {
+  ResidualPlot plot;
+  plot.setFigure(nullptr, "no model yet");
+  ASSERT_EQ(plot.itemCount(), 1);
+  auto* text = qobject_cast<QCPItemText*>(plot.item(0));
+  ASSERT_NE(text, nullptr);
+  EXPECT_EQ(text->text(), "no model yet");
+  EXPECT_TRUE(plot.csv().isEmpty());
+}
+
+TEST(ResidualPlotTest, BrushingGivesTheAreaInAxisUnits) {
+  ResidualPlot plot;
+  plot.resize(500, 300);
+  plot.setFigure(figure("range"));
+  plot.show();
+  plot.replot();
+  plot.setBrushing(true);
+  QSignalSpy brushed(&plot, &ResidualPlot::brushed);
+  const QPoint from(static_cast<int>(plot.xAxis->coordToPixel(2.0)),
+                    static_cast<int>(plot.yAxis->coordToPixel(10.0)));
+  const QPoint to(static_cast<int>(plot.xAxis->coordToPixel(3.0)),
+                  static_cast<int>(plot.yAxis->coordToPixel(-10.0)));
+  QTest::mousePress(&plot, Qt::LeftButton, {}, from);
+  QTest::mouseMove(&plot, (from + to) / 2);
+  QTest::mouseMove(&plot, to);
+  QTest::mouseRelease(&plot, Qt::LeftButton, {}, to);
+  ASSERT_GE(brushed.count(), 1);
+  const QRectF area = brushed.last().at(0).toRectF();
+  EXPECT_NEAR(area.left(), 2.0, 0.05);
+  EXPECT_NEAR(area.right(), 3.0, 0.05);
+  EXPECT_NEAR(area.top(), -10.0, 0.8);
+  EXPECT_NEAR(area.bottom(), 10.0, 0.8);
+}
+
+TEST(ResidualPlotTest, SelectedResidualsAreDrawnAndForgottenWithTheirFigure) {
+  ResidualPlot plot;
+  plot.setFigure(figure("range"));
+  const int before = plot.graphCount();
+  plot.setSelected({1, 2, 3});
+  EXPECT_EQ(plot.graphCount(), before + 1);
+  EXPECT_EQ(plot.graph(before)->dataCount(), 3);
+  plot.setFigure(figure("range"));
+  EXPECT_EQ(plot.graphCount(), before) << "other residuals";
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/term_list.h"
+
+#include <QPushButton>
+#include <QTreeWidget>
+
+#include <gtest/gtest.h>
+
+#include "model_example.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class Terms : public ::testing::Test {
+ protected:
+  Terms() : tree_(list_.findChild<QTreeWidget*>("terms")) {
+    list_.setStep(test::model_example().mended, test::model_example().base);
+    QObject::connect(&list_, &TermList::holdWanted, &list_,
+                     [this](int, const std::optional<Eigen::VectorXd>& values) {
+                       ++holds_;
+                       held_ = values;
+                     });
+  }
+  [[nodiscard]] QTreeWidgetItem* walk() const { return tree_->topLevelItem(1); }
+  TermList list_;
+  QTreeWidget* tree_;
+  int holds_ = 0;
+  std::optional<Eigen::VectorXd> held_;
+};
+
+TEST_F(Terms, ListsEffectsWithValuesAndDeviations) {
+  ASSERT_EQ(tree_->topLevelItemCount(), 2);
+  EXPECT_EQ(walk()->text(0), "Range walk");
+  EXPECT_TRUE(walk()->text(1).contains(QString::fromUtf8("±")));
+  EXPECT_TRUE(walk()->text(1).endsWith("mm"));
+  EXPECT_EQ(walk()->checkState(0), Qt::Checked);
+}
+
+TEST_F(Terms, CheckBoxesAskForOnAndHeld) {
+  QSignalSpy on(&list_, &TermList::onWanted);
+  walk()->setCheckState(0, Qt::Unchecked);
+  ASSERT_EQ(on.count(), 1);
+  EXPECT_FALSE(on.last().at(1).toBool());
+  QTest::qWait(10);
+  EXPECT_EQ(walk()->checkState(0), Qt::Checked) << "until it is done";
+  walk()->setCheckState(2, Qt::Checked);
+  ASSERT_EQ(holds_, 1);
+  ASSERT_TRUE(held_);
+  EXPECT_EQ((*held_)(0), test::model_example().mended->terms[0].use.values(0));
+}
+
+TEST_F(Terms, ATypedValueIsHeld) {
+  walk()->setText(1, "7.5");
+  ASSERT_EQ(holds_, 1);
+  EXPECT_DOUBLE_EQ((*held_)(0), 0.0075);
+  QTest::qWait(10);
+  walk()->setText(1, "seven");
+  EXPECT_EQ(holds_, 1) << "what is no number changes nothing";
+  QTest::qWait(10);
+  EXPECT_TRUE(walk()->text(1).contains(QString::fromUtf8("±")));
+}
+
+TEST_F(Terms, RemovesTheChosenOneAndNothingWhileBusy) {
+  QSignalSpy removed(&list_, &TermList::removeWanted);
+  auto* button = list_.findChild<QPushButton*>("remove_effect");
+  EXPECT_FALSE(button->isEnabled());
+  tree_->setCurrentItem(walk());
+  EXPECT_TRUE(button->isEnabled());
+  button->click();
+  ASSERT_EQ(removed.count(), 1);
+  EXPECT_EQ(removed.last().at(0).toInt(), 0);
+  list_.setChangeable(false);
+  EXPECT_FALSE(button->isEnabled());
+  EXPECT_FALSE(list_.findChild<QPushButton*>("add_effect")->isEnabled());
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

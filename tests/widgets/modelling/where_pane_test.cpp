@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/where_pane.h"
+
+#include <QComboBox>
+#include <QTabWidget>
+#include <QToolButton>
+
+#include <gtest/gtest.h>
+
+#include "model_example.h"
+#include "modelling/residual_plot.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+class Where : public ::testing::Test {
+ protected:
+  Where() : pane_(source_), plot_(pane_.findChild<ResidualPlot*>("residual_plot")) {
+    pane_.resize(700, 500);
+    pane_.show();
+    source_.setSteps(test::model_example().base, test::model_example().base);
+    pane_.setStep(test::model_example().base, {});
+    QObject::connect(&pane_, &WherePane::selected, &pane_,
+                     [this](const std::vector<SelectedSample>& s) { samples_ = s; });
+  }
+  bool wait_for(const char* covariate) {
+    return QTest::qWaitFor(
+        [&] { return plot_->figure() && plot_->figure()->along().name == covariate; }, 30'000);
+  }
+  FigureSource source_;
+  WherePane pane_;
+  ResidualPlot* plot_;
+  std::vector<SelectedSample> samples_;
+};
+
+TEST_F(Where, BeginsWhereTheStructureIsStrongest) {
+  EXPECT_EQ(pane_.channel(), Channel::kRange);
+  EXPECT_TRUE(wait_for(pane_.covariate().toUtf8().constData()));
+  const auto* covariates = pane_.findChild<QComboBox*>("covariate");
+  EXPECT_TRUE(covariates->itemText(0).contains('%'));
+  EXPECT_GT(covariates->count(), 10);
+}
+
+TEST_F(Where, AnotherChannelHasItsOwnCovariates) {
+  auto* channels = pane_.findChild<QComboBox*>("channel");
+  channels->setCurrentIndex(channels->findData(static_cast<int>(Channel::kCorner)));
+  EXPECT_GE(pane_.findChild<QComboBox*>("covariate")->findData("image x"), 0);
+  EXPECT_TRUE(wait_for(pane_.covariate().toUtf8().constData()));
+  pane_.look(Channel::kRange, "azimuth");
+  EXPECT_EQ(pane_.covariate(), "azimuth");
+  EXPECT_TRUE(wait_for("azimuth"));
+}
+
+TEST_F(Where, BrushingSelectsTheSameMeasurementsEverywhere) {
+  pane_.look(Channel::kRange, "range");
+  ASSERT_TRUE(wait_for("range"));
+  pane_.findChild<QToolButton*>("brush")->click();
+  Q_EMIT plot_->brushed(QRectF(QPointF(0.0, -100.0), QPointF(2.2, 100.0)));
+  ASSERT_FALSE(samples_.empty());
+  for (const SelectedSample& s : samples_) {
+    ASSERT_TRUE(s.point_in_lidar_m);
+    EXPECT_LT(s.point_in_lidar_m->norm(), 2.3);
+  }
+  pane_.findChild<QToolButton*>("brush")->click();
+  EXPECT_TRUE(samples_.empty()) << "off again";
+}
+
+TEST_F(Where, BrushingKeepsUpWithTheHand) {
+  pane_.look(Channel::kRange, "range");
+  ASSERT_TRUE(wait_for("range"));
+  QElapsedTimer clock;
+  clock.start();
+  constexpr int kMoves = 20;
+  for (int k = 1; k <= kMoves; ++k) {
+    Q_EMIT plot_->brushed(QRectF(QPointF(0.0, -100.0), QPointF(1.5 + 0.1 * k, 100.0)));
+    QCoreApplication::processEvents();
+  }
+  RecordProperty("milliseconds_per_move", static_cast<int>(clock.elapsed() / kMoves));
+}
+
+TEST_F(Where, TheBoardsIntensityIsDrawnWhenItIsLookedAt) {
+  auto* tabs = pane_.findChild<QTabWidget*>("where_tabs");
+  bool ready = false;
+  QObject::connect(&source_, &FigureSource::boardReady, &pane_, [&] { ready = true; });
+  QTest::qWait(50);
+  EXPECT_FALSE(ready);
+  tabs->setCurrentIndex(4);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return ready; }, 30'000));
+  EXPECT_EQ(pane_.findChild<QComboBox*>("board_scene")->count(), 7);
+}
+
+TEST_F(Where, WithoutAModelItSaysWhy) {
+  source_.setSteps(nullptr, nullptr);
+  pane_.setStep(nullptr, "run first");
+  EXPECT_EQ(plot_->figure(), nullptr);
+  EXPECT_FALSE(pane_.findChild<QComboBox*>("channel")->isEnabled());
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/model_work.h"
+
+#include <QTemporaryDir>
+#include <QTest>
+#include <QUndoStack>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "runner/demo.h"
+#include "runner/workspace.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+using ::testing::ElementsAre;
+
+// Four small scenes of a LiDAR whose dark returns read far, calibrated once for all tests.
+class Work : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new QTemporaryDir;
+    auto options = demo_options();
+    options.lidar.points = 60'000;
+    options.image.width_px = 1000;
+    options.image.height_px = 640;
+    options.placement.max_distance_m = 2.8;
+    workspace_ = new Workspace(folder_->path());
+    workspace_->open_demo(options);
+    ASSERT_TRUE(
+        QTest::qWaitFor([] { return workspace_->is_open() && !workspace_->busy(); }, 240'000));
+    workspace_->run();
+    ASSERT_TRUE(
+        QTest::qWaitFor([] { return workspace_->result() && !workspace_->busy(); }, 240'000));
+  }
+  static void TearDownTestSuite() {
+    delete workspace_;
+    delete folder_;
+  }
+  void SetUp() override {
+    ASSERT_NE(workspace_->result(), nullptr);
+    workspace_->undo_stack().clear();
+    workspace_->set_model({});
+    work_ = std::make_unique<ModelWork>(*workspace_);
+  }
+  bool idle() {
+    return QTest::qWaitFor([&] { return !work_->busy(); }, 240'000);
+  }
+  std::vector<std::string> specs() {
+    std::vector<std::string> out;
+    if (work_->step()) {
+      for (const ModelTerm& t : work_->step()->terms) out.push_back(t.spec);
+    }
+    return out;
+  }
+  static QTemporaryDir* folder_;
+  static Workspace* workspace_;
+  std::unique_ptr<ModelWork> work_;
+};
+QTemporaryDir* Work::folder_ = nullptr;
+Workspace* Work::workspace_ = nullptr;
+
+TEST_F(Work, FindsAddsAndTakesBackWhatIsHidden) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  ASSERT_NE(work_->step(), nullptr);
+  ASSERT_NE(work_->ranking(), nullptr);
+  EXPECT_EQ(work_->ranking()->proposals.front().finding.id, "range_walk");
+  EXPECT_FALSE(workspace_->undo_stack().canUndo()) << "looking is no decision";
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  EXPECT_THAT(specs(), ElementsAre("range_walk"));
+  EXPECT_EQ(work_->steps().size(), 2U);
+  ASSERT_EQ(workspace_->model().size(), 1U);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work_->result() != nullptr; }, 30'000));
+  EXPECT_EQ(work_->result()->model.size(), 1U);
+  const auto discovery = work_->discovery();
+  ASSERT_NE(discovery, nullptr);
+  EXPECT_THAT(discovery->selected, ElementsAre("range_walk"));
+  workspace_->undo_stack().undo();
+  EXPECT_FALSE(work_->busy()) << "the step before is kept";
+  EXPECT_THAT(specs(), ElementsAre());
+  EXPECT_TRUE(workspace_->model().empty());
+  EXPECT_EQ(work_->result(), nullptr);
+  EXPECT_NE(work_->ranking(), nullptr);
+  workspace_->undo_stack().redo();
+  EXPECT_THAT(specs(), ElementsAre("range_walk"));
+}
+
+TEST_F(Work, GoesBackInTheHistoryWithoutLosingIt) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  work_->add("board_bow");
+  ASSERT_TRUE(idle());
+  ASSERT_EQ(work_->steps().size(), 3U);
+  work_->go_to(0);
+  EXPECT_EQ(work_->current(), 0U);
+  EXPECT_EQ(work_->steps().size(), 3U);
+  EXPECT_TRUE(workspace_->model().empty());
+  work_->go_to(2);
+  EXPECT_EQ(specs().size(), 2U);
+  // Something new from the middle takes the place of what followed.
+  work_->go_to(1);
+  ASSERT_TRUE(idle());
+  work_->set_on(0, false);
+  ASSERT_TRUE(idle());
+  EXPECT_EQ(work_->steps().size(), 3U);
+  EXPECT_TRUE(work_->step()->in_use().empty());
+}
+
+TEST_F(Work, HoldsAndReleasesValues) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  work_->hold(0, Eigen::VectorXd::Constant(1, 0.005));
+  ASSERT_TRUE(idle());
+  EXPECT_TRUE(work_->step()->terms[0].use.held);
+  EXPECT_DOUBLE_EQ(work_->step()->terms[0].use.values(0), 0.005);
+  work_->hold(0, std::nullopt);
+  ASSERT_TRUE(idle());
+  EXPECT_FALSE(work_->step()->terms[0].use.held);
+  EXPECT_GT(work_->step()->terms[0].use.values(0), 0.006);
+  work_->remove(0);
+  ASSERT_TRUE(idle());
+  EXPECT_TRUE(specs().empty());
+}
+
+TEST_F(Work, FindsAllByItself) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->find_all();
+  ASSERT_TRUE(idle());
+  EXPECT_THAT(specs(), ::testing::Contains("range_walk"));
+  EXPECT_TRUE(workspace_->undo_stack().canUndo());
+  ASSERT_NE(work_->ranking(), nullptr);
+  for (const EffectProposal& p : work_->ranking()->proposals) EXPECT_FALSE(p.suggested);
+}
+
+TEST_F(Work, AProjectsModelIsMadeAgain) {
+  workspace_->set_model(
+      {{ModelChange::kAdd, "range_walk", {}}, {ModelChange::kHold, "range_walk", {0.004}}});
+  ASSERT_TRUE(workspace_->save(folder_->filePath("p.lvcalib")).ok());
+  Workspace again(folder_->path());
+  ModelWork work(again);
+  again.open_project(folder_->filePath("p.lvcalib"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return again.is_open() && !again.busy(); }, 60'000));
+  EXPECT_EQ(again.model().size(), 2U);
+  again.run();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work.step() != nullptr && !work.busy(); }, 240'000));
+  ASSERT_EQ(work.step()->terms.size(), 1U);
+  EXPECT_DOUBLE_EQ(work.step()->terms[0].use.values(0), 0.004);
+  EXPECT_EQ(work.steps().size(), 3U);
+}
+
+TEST_F(Work, CancellingLeavesTheModelAsItWas) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  const ModelStepPtr before = work_->step();
+  work_->add("range_cyclic");
+  work_->cancel();
+  ASSERT_TRUE(idle());
+  EXPECT_EQ(work_->step(), before);
+  EXPECT_FALSE(workspace_->undo_stack().canUndo());
+}
+
+TEST_F(Work, WhatCannotBeAddedIsSaid) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  QString message;
+  QObject::connect(work_.get(), &ModelWork::failed, work_.get(),
+                   [&](const Error& error) { message = QString::fromStdString(error.text()); });
+  work_->add("formula:range:a*");
+  ASSERT_TRUE(idle());
+  EXPECT_FALSE(message.isEmpty());
+  EXPECT_TRUE(specs().empty());
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "start/coach_marks.h"
+
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace lvcalib::widgets {
+namespace {
+
+class Coach : public ::testing::Test {
+ protected:
+  Coach() : marks_(&window_), target_(&window_), other_(&window_) {
+    window_.resize(600, 400);
+    target_.setGeometry(20, 20, 100, 30);
+    other_.setGeometry(480, 360, 100, 30);
+    window_.show();
+  }
+  QPushButton* button(const char* name) {
+    return marks_.findChild<QPushButton*>(QString::fromLatin1(name));
+  }
+  QWidget window_;
+  CoachMarks marks_;
+  QPushButton target_, other_;
+};
+
+TEST_F(Coach, LeadsFromMarkToMarkBesideItsTargets) {
+  QSignalSpy ended(&marks_, &CoachMarks::ended);
+  marks_.start(
+      {{"Look here", [&] { return &target_; }, {}}, {"and there", [&] { return &other_; }, {}}});
+  EXPECT_EQ(marks_.current(), 0);
+  EXPECT_TRUE(marks_.isVisible());
+  EXPECT_GT(marks_.y(), target_.geometry().bottom());
+  button("coach_next")->click();
+  EXPECT_EQ(marks_.current(), 1);
+  EXPECT_LT(marks_.geometry().bottom(), other_.y()) << "above, where there is room";
+  EXPECT_LE(marks_.geometry().right(), window_.width());
+  button("coach_next")->click();
+  EXPECT_EQ(ended.count(), 1);
+  EXPECT_FALSE(marks_.isVisible());
+}
+
+TEST_F(Coach, GoesOnWhenTheUserHasDoneIt) {
+  bool done = false;
+  marks_.start({{"Do it", [&] { return &target_; }, [&] { return done; }},
+                {"Well done", [&] { return &target_; }, {}}});
+  EXPECT_FALSE(button("coach_next")->isVisible());
+  done = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return marks_.current() == 1; }, 5000));
+}
+
+TEST_F(Coach, HidesWhileItsTargetIsNotThereAndEndsWhenAsked) {
+  QWidget* there = nullptr;
+  marks_.start({{"Wait", [&] { return there; }, {}}, {"More", [&] { return there; }, {}}});
+  EXPECT_FALSE(marks_.isVisible());
+  there = &target_;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return marks_.isVisible(); }, 5000));
+  button("coach_close")->click();
+  EXPECT_FALSE(marks_.isVisible());
+  EXPECT_EQ(marks_.current(), -1);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

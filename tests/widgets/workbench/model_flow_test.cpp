@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Model page driven as its user does.
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTemporaryDir>
+#include <QTreeWidget>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/file_io.h"
+#include "modelling/budget_plot.h"
+#include "modelling/residual_plot.h"
+#include "runner/demo.h"
+#include "simulation/dataset_writer.h"
+#include "simulation/simulator.h"
+#include "start/coach_marks.h"
+#include "widgets/support/driver.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+using ::testing::HasSubstr;
+
+simulation::SimulationOptions small_rig(int scenes, std::map<std::string, double> effects) {
+  simulation::SimulationOptions options = demo_options();
+  options.scenes = scenes;
+  options.effects = std::move(effects);
+  options.lidar.points = 60'000;
+  options.image.width_px = 1000;
+  options.image.height_px = 640;
+  options.placement.max_distance_m = 2.8;
+  return options;
+}
+
+class Flow : public ::testing::Test {
+ protected:
+  Flow() : settings_(folder_.path()), window_(settings_, answers_) {
+    window_.resize(1500, 940);
+    window_.show();
+  }
+  ~Flow() override {
+    window_.close();
+    Runner::wait_for_workers(30'000);
+  }
+
+  bool open_and_run(const simulation::SimulationOptions& options, bool as_demo) {
+    if (as_demo) {
+      window_.set_demo(options);
+      test::trigger(window_, "demo");
+    } else {
+      const QString path = folder_.filePath("rig");
+      if (!make_demo(path.toStdString(), options, {})) return false;
+      window_.open(path);
+    }
+    if (!test::wait_until([&] { return window_.workspace().is_open(); })) return false;
+    if (!test::wait_until([&] { return !window_.workspace().busy(); })) return false;
+    test::trigger(window_, "run");
+    if (!test::wait_for_result(window_)) return false;
+    test::find<QTabWidget>(window_, "pages")->setCurrentIndex(4);
+    return wait_idle();
+  }
+  bool wait_idle() {
+    return test::wait_until([&] { return !work().busy() && work().step(); }, 240'000);
+  }
+  ModelWork& work() { return window_.model_work(); }
+  QTreeWidgetItem* top() { return test::find<QTreeWidget>(window_, "proposals")->topLevelItem(0); }
+  double unexplained(Channel channel) {
+    for (const ChannelSummary& c : work().step()->channels) {
+      if (c.channel == channel) return c.unexplained;
+    }
+    return NAN;
+  }
+
+  QTemporaryDir folder_;
+  AppSettings settings_;
+  test::Answers answers_;
+  MainWindow window_;
+};
+
+TEST_F(Flow, TheDemosHiddenEffectIsFoundAddedTakenBackAndExported) {
+  test::Watchdog watchdog;
+  ASSERT_TRUE(open_and_run(small_rig(4, {{"range_walk", 10.0}}), true));
+  ASSERT_NE(top(), nullptr);
+  EXPECT_EQ(top()->text(0), "Range walk");
+  EXPECT_THAT(test::find<QLabel>(window_, "missing_verdict")->text().toStdString(),
+              HasSubstr("Range walk"));
+  // Its pattern is drawn over what is measured.
+  auto* plot = test::find<ResidualPlot>(window_, "residual_plot");
+  EXPECT_TRUE(test::wait_until([&] { return plot->figure() != nullptr; }));
+  const double before = unexplained(Channel::kRange);
+  QTest::mouseClick(test::find<QPushButton>(window_, "add_proposal"), Qt::LeftButton);
+  ASSERT_TRUE(test::wait_until([&] { return work().current() == 1; }));
+  ASSERT_TRUE(wait_idle());
+  EXPECT_LT(unexplained(Channel::kRange), 0.4 * before);
+  EXPECT_EQ(test::find<BudgetPlot>(window_, "budget_plot")->csv().count("\n1,"), 4);
+  // The export holds the effect.
+  ASSERT_TRUE(test::wait_until([&] { return work().result() != nullptr; }));
+  EXPECT_EQ(work().result()->model.at(0).id, "range_walk");
+  answers_.export_to = folder_.filePath("report.html");
+  ASSERT_TRUE(test::trigger(window_, "report"));
+  ASSERT_TRUE(test::wait_until([&] { return QFile::exists(answers_.export_to); }));
+  const auto html = read_text_file(answers_.export_to.toStdString(), 64U << 20U);
+  ASSERT_TRUE(html.ok());
+  EXPECT_THAT(*html, HasSubstr("<h2>Model</h2>"));
+  EXPECT_THAT(*html, HasSubstr("Added: range_walk"));
+  ASSERT_TRUE(test::trigger(window_, "undo"));
+  EXPECT_TRUE(work().step()->terms.empty());
+  ASSERT_TRUE(test::trigger(window_, "redo"));
+  EXPECT_EQ(work().step()->terms.size(), 1U);
+  RecordProperty("largest_gap_ms", static_cast<int>(watchdog.take_largest_ms()));
+}
+
+TEST_F(Flow, TheTourLeadsFromTheFirstLookToTheFallenError) {
+  window_.set_demo(small_rig(4, {{"range_walk", 10.0}}));
+  test::trigger(window_, "demo");
+  ASSERT_TRUE(test::wait_until([&] { return window_.workspace().is_open(); }));
+  ASSERT_TRUE(test::wait_until([&] { return !window_.workspace().busy(); }));
+  auto* coach = test::find<CoachMarks>(window_, "coach_marks");
+  ASSERT_NE(coach, nullptr);
+  EXPECT_TRUE(coach->isVisible());
+  EXPECT_EQ(coach->current(), 0);
+  test::trigger(window_, "run");
+  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 1; }));
+  test::find<QTabWidget>(window_, "pages")->setCurrentIndex(4);
+  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 3; }, 240'000));
+  QTest::mouseClick(test::find<QPushButton>(*coach, "coach_next"), Qt::LeftButton);
+  EXPECT_EQ(coach->current(), 4);
+  ASSERT_TRUE(wait_idle());
+  QTest::mouseClick(test::find<QPushButton>(window_, "add_proposal"), Qt::LeftButton);
+  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 5; }, 240'000));
+  QTest::mouseClick(test::find<QPushButton>(*coach, "coach_next"), Qt::LeftButton);
+  EXPECT_FALSE(coach->isVisible());
+}
+
+TEST_F(Flow, TwoHiddenEffectsAreFoundOneAfterTheOther) {
+  ASSERT_TRUE(open_and_run(small_rig(5, {{"range_walk", 10.0}, {"board_bow", 6.0}}), false));
+  std::set<std::string> found;
+  for (std::size_t k = 1; k <= 2; ++k) {
+    ASSERT_NE(work().ranking(), nullptr);
+    ASSERT_TRUE(work().ranking()->proposals.front().suggested);
+    found.insert(work().ranking()->proposals.front().finding.id);
+    QTest::mouseClick(test::find<QPushButton>(window_, "add_proposal"), Qt::LeftButton);
+    ASSERT_TRUE(test::wait_until([&] { return work().current() == k; }));
+    ASSERT_TRUE(wait_idle());
+  }
+  EXPECT_THAT(found, ::testing::UnorderedElementsAre("range_walk", "board_bow"));
+  const double mended = unexplained(Channel::kRange);
+  ASSERT_TRUE(test::trigger(window_, "undo"));
+  ASSERT_TRUE(test::trigger(window_, "undo"));
+  EXPECT_TRUE(work().step()->terms.empty());
+  EXPECT_LT(mended, 0.5 * unexplained(Channel::kRange));
+}
+
+TEST_F(Flow, WhereNothingIsHiddenThePageSaysSo) {
+  test::Watchdog watchdog;
+  ASSERT_TRUE(open_and_run(small_rig(4, {}), false));
+  ASSERT_NE(work().ranking(), nullptr);
+  for (const EffectProposal& p : work().ranking()->proposals)
+    EXPECT_FALSE(p.suggested) << p.finding.id;
+  // Switching the covariate answers at once: the residuals are there.
+  auto* plot = test::find<ResidualPlot>(window_, "residual_plot");
+  auto* covariates = test::find<QComboBox>(window_, "covariate");
+  ASSERT_TRUE(test::wait_until([&] { return plot->figure() != nullptr; }));
+  int slowest = 0;
+  for (int k = 1; k < covariates->count(); ++k) {
+    QElapsedTimer clock;
+    clock.start();
+    covariates->setCurrentIndex(k);
+    const std::string wanted = covariates->currentData().toString().toStdString();
+    ASSERT_TRUE(
+        test::wait_until([&] { return plot->figure() && plot->figure()->along().name == wanted; }));
+    slowest = std::max(slowest, static_cast<int>(clock.elapsed()));
+  }
+  RecordProperty("slowest_switch_ms", slowest);
+  RecordProperty("largest_gap_ms", static_cast<int>(watchdog.take_largest_ms()));
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

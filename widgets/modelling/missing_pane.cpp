@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/missing_pane.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSplitter>
+#include <QStyledItemDelegate>
+#include <QTabWidget>
+#include <QTextBrowser>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "modelling/model_text.h"
+#include "modelling/residual_plot.h"
+#include "style/theme.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+enum Column { kEffect, kVerdict, kFall, kColumns };
+constexpr int kProposal = Qt::UserRole;     // Index of the proposal.
+constexpr int kUnknown = Qt::UserRole + 1;  // Index of unexplained structure.
+constexpr int kShare = Qt::UserRole + 2;    // 0…1 for the bar.
+
+// A bar of the predicted fall with its number.
+class FallDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  void paint(QPainter* painter, const QStyleOptionViewItem& option,
+             const QModelIndex& index) const override {
+    QStyleOptionViewItem ground = option;
+    initStyleOption(&ground, index);
+    ground.text.clear();
+    ground.widget->style()->drawControl(QStyle::CE_ItemViewItem, &ground, painter, ground.widget);
+    const QVariant share = index.data(kShare);
+    if (!share.isValid()) return;
+    const double width = std::clamp(share.toDouble(), 0.0, 1.0);
+    QRectF bar = QRectF(option.rect).adjusted(2, 4, -2, -4);
+    const QColor color = state_colors(option.palette).good;
+    painter->save();
+    painter->setPen(Qt::NoPen);
+    QColor pale = color;
+    pale.setAlpha(40);
+    painter->fillRect(bar, pale);
+    bar.setWidth(bar.width() * width);
+    QColor full = color;
+    full.setAlpha(150);
+    painter->fillRect(bar, full);
+    const bool chosen = (option.state & QStyle::State_Selected) != 0;
+    painter->setPen(option.palette.color(chosen ? QPalette::HighlightedText : QPalette::Text));
+    painter->drawText(option.rect.adjusted(4, 0, -4, 0), Qt::AlignVCenter | Qt::AlignRight,
+                      index.data().toString());
+    painter->restore();
+  }
+};
+
+double best_fall(const EffectProposal& p) {
+  return *std::max_element(p.heldout_fall.begin(), p.heldout_fall.end());
+}
+
+QColor verdict_color(const EffectProposal& p, const QPalette& palette) {
+  const StateColors colors = state_colors(palette);
+  if (p.suggested) return colors.bad;
+  switch (p.finding.verdict) {
+    case EffectVerdict::kPresent:
+      return colors.bad;
+    case EffectVerdict::kAliased:
+      return colors.doubtful;
+    case EffectVerdict::kAbsent:
+      return colors.good;
+    case EffectVerdict::kNotTestable:
+      break;
+  }
+  return colors.idle;
+}
+
+}  // namespace
+
+MissingPane::MissingPane(QWidget* parent)
+    : QWidget(parent),
+      verdict_(new QLabel(this)),
+      tabs_(new QTabWidget(this)),
+      list_(new QTreeWidget(this)),
+      budget_(new QTreeWidget(this)),
+      text_(new QTextBrowser(this)),
+      pattern_(new ResidualPlot(this)),
+      add_(new QPushButton(this)),
+      all_(new QPushButton(this)),
+      look_(new QPushButton(this)) {
+  verdict_->setObjectName(QStringLiteral("missing_verdict"));
+  verdict_->setWordWrap(true);
+  list_->setObjectName(QStringLiteral("proposals"));
+  list_->setColumnCount(kColumns);
+  list_->setUniformRowHeights(true);
+  list_->setIndentation(14);
+  list_->setItemDelegateForColumn(kFall, new FallDelegate(list_));
+  list_->header()->setStretchLastSection(false);
+  list_->header()->setSectionResizeMode(kEffect, QHeaderView::Stretch);
+  list_->header()->setSectionResizeMode(kVerdict, QHeaderView::ResizeToContents);
+  list_->header()->setSectionResizeMode(kFall, QHeaderView::Fixed);
+  list_->header()->resizeSection(kFall, 74);
+  budget_->setObjectName(QStringLiteral("sensitivity"));
+  budget_->setColumnCount(3);
+  budget_->setRootIsDecorated(false);
+  budget_->setUniformRowHeights(true);
+  budget_->header()->setStretchLastSection(false);
+  budget_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  text_->setObjectName(QStringLiteral("proposal_text"));
+  text_->setMinimumHeight(70);
+  pattern_->setObjectName(QStringLiteral("pattern_plot"));
+  pattern_->setMeansOnly(true);
+  add_->setObjectName(QStringLiteral("add_proposal"));
+  all_->setObjectName(QStringLiteral("find_all"));
+  look_->setObjectName(QStringLiteral("look_missing"));
+  tabs_->setDocumentMode(true);
+  tabs_->addTab(list_, {});
+  tabs_->addTab(budget_, {});
+  auto* details = new QSplitter(Qt::Vertical, this);
+  details->setChildrenCollapsible(false);
+  details->addWidget(tabs_);
+  details->addWidget(text_);
+  details->addWidget(pattern_);
+  details->setStretchFactor(0, 3);
+  details->setStretchFactor(1, 2);
+  details->setStretchFactor(2, 2);
+  details->setSizes({270, 130, 200});
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(add_, 1);
+  buttons->addWidget(all_, 1);
+  buttons->addWidget(look_, 1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(3);
+  layout->addWidget(verdict_);
+  layout->addWidget(details, 1);
+  layout->addLayout(buttons);
+  connect(list_, &QTreeWidget::currentItemChanged, this, &MissingPane::describe);
+  connect(list_, &QTreeWidget::itemDoubleClicked, this, &MissingPane::add);
+  connect(add_, &QPushButton::clicked, this, &MissingPane::add);
+  connect(all_, &QPushButton::clicked, this, &MissingPane::findAllWanted);
+  connect(look_, &QPushButton::clicked, this, [this] {
+    if (busy_) {
+      Q_EMIT cancelWanted();
+    } else {
+      Q_EMIT lookWanted();
+    }
+  });
+  retranslate();
+}
+
+MissingPane::~MissingPane() {
+  list_->disconnect(this);  // It changes while it goes.
+}
+
+void MissingPane::setRanking(std::shared_ptr<const ModelRanking> ranking, bool has_model,
+                             bool busy) {
+  const bool same = ranking == ranking_ && has_model == has_model_;
+  ranking_ = std::move(ranking);
+  has_model_ = has_model;
+  busy_ = busy;
+  if (!same) {
+    described_ = nullptr;
+    fill();
+    fillBudget();
+  }
+  describe();
+}
+
+void MissingPane::setPattern(const std::shared_ptr<const ResidualFigure>& figure) {
+  pattern_->setFigure(figure, tr("its pattern cannot be seen"));
+}
+
+const EffectProposal* MissingPane::current() const {
+  const QTreeWidgetItem* item = list_->currentItem();
+  if (!ranking_ || item == nullptr || !item->data(kEffect, kProposal).isValid()) return nullptr;
+  return &ranking_->proposals[item->data(kEffect, kProposal).toUInt()];
+}
+
+void MissingPane::add() {
+  if (busy_) return;
+  if (const EffectProposal* p = current(); p != nullptr && !p->finding.parameters.empty()) {
+    Q_EMIT addWanted(QString::fromStdString(p->finding.id));
+    return;
+  }
+  const QTreeWidgetItem* item = list_->currentItem();
+  if (!ranking_ || item == nullptr || !item->data(kEffect, kUnknown).isValid()) return;
+  const StructureScore& s = ranking_->unknown[item->data(kEffect, kUnknown).toUInt()];
+  Q_EMIT curveWanted(s.channel, QString::fromStdString(s.covariate));
+}
+
+void MissingPane::fill() {
+  const QSignalBlocker quiet(list_);
+  list_->clear();
+  if (!ranking_) return;
+  for (std::size_t k = 0; k < ranking_->unknown.size() && k < 5; ++k)
+    addUnknown(static_cast<int>(k));
+  for (std::size_t k = 0; k < ranking_->proposals.size(); ++k)
+    addProposal(ranking_->proposals[k], static_cast<int>(k));
+  list_->expandAll();
+  if (list_->topLevelItemCount() > 0) list_->setCurrentItem(list_->topLevelItem(0));
+}
+
+void MissingPane::addProposal(const EffectProposal& p, int index) {
+  QTreeWidgetItem* item = nullptr;
+  // Aliases stand under the one that they cannot be told from.
+  if (!p.alias_of.empty()) {
+    for (int k = 0; k < list_->topLevelItemCount(); ++k) {
+      const QVariant at = list_->topLevelItem(k)->data(kEffect, kProposal);
+      if (at.isValid() && ranking_->proposals[at.toUInt()].finding.id == p.alias_of)
+        item = new QTreeWidgetItem(list_->topLevelItem(k));
+    }
+  }
+  if (item == nullptr) item = new QTreeWidgetItem(list_);
+  item->setText(kEffect, p.alias_of.empty() ? effect_title(p.finding.id)
+                                            : tr("or: %1").arg(effect_title(p.finding.id)));
+  item->setData(kEffect, kProposal, index);
+  item->setText(kVerdict, verdict_name(p.finding.verdict));
+  item->setForeground(kVerdict, verdict_color(p, palette()));
+  item->setToolTip(kEffect, QString::fromStdString(p.finding.id));
+  if (p.suggested) {
+    QFont font = item->font(kEffect);
+    font.setBold(true);
+    item->setFont(kEffect, font);
+  }
+  const double fall = best_fall(p);
+  if (p.finding.parameters.empty() || !(fall > 0.0005)) return;
+  item->setData(kFall, kShare, fall);
+  item->setText(kFall, QStringLiteral("−%1 %").arg(100.0 * fall, 0, 'f', fall < 0.1 ? 1 : 0));
+  item->setToolTip(kFall, tr("Predicted fall of the squared error in scenes held out"));
+}
+
+void MissingPane::addUnknown(int index) {
+  const StructureScore& s = ranking_->unknown[static_cast<std::size_t>(index)];
+  auto* item = new QTreeWidgetItem(list_);
+  item->setText(kEffect,
+                tr("%1 against %2").arg(channel_name(s.channel), covariate_name(s.covariate)));
+  item->setData(kEffect, kUnknown, index);
+  item->setText(kVerdict, tr("unknown"));
+  item->setForeground(kVerdict, state_colors(palette()).doubtful);
+  item->setData(kFall, kShare, s.score);
+  item->setText(kFall, QStringLiteral("%1 %").arg(100.0 * s.score, 0, 'f', 1));
+}
+
+void MissingPane::fillBudget() {
+  budget_->clear();
+  if (!ranking_) return;
+  std::vector<const EffectProposal*> unseen;
+  for (const EffectProposal& p : ranking_->proposals) {
+    if (p.finding.verdict == EffectVerdict::kNotTestable && !p.finding.parameters.empty())
+      unseen.push_back(&p);
+  }
+  std::stable_sort(unseen.begin(), unseen.end(), [](const auto* a, const auto* b) {
+    return a->finding.extrinsic_move_mm > b->finding.extrinsic_move_mm;
+  });
+  for (const EffectProposal* p : unseen) {
+    auto* item = new QTreeWidgetItem(
+        budget_, {effect_title(p->finding.id),
+                  move_text(p->finding.extrinsic_move_mm, p->finding.extrinsic_move_mrad),
+                  percent_text(p->finding.kept)});
+    for (int column = 0; column < 3; ++column)
+      item->setToolTip(column, QString::fromStdString(p->finding.explanation));
+  }
+  for (int column = 1; column < 3; ++column) budget_->resizeColumnToContents(column);
+}
+
+void MissingPane::updateVerdict() {
+  if (busy_) {
+    verdict_->setText(tr("Looking for what is missing …"));
+  } else if (!ranking_) {
+    verdict_->setText(has_model_ ? tr("Nobody has looked yet.") : tr("Run the calibration first."));
+  } else if (ranking_->nothing_missing()) {
+    verdict_->setText(
+        tr("<b>Nothing is missing</b> in the model, as far as these scenes can tell."));
+  } else if (!ranking_->unknown.empty()) {
+    verdict_->setText(tr("<b>Something is left</b> that no known effect explains."));
+  } else {
+    const auto& top = ranking_->proposals.front();
+    verdict_->setText(tr("<b>%1 is missing.</b>").arg(effect_title(top.finding.id)));
+  }
+}
+
+void MissingPane::describe() {
+  updateVerdict();
+  const EffectProposal* p = current();
+  const QTreeWidgetItem* item = list_->currentItem();
+  const StructureScore* unknown = nullptr;
+  if (ranking_ && item != nullptr && item->data(kEffect, kUnknown).isValid())
+    unknown = &ranking_->unknown[item->data(kEffect, kUnknown).toUInt()];
+  add_->setEnabled(!busy_ && ((p != nullptr && !p->finding.parameters.empty()) || unknown));
+  add_->setText(unknown != nullptr ? tr("Add &curve…") : tr("A&dd"));
+  all_->setEnabled(!busy_ && has_model_);
+  look_->setEnabled(busy_ || has_model_);
+  look_->setText(busy_ ? tr("Cancel") : tr("&Look again"));
+  const void* shown = p != nullptr ? static_cast<const void*>(p) : unknown;
+  if (shown == described_ && shown != nullptr) return;
+  described_ = shown;
+  if (p != nullptr) {
+    QString html = QStringLiteral("<p>%1</p>")
+                       .arg(QString::fromStdString(p->finding.explanation).toHtmlEscaped());
+    if (!p->finding.parameters.empty()) {
+      html += QStringLiteral("<p><b>%1</b><br>%2</p>")
+                  .arg(values_text(p->finding.parameters, false).toHtmlEscaped(),
+                       tr("Adding it moves the extrinsic by %1.")
+                           .arg(move_text(p->gained_mm, p->gained_mrad)));
+    }
+    text_->setHtml(html);
+    pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));
+    Q_EMIT chosen();
+  } else if (unknown != nullptr) {
+    describeStructure(*unknown);
+  } else {
+    text_->clear();
+    setPattern(nullptr);
+  }
+}
+
+void MissingPane::describeStructure(const StructureScore& s) {
+  text_->setHtml(
+      tr("<p>In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). No "
+         "effect of the catalogue explains it: a smooth curve can stand in for it.</p>")
+          .arg(100.0 * s.score, 0, 'f', 1)
+          .arg(channel_name(s.channel), covariate_name(s.covariate))
+          .arg(s.amplitude, 0, 'g', 2)
+          .arg(unit_text(s.channel)));
+  setPattern(nullptr);
+  Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
+}
+
+void MissingPane::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::PaletteChange) fill();
+  QWidget::changeEvent(event);
+}
+
+void MissingPane::retranslate() {
+  tabs_->setTabText(0, tr("What is missing"));
+  tabs_->setTabText(1, tr("What cannot be seen"));
+  tabs_->setTabToolTip(1, tr("Effects that these scenes could not show, and by how much they would "
+                             "spoil the extrinsic at the size that matters"));
+  list_->setHeaderLabels({tr("Effect"), tr("Verdict"), tr("Error")});
+  list_->setAccessibleName(tr("What is missing"));
+  budget_->setHeaderLabels({tr("Effect"), tr("Could move by"), tr("Left")});
+  budget_->headerItem()->setToolTip(2, tr("Share of its squared effect that the poses leave"));
+  budget_->setAccessibleName(tr("What cannot be seen"));
+  all_->setText(tr("&Find all"));
+  all_->setToolTip(tr("Add what scenes held out speak for, one after the other"));
+  add_->setToolTip(tr("Add the chosen effect to the model"));
+  described_ = nullptr;
+  fill();
+  fillBudget();
+  describe();
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <optional>
+
+#include "discovery/proposals.h"
+#include "modelling/residual_figure.h"
+
+class QLabel;
+class QPushButton;
+class QTabWidget;
+class QTextBrowser;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace lvcalib::widgets {
+
+class ResidualPlot;
+
+/// What is missing in the model: effects by rank with verdict and predicted fall of the error, the
+/// chosen one in a sentence with its pattern seen and predicted; and what the scenes cannot show.
+class MissingPane : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit MissingPane(QWidget* parent = nullptr);
+  ~MissingPane() override;
+  /// `ranking` null: nobody has looked yet (or is looking: `busy`).
+  void setRanking(std::shared_ptr<const ModelRanking> ranking, bool has_model, bool busy);
+  /// The chosen effect's pattern; null: it leaves none.
+  void setPattern(const std::shared_ptr<const ResidualFigure>& figure);
+  /// The chosen proposal; null if none.
+  [[nodiscard]] const EffectProposal* current() const;
+
+ Q_SIGNALS:
+  void addWanted(const QString& spec);
+  void findAllWanted();
+  void lookWanted();
+  void cancelWanted();
+  /// Another proposal was chosen.
+  void chosen();
+  /// Structure that no effect explains was chosen.
+  void structureChosen(lvcalib::Channel channel, const QString& covariate);
+  void curveWanted(lvcalib::Channel channel, const QString& covariate);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void retranslate();
+  void fill();
+  void fillBudget();
+  void addProposal(const EffectProposal& proposal, int index);
+  void addUnknown(int index);
+  void describe();
+  void updateVerdict();
+  void describeStructure(const StructureScore& structure);
+  void add();
+
+  std::shared_ptr<const ModelRanking> ranking_;
+  bool has_model_ = false;
+  bool busy_ = false;
+  const void* described_ = nullptr;  // The proposal or structure whose text is shown.
+  QLabel* verdict_;
+  QTabWidget* tabs_;
+  QTreeWidget* list_;
+  QTreeWidget* budget_;
+  QTextBrowser* text_;
+  ResidualPlot* pattern_;
+  QPushButton* add_;
+  QPushButton* all_;
+  QPushButton* look_;
+};
+
+}  // namespace lvcalib::widgets

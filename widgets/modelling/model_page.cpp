@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/model_page.h"
+
+#include <QEvent>
+#include <QLabel>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <map>
+
+#include "modelling/add_effect_dialog.h"
+#include "modelling/budget_plot.h"
+#include "modelling/missing_pane.h"
+#include "modelling/model_text.h"
+#include "modelling/term_list.h"
+#include "modelling/what_if_pane.h"
+#include "runner/model_work.h"
+
+namespace lvcalib::widgets {
+
+ModelPage::ModelPage(ModelWork& work, QWidget* parent)
+    : QWidget(parent),
+      work_(work),
+      title_(new QLabel(this)),
+      legend_(new QLabel(this)),
+      budget_(new BudgetPlot(this)),
+      terms_(new TermList(this)),
+      what_if_(new WhatIfPane(this)),
+      where_(new WherePane(source_, this)),
+      missing_(new MissingPane(this)) {
+  setObjectName(QStringLiteral("model_page"));
+  createLayout();
+  connectParts();
+  connectWork();
+  retranslate();
+  takeSteps();
+}
+
+ModelPage::~ModelPage() = default;
+
+void ModelPage::createLayout() {
+  auto* left = new QWidget(this);
+  auto* column = new QVBoxLayout(left);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(terms_, 1);
+  column->addWidget(what_if_);
+  auto* columns = new QSplitter(Qt::Horizontal, this);
+  columns->setChildrenCollapsible(false);
+  columns->addWidget(left);
+  columns->addWidget(where_);
+  columns->addWidget(missing_);
+  columns->setStretchFactor(0, 0);
+  columns->setStretchFactor(1, 1);
+  columns->setStretchFactor(2, 0);
+  columns->setSizes({250, 460, 330});
+  auto* rows = new QSplitter(Qt::Vertical, this);
+  rows->setChildrenCollapsible(false);
+  budget_->setMinimumHeight(90);
+  legend_->setObjectName(QStringLiteral("model_legend"));
+  auto* top = new QWidget(this);
+  auto* history = new QVBoxLayout(top);
+  history->setContentsMargins(0, 0, 0, 0);
+  history->setSpacing(0);
+  history->addWidget(legend_);
+  history->addWidget(budget_, 1);
+  rows->addWidget(top);
+  rows->addWidget(columns);
+  rows->setStretchFactor(0, 0);
+  rows->setStretchFactor(1, 1);
+  rows->setSizes({150, 650});
+  title_->setObjectName(QStringLiteral("model_message"));
+  title_->setWordWrap(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 4, 4, 4);
+  layout->setSpacing(3);
+  layout->addWidget(title_);
+  layout->addWidget(rows, 1);
+}
+
+void ModelPage::connectParts() {
+  connect(budget_, &BudgetPlot::stepClicked, this, [this](int step) {
+    if (!work_.busy()) work_.go_to(static_cast<std::size_t>(step));
+  });
+  connect(terms_, &TermList::onWanted, this,
+          [this](int k, bool on) { work_.set_on(static_cast<std::size_t>(k), on); });
+  connect(terms_, &TermList::holdWanted, this,
+          [this](int k, const std::optional<Eigen::VectorXd>& values) {
+            work_.hold(static_cast<std::size_t>(k), values);
+          });
+  connect(terms_, &TermList::removeWanted, this,
+          [this](int k) { work_.remove(static_cast<std::size_t>(k)); });
+  connect(terms_, &TermList::addWanted, this, [this] { openDialog({}, std::nullopt); });
+  connect(what_if_, &WhatIfPane::effectChosen, this,
+          [this](const std::optional<EffectInUse>& effect, double scale) {
+            where_->setOverlay(effect, scale);
+            if (!effect) return;
+            pattern_is_proposal_ = false;
+            source_.requestPattern(*effect);
+          });
+  connect(what_if_, &WhatIfPane::scaleChanged, where_, &WherePane::setOverlayScale);
+  connect(missing_, &MissingPane::addWanted, &work_,
+          [this](const QString& spec) { work_.add(spec); });
+  connect(missing_, &MissingPane::findAllWanted, &work_, &ModelWork::find_all);
+  connect(missing_, &MissingPane::lookWanted, &work_, &ModelWork::start);
+  connect(missing_, &MissingPane::cancelWanted, &work_, &ModelWork::cancel);
+  connect(missing_, &MissingPane::chosen, this, &ModelPage::takeChosen);
+  connect(missing_, &MissingPane::structureChosen, where_, &WherePane::look);
+  connect(missing_, &MissingPane::curveWanted, this,
+          [this](Channel channel, const QString& covariate) { openDialog(covariate, channel); });
+  connect(&source_, &FigureSource::patternReady, this,
+          [this](const std::shared_ptr<const ResidualFigure>& figure) {
+            if (pattern_is_proposal_) missing_->setPattern(figure);
+            if (figure)
+              where_->look(figure->view->columns.channel,
+                           QString::fromStdString(figure->along().name));
+          });
+  connect(where_, &WherePane::selected, this, &ModelPage::forward);
+  connect(where_, &WherePane::failed, this, &ModelPage::failed);
+  connect(budget_->figureActions(), &FigureActions::failed, this, &ModelPage::failed);
+}
+
+void ModelPage::connectWork() {
+  connect(&work_, &ModelWork::changed, this, &ModelPage::takeSteps);
+  connect(&work_, &ModelWork::ranking_changed, this, &ModelPage::takeRanking);
+  const auto busy = [this] {
+    terms_->setChangeable(!work_.busy());
+    takeRanking();
+  };
+  connect(&work_, &ModelWork::started, this, busy);
+  connect(&work_, &ModelWork::ended, this, busy);
+}
+
+void ModelPage::setReason(const QString& reason) {
+  reason_ = reason.isEmpty()
+                ? tr("Run the calibration to see what its model explains and what it misses.")
+                : reason;
+  takeSteps();
+}
+
+void ModelPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  work_.start();
+}
+
+void ModelPage::takeSteps() {
+  const ModelStepPtr step = work_.step();
+  const ModelStepPtr base = step ? work_.steps().front() : nullptr;
+  title_->setText(step ? QString() : reason_);
+  title_->setVisible(!title_->text().isEmpty());
+  budget_->setSteps(work_.steps(), work_.current());
+  describeSteps();
+  if (step != shown_ || !step) {
+    shown_ = step;
+    source_.setSteps(step, base);
+    terms_->setStep(step, base);
+    where_->setStep(step, reason_);
+    what_if_->setStep(step);
+  }
+  takeRanking();
+}
+
+// What the colours mean, and the steps by name with the present one in bold.
+void ModelPage::describeSteps() {
+  const PlotColors colors = PlotColors::of(palette());
+  const auto entry = [](const QColor& color, const QChar& sign, const QString& text) {
+    return QStringLiteral("<span style=\"color:%1\">%2</span> %3")
+        .arg(color.name(), QString(sign), text);
+  };
+  QStringList steps;
+  for (std::size_t k = 0; k < work_.steps().size(); ++k) {
+    const ModelStepPtr& step = work_.steps()[k];
+    const QString text = step ? step_text(*step).toHtmlEscaped() : QStringLiteral("…");
+    steps << (k == work_.current() ? QStringLiteral("<b>%1</b>").arg(text) : text);
+  }
+  const QStringList legend = {entry(BudgetPlot::noiseColor(colors), u'■', tr("noise")),
+                              entry(colors.refused, u'■', tr("unexplained")),
+                              entry(BudgetPlot::explainedColor(colors), u'■', tr("explained")),
+                              entry(colors.mark, u'◇', tr("scenes held out"))};
+  legend_->setText(legend.join(QStringLiteral("&nbsp;&nbsp;")) +
+                   (steps.isEmpty() ? QString()
+                                    : QStringLiteral("&nbsp;&nbsp;&nbsp;&nbsp;") +
+                                          tr("Steps: %1").arg(steps.join(QStringLiteral(" → ")))));
+}
+
+void ModelPage::takeRanking() {
+  missing_->setRanking(work_.ranking(), work_.step() != nullptr, work_.busy());
+}
+
+// Draws the chosen effect's pattern at its estimate, and shows where it is.
+void ModelPage::takeChosen() {
+  const EffectProposal* p = missing_->current();
+  const EffectPtr effect = p == nullptr ? nullptr : find_effect(p->finding.id);
+  if (!effect || p->finding.parameters.empty() || !shown_) {
+    missing_->setPattern(nullptr);
+    where_->setOverlay(std::nullopt);
+    return;
+  }
+  EffectInUse use{effect, p->finding.shape,
+                  Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p->finding.parameters.size()))};
+  for (std::size_t k = 0; k < p->finding.parameters.size(); ++k)
+    use.values(static_cast<Eigen::Index>(k)) = p->finding.parameters[k].value;
+  where_->setOverlay(use);
+  pattern_is_proposal_ = true;
+  source_.requestPattern(use);
+}
+
+void ModelPage::openDialog(const QString& covariate, std::optional<Channel> channel) {
+  if (!shown_) return;
+  auto* dialog = new AddEffectDialog(shown_, this);
+  if (channel) dialog->suggestCurve(*channel, covariate);
+  connect(dialog, &AddEffectDialog::addWanted, this, [this](const QString& spec) {
+    if (!work_.busy()) work_.add(spec);
+  });
+  dialog->show();
+}
+
+void ModelPage::forward(const std::vector<SelectedSample>& samples) {
+  struct Parts {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<Eigen::Vector2d> pixels;
+  };
+  std::map<int, Parts> scenes;
+  for (const SelectedSample& s : samples) {
+    if (s.point_in_lidar_m) scenes[s.scene].points.push_back(*s.point_in_lidar_m);
+    if (s.pixel) scenes[s.scene].pixels.push_back(*s.pixel);
+  }
+  if (!shown_) return;
+  for (std::size_t k = 0; k < shown_->table().scenes.size(); ++k) {
+    const Parts& parts = scenes[static_cast<int>(k)];
+    Q_EMIT samplesSelected(QString::fromStdString(shown_->table().scenes[k].name), parts.points,
+                           parts.pixels);
+  }
+}
+
+void ModelPage::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::PaletteChange) describeSteps();
+  QWidget::changeEvent(event);
+}
+
+void ModelPage::retranslate() {
+  setReason({});
+}
+
+}  // namespace lvcalib::widgets

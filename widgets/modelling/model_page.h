@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "modelling/where_pane.h"
+
+class QLabel;
+
+namespace lvcalib::widgets {
+
+class AddEffectDialog;
+class BudgetPlot;
+class MissingPane;
+class ModelWork;
+class TermList;
+class WhatIfPane;
+
+/// The Model page: compare, locate, learn, add, watch. Error history and budget on top; the model,
+/// where it fails, and what is missing below. Work begins when the page is first seen.
+class ModelPage : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `work` must outlive the page.
+  explicit ModelPage(ModelWork& work, QWidget* parent = nullptr);
+  ~ModelPage() override;
+
+  /// Why there is no model; empty if there may be one.
+  void setReason(const QString& reason);
+
+ Q_SIGNALS:
+  /// Measurements were selected; scenes by name.
+  void samplesSelected(const QString& scene, const std::vector<Eigen::Vector3d>& points_in_lidar_m,
+                       const std::vector<Eigen::Vector2d>& pixels);
+  void failed(const QString& message);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void createLayout();
+  void connectParts();
+  void connectWork();
+  void retranslate();
+  void takeSteps();
+  void takeRanking();
+  void takeChosen();
+  void describeSteps();
+  void openDialog(const QString& covariate, std::optional<Channel> channel);
+  void forward(const std::vector<SelectedSample>& samples);
+
+  ModelWork& work_;
+  FigureSource source_;
+  QString reason_;
+  ModelStepPtr shown_;
+  bool pattern_is_proposal_ = true;  // Else it is a question of what if.
+  QLabel* title_;
+  QLabel* legend_;
+  BudgetPlot* budget_;
+  TermList* terms_;
+  WhatIfPane* what_if_;
+  WherePane* where_;
+  MissingPane* missing_;
+};
+
+}  // namespace lvcalib::widgets

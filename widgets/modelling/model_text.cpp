@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modelling/model_text.h"
+
+#include <QCoreApplication>
+#include <map>
+
+#include "style/texts.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+QString translated(const char* text) {
+  return QCoreApplication::translate("ModelText", text);
+}
+
+const std::map<std::string, const char*>& covariates() {
+  static const std::map<std::string, const char*> names = {
+      {"board x", QT_TRANSLATE_NOOP("ModelText", "board x")},
+      {"board y", QT_TRANSLATE_NOOP("ModelText", "board y")},
+      {"board radius", QT_TRANSLATE_NOOP("ModelText", "board radius")},
+      {"range", QT_TRANSLATE_NOOP("ModelText", "range")},
+      {"azimuth", QT_TRANSLATE_NOOP("ModelText", "azimuth")},
+      {"elevation", QT_TRANSLATE_NOOP("ModelText", "elevation")},
+      {"incidence", QT_TRANSLATE_NOOP("ModelText", "incidence")},
+      {"tilt direction", QT_TRANSLATE_NOOP("ModelText", "tilt direction")},
+      {"scene clock", QT_TRANSLATE_NOOP("ModelText", "scene clock")},
+      {"time in scan", QT_TRANSLATE_NOOP("ModelText", "time in scan")},
+      {"scan speed", QT_TRANSLATE_NOOP("ModelText", "scan speed")},
+      {"scan direction", QT_TRANSLATE_NOOP("ModelText", "scan direction")},
+      {"line", QT_TRANSLATE_NOOP("ModelText", "laser line")},
+      {"image x", QT_TRANSLATE_NOOP("ModelText", "image x")},
+      {"image y", QT_TRANSLATE_NOOP("ModelText", "image y")},
+      {"image radius", QT_TRANSLATE_NOOP("ModelText", "image radius")},
+      {"radial from image centre", QT_TRANSLATE_NOOP("ModelText", "radial from image centre")},
+      {"radial from tag centre", QT_TRANSLATE_NOOP("ModelText", "radial from tag centre")},
+      {"tag size", QT_TRANSLATE_NOOP("ModelText", "tag size")},
+      {"sub-pixel phase", QT_TRANSLATE_NOOP("ModelText", "sub-pixel phase")},
+      {"tag", QT_TRANSLATE_NOOP("ModelText", "tag")},
+      {"corner", QT_TRANSLATE_NOOP("ModelText", "corner and axis")},
+      {"darkness", QT_TRANSLATE_NOOP("ModelText", "darkness")},
+      {"print", QT_TRANSLATE_NOOP("ModelText", "print")},
+      {"intensity", QT_TRANSLATE_NOOP("ModelText", "intensity")},
+      {"inverse range", QT_TRANSLATE_NOOP("ModelText", "inverse range")},
+      {"distance to edge", QT_TRANSLATE_NOOP("ModelText", "distance to edge")},
+      {"polar angle", QT_TRANSLATE_NOOP("ModelText", "polar angle")},
+      {"polar angle to tilt", QT_TRANSLATE_NOOP("ModelText", "polar angle to tilt")},
+      {"polar angle to LiDAR axes", QT_TRANSLATE_NOOP("ModelText", "polar angle to LiDAR axes")},
+      {"scan across edge", QT_TRANSLATE_NOOP("ModelText", "scan across edge")},
+      {"contrast", QT_TRANSLATE_NOOP("ModelText", "contrast")},
+      {"node", QT_TRANSLATE_NOOP("ModelText", "circle")}};
+  return names;
+}
+
+}  // namespace
+
+QString channel_name(Channel channel) {
+  switch (channel) {
+    case Channel::kCorner:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "corner"));
+    case Channel::kRange:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "range"));
+    case Channel::kBoundary:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "boundary"));
+    case Channel::kIntensity:
+      break;
+  }
+  return translated(QT_TRANSLATE_NOOP("ModelText", "intensity"));
+}
+
+QString unit_text(Channel channel) {
+  return channel == Channel::kIntensity
+             ? translated(QT_TRANSLATE_NOOP("ModelText", "log. intensity"))
+             : QString::fromLatin1(unit_of(channel));
+}
+
+QString covariate_name(const std::string& name) {
+  const auto at = covariates().find(name);
+  return at == covariates().end() ? QString::fromStdString(name) : translated(at->second);
+}
+
+QString category_name(const std::string& covariate, double value) {
+  if (covariate == "print") {
+    const char* names[] = {QT_TRANSLATE_NOOP("ModelText", "white"),
+                           QT_TRANSLATE_NOOP("ModelText", "black"),
+                           QT_TRANSLATE_NOOP("ModelText", "circle")};
+    const auto k = static_cast<std::size_t>(value);
+    if (k < std::size(names)) return translated(names[k]);
+  }
+  return QString::number(value);
+}
+
+QString verdict_name(EffectVerdict verdict) {
+  switch (verdict) {
+    case EffectVerdict::kPresent:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "present"));
+    case EffectVerdict::kAbsent:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "absent"));
+    case EffectVerdict::kAliased:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "one of several"));
+    case EffectVerdict::kNotTestable:
+      break;
+  }
+  return translated(QT_TRANSLATE_NOOP("ModelText", "cannot tell"));
+}
+
+QString effect_title(const std::string& spec) {
+  const EffectPtr effect = find_effect(spec);
+  if (!effect || effect->info().title.empty()) return QString::fromStdString(spec);
+  return core_text(effect->info().title);
+}
+
+QString value_text(const ParameterEstimate& p, bool held) {
+  const QString unit =
+      p.unit == "1" ? QString() : QLatin1Char(' ') + QString::fromStdString(p.unit);
+  const double value = p.value / p.unit_in_si;
+  const double sigma = p.sigma / p.unit_in_si;
+  if (held)
+    return translated(QT_TRANSLATE_NOOP("ModelText", "%1%2 (held)"))
+        .arg(QString::number(value, 'g', 4), unit);
+  return QStringLiteral("%1 ± %2%3")
+      .arg(QString::number(value, 'g', 3), QString::number(sigma, 'g', 2), unit);
+}
+
+QString values_text(const std::vector<ParameterEstimate>& parameters, bool held) {
+  constexpr std::size_t kShown = 3;
+  QString out;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (k == kShown) return out + QStringLiteral(", …");
+    if (k > 0) out += QStringLiteral(", ");
+    out += QString::fromStdString(parameters[k].name) + QStringLiteral(" = ") +
+           value_text(parameters[k], held);
+  }
+  return out;
+}
+
+QString percent_text(double share) {
+  const double percent = 100.0 * share;
+  return QStringLiteral("%1 %").arg(percent, 0, 'f', percent < 0.095 ? 2 : percent < 9.5 ? 1 : 0);
+}
+
+QString move_text(double mm, double mrad) {
+  return QStringLiteral("%1 mm, %2 mrad").arg(mm, 0, 'f', 1).arg(mrad, 0, 'f', 2);
+}
+
+QString step_text(const ModelStep& step) {
+  const QString title = effect_title(step.changed);
+  switch (step.change) {
+    case ModelChange::kStart:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "base model"));
+    case ModelChange::kAdd:
+    case ModelChange::kSwitchOn:
+      return QStringLiteral("+ ") + title;
+    case ModelChange::kRemove:
+    case ModelChange::kSwitchOff:
+      return QStringLiteral("− ") + title;
+    case ModelChange::kHold:
+      return translated(QT_TRANSLATE_NOOP("ModelText", "%1 held")).arg(title);
+    case ModelChange::kRelease:
+      break;
+  }
+  return translated(QT_TRANSLATE_NOOP("ModelText", "%1 fitted")).arg(title);
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+#include <string>
+#include <vector>
+
+#include "discovery/proposals.h"
+
+namespace lvcalib::widgets {
+
+/// Words of the core library as the user's language has them.
+QString channel_name(Channel channel);
+/// Unit of a channel's residuals on an axis.
+QString unit_text(Channel channel);
+QString covariate_name(const std::string& name);
+/// A category of a covariate ("print" 0: white); else the number.
+QString category_name(const std::string& covariate, double value);
+QString verdict_name(EffectVerdict verdict);
+/// Title of an effect; its specification if it has none.
+QString effect_title(const std::string& spec);
+
+/// "8.1 ± 0.1 mm"; "8.1 mm (held)".
+QString value_text(const ParameterEstimate& parameter, bool held);
+/// "a = 8.1 ± 0.1 mm, b = …", the first few.
+QString values_text(const std::vector<ParameterEstimate>& parameters, bool held);
+/// A share as "0.3 %" or "42 %".
+QString percent_text(double share);
+/// "1.3 mm, 0.2 mrad".
+QString move_text(double mm, double mrad);
+
+/// A step of the history in a few words: "base", "+ Range walk".
+QString step_text(const ModelStep& step);
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/model_work.h"
+
+#include <QUndoCommand>
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/model_discovery.h"
+#include "runner/workspace.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+QString to_qt(const std::string& text) {
+  return QString::fromStdString(text);
+}
+
+std::string key_of(const std::vector<ModelDecision>& decisions) {
+  std::string key;
+  for (const ModelDecision& d : decisions) {
+    key += std::to_string(static_cast<int>(d.change)) + '\t' + d.spec;
+    for (const double value : d.values) key += '\t' + std::to_string(value);
+    key += '\n';
+  }
+  return key;
+}
+
+// Decisions that turn one step into the next one of a search: what it added and what it dropped.
+std::vector<ModelDecision> decisions_between(const ModelStep& before, const ModelStep& after) {
+  std::vector<ModelDecision> out{{ModelChange::kAdd, after.changed, {}}};
+  for (const ModelTerm& term : before.terms) {
+    if (!after.find(term.spec)) out.push_back({ModelChange::kRemove, term.spec, {}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<ModelDecision> ModelWork::Place::in_force() const {
+  return {decisions.begin(), decisions.begin() + static_cast<std::ptrdiff_t>(current)};
+}
+
+// A change of the model; steps are kept elsewhere, so going back and forth only shows others.
+class ModelWork::Command : public QUndoCommand {
+ public:
+  Command(ModelWork& work, const QString& text, Place after)
+      : QUndoCommand(text), work_(work), before_(work.place_), after_(std::move(after)) {}
+  void undo() override { work_.arrive(before_); }
+  void redo() override { work_.arrive(after_); }
+
+ private:
+  ModelWork& work_;
+  Place before_;
+  Place after_;
+};
+
+ModelWork::ModelWork(Workspace& workspace, QObject* parent)
+    : QObject(parent), workspace_(workspace) {
+  connect(&workspace_, &Workspace::opened, this, &ModelWork::take_workspace);
+  connect(&workspace_, &Workspace::result_changed, this, [this] {
+    if (workspace_.result() == source_) return;
+    forget();
+    if (wanted_ || place_.current > 0) start();
+  });
+  connect(&runner_, &Runner::progressed, this,
+          [this](quint64, const QString& stage, double fraction, const QString& text) {
+            Q_EMIT progressed(stage, fraction, text);
+          });
+  connect(&runner_, &Runner::finished, this, [this] { Q_EMIT ended(QString()); });
+  connect(&runner_, &Runner::cancelled, this, [this] { Q_EMIT ended(tr("Cancelled")); });
+  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
+    Q_EMIT failed(Error::untrusted("an unexpected error stopped the work: " + message.toStdString(),
+                                   {}, "the model is as it was; try again"));
+    Q_EMIT ended(tr("Failed"));
+  });
+}
+
+ModelStepPtr ModelWork::step() const {
+  return place_.current < steps_.size() ? steps_[place_.current] : nullptr;
+}
+
+std::shared_ptr<const ModelRanking> ModelWork::ranking() const {
+  const auto at = rankings_.find(key_of(place_.in_force()));
+  return at == rankings_.end() ? nullptr : at->second;
+}
+
+std::shared_ptr<const Discovery> ModelWork::discovery() const {
+  std::vector<ModelStepPtr> made;
+  for (std::size_t k = 0; k <= place_.current && k < steps_.size(); ++k) {
+    if (steps_[k]) made.push_back(steps_[k]);
+  }
+  if (made.empty() || made.back() != step()) return nullptr;
+  return std::make_shared<const Discovery>(as_discovery(made, ranking().get()));
+}
+
+void ModelWork::take_workspace() {
+  wanted_ = false;
+  place_ = {workspace_.model(), workspace_.model().size()};
+  forget();
+}
+
+void ModelWork::forget() {
+  if (runner_.running()) runner_.cancel();
+  source_ = nullptr;
+  made_.clear();
+  rankings_.clear();
+  result_ = nullptr;
+  update_steps();
+  Q_EMIT changed();
+  Q_EMIT ranking_changed();
+  Q_EMIT result_changed();
+}
+
+void ModelWork::start() {
+  wanted_ = true;
+  if (!workspace_.result() || runner_.running()) return;
+  if (source_ == workspace_.result() && step()) {
+    if (!ranking()) rank();
+    return;
+  }
+  run(place_, QString());
+}
+
+ModelStepPtr ModelWork::find(const std::vector<ModelDecision>& decisions) const {
+  const auto at = made_.find(key_of(decisions));
+  return at == made_.end() ? nullptr : at->second;
+}
+
+void ModelWork::keep(const std::vector<ModelDecision>& decisions, const ModelStepPtr& step) {
+  made_[key_of(decisions)] = step;
+}
+
+void ModelWork::keep_ranking(const Key& key, ModelRanking ranking) {
+  rankings_[key] = std::make_shared<const ModelRanking>(std::move(ranking));
+  Q_EMIT ranking_changed();
+}
+
+void ModelWork::update_steps() {
+  steps_.clear();
+  if (made_.empty()) return;
+  for (std::size_t k = 0; k <= place_.decisions.size(); ++k)
+    steps_.push_back(find(
+        {place_.decisions.begin(), place_.decisions.begin() + static_cast<std::ptrdiff_t>(k)}));
+}
+
+// Shows a place; what is missing of it is made in the background.
+void ModelWork::arrive(const Place& place) {
+  place_ = place;
+  workspace_.set_model(place_.in_force());
+  update_steps();
+  Q_EMIT changed();
+  Q_EMIT ranking_changed();
+  if (step()) {
+    build_result();
+    return;
+  }
+  result_ = nullptr;
+  Q_EMIT result_changed();
+  if (workspace_.result()) run(place_, QString());
+}
+
+void ModelWork::push(Place place, const QString& text) {
+  workspace_.undo_stack().push(new Command(*this, text, std::move(place)));
+}
+
+void ModelWork::decide(ModelDecision decision, const QString& text) {
+  if (!step()) return;
+  Place goal{place_.in_force(), place_.current + 1};
+  goal.decisions.push_back(std::move(decision));
+  run(std::move(goal), text);
+}
+
+// Makes the steps up to a place that are not there yet, shows it (as a change named `text`; empty:
+// it is decided already), and looks for what is missing there.
+void ModelWork::run(Place goal, const QString& text) {
+  const auto source = workspace_.result();
+  source_ = source;
+  runner_.start([this, source, goal, text, made = made_](
+                    const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
+    const auto fail = [this](const Error& error) -> Runner::Deliver {
+      if (error.kind == ErrorKind::kCancelled) return {};
+      return [this, error] {
+        Q_EMIT logged(to_qt(error.text()));
+        Q_EMIT failed(error);
+      };
+    };
+    ModelStepPtr step;
+    std::vector<ModelDecision> done;
+    const std::vector<ModelDecision> wanted = goal.in_force();
+    for (std::size_t k = 0; k <= wanted.size(); ++k) {
+      if (k > 0) done.push_back(wanted[k - 1]);
+      if (const auto at = made.find(key_of(done)); at != made.end() && at->second) {
+        step = at->second;
+        continue;
+      }
+      auto next = k == 0 ? start_model(discovery_input(*source), {}, context)
+                         : apply_decision(step, wanted[k - 1], context);
+      if (!next) return fail(next.error());
+      step = *next;
+      post([this, done, step] { keep(done, step); });
+    }
+    post([this, goal, text] {
+      if (text.isEmpty()) {
+        arrive(goal);
+      } else {
+        push(goal, text);
+      }
+    });
+    auto ranking = rank_effects(*step, context);
+    if (!ranking) return fail(ranking.error());
+    return [this, key = key_of(wanted), found = std::move(*ranking)] { keep_ranking(key, found); };
+  });
+  Q_EMIT started();
+}
+
+void ModelWork::rank() {
+  const ModelStepPtr shown = step();
+  if (!shown) return;
+  runner_.start([this, shown, key = key_of(place_.in_force())](
+                    const RunContext& context, const Runner::Post&) -> Runner::Deliver {
+    auto ranking = rank_effects(*shown, context);
+    if (!ranking) return {};
+    return [this, key, found = std::move(*ranking)] { keep_ranking(key, found); };
+  });
+  Q_EMIT started();
+}
+
+void ModelWork::add(const QString& spec) {
+  decide({ModelChange::kAdd, spec.toStdString(), {}}, tr("add %1").arg(spec));
+}
+
+void ModelWork::remove(std::size_t k) {
+  if (!step() || k >= step()->terms.size()) return;
+  const std::string& spec = step()->terms[k].spec;
+  decide({ModelChange::kRemove, spec, {}}, tr("remove %1").arg(to_qt(spec)));
+}
+
+void ModelWork::set_on(std::size_t k, bool on) {
+  if (!step() || k >= step()->terms.size() || step()->terms[k].on == on) return;
+  const std::string& spec = step()->terms[k].spec;
+  decide({on ? ModelChange::kSwitchOn : ModelChange::kSwitchOff, spec, {}},
+         on ? tr("switch %1 on").arg(to_qt(spec)) : tr("switch %1 off").arg(to_qt(spec)));
+}
+
+void ModelWork::hold(std::size_t k, const std::optional<Eigen::VectorXd>& values) {
+  if (!step() || k >= step()->terms.size()) return;
+  const std::string& spec = step()->terms[k].spec;
+  ModelDecision decision{values ? ModelChange::kHold : ModelChange::kRelease, spec, {}};
+  if (values) decision.values.assign(values->data(), values->data() + values->size());
+  decide(std::move(decision),
+         values ? tr("hold %1").arg(to_qt(spec)) : tr("fit %1 again").arg(to_qt(spec)));
+}
+
+void ModelWork::find_all() {
+  if (step()) run_find_all();
+}
+
+void ModelWork::run_find_all() {
+  runner_.start([this, from = step(), decided = place_.in_force()](
+                    const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
+    ModelStepPtr last = from;
+    std::vector<ModelDecision> decisions = decided;
+    const auto found = lvcalib::find_all(
+        from,
+        [&](const ModelStepPtr& next) {
+          for (ModelDecision& d : decisions_between(*last, *next))
+            decisions.push_back(std::move(d));
+          last = next;
+          post([this, next, decisions] {
+            keep(decisions, next);
+            push({decisions, decisions.size()}, tr("add %1").arg(to_qt(next->changed)));
+          });
+        },
+        context);
+    if (!found) return {};
+    auto ranking = rank_effects(**found, context);
+    if (!ranking) return {};
+    return [this, key = key_of(decisions), result = std::move(*ranking)] {
+      keep_ranking(key, result);
+    };
+  });
+  Q_EMIT started();
+}
+
+void ModelWork::go_to(std::size_t step) {
+  if (step == place_.current || step > place_.decisions.size() || !this->step()) return;
+  push({place_.decisions, step}, tr("go to step %1").arg(step));
+  if (!ranking() && !busy()) rank();
+}
+
+void ModelWork::cancel() {
+  runner_.cancel();
+}
+
+// Copies the calibration with its clouds: not on the interface thread.
+void ModelWork::build_result() {
+  const auto found = discovery();
+  if (!found || found->model.empty() || !source_) {
+    results_.cancel();
+    result_ = nullptr;
+    Q_EMIT result_changed();
+    return;
+  }
+  results_.start(
+      [this, source = source_, found](const RunContext&, const Runner::Post&) -> Runner::Deliver {
+        auto made = std::make_shared<const CalibrationResult>(with_model(*source, *found));
+        return [this, made] {
+          result_ = made;
+          Q_EMIT result_changed();
+        };
+      });
+}
+
+}  // namespace lvcalib::widgets

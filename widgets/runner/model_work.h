@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discovery/proposals.h"
+#include "pipeline/calibration.h"
+#include "runner/runner.h"
+
+class QUndoStack;
+
+namespace lvcalib::widgets {
+
+class Workspace;
+
+/// The model of effects of what is open: its steps, what is missing in it, and the work on it in a
+/// worker thread. Steps are kept, so that going back and forth is free; every change is a command
+/// on the workspace's undo stack and part of the project. Another calibration result takes the same
+/// decisions again.
+class ModelWork : public QObject {
+  Q_OBJECT
+
+ public:
+  /// The workspace must outlive it.
+  explicit ModelWork(Workspace& workspace, QObject* parent = nullptr);
+
+  /// The base model and one step per decision, also those that were gone back from. Empty before
+  /// the first fit; steps that are not made yet are null.
+  [[nodiscard]] const std::vector<ModelStepPtr>& steps() const { return steps_; }
+  /// The step shown; null if there is none.
+  [[nodiscard]] ModelStepPtr step() const;
+  [[nodiscard]] std::size_t current() const { return place_.current; }
+  /// What is missing in the step shown; null as long as nobody has looked.
+  [[nodiscard]] std::shared_ptr<const ModelRanking> ranking() const;
+  [[nodiscard]] bool busy() const { return runner_.running(); }
+
+  /// The calibration with the effects shown in its model; null if there are none.
+  [[nodiscard]] std::shared_ptr<const CalibrationResult> result() const { return result_; }
+  /// The steps up to the one shown and what is missing, for the report; null before the first fit.
+  [[nodiscard]] std::shared_ptr<const Discovery> discovery() const;
+
+  /// Fits what is not up to date and looks for what is missing. Does nothing without a calibration.
+  void start();
+  /// Looks for what is missing in the step shown.
+  void rank();
+  void add(const QString& spec);
+  void remove(std::size_t k);
+  void set_on(std::size_t k, bool on);
+  /// Values in SI; none: fitted again.
+  void hold(std::size_t k, const std::optional<Eigen::VectorXd>& values);
+  /// Adds what held-out scenes speak for, until nothing is missing.
+  void find_all();
+  /// Goes to a step (0: the base model).
+  void go_to(std::size_t step);
+  void cancel();
+
+ Q_SIGNALS:
+  /// Steps or the one shown are others.
+  void changed();
+  void ranking_changed();
+  void result_changed();
+  void started();
+  void progressed(const QString& stage, double fraction, const QString& text);
+  /// The work has ended; `message` says how, may be empty.
+  void ended(const QString& message);
+  void failed(const lvcalib::Error& error);
+  void logged(const QString& line);
+
+ private:
+  class Command;
+  /// Decisions and how many of them are in force.
+  struct Place {
+    std::vector<ModelDecision> decisions;
+    std::size_t current = 0;
+    [[nodiscard]] std::vector<ModelDecision> in_force() const;
+  };
+  using Key = std::string;
+
+  void take_workspace();
+  void forget();
+  void decide(ModelDecision decision, const QString& text);
+  void run(Place goal, const QString& text);
+  void run_find_all();
+  void arrive(const Place& place);
+  void push(Place place, const QString& text);
+  void keep(const std::vector<ModelDecision>& decisions, const ModelStepPtr& step);
+  void keep_ranking(const Key& key, ModelRanking ranking);
+  void update_steps();
+  void build_result();
+  [[nodiscard]] ModelStepPtr find(const std::vector<ModelDecision>& decisions) const;
+
+  Workspace& workspace_;
+  std::shared_ptr<const CalibrationResult> source_;  // What the steps were made from.
+  std::map<Key, ModelStepPtr> made_;
+  std::map<Key, std::shared_ptr<const ModelRanking>> rankings_;
+  std::vector<ModelStepPtr> steps_;
+  std::shared_ptr<const CalibrationResult> result_;
+  Place place_;
+  bool wanted_ = false;  // Somebody looks at the model.
+  Runner results_;       // Makes the calibration with the model.
+  Runner runner_;        // Last: abandoned before what it uses goes.
+};
+
+}  // namespace lvcalib::widgets
