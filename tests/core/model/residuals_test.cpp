@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/statistics.h"
+#include "model/scene_geometry.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {
@@ -49,6 +50,28 @@ TEST(Residuals, LoseWhatTheEffectsInUseExplain) {
   EXPECT_GT(rms(residuals_of(made.table, made.truth, {}, Channel::kRange).values), 0.025);
   EXPECT_NEAR(rms(residuals_of(made.table, made.truth, in_use, Channel::kRange).values), 0.008,
               0.0004);
+}
+
+TEST(Residuals, EdgesMovedSidewaysByCentimetresLeaveNoCurvature) {
+  // Every edge point is seen 12 mm to the left of its place (a beam that starts there): with the
+  // effect in use nothing is left, although 12 mm along a circle of 45 mm are 0.8 mm off it.
+  test::TableRecipe recipe;
+  recipe.edge_sigma_m = 1e-9;
+  auto made = test::synthetic_table(recipe);
+  constexpr double kSideways = 0.012;
+  for (BoundaryRow& row : made.table.boundary) {
+    const SceneGeometry g(made.truth.camera_from_lidar,
+                          made.truth.camera_from_board[static_cast<std::size_t>(row.beam.scene)]);
+    const Eigen::Vector3d left =
+        Eigen::Vector3d::UnitZ().cross(row.beam.direction).normalized() * kSideways;
+    const Eigen::Vector3d seen = row.beam.range_m * row.beam.direction + left;
+    ASSERT_TRUE(g.describe(seen.normalized(), row.beam));
+  }
+  const std::vector<EffectInUse> in_use = {
+      {find_effect("beam_origin_offset"), 0.0, Eigen::Vector2d(kSideways, 0.0)}};
+  EXPECT_GT(rms(residuals_of(made.table, made.truth, {}, Channel::kBoundary).values), 5e-3);
+  const auto left = residuals_of(made.table, made.truth, in_use, Channel::kBoundary);
+  EXPECT_LT(rms(left.values), 1e-4);
 }
 
 TEST(Residuals, CornersOutsideTheCamerasReachAreLeftOut) {
