@@ -40,7 +40,7 @@
         <translation>找不到数据集</translation>
     </message>
     <message>
-        <source>The project's dataset is not at
+        <source>The project&apos;s dataset is not at
 %1
 any more. Where is it now?</source>
         <translation>项目的数据集已不在
@@ -71,11 +71,11 @@ were saved. Take them up again?</source>
 <context>
     <name>CloudSceneText</name>
     <message>
-        <source>Only the board's points are loaded.</source>
+        <source>Only the board&apos;s points are loaded.</source>
         <translation>仅载入了标定板上的点。</translation>
     </message>
     <message>
-        <source>No board was found in this scene's cloud yet.</source>
+        <source>No board was found in this scene&apos;s cloud yet.</source>
         <translation>尚未在该场景的点云中找到标定板。</translation>
     </message>
     <message>
@@ -103,7 +103,7 @@ were saved. Take them up again?</source>
         <translation>该点云没有强度；现显示距离。</translation>
     </message>
     <message>
-        <source>The board's plane is not known in this scene; range is shown.</source>
+        <source>The board&apos;s plane is not known in this scene; range is shown.</source>
         <translation>该场景的标定板平面未知；现显示距离。</translation>
     </message>
     <message>
@@ -115,7 +115,7 @@ were saved. Take them up again?</source>
         <translation>距离 (m)</translation>
     </message>
     <message>
-        <source>range beyond the board's plane (mm)</source>
+        <source>range beyond the board&apos;s plane (mm)</source>
         <translation>超出标定板平面的距离 (mm)</translation>
     </message>
     <message>
@@ -146,19 +146,19 @@ were saved. Take them up again?</source>
         <translation>这些场景不足以确定外参：最差轴上为 ± %1 mm 和 ± %2 mrad；请增加标定板朝向不同的场景</translation>
     </message>
     <message>
-        <source>LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % larger than target.yaml says; measure the print and correct tagSize</source>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR measures it %1 % larger than target.yaml says; measure the print and correct tagSize</source>
         <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 大 %1 %；请测量打印件并修正 tagSize</translation>
     </message>
     <message>
-        <source>LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % smaller than target.yaml says; measure the print and correct tagSize</source>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR measures it %1 % smaller than target.yaml says; measure the print and correct tagSize</source>
         <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 小 %1 %；请测量打印件并修正 tagSize</translation>
     </message>
     <message>
-        <source>black print reads %1 mm farther than white: the LiDAR's range depends on the reflectivity, an effect is missing in the model</source>
+        <source>black print reads %1 mm farther than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
         <translation>黑色印刷区测距比白色远 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
-        <source>black print reads %1 mm nearer than white: the LiDAR's range depends on the reflectivity, an effect is missing in the model</source>
+        <source>black print reads %1 mm nearer than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
         <translation>黑色印刷区测距比白色近 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
@@ -202,27 +202,27 @@ were saved. Take them up again?</source>
         <translation>%1的精度比典型方向差 %2 倍：%3</translation>
     </message>
     <message>
-        <source>translation along the camera's x axis</source>
+        <source>translation along the camera&apos;s x axis</source>
         <translation>沿相机 x 轴的平移</translation>
     </message>
     <message>
-        <source>translation along the camera's y axis</source>
+        <source>translation along the camera&apos;s y axis</source>
         <translation>沿相机 y 轴的平移</translation>
     </message>
     <message>
-        <source>translation along the camera's z axis</source>
+        <source>translation along the camera&apos;s z axis</source>
         <translation>沿相机 z 轴的平移</translation>
     </message>
     <message>
-        <source>rotation about the camera's x axis</source>
+        <source>rotation about the camera&apos;s x axis</source>
         <translation>绕相机 x 轴的旋转</translation>
     </message>
     <message>
-        <source>rotation about the camera's y axis</source>
+        <source>rotation about the camera&apos;s y axis</source>
         <translation>绕相机 y 轴的旋转</translation>
     </message>
     <message>
-        <source>rotation about the camera's z axis</source>
+        <source>rotation about the camera&apos;s z axis</source>
         <translation>绕相机 z 轴的旋转</translation>
     </message>
     <message>
@@ -246,7 +246,7 @@ were saved. Take them up again?</source>
         <translation>增加一个近得多或远得多、或位于图像最左或最右的场景</translation>
     </message>
     <message>
-        <source>add a scene with the board near the image's edge</source>
+        <source>add a scene with the board near the image&apos;s edge</source>
         <translation>增加一个标定板靠近图像边缘的场景</translation>
     </message>
     <message>
@@ -374,19 +374,19 @@ were saved. Take them up again?</source>
         <translation>没有对比度：%1</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the paper's samples at the highest value</source>
+        <source>intensity clipped: %1 of the paper&apos;s samples at the highest value</source>
         <translation>强度被截断：纸面样本的 %1 处于最大值</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the circle's samples at the highest value</source>
+        <source>intensity clipped: %1 of the circle&apos;s samples at the highest value</source>
         <translation>强度被截断：圆内样本的 %1 处于最大值</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the paper's samples at the lowest value</source>
+        <source>intensity clipped: %1 of the paper&apos;s samples at the lowest value</source>
         <translation>强度被截断：纸面样本的 %1 处于最小值</translation>
     </message>
     <message>
-        <source>intensity clipped: %1 of the circle's samples at the lowest value</source>
+        <source>intensity clipped: %1 of the circle&apos;s samples at the lowest value</source>
         <translation>强度被截断：圆内样本的 %1 处于最小值</translation>
     </message>
     <message>
@@ -502,15 +502,15 @@ were saved. Take them up again?</source>
         <translation>偏差更大（以 σ 计）的标签或节点将被剔除。</translation>
     </message>
     <message>
-        <source>A tag that misses the board's pose by more is dropped.</source>
+        <source>A tag that misses the board&apos;s pose by more is dropped.</source>
         <translation>偏离标定板位姿更多的标签将被丢弃。</translation>
     </message>
     <message>
-        <source>Added in quadrature to every node's standard deviation.</source>
+        <source>Added in quadrature to every node&apos;s standard deviation.</source>
         <translation>以平方和方式加到每个节点的标准差上。</translation>
     </message>
     <message>
-        <source>Added in quadrature to the plane's height.</source>
+        <source>Added in quadrature to the plane&apos;s height.</source>
         <translation>以平方和方式加到平面高度的标准差上。</translation>
     </message>
     <message>
@@ -558,7 +558,7 @@ were saved. Take them up again?</source>
         <translation>候选平面的平整度；0：由测得的噪声决定。</translation>
     </message>
     <message>
-        <source>Half-width of the overlap region in units of the transition's width.</source>
+        <source>Half-width of the overlap region in units of the transition&apos;s width.</source>
         <translation>重叠区的半宽，以过渡宽度为单位。</translation>
     </message>
     <message>
@@ -885,6 +885,402 @@ were saved. Take them up again?</source>
         <source>black %1, white %2, noise %3</source>
         <translation>黑 %1，白 %2，噪声 %3</translation>
     </message>
+    <message>
+        <source>A wide footprint on a small circle moves the mid-level inwards, the more the farther.</source>
+        <translation>光斑宽而圆小，使中间强度线向内移动，距离越远越明显。</translation>
+    </message>
+    <message>
+        <source>Azimuth or elevation is read with a wrong scale.</source>
+        <translation>方位角或仰角读数的比例有误。</translation>
+    </message>
+    <message>
+        <source>Beam divergence</source>
+        <translation>光束发散</translation>
+    </message>
+    <message>
+        <source>Beams do not start at the origin of the frame, so that their direction error falls with the range.</source>
+        <translation>光束并非从坐标系原点发出，因此方向误差随距离增大而减小。</translation>
+    </message>
+    <message>
+        <source>Blooming</source>
+        <translation>光晕</translation>
+    </message>
+    <message>
+        <source>Board bow</source>
+        <translation>标定板弯曲</translation>
+    </message>
+    <message>
+        <source>Boundary bias</source>
+        <translation>边界偏移</translation>
+    </message>
+    <message>
+        <source>Bright print outshines its neighbourhood, so that edges move towards the dark side, the more the higher the contrast.</source>
+        <translation>明亮的印刷区盖过邻近区域，使边缘向暗侧移动，对比度越高越明显。</translation>
+    </message>
+    <message>
+        <source>Collimation and axis errors</source>
+        <translation>准直与轴系误差</translation>
+    </message>
+    <message>
+        <source>Corner bias</source>
+        <translation>角点偏移</translation>
+    </message>
+    <message>
+        <source>Crosstalk or phase measurement makes the range error a wave of the range.</source>
+        <translation>串扰或相位测量使测距误差成为距离的波动函数。</translation>
+    </message>
+    <message>
+        <source>Cyclic range error</source>
+        <translation>周期性测距误差</translation>
+    </message>
+    <message>
+        <source>Elevation offset of each line</source>
+        <translation>各线仰角偏移</translation>
+    </message>
+    <message>
+        <source>Elliptic footprint</source>
+        <translation>椭圆光斑</translation>
+    </message>
+    <message>
+        <source>Encoder eccentricity</source>
+        <translation>编码器偏心</translation>
+    </message>
+    <message>
+        <source>Encoder lag</source>
+        <translation>编码器滞后</translation>
+    </message>
+    <message>
+        <source>Every laser has its own delay.</source>
+        <translation>每个激光器都有各自的延迟。</translation>
+    </message>
+    <message>
+        <source>Every laser points slightly elsewhere than its table says.</source>
+        <translation>每个激光器的指向与其标称表略有差别。</translation>
+    </message>
+    <message>
+        <source>Every range is off by the same amount, for example by the internal delay or a wrong zero point.</source>
+        <translation>所有距离都偏差同一数值，例如由内部延迟或错误的零点引起。</translation>
+    </message>
+    <message>
+        <source>Focal length or principal point differ from the intrinsics file.</source>
+        <translation>焦距或主点与内参文件不同。</translation>
+    </message>
+    <message>
+        <source>Glossy print shines when the beam hits it squarely.</source>
+        <translation>光束垂直照射时，有光泽的印刷面会反光。</translation>
+    </message>
+    <message>
+        <source>Image rows are exposed one after the other while something moves.</source>
+        <translation>有物体运动时，图像各行先后曝光。</translation>
+    </message>
+    <message>
+        <source>Ink gain</source>
+        <translation>油墨扩散</translation>
+    </message>
+    <message>
+        <source>Ink spreads, so that every black edge moves outwards.</source>
+        <translation>油墨扩散，使每条黑色边缘向外移动。</translation>
+    </message>
+    <message>
+        <source>Intensity with range and incidence</source>
+        <translation>强度随距离和入射角变化</translation>
+    </message>
+    <message>
+        <source>Intrinsics error</source>
+        <translation>内参误差</translation>
+    </message>
+    <message>
+        <source>Lag of the intensity</source>
+        <translation>强度滞后</translation>
+    </message>
+    <message>
+        <source>Less light returns from far and slanted surfaces than the sensor corrects for.</source>
+        <translation>从远处和倾斜表面返回的光比传感器所补偿的更少。</translation>
+    </message>
+    <message>
+        <source>Motion during the scan</source>
+        <translation>扫描期间的运动</translation>
+    </message>
+    <message>
+        <source>Near-range error</source>
+        <translation>近距误差</translation>
+    </message>
+    <message>
+        <source>Non-linear intensity</source>
+        <translation>强度非线性</translation>
+    </message>
+    <message>
+        <source>Offset of the beam&apos;s origin</source>
+        <translation>光束原点偏移</translation>
+    </message>
+    <message>
+        <source>Offset of the receiver&apos;s view</source>
+        <translation>接收视场偏移</translation>
+    </message>
+    <message>
+        <source>Overlap of emitter and receiver is incomplete close to the sensor.</source>
+        <translation>在传感器近处，发射与接收的视场重叠不完全。</translation>
+    </message>
+    <message>
+        <source>Print scale</source>
+        <translation>打印比例</translation>
+    </message>
+    <message>
+        <source>Range error with incidence</source>
+        <translation>测距误差随入射角变化</translation>
+    </message>
+    <message>
+        <source>Range offset</source>
+        <translation>测距偏移</translation>
+    </message>
+    <message>
+        <source>Range offset of each line</source>
+        <translation>各线测距偏移</translation>
+    </message>
+    <message>
+        <source>Range pull at edges</source>
+        <translation>边缘处测距牵引</translation>
+    </message>
+    <message>
+        <source>Range scale</source>
+        <translation>测距比例</translation>
+    </message>
+    <message>
+        <source>Range walk</source>
+        <translation>距离游走</translation>
+    </message>
+    <message>
+        <source>Ranges are proportionally off: wrong clock frequency or refractive index.</source>
+        <translation>距离按比例偏差：时钟频率或折射率有误。</translation>
+    </message>
+    <message>
+        <source>Residual distortion</source>
+        <translation>残余畸变</translation>
+    </message>
+    <message>
+        <source>Rolling shutter</source>
+        <translation>卷帘快门</translation>
+    </message>
+    <message>
+        <source>Scale of the angles</source>
+        <translation>角度比例</translation>
+    </message>
+    <message>
+        <source>Specular lobe</source>
+        <translation>镜面反射瓣</translation>
+    </message>
+    <message>
+        <source>The LiDAR or the board moved while the scan was taken.</source>
+        <translation>采集扫描时激光雷达或标定板有移动。</translation>
+    </message>
+    <message>
+        <source>The angle is read a little before or after the pulse: the beam is shifted along its scan.</source>
+        <translation>角度在脉冲之前或之后读取：光束沿扫描方向偏移。</translation>
+    </message>
+    <message>
+        <source>The beam is not square to the turning axis, or the axis is tilted against the mirror.</source>
+        <translation>光束与转轴不垂直，或转轴相对反射镜倾斜。</translation>
+    </message>
+    <message>
+        <source>The board is not flat: it bends or twists.</source>
+        <translation>标定板不平：弯曲或扭曲。</translation>
+    </message>
+    <message>
+        <source>The corner detector is drawn outwards or inwards, seen from the tag&apos;s centre.</source>
+        <translation>从标签中心看，角点检测结果向外或向内偏移。</translation>
+    </message>
+    <message>
+        <source>The detector needs time to recover, so that edges move along the scan.</source>
+        <translation>探测器需要恢复时间，使边缘沿扫描方向移动。</translation>
+    </message>
+    <message>
+        <source>The footprint is wider along one axis of the LiDAR.</source>
+        <translation>光斑沿激光雷达某一轴更宽。</translation>
+    </message>
+    <message>
+        <source>The footprint stretches on a slanted surface and the echo with it.</source>
+        <translation>光斑在倾斜表面上拉长，回波也随之展宽。</translation>
+    </message>
+    <message>
+        <source>The intensity is collected beside the reported direction.</source>
+        <translation>强度的采集方向偏离报告的方向。</translation>
+    </message>
+    <message>
+        <source>The lens distorts differently than the intrinsics file says.</source>
+        <translation>镜头畸变与内参文件所述不同。</translation>
+    </message>
+    <message>
+        <source>The mid-level crossing lies outside or inside the printed edge everywhere.</source>
+        <translation>中间强度的穿越点处处位于印刷边缘的外侧或内侧。</translation>
+    </message>
+    <message>
+        <source>The print is larger or smaller than drawn, or not square.</source>
+        <translation>打印件比图纸大或小，或不是正方形。</translation>
+    </message>
+    <message>
+        <source>The range drifts while electronics warm up.</source>
+        <translation>电子器件预热期间距离漂移。</translation>
+    </message>
+    <message>
+        <source>The receiver compresses strong echoes: black and white do not change by the same factor.</source>
+        <translation>接收器压缩强回波：黑与白的变化倍数不同。</translation>
+    </message>
+    <message>
+        <source>The scale disc of the encoder is not centred on the axis.</source>
+        <translation>编码器的码盘与转轴不同心。</translation>
+    </message>
+    <message>
+        <source>The zero of azimuth or elevation is off. It is the same as a turned LiDAR: part of the extrinsic by definition.</source>
+        <translation>方位角或仰角的零位有偏差。这等同于激光雷达转动了一个角度：按定义属于外参的一部分。</translation>
+    </message>
+    <message>
+        <source>Warm-up drift</source>
+        <translation>预热漂移</translation>
+    </message>
+    <message>
+        <source>Weak echoes cross the detection threshold later (or earlier), so that dark print reads a different range than white print.</source>
+        <translation>弱回波更晚（或更早）越过检测阈值，使深色印刷区的测距与白色不同。</translation>
+    </message>
+    <message>
+        <source>Where a beam is cut by an edge, its energy comes from one side of the footprint, which on a slanted board lies nearer or farther.</source>
+        <translation>光束被边缘切割时，其能量来自光斑的一侧，在倾斜的标定板上该侧更近或更远。</translation>
+    </message>
+    <message>
+        <source>Zero of the angles</source>
+        <translation>角度零位</translation>
+    </message>
+    <message>
+        <source>a board below 1.5 m beside one beyond 3 m</source>
+        <translation>1.5 m 以内和 3 m 以外各一块标定板</translation>
+    </message>
+    <message>
+        <source>a board turned beyond 40 degrees</source>
+        <translation>转角超过 40 度的标定板</translation>
+    </message>
+    <message>
+        <source>a board turned beyond 50 degrees</source>
+        <translation>转角超过 50 度的标定板</translation>
+    </message>
+    <message>
+        <source>a board turned so that its range spans two periods</source>
+        <translation>转动标定板使其距离跨越两个周期</translation>
+    </message>
+    <message>
+        <source>boards all around the LiDAR</source>
+        <translation>在激光雷达四周放置标定板</translation>
+    </message>
+    <message>
+        <source>boards at several distances</source>
+        <translation>多个距离的标定板</translation>
+    </message>
+    <message>
+        <source>boards at several distances and angles</source>
+        <translation>多个距离和角度的标定板</translation>
+    </message>
+    <message>
+        <source>boards at several distances: a print error in mm shrinks with the distance, this does not</source>
+        <translation>多个距离的标定板：以毫米计的打印误差随距离减小，而此效应不会</translation>
+    </message>
+    <message>
+        <source>boards at the edges of the field of view</source>
+        <translation>位于视场边缘的标定板</translation>
+    </message>
+    <message>
+        <source>boards at two distances with the same print</source>
+        <translation>同一打印件在两个距离处</translation>
+    </message>
+    <message>
+        <source>boards below 2 m beside boards beyond 4 m</source>
+        <translation>2 m 以内和 4 m 以外的标定板</translation>
+    </message>
+    <message>
+        <source>boards high and low</source>
+        <translation>高处和低处的标定板</translation>
+    </message>
+    <message>
+        <source>boards in all corners of the image and at several distances</source>
+        <translation>位于图像各角且距离不同的标定板</translation>
+    </message>
+    <message>
+        <source>boards in the corners of the image</source>
+        <translation>位于图像各角的标定板</translation>
+    </message>
+    <message>
+        <source>boards near and far, strongly turned</source>
+        <translation>远近不同且转角很大的标定板</translation>
+    </message>
+    <message>
+        <source>boards square to the beam beside turned ones</source>
+        <translation>正对光束和转动的标定板</translation>
+    </message>
+    <message>
+        <source>boards that every line crosses</source>
+        <translation>每条线都扫过的标定板</translation>
+    </message>
+    <message>
+        <source>boards that every line crosses at several distances</source>
+        <translation>在多个距离处每条线都扫过的标定板</translation>
+    </message>
+    <message>
+        <source>boards turned to ±40 degrees</source>
+        <translation>转到 ±40 度的标定板</translation>
+    </message>
+    <message>
+        <source>circles at near and far distance</source>
+        <translation>近处和远处的圆</translation>
+    </message>
+    <message>
+        <source>circles far away</source>
+        <translation>远处的圆</translation>
+    </message>
+    <message>
+        <source>let the rig rest</source>
+        <translation>让设备静止</translation>
+    </message>
+    <message>
+        <source>let the rig rest; take a shorter scan</source>
+        <translation>让设备静止；缩短扫描时间</translation>
+    </message>
+    <message>
+        <source>measure a printed circle with a caliper</source>
+        <translation>用卡尺测量打印的圆</translation>
+    </message>
+    <message>
+        <source>measure the print with a ruler</source>
+        <translation>用尺测量打印件</translation>
+    </message>
+    <message>
+        <source>measure the printed board: a wrong print scale looks the same</source>
+        <translation>测量打印的标定板：错误的打印比例看起来相同</translation>
+    </message>
+    <message>
+        <source>measure the printed circles: print growth looks the same</source>
+        <translation>测量打印的圆：油墨扩散看起来相同</translation>
+    </message>
+    <message>
+        <source>none needed: turn the board by 90 degrees to confirm</source>
+        <translation>无需：将标定板转 90 度即可确认</translation>
+    </message>
+    <message>
+        <source>none: not defined apart from the extrinsic</source>
+        <translation>无：无法与外参分开定义</translation>
+    </message>
+    <message>
+        <source>prints of two contrasts, or distances with different footprints</source>
+        <translation>两种对比度的打印件，或光斑不同的距离</translation>
+    </message>
+    <message>
+        <source>repeat the first scene at the end</source>
+        <translation>最后重复第一个场景</translation>
+    </message>
+    <message>
+        <source>scans that cross edges in both directions</source>
+        <translation>沿两个方向扫过边缘的扫描</translation>
+    </message>
+    <message>
+        <source>scans that cross the board in several directions</source>
+        <translation>沿多个方向扫过标定板的扫描</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -934,6 +1330,193 @@ were saved. Take them up again?</source>
     <message>
         <source>Hide</source>
         <translation>隐藏</translation>
+    </message>
+</context>
+<context>
+    <name>ModelText</name>
+    <message>
+        <source>board x</source>
+        <translation>板面 x</translation>
+    </message>
+    <message>
+        <source>board y</source>
+        <translation>板面 y</translation>
+    </message>
+    <message>
+        <source>board radius</source>
+        <translation>板面半径</translation>
+    </message>
+    <message>
+        <source>range</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>azimuth</source>
+        <translation>方位角</translation>
+    </message>
+    <message>
+        <source>elevation</source>
+        <translation>仰角</translation>
+    </message>
+    <message>
+        <source>incidence</source>
+        <translation>入射角</translation>
+    </message>
+    <message>
+        <source>tilt direction</source>
+        <translation>倾斜方向</translation>
+    </message>
+    <message>
+        <source>scene clock</source>
+        <translation>场景时序</translation>
+    </message>
+    <message>
+        <source>time in scan</source>
+        <translation>扫描内时间</translation>
+    </message>
+    <message>
+        <source>scan speed</source>
+        <translation>扫描速度</translation>
+    </message>
+    <message>
+        <source>scan direction</source>
+        <translation>扫描方向</translation>
+    </message>
+    <message>
+        <source>laser line</source>
+        <translation>激光线</translation>
+    </message>
+    <message>
+        <source>image x</source>
+        <translation>图像 x</translation>
+    </message>
+    <message>
+        <source>image y</source>
+        <translation>图像 y</translation>
+    </message>
+    <message>
+        <source>image radius</source>
+        <translation>图像半径</translation>
+    </message>
+    <message>
+        <source>radial from image centre</source>
+        <translation>相对图像中心的径向</translation>
+    </message>
+    <message>
+        <source>radial from tag centre</source>
+        <translation>相对标签中心的径向</translation>
+    </message>
+    <message>
+        <source>tag size</source>
+        <translation>标签大小</translation>
+    </message>
+    <message>
+        <source>sub-pixel phase</source>
+        <translation>亚像素相位</translation>
+    </message>
+    <message>
+        <source>tag</source>
+        <translation>标签</translation>
+    </message>
+    <message>
+        <source>corner and axis</source>
+        <translation>角点与轴</translation>
+    </message>
+    <message>
+        <source>darkness</source>
+        <translation>暗度</translation>
+    </message>
+    <message>
+        <source>print</source>
+        <translation>印刷</translation>
+    </message>
+    <message>
+        <source>intensity</source>
+        <translation>强度</translation>
+    </message>
+    <message>
+        <source>inverse range</source>
+        <translation>距离倒数</translation>
+    </message>
+    <message>
+        <source>distance to edge</source>
+        <translation>到边缘的距离</translation>
+    </message>
+    <message>
+        <source>polar angle</source>
+        <translation>极角</translation>
+    </message>
+    <message>
+        <source>polar angle to tilt</source>
+        <translation>相对倾斜的极角</translation>
+    </message>
+    <message>
+        <source>polar angle to LiDAR axes</source>
+        <translation>相对激光雷达轴的极角</translation>
+    </message>
+    <message>
+        <source>scan across edge</source>
+        <translation>横过边缘的扫描</translation>
+    </message>
+    <message>
+        <source>contrast</source>
+        <translation>对比度</translation>
+    </message>
+    <message>
+        <source>circle</source>
+        <translation>圆</translation>
+    </message>
+    <message>
+        <source>corner</source>
+        <translation>角点</translation>
+    </message>
+    <message>
+        <source>boundary</source>
+        <translation>边界</translation>
+    </message>
+    <message>
+        <source>log. intensity</source>
+        <translation>对数强度</translation>
+    </message>
+    <message>
+        <source>white</source>
+        <translation>白</translation>
+    </message>
+    <message>
+        <source>black</source>
+        <translation>黑</translation>
+    </message>
+    <message>
+        <source>present</source>
+        <translation>存在</translation>
+    </message>
+    <message>
+        <source>absent</source>
+        <translation>不存在</translation>
+    </message>
+    <message>
+        <source>one of several</source>
+        <translation>若干之一</translation>
+    </message>
+    <message>
+        <source>cannot tell</source>
+        <translation>无法判断</translation>
+    </message>
+    <message>
+        <source>%1%2 (held)</source>
+        <translation>%1%2（固定）</translation>
+    </message>
+    <message>
+        <source>base model</source>
+        <translation>基础模型</translation>
+    </message>
+    <message>
+        <source>%1 held</source>
+        <translation>%1 固定</translation>
+    </message>
+    <message>
+        <source>%1 fitted</source>
+        <translation>%1 拟合</translation>
     </message>
 </context>
 <context>
@@ -1026,7 +1609,7 @@ were saved. Take them up again?</source>
         <translation>四元数 x y z w</translation>
     </message>
     <message>
-        <source>Standard deviations along the camera's axes</source>
+        <source>Standard deviations along the camera&apos;s axes</source>
         <translation>沿相机各轴的标准差</translation>
     </message>
     <message>
@@ -1090,7 +1673,7 @@ were saved. Take them up again?</source>
         <translation>重叠区的样本数</translation>
     </message>
     <message>
-        <source>Where the intensity is half way, from the circle's edge, outside positive</source>
+        <source>Where the intensity is half way, from the circle&apos;s edge, outside positive</source>
         <translation>强度居中处到圆边缘的距离，向外为正</translation>
     </message>
     <message>
@@ -1182,7 +1765,7 @@ were saved. Take them up again?</source>
         <translation>留一法</translation>
     </message>
     <message>
-        <source>In the camera's view, one standard deviation</source>
+        <source>In the camera&apos;s view, one standard deviation</source>
         <translation>相机视野中的一倍标准差</translation>
     </message>
 </context>
@@ -1201,6 +1784,93 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
 
 用打印标定板标定激光雷达与相机。
 GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::AddEffectDialog</name>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>添加(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Add an effect</source>
+        <translation>添加效应</translation>
+    </message>
+    <message>
+        <source>Catalogue</source>
+        <translation>目录</translation>
+    </message>
+    <message>
+        <source>Formula</source>
+        <translation>公式</translation>
+    </message>
+    <message>
+        <source>Curve</source>
+        <translation>曲线</translation>
+    </message>
+    <message>
+        <source>leaves no pattern in these scenes</source>
+        <translation>在这些场景中不留下图样</translation>
+    </message>
+    <message>
+        <source>Search by name, physics or formula</source>
+        <translation>按名称、物理含义或公式搜索</translation>
+    </message>
+    <message>
+        <source>What is added to the measurement, in m (range, boundary), px (corner) or the logarithm of the intensity. Covariates are in m, rad and px. Other names are coefficients, which are fitted; the formula must be linear in them.</source>
+        <translation>加到测量值上的量，单位为 m（距离、边界）、px（角点）或强度的对数。协变量的单位为 m、rad 和 px。其他名称是待拟合的系数；公式对它们必须是线性的。</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Covariates</source>
+        <translation>协变量</translation>
+    </message>
+    <message>
+        <source>A smooth curve stands in for a cause that nobody knows yet. Of two covariates it is a surface.</source>
+        <translation>平滑曲线用来代替尚不知道的原因；两个协变量时为曲面。</translation>
+    </message>
+    <message>
+        <source>Along</source>
+        <translation>沿</translation>
+    </message>
+    <message>
+        <source>and</source>
+        <translation>和</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;No effect matches.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;没有匹配的效应。&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Formula:</source>
+        <translation>公式：</translation>
+    </message>
+    <message>
+        <source>To tell it from others:</source>
+        <translation>与其他效应区分的办法：</translation>
+    </message>
+    <message>
+        <source>Source:</source>
+        <translation>来源：</translation>
+    </message>
+    <message>
+        <source>its pattern is being drawn …</source>
+        <translation>正在绘制其图样……</translation>
+    </message>
+    <message>
+        <source>not with these measurements</source>
+        <translation>这些测量值无法使用</translation>
+    </message>
+    <message>
+        <source>nothing else</source>
+        <translation>无其他</translation>
+    </message>
+    <message>
+        <source>Cannot be used here: %1</source>
+        <translation>此处无法使用：%1</translation>
     </message>
 </context>
 <context>
@@ -1251,6 +1921,29 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::BoardIntensityView</name>
+    <message>
+        <source>Intensity over the board: measured, as the model predicts it, and the difference (blue: darker than predicted, red: brighter).</source>
+        <translation>标定板上的强度：测量值、模型预测值和差值（蓝色：比预测暗，红色：比预测亮）。</translation>
+    </message>
+    <message>
+        <source>no intensity in these clouds</source>
+        <translation>这些点云没有强度</translation>
+    </message>
+    <message>
+        <source>measured (%1 … %2)</source>
+        <translation>测量（%1 … %2）</translation>
+    </message>
+    <message>
+        <source>predicted</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>difference (±%1)</source>
+        <translation>差值（±%1）</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::BoardMapPlot</name>
     <message>
         <source>board x (mm)</source>
@@ -1261,7 +1954,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>标定板 y (mm)</translation>
     </message>
     <message>
-        <source>The board from the front. Lines: how each circle's centre moved from the first to the last iteration, enlarged. Ellipse: twice the standard deviation of the refined centre, enlarged alike. Cross: where the model has it.</source>
+        <source>The board from the front. Lines: how each circle&apos;s centre moved from the first to the last iteration, enlarged. Ellipse: twice the standard deviation of the refined centre, enlarged alike. Cross: where the model has it.</source>
         <translation>标定板正面。线：各圆心从首次到末次迭代的移动（放大）。椭圆：精化圆心的两倍标准差（同样放大）。十字：模型中的位置。</translation>
     </message>
     <message>
@@ -1278,6 +1971,27 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     <message>
         <source>no data</source>
         <translation>无数据</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BudgetPlot</name>
+    <message>
+        <source>The history of the error appears here.</source>
+        <translation>误差的历史显示在这里。</translation>
+    </message>
+    <message>
+        <source>squared error (%)</source>
+        <translation>平方误差 (%)</translation>
+    </message>
+    <message>
+        <source>Squared error by the base model&apos;s: grey noise, red unexplained, green explained by effects; diamonds: scenes held out. Click to go to a step.</source>
+        <translation>相对于基础模型的平方误差：灰色为噪声，红色为未解释，绿色为效应已解释；菱形：留出的场景。单击可转到某一步。</translation>
+    </message>
+    <message>
+        <source>Step %1, %2: %3
+RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
+        <translation>第 %1 步，%2：%3
+均方根 %4，噪声 %5，未解释 %6，留出 %7（%8）</translation>
     </message>
 </context>
 <context>
@@ -1307,7 +2021,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>相机颜色</translation>
     </message>
     <message>
-        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board's plane (mm), or the camera's own colours</source>
+        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), or the camera&apos;s own colours</source>
         <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、超出标定板平面的距离 (mm) 或相机自身的颜色</translation>
     </message>
     <message>
@@ -1331,7 +2045,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>边界样本</translation>
     </message>
     <message>
-        <source>Which points are shown: all, those in the crop box, those about the board, or those beside the circles' edges</source>
+        <source>Which points are shown: all, those in the crop box, those about the board, or those beside the circles&apos; edges</source>
         <translation>显示哪些点：全部、裁剪框内、标定板附近或圆边缘附近</translation>
     </message>
     <message>
@@ -1370,7 +2084,7 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     </message>
     <message>
         <source>The cloud cannot be drawn: no OpenGL 3.2 on this screen.
-Install a graphics driver (or Mesa's software renderer).</source>
+Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>无法绘制点云：此屏幕不支持 OpenGL 3.2。
 请安装显卡驱动（或 Mesa 软件渲染器）。</translation>
     </message>
@@ -1399,14 +2113,25 @@ Install a graphics driver (or Mesa's software renderer).</source>
         <translation>传感器</translation>
     </message>
     <message>
-        <source>Look from the LiDAR's origin</source>
+        <source>Look from the LiDAR&apos;s origin</source>
         <translation>从激光雷达原点看</translation>
     </message>
-<message>
-        <source>%1 (%2)</source>
-        <translation type="unfinished" />
+</context>
+<context>
+    <name>lvcalib::widgets::CoachMarks</name>
+    <message>
+        <source>Done</source>
+        <translation>完成</translation>
     </message>
-    </context>
+    <message>
+        <source>Next</source>
+        <translation>下一步</translation>
+    </message>
+    <message>
+        <source>End the tour</source>
+        <translation>结束导览</translation>
+    </message>
+</context>
 <context>
     <name>lvcalib::widgets::ConvergencePlot</name>
     <message>
@@ -1418,7 +2143,7 @@ Install a graphics driver (or Mesa's software renderer).</source>
         <translation>移动量 (mm)</translation>
     </message>
     <message>
-        <source>Thin lines: size of each circle's own correction in every iteration (mm), which ends at its measurement noise. Thick line: largest move of a centre after the projection to the layout; the refinement ends when it is small.</source>
+        <source>Thin lines: size of each circle&apos;s own correction in every iteration (mm), which ends at its measurement noise. Thick line: largest move of a centre after the projection to the layout; the refinement ends when it is small.</source>
         <translation>细线：每次迭代中各圆自身修正量的大小 (mm)，最终降到其测量噪声。粗线：投影到布局之后圆心的最大移动量；足够小时精化结束。</translation>
     </message>
     <message>
@@ -1445,7 +2170,7 @@ Install a graphics driver (or Mesa's software renderer).</source>
         <translation>中心 %1</translation>
     </message>
     <message>
-        <source>Middle of the box along the LiDAR's %1 axis, in metres</source>
+        <source>Middle of the box along the LiDAR&apos;s %1 axis, in metres</source>
         <translation>框中心沿激光雷达 %1 轴的坐标（米）</translation>
     </message>
     <message>
@@ -1476,15 +2201,34 @@ Install a graphics driver (or Mesa's software renderer).</source>
         <source>Search the board in the whole cloud again</source>
         <translation>重新在完整点云中搜索标定板</translation>
     </message>
-<message>
-        <source> m</source>
-        <translation type="unfinished" />
+</context>
+<context>
+    <name>lvcalib::widgets::DemoTour</name>
+    <message>
+        <source>These scenes were simulated just now, by a LiDAR with an error that the calibration does not know. Press &lt;b&gt;Run all&lt;/b&gt;.</source>
+        <translation>这些场景刚刚模拟生成，所用激光雷达有一个标定并不知道的误差。请按&lt;b&gt;全部运行&lt;/b&gt;。</translation>
     </message>
     <message>
-        <source>°</source>
-        <translation type="unfinished" />
+        <source>The calibration is done, and its figures look fine. Open the &lt;b&gt;Model&lt;/b&gt; page to ask what it misses.</source>
+        <translation>标定已完成，数值看起来不错。打开&lt;b&gt;模型&lt;/b&gt;页，看看它遗漏了什么。</translation>
     </message>
-    </context>
+    <message>
+        <source>The effects that may be missing are being tried; scenes held out decide. The best one comes first, with a sentence on what was seen and how sure that is.</source>
+        <translation>正在逐一尝试可能遗漏的效应，由留出的场景决定。最好的排在最前，并用一句话说明看到了什么、有多大把握。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Range walk&lt;/b&gt;: dark print reads too far. The orange curve is its pattern at the size found; the marks are what is measured.</source>
+        <translation>&lt;b&gt;Range walk&lt;/b&gt;（距离随强度漂移）：深色印刷读数偏远。橙色曲线是按所得大小绘出的图样，标记是测量值。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Add&lt;/b&gt; it to the model.</source>
+        <translation>把它&lt;b&gt;添加&lt;/b&gt;到模型中。</translation>
+    </message>
+    <message>
+        <source>The red, unexplained share is gone, in scenes held out as well (diamonds), and the extrinsic has moved. Click an earlier step or undo to compare.</source>
+        <translation>红色的未解释部分消失了，留出的场景（菱形）也一样，外参随之移动。单击较早的步骤或撤销以作比较。</translation>
+    </message>
+</context>
 <context>
     <name>lvcalib::widgets::ErrorDialog</name>
     <message>
@@ -1578,11 +2322,11 @@ Install a graphics driver (or Mesa's software renderer).</source>
         <translation>去掉后的转动 (mrad)</translation>
     </message>
     <message>
-        <source>Root mean square of the tag corners' reprojection residuals, per scene (px). Pale: not used. Click: go to the scene.</source>
+        <source>Root mean square of the tag corners&apos; reprojection residuals, per scene (px). Pale: not used. Click: go to the scene.</source>
         <translation>各场景标签角点重投影残差的均方根 (px)。浅色：未使用。单击：转到该场景。</translation>
     </message>
     <message>
-        <source>Root mean square of the refined LiDAR nodes against the board's model, per scene (mm); without circles, of the plane's height</source>
+        <source>Root mean square of the refined LiDAR nodes against the board&apos;s model, per scene (mm); without circles, of the plane&apos;s height</source>
         <translation>各场景精化后的激光节点与标定板模型之差的均方根 (mm)；没有圆时为平面高度之差</translation>
     </message>
     <message>
@@ -1594,7 +2338,7 @@ Install a graphics driver (or Mesa's software renderer).</source>
         <translation>各场景节点残差的长度 (mm)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
     </message>
     <message>
-        <source>How far the LiDAR's origin moves when the scene is left out (mm)</source>
+        <source>How far the LiDAR&apos;s origin moves when the scene is left out (mm)</source>
         <translation>去掉该场景时激光雷达原点的移动量 (mm)</translation>
     </message>
     <message>
@@ -1670,9 +2414,9 @@ Install a graphics driver (or Mesa's software renderer).</source>
 
 # Pages
 - **Scene**: cloud and image of the scene that is selected in the list, with what was found in them. A crop box helps where the board is not found.
-- **Refinement**: how each circle's centre was found, bin by bin.
+- **Refinement**: how each circle&apos;s centre was found, bin by bin.
 - **Extrinsic**: the pose, its standard deviations, how the scenes agree, and the same scenes solved by other methods.
-- **Boundary response**: how returns scatter at the circles' edges.
+- **Boundary response**: how returns scatter at the circles&apos; edges.
 
 # Keys
 F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.
@@ -1694,25 +2438,6 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctr
 # 按键
 F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面，Ctrl+J 剔除、Ctrl+U 采用所选场景，空格键勾选或取消勾选。
 </translation>
-    </message>
-<message>
-        <source># From the board to a result
-1. **Print the board** at 1:1 with `lvcalib target target.yaml -o board.pdf`, glue it on something flat and measure a tag.
-2. **Take three to ten scenes**: an image and a cloud each, the board at 2–4 m, turned differently each time, seen whole by both sensors.
-3. **Lay out the folder**: `target.yaml`, `camera.yaml`, `scenes/NAME/image.png` and `scenes/NAME/cloud.pcd`.
-4. **Open it and press F5.** No rough guess is needed.
-5. **Look**: every scene should be *used*; a scene whose px, mm or influence stands out deserves a look on the Scene page. Untick it and the result follows at once.
-6. **Export** with Ctrl+E.
-
-# Pages
-- **Scene**: cloud and image of the scene that is selected in the list, with what was found in them. A crop box helps where the board is not found.
-- **Refinement**: how each circle's centre was found, bin by bin.
-- **Extrinsic**: the pose, its standard deviations and how the scenes agree.
-
-# Keys
-F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.
-</source>
-        <translation type="unfinished" />
     </message>
 </context>
 <context>
@@ -1805,14 +2530,6 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+
         <source>Pixel under the cursor (x, y) and its grey value</source>
         <translation>光标处的像素 (x, y) 及其灰度值</translation>
     </message>
-<message>
-        <source>1:1</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>(%1, %2): %3</source>
-        <translation type="unfinished" />
-    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ImageView</name>
@@ -1899,10 +2616,6 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+
         <translation>试用演示(&amp;D)</translation>
     </message>
     <message>
-        <source>Simulate three scenes and open them</source>
-        <translation>仿真三个场景并打开</translation>
-    </message>
-    <message>
         <source>&amp;Save</source>
         <translation>保存(&amp;S)</translation>
     </message>
@@ -1955,7 +2668,7 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+
         <translation>使用 board.pcd 文件(&amp;F)</translation>
     </message>
     <message>
-        <source>Take a scene's board.pcd instead of its whole cloud where there is one</source>
+        <source>Take a scene&apos;s board.pcd instead of its whole cloud where there is one</source>
         <translation>若场景有 board.pcd，则用它代替完整点云</translation>
     </message>
     <message>
@@ -2018,7 +2731,7 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+
         <source>Write the result as one HTML file with its figures</source>
         <translation>将结果连同图表写成一个 HTML 文件</translation>
     </message>
-<message>
+    <message>
         <source>Simulate four scenes and open them, with a guided tour</source>
         <translation>模拟四个场景并打开，附带导览</translation>
     </message>
@@ -2029,26 +2742,7 @@ F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+
         <source>LV-Calib Workbench</source>
         <translation>LV-Calib 工作台</translation>
     </message>
-<message>
-        <source>Exported %1.</source>
-        <translation>已导出 %1。</translation>
-    </message>
-    <message>
-        <source>Exported %1</source>
-        <translation>已导出 %1</translation>
-    </message>
-    <message>
-        <source>About</source>
-        <translation>关于</translation>
-    </message>
-    <message>
-        <source>LV-Calib Workbench %1
-
-LiDAR–camera calibration with a printed board.
-GPL-3.0-or-later (core library: BSD-3-Clause)</source>
-        <translation type="unfinished" />
-    </message>
-    </context>
+</context>
 <context>
     <name>lvcalib::widgets::MethodsPane</name>
     <message>
@@ -2112,7 +2806,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>外参的求法，以及所用的圆心：初始（原始）或精化</translation>
     </message>
     <message>
-        <source>Root mean square of the corners' reprojection residuals</source>
+        <source>Root mean square of the corners&apos; reprojection residuals</source>
         <translation>角点重投影残差的均方根</translation>
     </message>
     <message>
@@ -2120,7 +2814,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>精化节点残差的均方根</translation>
     </message>
     <message>
-        <source>Corners predicted from the LiDAR alone against the corners found: an extrinsic's error undiminished by the board poses</source>
+        <source>Corners predicted from the LiDAR alone against the corners found: an extrinsic&apos;s error undiminished by the board poses</source>
         <translation>仅由激光雷达预测的角点与检测角点之差：未被标定板位姿吸收的外参误差</translation>
     </message>
     <message>
@@ -2132,7 +2826,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>该方法未使用的场景的节点</translation>
     </message>
     <message>
-        <source>Distance of the LiDAR's origin to where the joint result has it</source>
+        <source>Distance of the LiDAR&apos;s origin to where the joint result has it</source>
         <translation>激光雷达原点与联合解中位置的距离</translation>
     </message>
     <message>
@@ -2183,6 +2877,195 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::MissingPane</name>
+    <message>
+        <source>its pattern cannot be seen</source>
+        <translation>看不到其图样</translation>
+    </message>
+    <message>
+        <source>or: %1</source>
+        <translation>或：%1</translation>
+    </message>
+    <message>
+        <source>Predicted fall of the squared error in scenes held out</source>
+        <translation>留出场景中平方误差的预计降幅</translation>
+    </message>
+    <message>
+        <source>%1 against %2</source>
+        <translation>%1 对 %2</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>未知</translation>
+    </message>
+    <message>
+        <source>Looking for what is missing …</source>
+        <translation>正在查找遗漏的效应……</translation>
+    </message>
+    <message>
+        <source>Nobody has looked yet.</source>
+        <translation>尚未查找。</translation>
+    </message>
+    <message>
+        <source>Run the calibration first.</source>
+        <translation>请先运行标定。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Nothing is missing&lt;/b&gt; in the model, as far as these scenes can tell.</source>
+        <translation>就这些场景而言，模型中&lt;b&gt;没有遗漏&lt;/b&gt;。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Something is left&lt;/b&gt; that no known effect explains.</source>
+        <translation>&lt;b&gt;仍有残余&lt;/b&gt;，没有已知效应能解释。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;%1 is missing.&lt;/b&gt;</source>
+        <translation>&lt;b&gt;遗漏了 %1。&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>Add &amp;curve…</source>
+        <translation>添加曲线(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>添加(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>&amp;Look again</source>
+        <translation>重新查找(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Adding it moves the extrinsic by %1.</source>
+        <translation>添加后外参移动 %1。</translation>
+    </message>
+    <message>
+        <source>its pattern is being drawn …</source>
+        <translation>正在绘制其图样……</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). No effect of the catalogue explains it: a smooth curve can stand in for it.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;在留出的场景中，%2 残差的方差有 %1 % 随 %3 变化（%4 %5）。目录中没有效应能解释它：可用平滑曲线代替。&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>What is missing</source>
+        <translation>遗漏了什么</translation>
+    </message>
+    <message>
+        <source>What cannot be seen</source>
+        <translation>看不到什么</translation>
+    </message>
+    <message>
+        <source>Effects that these scenes could not show, and by how much they would spoil the extrinsic at the size that matters</source>
+        <translation>这些场景无法显示的效应，以及达到有影响的大小时会使外参偏离多少</translation>
+    </message>
+    <message>
+        <source>Effect</source>
+        <translation>效应</translation>
+    </message>
+    <message>
+        <source>Verdict</source>
+        <translation>结论</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>误差</translation>
+    </message>
+    <message>
+        <source>Could move by</source>
+        <translation>可能移动</translation>
+    </message>
+    <message>
+        <source>Left</source>
+        <translation>残留</translation>
+    </message>
+    <message>
+        <source>Share of its squared effect that the poses leave</source>
+        <translation>位姿吸收后剩下的平方效应份额</translation>
+    </message>
+    <message>
+        <source>&amp;Find all</source>
+        <translation>全部查找(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Add what scenes held out speak for, one after the other</source>
+        <translation>逐个添加留出场景所支持的效应</translation>
+    </message>
+    <message>
+        <source>Add the chosen effect to the model</source>
+        <translation>把所选效应添加到模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ModelPage</name>
+    <message>
+        <source>Run the calibration to see what its model explains and what it misses.</source>
+        <translation>运行标定，查看模型解释了什么、遗漏了什么。</translation>
+    </message>
+    <message>
+        <source>noise</source>
+        <translation>噪声</translation>
+    </message>
+    <message>
+        <source>unexplained</source>
+        <translation>未解释</translation>
+    </message>
+    <message>
+        <source>explained</source>
+        <translation>已解释</translation>
+    </message>
+    <message>
+        <source>scenes held out</source>
+        <translation>留出的场景</translation>
+    </message>
+    <message>
+        <source>Steps: %1</source>
+        <translation>步骤：%1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ModelWork</name>
+    <message>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>add %1</source>
+        <translation>添加 %1</translation>
+    </message>
+    <message>
+        <source>remove %1</source>
+        <translation>移除 %1</translation>
+    </message>
+    <message>
+        <source>switch %1 on</source>
+        <translation>启用 %1</translation>
+    </message>
+    <message>
+        <source>switch %1 off</source>
+        <translation>停用 %1</translation>
+    </message>
+    <message>
+        <source>hold %1</source>
+        <translation>固定 %1</translation>
+    </message>
+    <message>
+        <source>fit %1 again</source>
+        <translation>重新拟合 %1</translation>
+    </message>
+    <message>
+        <source>go to step %1</source>
+        <translation>转到第 %1 步</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::PageStack</name>
     <message>
         <source>Scene</source>
@@ -2200,7 +3083,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <source>Boundary response</source>
         <translation>边界响应</translation>
     </message>
-<message>
+    <message>
         <source>Model</source>
         <translation>模型</translation>
     </message>
@@ -2274,7 +3157,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
 <context>
     <name>lvcalib::widgets::RangePlot</name>
     <message>
-        <source>range off the board's plane (mm)</source>
+        <source>range off the board&apos;s plane (mm)</source>
         <translation>偏离标定板平面的距离 (mm)</translation>
     </message>
     <message>
@@ -2282,7 +3165,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>样本数</translation>
     </message>
     <message>
-        <source>Ranges of the samples of the overlap region, less the range of the board's plane along the same ray, in classes of 2 mm. Lines: one standard deviation of the range of a beam on the edge.</source>
+        <source>Ranges of the samples of the overlap region, less the range of the board&apos;s plane along the same ray, in classes of 2 mm. Lines: one standard deviation of the range of a beam on the edge.</source>
         <translation>重叠区样本的距离减去同一光线上标定板平面的距离，每组 2 mm。竖线：边缘上光束距离的一倍标准差。</translation>
     </message>
     <message>
@@ -2394,6 +3277,48 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::ResidualMapPlot</name>
+    <message>
+        <source>Mean residual of each cell. Outlined: different from zero beyond chance, all cells taken together. Corners are arrows, enlarged.</source>
+        <translation>每格的平均残差。带框：全部格子一并考虑，显著不为零。角点以放大的箭头表示。</translation>
+    </message>
+    <message>
+        <source>only corners lie in the image</source>
+        <translation>只有角点位于图像中</translation>
+    </message>
+    <message>
+        <source>corners have no direction</source>
+        <translation>角点没有方向</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>没有数据</translation>
+    </message>
+    <message>
+        <source>mean residual (%1)</source>
+        <translation>平均残差（%1）</translation>
+    </message>
+    <message>
+        <source>longest arrow: %1 px</source>
+        <translation>最长箭头：%1 px</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResidualPlot</name>
+    <message>
+        <source>Each residual (measured − predicted) as a dot, denser where there are more. Marks: means of groups with two standard deviations, filled where they differ from zero beyond chance. Dashed lines: the noise of a single residual. Grey: the means of the base model.</source>
+        <translation>每个残差（测量 − 预测）为一点，越多越密。标记：分组均值及两倍标准差，显著不为零者填实。虚线：单个残差的噪声。灰色：基础模型的均值。</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>没有数据</translation>
+    </message>
+    <message>
+        <source>residual (%1)</source>
+        <translation>残差（%1）</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::ResponsePage</name>
     <message>
         <source>Scene</source>
@@ -2420,7 +3345,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>未采用的圆</translation>
     </message>
     <message>
-        <source>Run the calibration to see how returns scatter at the circles' edges.</source>
+        <source>Run the calibration to see how returns scatter at the circles&apos; edges.</source>
         <translation>运行标定后可查看回波在圆边缘处的散布。</translation>
     </message>
     <message>
@@ -2652,7 +3577,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>px</translation>
     </message>
     <message>
-        <source>Root mean square of the tag corners' reprojection errors, px.</source>
+        <source>Root mean square of the tag corners&apos; reprojection errors, px.</source>
         <translation>标签角点重投影误差的均方根（px）。</translation>
     </message>
     <message>
@@ -2660,7 +3585,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>mm</translation>
     </message>
     <message>
-        <source>Root mean square distance of LiDAR nodes to the board's, mm.</source>
+        <source>Root mean square distance of LiDAR nodes to the board&apos;s, mm.</source>
         <translation>激光节点到标定板节点距离的均方根（mm）。</translation>
     </message>
     <message>
@@ -2707,7 +3632,7 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <translation>，时间 %1 ms</translation>
     </message>
     <message>
-        <source>, %1 mm beyond the board's plane</source>
+        <source>, %1 mm beyond the board&apos;s plane</source>
         <translation>，超出标定板平面 %1 mm</translation>
     </message>
     <message>
@@ -2749,10 +3674,6 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     <message>
         <source>Click a point, a pixel or a tag to see its values in both views.</source>
         <translation>单击点、像素或标签，可在两个视图中查看其数值。</translation>
-    </message>
-<message>
-        <source>(%1, %2)</source>
-        <translation type="unfinished" />
     </message>
     <message numerus="yes">
         <source>%n measurements selected on the Model page</source>
@@ -2856,834 +3777,6 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     </message>
 </context>
 <context>
-    <name>lvcalib::widgets::TransitionPlot</name>
-    <message>
-        <source>distance from the circle (mm), outside positive</source>
-        <translation>到圆的距离 (mm)，向外为正</translation>
-    </message>
-    <message>
-        <source>intensity, black 0 to white 1</source>
-        <translation>强度，黑 0 至白 1</translation>
-    </message>
-    <message>
-        <source>intensity</source>
-        <translation>强度</translation>
-    </message>
-    <message>
-        <source>Intensity of the returns about the circles against the signed distance to the nearest one. Small dots: samples (of many, some), blue those of the overlap region. Marks: means in classes of a millimetre with their standard deviation. Line: the fitted error function; δ is where it is half way, σ its width.</source>
-        <translation>圆周围回波的强度与到最近圆的有符号距离的关系。小点：样本（过多时取一部分），蓝色为重叠区样本。标记：每毫米分组的均值及其标准差。曲线：拟合的误差函数；δ 为其居中处，σ 为其宽度。</translation>
-    </message>
-    <message>
-        <source>no data</source>
-        <translation>无数据</translation>
-    </message>
-    <message>
-        <source>δ = %1 mm
-σ = %2 mm</source>
-        <translation>δ = %1 mm
-σ = %2 mm</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::WelcomePage</name>
-    <message>
-        <source>LV-Calib Workbench</source>
-        <translation>LV-Calib 工作台</translation>
-    </message>
-    <message>
-        <source>Finds how a camera and a LiDAR stand to each other from a few scenes of a printed board, says how sure it is, and shows why.</source>
-        <translation>由若干张打印标定板场景求出相机与激光雷达的相对位姿，给出不确定度并说明依据。</translation>
-    </message>
-    <message>
-        <source>Open a dataset</source>
-        <translation>打开数据集</translation>
-    </message>
-    <message>
-        <source>A folder with target.yaml, camera.yaml and scenes</source>
-        <translation>包含 target.yaml、camera.yaml 和 scenes 的文件夹</translation>
-    </message>
-    <message>
-        <source>Open a project</source>
-        <translation>打开项目</translation>
-    </message>
-    <message>
-        <source>A dataset with your decisions about it (.lvcalib)</source>
-        <translation>数据集及您的决定（.lvcalib）</translation>
-    </message>
-    <message>
-        <source>Try the demo</source>
-        <translation>试用演示</translation>
-    </message>
-    <message>
-        <source>Simulates three scenes whose true calibration is known</source>
-        <translation>仿真三个真值已知的场景</translation>
-    </message>
-    <message>
-        <source>Guide</source>
-        <translation>指南</translation>
-    </message>
-    <message>
-        <source>From the printed board to a result, step by step</source>
-        <translation>从打印标定板到结果的逐步说明</translation>
-    </message>
-    <message>
-        <source>Recent (or drop a folder on this window)</source>
-        <translation>最近打开（也可将文件夹拖到此窗口）</translation>
-    </message>
-<message>
-        <source>Simulates four scenes with an effect hidden in them, and a tour to find it</source>
-        <translation>模拟四个藏有一个效应的场景，并带您找到它</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::Workspace</name>
-    <message>
-        <source>Cancelled.</source>
-        <translation>已取消。</translation>
-    </message>
-    <message>
-        <source>Cancelled</source>
-        <translation>已取消</translation>
-    </message>
-    <message>
-        <source>Failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
-        <source>Autosave: %1</source>
-        <translation>自动保存：%1</translation>
-    </message>
-    <message numerus="yes">
-        <source>Opened %1 with %n scenes.</source>
-        <translation>
-            <numerusform>已打开 %1，共 %n 个场景。</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Saved %1.</source>
-        <translation>已保存 %1。</translation>
-    </message>
-    <message>
-        <source>No result: %1</source>
-        <translation>没有结果：%1</translation>
-    </message>
-    <message>
-        <source>%1: %2 of %3 scenes, %4 px, %5 mm</source>
-        <translation>%1：%2/%3 个场景，%4 px，%5 mm</translation>
-    </message>
-    <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
-        <source>doubtful</source>
-        <translation>存疑</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>失败</translation>
-    </message>
-<message>
-        <source>accept %1</source>
-        <translation>采用 %1</translation>
-    </message>
-    <message>
-        <source>reject %1</source>
-        <translation>剔除 %1</translation>
-    </message>
-    <message>
-        <source>crop %1</source>
-        <translation>裁剪 %1</translation>
-    </message>
-    <message>
-        <source>uncrop %1</source>
-        <translation>取消裁剪 %1</translation>
-    </message>
-    <message>
-        <source>change %1</source>
-        <translation>修改 %1</translation>
-    </message>
-    <message>
-        <source>reset all parameters</source>
-        <translation>重置全部参数</translation>
-    </message>
-    <message>
-        <source>use board.pcd files</source>
-        <translation>使用 board.pcd 文件</translation>
-    </message>
-    <message>
-        <source>use whole clouds</source>
-        <translation>使用完整点云</translation>
-    </message>
-    <message numerus="yes">
-        <source>add %n scenes</source>
-        <translation type="unfinished">
-            <numerusform />
-        </translation>
-    </message>
-    </context>
-<context>
-    <name>main</name>
-    <message>
-        <source>LiDAR-camera calibration with a printed board</source>
-        <translation>用打印标定板标定激光雷达与相机</translation>
-    </message>
-    <message>
-        <source>Folder for settings and data, instead of the user's.</source>
-        <translation>存放设置和数据的文件夹，代替用户默认位置。</translation>
-    </message>
-    <message>
-        <source>Dataset folder or project.</source>
-        <translation>数据集文件夹或项目。</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::Builder</name>
-    <message>
-        <source>Only the board's points are loaded.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>No board was found in this scene's cloud yet.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>The cloud is not loaded yet.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>There are no boundary samples in this scene.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>No crop box is set: all points are shown.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>Camera colours need an image and an extrinsic; intensity is shown.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>camera colour (grey: not in the image)</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>This cloud has no intensity; range is shown.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>The board's plane is not known in this scene; range is shown.</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>height z (m)</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>range (m)</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>range beyond the board's plane (mm)</source>
-        <translation type="unfinished" />
-    </message>
-    <message>
-        <source>intensity</source>
-        <translation type="unfinished" />
-    </message>
-</context>
-<context>
-    <name>ModelText</name>
-    <message>
-        <source>board x</source>
-        <translation>板面 x</translation>
-    </message>
-    <message>
-        <source>board y</source>
-        <translation>板面 y</translation>
-    </message>
-    <message>
-        <source>board radius</source>
-        <translation>板面半径</translation>
-    </message>
-    <message>
-        <source>range</source>
-        <translation>距离</translation>
-    </message>
-    <message>
-        <source>azimuth</source>
-        <translation>方位角</translation>
-    </message>
-    <message>
-        <source>elevation</source>
-        <translation>仰角</translation>
-    </message>
-    <message>
-        <source>incidence</source>
-        <translation>入射角</translation>
-    </message>
-    <message>
-        <source>tilt direction</source>
-        <translation>倾斜方向</translation>
-    </message>
-    <message>
-        <source>scene clock</source>
-        <translation>场景时序</translation>
-    </message>
-    <message>
-        <source>time in scan</source>
-        <translation>扫描内时间</translation>
-    </message>
-    <message>
-        <source>scan speed</source>
-        <translation>扫描速度</translation>
-    </message>
-    <message>
-        <source>scan direction</source>
-        <translation>扫描方向</translation>
-    </message>
-    <message>
-        <source>laser line</source>
-        <translation>激光线</translation>
-    </message>
-    <message>
-        <source>image x</source>
-        <translation>图像 x</translation>
-    </message>
-    <message>
-        <source>image y</source>
-        <translation>图像 y</translation>
-    </message>
-    <message>
-        <source>image radius</source>
-        <translation>图像半径</translation>
-    </message>
-    <message>
-        <source>radial from image centre</source>
-        <translation>相对图像中心的径向</translation>
-    </message>
-    <message>
-        <source>radial from tag centre</source>
-        <translation>相对标签中心的径向</translation>
-    </message>
-    <message>
-        <source>tag size</source>
-        <translation>标签大小</translation>
-    </message>
-    <message>
-        <source>sub-pixel phase</source>
-        <translation>亚像素相位</translation>
-    </message>
-    <message>
-        <source>tag</source>
-        <translation>标签</translation>
-    </message>
-    <message>
-        <source>corner and axis</source>
-        <translation>角点与轴</translation>
-    </message>
-    <message>
-        <source>darkness</source>
-        <translation>暗度</translation>
-    </message>
-    <message>
-        <source>print</source>
-        <translation>印刷</translation>
-    </message>
-    <message>
-        <source>intensity</source>
-        <translation>强度</translation>
-    </message>
-    <message>
-        <source>inverse range</source>
-        <translation>距离倒数</translation>
-    </message>
-    <message>
-        <source>distance to edge</source>
-        <translation>到边缘的距离</translation>
-    </message>
-    <message>
-        <source>polar angle</source>
-        <translation>极角</translation>
-    </message>
-    <message>
-        <source>polar angle to tilt</source>
-        <translation>相对倾斜的极角</translation>
-    </message>
-    <message>
-        <source>polar angle to LiDAR axes</source>
-        <translation>相对激光雷达轴的极角</translation>
-    </message>
-    <message>
-        <source>scan across edge</source>
-        <translation>横过边缘的扫描</translation>
-    </message>
-    <message>
-        <source>contrast</source>
-        <translation>对比度</translation>
-    </message>
-    <message>
-        <source>circle</source>
-        <translation>圆</translation>
-    </message>
-    <message>
-        <source>corner</source>
-        <translation>角点</translation>
-    </message>
-    <message>
-        <source>boundary</source>
-        <translation>边界</translation>
-    </message>
-    <message>
-        <source>log. intensity</source>
-        <translation>对数强度</translation>
-    </message>
-    <message>
-        <source>white</source>
-        <translation>白</translation>
-    </message>
-    <message>
-        <source>black</source>
-        <translation>黑</translation>
-    </message>
-    <message>
-        <source>present</source>
-        <translation>存在</translation>
-    </message>
-    <message>
-        <source>absent</source>
-        <translation>不存在</translation>
-    </message>
-    <message>
-        <source>one of several</source>
-        <translation>若干之一</translation>
-    </message>
-    <message>
-        <source>cannot tell</source>
-        <translation>无法判断</translation>
-    </message>
-    <message>
-        <source>%1%2 (held)</source>
-        <translation>%1%2（固定）</translation>
-    </message>
-    <message>
-        <source>base model</source>
-        <translation>基础模型</translation>
-    </message>
-    <message>
-        <source>%1 held</source>
-        <translation>%1 固定</translation>
-    </message>
-    <message>
-        <source>%1 fitted</source>
-        <translation>%1 拟合</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::AddEffectDialog</name>
-    <message>
-        <source>A&amp;dd</source>
-        <translation>添加(&amp;D)</translation>
-    </message>
-    <message>
-        <source>Add an effect</source>
-        <translation>添加效应</translation>
-    </message>
-    <message>
-        <source>Catalogue</source>
-        <translation>目录</translation>
-    </message>
-    <message>
-        <source>Formula</source>
-        <translation>公式</translation>
-    </message>
-    <message>
-        <source>Curve</source>
-        <translation>曲线</translation>
-    </message>
-    <message>
-        <source>leaves no pattern in these scenes</source>
-        <translation>在这些场景中不留下图样</translation>
-    </message>
-    <message>
-        <source>Search by name, physics or formula</source>
-        <translation>按名称、物理含义或公式搜索</translation>
-    </message>
-    <message>
-        <source>What is added to the measurement, in m (range, boundary), px (corner) or the logarithm of the intensity. Covariates are in m, rad and px. Other names are coefficients, which are fitted; the formula must be linear in them.</source>
-        <translation>加到测量值上的量，单位为 m（距离、边界）、px（角点）或强度的对数。协变量的单位为 m、rad 和 px。其他名称是待拟合的系数；公式对它们必须是线性的。</translation>
-    </message>
-    <message>
-        <source>Channel</source>
-        <translation>通道</translation>
-    </message>
-    <message>
-        <source>Covariates</source>
-        <translation>协变量</translation>
-    </message>
-    <message>
-        <source>A smooth curve stands in for a cause that nobody knows yet. Of two covariates it is a surface.</source>
-        <translation>平滑曲线用来代替尚不知道的原因；两个协变量时为曲面。</translation>
-    </message>
-    <message>
-        <source>Along</source>
-        <translation>沿</translation>
-    </message>
-    <message>
-        <source>and</source>
-        <translation>和</translation>
-    </message>
-    <message>
-        <source>&lt;p&gt;No effect matches.&lt;/p&gt;</source>
-        <translation>&lt;p&gt;没有匹配的效应。&lt;/p&gt;</translation>
-    </message>
-    <message>
-        <source>Formula:</source>
-        <translation>公式：</translation>
-    </message>
-    <message>
-        <source>To tell it from others:</source>
-        <translation>与其他效应区分的办法：</translation>
-    </message>
-    <message>
-        <source>Source:</source>
-        <translation>来源：</translation>
-    </message>
-    <message>
-        <source>its pattern is being drawn …</source>
-        <translation>正在绘制其图样……</translation>
-    </message>
-    <message>
-        <source>not with these measurements</source>
-        <translation>这些测量值无法使用</translation>
-    </message>
-    <message>
-        <source>nothing else</source>
-        <translation>无其他</translation>
-    </message>
-    <message>
-        <source>Cannot be used here: %1</source>
-        <translation>此处无法使用：%1</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::BoardIntensityView</name>
-    <message>
-        <source>Intensity over the board: measured, as the model predicts it, and the difference (blue: darker than predicted, red: brighter).</source>
-        <translation>标定板上的强度：测量值、模型预测值和差值（蓝色：比预测暗，红色：比预测亮）。</translation>
-    </message>
-    <message>
-        <source>no intensity in these clouds</source>
-        <translation>这些点云没有强度</translation>
-    </message>
-    <message>
-        <source>measured (%1 … %2)</source>
-        <translation>测量（%1 … %2）</translation>
-    </message>
-    <message>
-        <source>predicted</source>
-        <translation>预测</translation>
-    </message>
-    <message>
-        <source>difference (±%1)</source>
-        <translation>差值（±%1）</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::BudgetPlot</name>
-    <message>
-        <source>The history of the error appears here.</source>
-        <translation>误差的历史显示在这里。</translation>
-    </message>
-    <message>
-        <source>squared error (%)</source>
-        <translation>平方误差 (%)</translation>
-    </message>
-    <message>
-        <source>Squared error by the base model's: grey noise, red unexplained, green explained by effects; diamonds: scenes held out. Click to go to a step.</source>
-        <translation>相对于基础模型的平方误差：灰色为噪声，红色为未解释，绿色为效应已解释；菱形：留出的场景。单击可转到某一步。</translation>
-    </message>
-    <message>
-        <source>Step %1, %2: %3
-RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
-        <translation>第 %1 步，%2：%3
-均方根 %4，噪声 %5，未解释 %6，留出 %7（%8）</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::CoachMarks</name>
-    <message>
-        <source>Done</source>
-        <translation>完成</translation>
-    </message>
-    <message>
-        <source>Next</source>
-        <translation>下一步</translation>
-    </message>
-    <message>
-        <source>End the tour</source>
-        <translation>结束导览</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::DemoTour</name>
-    <message>
-        <source>These scenes were simulated just now, by a LiDAR with an error that the calibration does not know. Press &lt;b&gt;Run all&lt;/b&gt;.</source>
-        <translation>这些场景刚刚模拟生成，所用激光雷达有一个标定并不知道的误差。请按&lt;b&gt;全部运行&lt;/b&gt;。</translation>
-    </message>
-    <message>
-        <source>The calibration is done, and its figures look fine. Open the &lt;b&gt;Model&lt;/b&gt; page to ask what it misses.</source>
-        <translation>标定已完成，数值看起来不错。打开&lt;b&gt;模型&lt;/b&gt;页，看看它遗漏了什么。</translation>
-    </message>
-    <message>
-        <source>The effects that may be missing are being tried; scenes held out decide. The best one comes first, with a sentence on what was seen and how sure that is.</source>
-        <translation>正在逐一尝试可能遗漏的效应，由留出的场景决定。最好的排在最前，并用一句话说明看到了什么、有多大把握。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Range walk&lt;/b&gt;: dark print reads too far. The orange curve is its pattern at the size found; the marks are what is measured.</source>
-        <translation>&lt;b&gt;Range walk&lt;/b&gt;（距离随强度漂移）：深色印刷读数偏远。橙色曲线是按所得大小绘出的图样，标记是测量值。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Add&lt;/b&gt; it to the model.</source>
-        <translation>把它&lt;b&gt;添加&lt;/b&gt;到模型中。</translation>
-    </message>
-    <message>
-        <source>The red, unexplained share is gone, in scenes held out as well (diamonds), and the extrinsic has moved. Click an earlier step or undo to compare.</source>
-        <translation>红色的未解释部分消失了，留出的场景（菱形）也一样，外参随之移动。单击较早的步骤或撤销以作比较。</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::MissingPane</name>
-    <message>
-        <source>its pattern cannot be seen</source>
-        <translation>看不到其图样</translation>
-    </message>
-    <message>
-        <source>or: %1</source>
-        <translation>或：%1</translation>
-    </message>
-    <message>
-        <source>Predicted fall of the squared error in scenes held out</source>
-        <translation>留出场景中平方误差的预计降幅</translation>
-    </message>
-    <message>
-        <source>%1 against %2</source>
-        <translation>%1 对 %2</translation>
-    </message>
-    <message>
-        <source>unknown</source>
-        <translation>未知</translation>
-    </message>
-    <message>
-        <source>Looking for what is missing …</source>
-        <translation>正在查找遗漏的效应……</translation>
-    </message>
-    <message>
-        <source>Nobody has looked yet.</source>
-        <translation>尚未查找。</translation>
-    </message>
-    <message>
-        <source>Run the calibration first.</source>
-        <translation>请先运行标定。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Nothing is missing&lt;/b&gt; in the model, as far as these scenes can tell.</source>
-        <translation>就这些场景而言，模型中&lt;b&gt;没有遗漏&lt;/b&gt;。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Something is left&lt;/b&gt; that no known effect explains.</source>
-        <translation>&lt;b&gt;仍有残余&lt;/b&gt;，没有已知效应能解释。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;%1 is missing.&lt;/b&gt;</source>
-        <translation>&lt;b&gt;遗漏了 %1。&lt;/b&gt;</translation>
-    </message>
-    <message>
-        <source>Add &amp;curve…</source>
-        <translation>添加曲线(&amp;C)…</translation>
-    </message>
-    <message>
-        <source>A&amp;dd</source>
-        <translation>添加(&amp;D)</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>取消</translation>
-    </message>
-    <message>
-        <source>&amp;Look again</source>
-        <translation>重新查找(&amp;L)</translation>
-    </message>
-    <message>
-        <source>Adding it moves the extrinsic by %1.</source>
-        <translation>添加后外参移动 %1。</translation>
-    </message>
-    <message>
-        <source>its pattern is being drawn …</source>
-        <translation>正在绘制其图样……</translation>
-    </message>
-    <message>
-        <source>&lt;p&gt;In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). No effect of the catalogue explains it: a smooth curve can stand in for it.&lt;/p&gt;</source>
-        <translation>&lt;p&gt;在留出的场景中，%2 残差的方差有 %1 % 随 %3 变化（%4 %5）。目录中没有效应能解释它：可用平滑曲线代替。&lt;/p&gt;</translation>
-    </message>
-    <message>
-        <source>What is missing</source>
-        <translation>遗漏了什么</translation>
-    </message>
-    <message>
-        <source>What cannot be seen</source>
-        <translation>看不到什么</translation>
-    </message>
-    <message>
-        <source>Effects that these scenes could not show, and by how much they would spoil the extrinsic at the size that matters</source>
-        <translation>这些场景无法显示的效应，以及达到有影响的大小时会使外参偏离多少</translation>
-    </message>
-    <message>
-        <source>Effect</source>
-        <translation>效应</translation>
-    </message>
-    <message>
-        <source>Verdict</source>
-        <translation>结论</translation>
-    </message>
-    <message>
-        <source>Error</source>
-        <translation>误差</translation>
-    </message>
-    <message>
-        <source>Could move by</source>
-        <translation>可能移动</translation>
-    </message>
-    <message>
-        <source>Left</source>
-        <translation>残留</translation>
-    </message>
-    <message>
-        <source>Share of its squared effect that the poses leave</source>
-        <translation>位姿吸收后剩下的平方效应份额</translation>
-    </message>
-    <message>
-        <source>&amp;Find all</source>
-        <translation>全部查找(&amp;F)</translation>
-    </message>
-    <message>
-        <source>Add what scenes held out speak for, one after the other</source>
-        <translation>逐个添加留出场景所支持的效应</translation>
-    </message>
-    <message>
-        <source>Add the chosen effect to the model</source>
-        <translation>把所选效应添加到模型</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ModelPage</name>
-    <message>
-        <source>Run the calibration to see what its model explains and what it misses.</source>
-        <translation>运行标定，查看模型解释了什么、遗漏了什么。</translation>
-    </message>
-    <message>
-        <source>noise</source>
-        <translation>噪声</translation>
-    </message>
-    <message>
-        <source>unexplained</source>
-        <translation>未解释</translation>
-    </message>
-    <message>
-        <source>explained</source>
-        <translation>已解释</translation>
-    </message>
-    <message>
-        <source>scenes held out</source>
-        <translation>留出的场景</translation>
-    </message>
-    <message>
-        <source>Steps: %1</source>
-        <translation>步骤：%1</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ModelWork</name>
-    <message>
-        <source>Cancelled</source>
-        <translation>已取消</translation>
-    </message>
-    <message>
-        <source>Failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
-        <source>add %1</source>
-        <translation>添加 %1</translation>
-    </message>
-    <message>
-        <source>remove %1</source>
-        <translation>移除 %1</translation>
-    </message>
-    <message>
-        <source>switch %1 on</source>
-        <translation>启用 %1</translation>
-    </message>
-    <message>
-        <source>switch %1 off</source>
-        <translation>停用 %1</translation>
-    </message>
-    <message>
-        <source>hold %1</source>
-        <translation>固定 %1</translation>
-    </message>
-    <message>
-        <source>fit %1 again</source>
-        <translation>重新拟合 %1</translation>
-    </message>
-    <message>
-        <source>go to step %1</source>
-        <translation>转到第 %1 步</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ResidualMapPlot</name>
-    <message>
-        <source>Mean residual of each cell. Outlined: different from zero beyond chance, all cells taken together. Corners are arrows, enlarged.</source>
-        <translation>每格的平均残差。带框：全部格子一并考虑，显著不为零。角点以放大的箭头表示。</translation>
-    </message>
-    <message>
-        <source>only corners lie in the image</source>
-        <translation>只有角点位于图像中</translation>
-    </message>
-    <message>
-        <source>corners have no direction</source>
-        <translation>角点没有方向</translation>
-    </message>
-    <message>
-        <source>no data</source>
-        <translation>没有数据</translation>
-    </message>
-    <message>
-        <source>mean residual (%1)</source>
-        <translation>平均残差（%1）</translation>
-    </message>
-    <message>
-        <source>longest arrow: %1 px</source>
-        <translation>最长箭头：%1 px</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ResidualPlot</name>
-    <message>
-        <source>Each residual (measured − predicted) as a dot, denser where there are more. Marks: means of groups with two standard deviations, filled where they differ from zero beyond chance. Dashed lines: the noise of a single residual. Grey: the means of the base model.</source>
-        <translation>每个残差（测量 − 预测）为一点，越多越密。标记：分组均值及两倍标准差，显著不为零者填实。虚线：单个残差的噪声。灰色：基础模型的均值。</translation>
-    </message>
-    <message>
-        <source>no data</source>
-        <translation>没有数据</translation>
-    </message>
-    <message>
-        <source>residual (%1)</source>
-        <translation>残差（%1）</translation>
-    </message>
-</context>
-<context>
     <name>lvcalib::widgets::TermList</name>
     <message>
         <source>base model</source>
@@ -3740,6 +3833,139 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Take the chosen effect out of the model</source>
         <translation>把所选效应移出模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::TransitionPlot</name>
+    <message>
+        <source>distance from the circle (mm), outside positive</source>
+        <translation>到圆的距离 (mm)，向外为正</translation>
+    </message>
+    <message>
+        <source>intensity, black 0 to white 1</source>
+        <translation>强度，黑 0 至白 1</translation>
+    </message>
+    <message>
+        <source>intensity</source>
+        <translation>强度</translation>
+    </message>
+    <message>
+        <source>Intensity of the returns about the circles against the signed distance to the nearest one. Small dots: samples (of many, some), blue those of the overlap region. Marks: means in classes of a millimetre with their standard deviation. Line: the fitted error function; δ is where it is half way, σ its width.</source>
+        <translation>圆周围回波的强度与到最近圆的有符号距离的关系。小点：样本（过多时取一部分），蓝色为重叠区样本。标记：每毫米分组的均值及其标准差。曲线：拟合的误差函数；δ 为其居中处，σ 为其宽度。</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
+    </message>
+    <message>
+        <source>δ = %1 mm
+σ = %2 mm</source>
+        <translation>δ = %1 mm
+σ = %2 mm</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::UncertaintyMapPlot</name>
+    <message>
+        <source>image u (px)</source>
+        <translation>图像 u (px)</translation>
+    </message>
+    <message>
+        <source>image v (px)</source>
+        <translation>图像 v (px)</translation>
+    </message>
+    <message>
+        <source>standard deviation (px)</source>
+        <translation>标准差 (px)</translation>
+    </message>
+    <message>
+        <source>Where in the image a LiDAR point falls is known to one standard deviation of so many pixels, from the extrinsic&apos;s covariance alone. Where the colour is bright, take a scene with the board there.</source>
+        <translation>激光点投影到图像中的位置以一倍标准差计有这么多像素的不确定度，仅由外参协方差得出。颜色明亮处，请在那里采集一个标定板场景。</translation>
+    </message>
+    <message>
+        <source>no result yet</source>
+        <translation>尚无结果</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::UncertaintyPane</name>
+    <message>
+        <source>Uncertainty</source>
+        <translation>不确定度</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::UncertaintyRangePlot</name>
+    <message>
+        <source>range (m)</source>
+        <translation>距离 (m)</translation>
+    </message>
+    <message>
+        <source>standard deviation (mm)</source>
+        <translation>标准差 (mm)</translation>
+    </message>
+    <message>
+        <source>How far a LiDAR point at this range may lie beside its true place in the camera frame: one standard deviation across the ray and along it, from the extrinsic&apos;s covariance.</source>
+        <translation>该距离处的激光点在相机坐标系中可能偏离真实位置多远：垂直于光线和沿光线的一倍标准差，由外参协方差得出。</translation>
+    </message>
+    <message>
+        <source>across the ray</source>
+        <translation>垂直于光线</translation>
+    </message>
+    <message>
+        <source>along the ray</source>
+        <translation>沿光线</translation>
+    </message>
+    <message>
+        <source>no result yet</source>
+        <translation>尚无结果</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::WelcomePage</name>
+    <message>
+        <source>LV-Calib Workbench</source>
+        <translation>LV-Calib 工作台</translation>
+    </message>
+    <message>
+        <source>Finds how a camera and a LiDAR stand to each other from a few scenes of a printed board, says how sure it is, and shows why.</source>
+        <translation>由若干张打印标定板场景求出相机与激光雷达的相对位姿，给出不确定度并说明依据。</translation>
+    </message>
+    <message>
+        <source>Open a dataset</source>
+        <translation>打开数据集</translation>
+    </message>
+    <message>
+        <source>A folder with target.yaml, camera.yaml and scenes</source>
+        <translation>包含 target.yaml、camera.yaml 和 scenes 的文件夹</translation>
+    </message>
+    <message>
+        <source>Open a project</source>
+        <translation>打开项目</translation>
+    </message>
+    <message>
+        <source>A dataset with your decisions about it (.lvcalib)</source>
+        <translation>数据集及您的决定（.lvcalib）</translation>
+    </message>
+    <message>
+        <source>Try the demo</source>
+        <translation>试用演示</translation>
+    </message>
+    <message>
+        <source>Guide</source>
+        <translation>指南</translation>
+    </message>
+    <message>
+        <source>From the printed board to a result, step by step</source>
+        <translation>从打印标定板到结果的逐步说明</translation>
+    </message>
+    <message>
+        <source>Recent (or drop a folder on this window)</source>
+        <translation>最近打开（也可将文件夹拖到此窗口）</translation>
+    </message>
+    <message>
+        <source>Simulates four scenes with an effect hidden in them, and a tour to find it</source>
+        <translation>模拟四个藏有一个效应的场景，并带您找到它</translation>
     </message>
 </context>
 <context>
@@ -3830,6 +4056,70 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Board intensity</source>
         <translation>板面强度</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::Workspace</name>
+    <message>
+        <source>Cancelled.</source>
+        <translation>已取消。</translation>
+    </message>
+    <message>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>Autosave: %1</source>
+        <translation>自动保存：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Opened %1 with %n scenes.</source>
+        <translation>
+            <numerusform>已打开 %1，共 %n 个场景。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Saved %1.</source>
+        <translation>已保存 %1。</translation>
+    </message>
+    <message>
+        <source>No result: %1</source>
+        <translation>没有结果：%1</translation>
+    </message>
+    <message>
+        <source>%1: %2 of %3 scenes, %4 px, %5 mm</source>
+        <translation>%1：%2/%3 个场景，%4 px，%5 mm</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>存疑</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+</context>
+<context>
+    <name>main</name>
+    <message>
+        <source>LiDAR-camera calibration with a printed board</source>
+        <translation>用打印标定板标定激光雷达与相机</translation>
+    </message>
+    <message>
+        <source>Folder for settings and data, instead of the user&apos;s.</source>
+        <translation>存放设置和数据的文件夹，代替用户默认位置。</translation>
+    </message>
+    <message>
+        <source>Dataset folder or project.</source>
+        <translation>数据集文件夹或项目。</translation>
     </message>
 </context>
 </TS>

@@ -12,6 +12,7 @@
 #include <QUndoStack>
 
 #include "runner/decision_command.h"
+#include "start/app_settings.h"
 #include "style/marks.h"
 #include "style/theme.h"
 #include "workbench/language.h"
@@ -120,6 +121,22 @@ void MainActions::set_recent(const QStringList& paths) {
     connect(action, &QAction::triggered, this, [this, path] { Q_EMIT recent_wanted(path); });
   }
   recent_->setEnabled(!paths.isEmpty());
+}
+
+void MainActions::follow(AppSettings& settings) {
+  for (QAction* action : themes->actions())
+    action->setChecked(action->data().toString() == name_of(settings.theme()));
+  const QString code = settings.language().isEmpty() ? use_language({}) : settings.language();
+  for (QAction* action : languages->actions())
+    action->setChecked(action->data().toString() == code);
+  connect(themes, &QActionGroup::triggered, this, [&settings](const QAction* action) {
+    settings.set_theme(theme_named(action->data().toString()));
+    apply_theme(*qApp, settings.theme());
+  });
+  connect(languages, &QActionGroup::triggered, this, [&settings](const QAction* action) {
+    settings.set_language(action->data().toString());
+    use_language(settings.language());
+  });
 }
 
 void MainActions::describe_undo() {

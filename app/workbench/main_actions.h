@@ -14,6 +14,8 @@ class QToolBar;
 
 namespace lvcalib::widgets {
 
+class AppSettings;
+
 /// Menus, tool bar and actions of the main window; what they do is connected by the window.
 class MainActions : public QObject {
   Q_OBJECT
@@ -28,6 +30,9 @@ class MainActions : public QObject {
   /// Adds what shows and hides docks and tool bars to the View menu.
   void add_view_toggles(const QList<QAction*>& toggles);
   void set_recent(const QStringList& paths);
+  /// Shows the settings' colours and language, and changes them as the user chooses. The settings
+  /// must outlive this.
+  void follow(AppSettings& settings);
 
   QAction *open_dataset, *open_project, *demo, *save, *save_as, *results, *report, *quit;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;

@@ -23,7 +23,6 @@
 #include "start/welcome_page.h"
 #include "style/texts.h"
 #include "workbench/demo_tour.h"
-#include "workbench/language.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
 #include "workbench/result_actions.h"
@@ -57,7 +56,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   actions_->add_view_toggles({scenes_->toggleViewAction(), parameters_->toggleViewAction(),
                               log_->toggleViewAction(), actions_->tool_bar->toggleViewAction()});
   connect_actions();
-  connect_appearance();
+  actions_->follow(settings_);
   connect_docks();
   connect_workspace();
   connect_pages();
@@ -132,22 +131,6 @@ void MainWindow::connect_actions() {
     auto* keys = new QShortcut(QKeySequence(static_cast<int>(Qt::CTRL) | (Qt::Key_1 + tab)), this);
     connect(keys, &QShortcut::activated, this, [this, tab] { pages_->show_tab(tab); });
   }
-}
-
-void MainWindow::connect_appearance() {
-  for (QAction* action : actions_->themes->actions())
-    action->setChecked(action->data().toString() == name_of(settings_.theme()));
-  const QString code = settings_.language().isEmpty() ? use_language({}) : settings_.language();
-  for (QAction* action : actions_->languages->actions())
-    action->setChecked(action->data().toString() == code);
-  connect(actions_->themes, &QActionGroup::triggered, this, [this](const QAction* action) {
-    settings_.set_theme(theme_named(action->data().toString()));
-    apply_theme(*qApp, settings_.theme());
-  });
-  connect(actions_->languages, &QActionGroup::triggered, this, [this](const QAction* action) {
-    settings_.set_language(action->data().toString());
-    use_language(settings_.language());
-  });
 }
 
 void MainWindow::connect_docks() {

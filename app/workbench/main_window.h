@@ -50,7 +50,6 @@ class MainWindow : public QMainWindow {
 
  private:
   void connect_actions();
-  void connect_appearance();
   void connect_docks();
   void connect_workspace();
   void connect_pages();

@@ -63,7 +63,7 @@ class ThemeStyle : public QProxyStyle {
     const QPalette& colors = option->palette;
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
-    painter->setPen(mixed(colors.color(QPalette::Base), colors.color(QPalette::Text), 0.55));
+    painter->setPen(mixed(colors.color(QPalette::Base), colors.color(QPalette::Text), 0.7));
     painter->setBrush(Qt::NoBrush);
     const QRectF edge = QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5);
     if (box) {
