@@ -139,8 +139,10 @@ TEST_F(DiscoverCommand, ScenesAllAlikeExcludeNothingThatThePoseAbsorbs) {
   ASSERT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.err;
   ASSERT_TRUE(fs::exists(out() / "discovery.json")) << outcome.err;
   const auto discovery = json("discovery.json");
-  for (const char* id : {"range_offset", "range_scale", "range_incidence"})
+  for (const char* id : {"intrinsics_error", "footprint_offset", "beam_origin_offset"})
     EXPECT_NE(effect(discovery, id)["verdict"], "absent") << id;
+  EXPECT_FALSE(discovery["advice"].empty());
+  EXPECT_FALSE(discovery["sensitivity_budget"].empty());
 }
 
 }  // namespace

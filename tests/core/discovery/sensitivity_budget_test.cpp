@@ -18,42 +18,40 @@ const BudgetItem* find(const std::vector<BudgetItem>& budget, const std::string&
   return at == budget.end() ? nullptr : &*at;
 }
 
-// Boards that hang in the same place, few points, and circles that are hard to see: a range offset
-// is a shift of the LiDAR, and nobody can tell.
-test::SyntheticTable boards_alike(double offset_m, std::uint64_t seed) {
+// Boards that all hang in one place, and a principal point that is off: the rig turns and follows.
+test::SyntheticTable principal_point_off(double off_px, std::uint64_t seed) {
   test::TableRecipe recipe;
   recipe.alike = true;
-  recipe.edge_sigma_m = 0.1;
-  recipe.range_rows = 150;
+  recipe.range_rows = 300;
   recipe.seed = seed;
   test::Disturbance wrong;
-  wrong.range_m = [offset_m](const BeamPoint&) { return offset_m; };
+  wrong.corner_px = [off_px](const CornerRow&) { return Eigen::Vector2d(off_px, 0.0); };
   return test::synthetic_table(recipe, wrong);
 }
 
-TEST(SensitivityBudget, CoversTheErrorOfAnAbsorbedEffect) {
+TEST(SensitivityBudget, CoversTheErrorOfAnEffectThatIsLeftOut) {
   const DiscoveryOptions options;
   const RunContext context;
-  const auto made = boards_alike(0.02, 5);
-  EffectSearch search(made.table, made.truth, options, context);
-  search.rank();
-  ASSERT_FALSE(search.best().has_value());  // absorbed: nothing in the data speaks for it
-  const auto budget = sensitivity_budget(search);
-  const BudgetItem* offset = find(budget, "range_offset");
-  ASSERT_NE(offset, nullptr);
-  const Vector6d error =
-      se3_log(made.truth.camera_from_lidar * search.state().camera_from_lidar.inverse());
-  const Matrix6d stated = search.joint_covariance().topLeftCorner<6, 6>();
-  const Matrix6d with = covariance_with_budget(stated, budget);
-  // The error along the view, which the covariance of the model alone does not cover in kind.
-  const Eigen::Vector3d view = made.truth.camera_from_board[0].translation.normalized();
-  const double along = error.head<3>().dot(view);
-  EXPECT_GT(std::abs(along), 0.01);
-  const Eigen::Matrix3d t = with.topLeftCorner<3, 3>();
-  EXPECT_LT(std::abs(along), 2.0 * std::sqrt(view.dot(t * view)));
-  EXPECT_GT(offset->translation_mm, 1e3 * std::abs(along));
-  EXPECT_GT(offset->size, 20.0);  // mm: the prior's, since the data say nothing
-  EXPECT_EQ(offset->unit, "mm");
+  constexpr double kChiSquare95 = 12.6;  // six degrees of freedom
+  for (const double off_px : {0.5, 3.0}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const auto made = principal_point_off(off_px, seed);
+      EffectSearch search(made.table, made.truth, options, context);
+      search.rank();
+      const auto budget = sensitivity_budget(search);
+      const Vector6d error =
+          se3_log(made.truth.camera_from_lidar * search.state().camera_from_lidar.inverse());
+      const Matrix6d stated = search.joint_covariance().topLeftCorner<6, 6>();
+      const Matrix6d with = covariance_with_budget(stated, budget);
+      EXPECT_GT(error.dot(stated.ldlt().solve(error)), 100.0) << off_px;
+      EXPECT_LT(error.dot(with.ldlt().solve(error)), kChiSquare95) << off_px;
+      const BudgetItem* intrinsics = find(budget, "intrinsics_error");
+      ASSERT_NE(intrinsics, nullptr);
+      EXPECT_GT(intrinsics->size, off_px);
+      EXPECT_GT(intrinsics->rotation_mrad, 1e3 * error.tail<3>().norm());
+      EXPECT_EQ(intrinsics->unit, "px");
+    }
+  }
 }
 
 TEST(SensitivityBudget, IsSmallWhereTheScenesShowTheEffect) {
