@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -67,6 +68,17 @@ std::vector<Term> terms_for(std::vector<float> sorted) {
   return out;
 }
 
+double total(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// What the best of n sets of two columns gains by chance in one case of twenty: squares are in
+// units of the noise, and χ² with two degrees of freedom exceeds 2 ln(n/α) with probability α/n.
+double by_chance(double sets) {
+  constexpr double kFalseAlarm = 0.05;
+  return 2.0 * std::log(sets / kFalseAlarm);
+}
+
 // Whitened cross products of one scene after its nuisance: all terms' columns, then the residual.
 struct SceneSums {
   Eigen::MatrixXd products;
@@ -89,18 +101,19 @@ class FormSearch {
     for (std::size_t a = 0; a < terms_.size(); ++a) {
       for (std::size_t b = a + 1; b < terms_.size(); ++b) keep_better({a, b}, best_two);
     }
-    if (best_one.empty() || best_two.empty()) return best_one;
+    const auto n = static_cast<double>(terms_.size());
     const auto one = drops(best_one);
+    if (!is_gain(one) || total(one) < by_chance(n)) best_one.clear();
+    if (best_two.empty()) return best_one;
     const auto two = drops(best_two);
     std::vector<double> more;
-    for (std::size_t s = 0; s < one.size(); ++s) more.push_back(two[s] - one[s]);
-    return is_gain(more) ? best_two : best_one;
+    for (std::size_t s = 0; s < two.size(); ++s)
+      more.push_back(two[s] - (best_one.empty() ? 0.0 : one[s]));
+    return is_gain(more) && total(more) > by_chance(0.5 * n * (n - 1.0)) ? best_two : best_one;
   }
 
   [[nodiscard]] double score(const std::vector<std::size_t>& set) const {
-    double sum = 0.0;
-    for (const double d : drops(set)) sum += d;
-    return before_ > 0.0 ? sum / before_ : 0.0;
+    return before_ > 0.0 ? total(drops(set)) / before_ : 0.0;
   }
 
   [[nodiscard]] std::vector<std::string> texts(const std::vector<std::size_t>& set) const {
@@ -183,6 +196,7 @@ class FormSearch {
         at.push_back(first_[t] + static_cast<Eigen::Index>(k));
     }
     std::vector<double> out;
+    if (at.empty()) return std::vector<double>(sums_.size(), 0.0);
     for (const SceneSums& s : sums_) {
       Eigen::MatrixXd others = total_(at, at) - s.products(at, at);
       others.diagonal().array() += 1e-6 * (1.0 + others.trace());
@@ -195,8 +209,11 @@ class FormSearch {
   }
 
   void keep_better(const std::vector<std::size_t>& set, std::vector<std::size_t>& best) const {
-    const double value = score(set);
-    if (std::isfinite(value) && value > (best.empty() ? 0.0 : score(best))) best = set;
+    // What comes earlier is simpler and stays if the later is no better than rounding of the data.
+    constexpr double kBetter = 2.0;
+    const double value = total(drops(set));
+    if (std::isfinite(value) && value > (best.empty() ? 0.0 : total(drops(best)) + kBetter))
+      best = set;
   }
 
   std::vector<Term> terms_;

@@ -62,8 +62,8 @@ struct CalibrationResult {
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
   ExtrinsicSolution extrinsic;
-  std::vector<ModelEffect> model;     ///< Effects beyond the base model; see discover().
-  std::vector<BudgetItem> budget;     ///< What effects left out could still do; see discover().
+  std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
+  std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
   /// The extrinsic's covariance with the budget; zero before discover().
   Matrix6d covariance_with_budget = Matrix6d::Zero();
   ModelScales model_scales;           ///< What the numbers of the model refer to.

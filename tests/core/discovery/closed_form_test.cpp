@@ -33,8 +33,8 @@ TEST(ClosedForm, FindsAWaveAndGivesItAsAFormula) {
   EXPECT_THAT(form.formula, HasSubstr("formula:range:"));
   EXPECT_THAT(form.formula, HasSubstr("sin("));
   EXPECT_TRUE(parse_user_effect(form.formula).ok()) << form.formula;
-  // The planted wave has 18 µm² of variance over 64 + 18.
-  EXPECT_GT(form.score, 0.15);
+  // The planted wave has about 18 mm² of variance, the noise 64 mm².
+  EXPECT_GT(form.score, 0.12);
 }
 
 TEST(ClosedForm, FindsAStep) {
@@ -51,7 +51,7 @@ TEST(ClosedForm, TakesOneTermWhereOneIsEnough) {
 }
 
 TEST(ClosedForm, NothingIsFoundInNoiseAndLabels) {
-  EXPECT_LT(form_of(nullptr, "azimuth").score, 0.002);
+  EXPECT_THAT(form_of(nullptr, "azimuth").formula, IsEmpty());
   EXPECT_THAT(form_of(nullptr, "line").formula, IsEmpty());
 }
 

@@ -48,6 +48,7 @@ TEST(PlannedScenes, CalibrateStatesThePredictedDeviations) {
   for (int first : {0, 3}) {
     const double ratio = std::sqrt(predicted.diagonal().segment<3>(first).sum() /
                                    stated.diagonal().segment<3>(first).sum());
+    RecordProperty(first == 0 ? "translation_ratio" : "rotation_ratio", std::to_string(ratio));
     EXPECT_GT(ratio, 0.7) << (first == 0 ? "translation" : "rotation");
     EXPECT_LT(ratio, 1.3) << (first == 0 ? "translation" : "rotation");
   }
