@@ -71,6 +71,7 @@ ResidualMapPlot::ResidualMapPlot(Plane plane, QWidget* parent) : PlotView(parent
     fit(*map());
     replot(rpQueuedReplot);
   });
+  rebuild();
 }
 
 const char* ResidualMapPlot::xName() const {

@@ -26,7 +26,7 @@ WherePane::WherePane(FigureSource& source, QWidget* parent) : QWidget(parent), s
   createBar();
   createFigures();
   layout->addWidget(tabs_, 1);
-  connect(&source_, &FigureSource::figureReady, this, &WherePane::show);
+  connect(&source_, &FigureSource::figureReady, this, &WherePane::showFigure);
   connect(&source_, &FigureSource::boardReady, this,
           [this](const std::shared_ptr<const BoardIntensity>& board) { board_->setImages(board); });
   retranslate();
@@ -137,7 +137,7 @@ void WherePane::setStep(const ModelStepPtr& step, const QString& reason) {
     ask();
     askBoard();
   } else {
-    show(nullptr);
+    showFigure(nullptr);
     board_->setImages(nullptr, reason_);
   }
 }
@@ -225,7 +225,7 @@ void WherePane::askBoard() {
   source_.requestBoard(scenes_->currentData().toInt());
 }
 
-void WherePane::show(const std::shared_ptr<const ResidualFigure>& figure) {
+void WherePane::showFigure(const std::shared_ptr<const ResidualFigure>& figure) {
   figure_ = figure;
   plot_->setOverlayScale(scale_);
   plot_->setFigure(figure, reason_);

@@ -62,7 +62,7 @@ class WherePane : public QWidget {
   void fillScenes();
   void ask();
   void askBoard();
-  void show(const std::shared_ptr<const ResidualFigure>& figure);
+  void showFigure(const std::shared_ptr<const ResidualFigure>& figure);
   void brush(const QString& x, const QString& y, const QRectF& area);
   void select(std::vector<std::size_t> rows);
 
