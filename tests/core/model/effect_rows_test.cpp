@@ -66,20 +66,20 @@ TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
     effect_->lidar(row.beam, table, columns().shape, point);
     effect_->board({row.beam.board_m, Eigen::Vector2d::Zero()}, table.target, columns().shape,
                    board);
-    rows.beam(row.beam, g.range_row(row.beam.direction),
-              g.lidar_from_board().rotation.toRotationMatrix(),
-              [&](const EffectColumns&, std::span<const double> by) {
-                for (std::size_t k = 0; k < n; ++k) {
-                  // Steps of a micrometre at most, whatever the parameter's unit.
-                  const double size = std::max(1.0, point[k].norm() + board[k].norm());
-                  const double step = kStep / size;
-                  const double numeric =
-                      (range_residual(g, row.beam, step * point[k], step * board[k].z()) -
-                       range_residual(g, row.beam, -step * point[k], -step * board[k].z())) /
-                      (2.0 * step);
-                  EXPECT_NEAR(by[k], numeric, 1e-5 * (size + std::abs(numeric)));
-                }
-              });
+    rows.range(row, g.range_row(row.beam.direction),
+               g.lidar_from_board().rotation.toRotationMatrix(),
+               [&](const EffectColumns&, std::span<const double> by) {
+                 for (std::size_t k = 0; k < n; ++k) {
+                   // Steps of a micrometre at most, whatever the parameter's unit.
+                   const double size = std::max(1.0, point[k].norm() + board[k].norm());
+                   const double step = kStep / size;
+                   const double numeric =
+                       (range_residual(g, row.beam, step * point[k], step * board[k].z()) -
+                        range_residual(g, row.beam, -step * point[k], -step * board[k].z())) /
+                       (2.0 * step);
+                   EXPECT_NEAR(by[k], numeric, 1e-5 * (size + std::abs(numeric)));
+                 }
+               });
   }
 }
 
