@@ -16,7 +16,7 @@ build_packages=(
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev python3
   xvfb xauth xdotool imagemagick libgl1-mesa-dri)
-ci_packages=(clang clang-format clang-tidy libclang-rt-dev)
+ci_packages=(clang clang-format clang-tidy libclang-rt-dev desktop-file-utils appstream man-db)
 
 packages=("${build_packages[@]}")
 case "${1:-}" in

@@ -43,7 +43,9 @@
         <source>The project&apos;s dataset is not at
 %1
 any more. Where is it now?</source>
-        <translation type="unfinished"></translation>
+        <translation>项目的数据集已不在
+%1
+它现在在哪里？</translation>
     </message>
     <message>
         <source>Unsaved decisions found</source>
@@ -53,1452 +55,1235 @@ any more. Where is it now?</source>
         <source>The program ended last time before your decisions about
 %1
 were saved. Take them up again?</source>
-        <translation type="unfinished"></translation>
+        <translation>程序上次结束时，您对
+%1
+所作的决定尚未保存。是否恢复？</translation>
+    </message>
+    <message>
+        <source>Open a file with T_imu_lidar</source>
+        <translation>打开包含 T_imu_lidar 的文件</translation>
+    </message>
+    <message>
+        <source>YAML (*.yaml *.yml)</source>
+        <translation>YAML (*.yaml *.yml)</translation>
     </message>
 </context>
 <context>
-    <name>lvcalib::widgets</name>
-    <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
-        <source>doubtful</source>
-        <translation>存疑</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
-        <source>Quality:</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>%1 scenes, %2 px (corners), %3 mm (LiDAR)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>roll</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>pitch</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>yaw</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>unbounded</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Translation (LiDAR origin in the camera frame)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Roll, pitch, yaw (R = Rz·Ry·Rx)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>T_camera_lidar</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Quaternion x y z w</source>
-        <translation>四元数 x y z w</translation>
-    </message>
-    <message>
-        <source>Standard deviations along the camera&apos;s axes</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Weak directions</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>None: the scenes determine all six.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Warnings</source>
-        <translation>警告</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::AngleDistancePlot</name>
-    <message>
-        <source>Signed distance from the circle (mm, outside positive) against the polar angle (degrees). Dots: LiDAR samples coloured by intensity. Marks: where the intensity crosses its middle level in each angular bin, ±1σ. Line: the fitted wave Δcu·cos ψ + Δcv·sin ψ + Δr. Shaded: refused bins.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>polar angle ψ (°)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>distance from the circle (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::BarPlot</name>
-    <message>
-        <source>no data</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::BoardMapPlot</name>
-    <message>
-        <source>board x (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>board y (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>The board from the front. Lines: how each circle&apos;s centre moved from the first to the last iteration, enlarged. Ellipse: twice the standard deviation of the refined centre, enlarged alike. Cross: where the model has it.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>no circles</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>paths enlarged ×%1</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::BoxPlot</name>
-    <message>
-        <source>no data</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::Builder</name>
+    <name>CloudSceneText</name>
     <message>
         <source>Only the board&apos;s points are loaded.</source>
-        <translation type="unfinished"></translation>
+        <translation>仅载入了标定板上的点。</translation>
     </message>
     <message>
         <source>No board was found in this scene&apos;s cloud yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>尚未在该场景的点云中找到标定板。</translation>
     </message>
     <message>
         <source>The cloud is not loaded yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>点云尚未载入。</translation>
     </message>
     <message>
         <source>There are no boundary samples in this scene.</source>
-        <translation type="unfinished"></translation>
+        <translation>该场景没有边界样本。</translation>
     </message>
     <message>
         <source>No crop box is set: all points are shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>未设置裁剪框：显示全部点。</translation>
     </message>
     <message>
         <source>Camera colours need an image and an extrinsic; intensity is shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>相机颜色需要图像和外参；现显示强度。</translation>
     </message>
     <message>
         <source>camera colour (grey: not in the image)</source>
-        <translation type="unfinished"></translation>
+        <translation>相机颜色（灰色：不在图像内）</translation>
     </message>
     <message>
         <source>This cloud has no intensity; range is shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>该点云没有强度；现显示距离。</translation>
     </message>
     <message>
         <source>The board&apos;s plane is not known in this scene; range is shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>该场景的标定板平面未知；现显示距离。</translation>
     </message>
     <message>
         <source>height z (m)</source>
-        <translation type="unfinished"></translation>
+        <translation>高度 z (m)</translation>
     </message>
     <message>
         <source>range (m)</source>
-        <translation type="unfinished"></translation>
+        <translation>距离 (m)</translation>
     </message>
     <message>
         <source>range beyond the board&apos;s plane (mm)</source>
-        <translation type="unfinished"></translation>
+        <translation>超出标定板平面的距离 (mm)</translation>
     </message>
     <message>
         <source>intensity</source>
-        <translation type="unfinished"></translation>
+        <translation>强度</translation>
     </message>
 </context>
 <context>
-    <name>lvcalib::widgets::CloudPane</name>
+    <name>Core</name>
     <message>
-        <source>Cloud</source>
-        <translation type="unfinished"></translation>
+        <source>result: %1</source>
+        <translation>结果：%1</translation>
     </message>
     <message>
-        <source>Intensity</source>
-        <translation type="unfinished"></translation>
+        <source>scene %1 is not used: %2</source>
+        <translation>场景 %1 未使用：%2</translation>
     </message>
     <message>
-        <source>Height</source>
-        <translation type="unfinished"></translation>
+        <source>only one usable scene: nothing to check the result against; take two or more</source>
+        <translation>只有一个可用场景，无从检验结果；请采集两个或更多场景</translation>
     </message>
     <message>
-        <source>Range</source>
-        <translation type="unfinished"></translation>
+        <source>the scenes determine only %1 of 6 directions of the extrinsic</source>
+        <translation>这些场景只能确定外参 6 个方向中的 %1 个</translation>
     </message>
     <message>
-        <source>Plane residual</source>
-        <translation type="unfinished"></translation>
+        <source>the scenes leave the extrinsic open: ± %1 mm and ± %2 mrad along the worst axes; add scenes with the board turned differently</source>
+        <translation>这些场景不足以确定外参：最差轴上为 ± %1 mm 和 ± %2 mrad；请增加标定板朝向不同的场景</translation>
     </message>
     <message>
-        <source>Camera colour</source>
-        <translation type="unfinished"></translation>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR measures it %1 % larger than target.yaml says; measure the print and correct tagSize</source>
+        <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 大 %1 %；请测量打印件并修正 tagSize</translation>
     </message>
     <message>
-        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), or the camera&apos;s own colours</source>
-        <translation type="unfinished"></translation>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR measures it %1 % smaller than target.yaml says; measure the print and correct tagSize</source>
+        <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 小 %1 %；请测量打印件并修正 tagSize</translation>
     </message>
     <message>
-        <source>Colour of the points</source>
-        <translation type="unfinished"></translation>
+        <source>black print reads %1 mm farther than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
+        <translation>黑色印刷区测距比白色远 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
-        <source>All points</source>
-        <translation type="unfinished"></translation>
+        <source>black print reads %1 mm nearer than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
+        <translation>黑色印刷区测距比白色近 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
-        <source>Crop</source>
-        <translation type="unfinished"></translation>
+        <source>scene %1: its board measures %2 % larger than in the other scenes: is it another print?</source>
+        <translation>场景 %1：测得的标定板比其他场景大 %2 %：是另一张打印件吗？</translation>
     </message>
     <message>
-        <source>Board</source>
-        <translation type="unfinished"></translation>
+        <source>scene %1: its board measures %2 % smaller than in the other scenes: is it another print?</source>
+        <translation>场景 %1：测得的标定板比其他场景小 %2 %：是另一张打印件吗？</translation>
     </message>
     <message>
-        <source>Boundary samples</source>
-        <translation type="unfinished"></translation>
+        <source>the halves of the scenes (%1) differ by %2 mm and %3 mrad, more than noise explains (χ² %4, at most %5): an effect is missing in the model, or one scene is off</source>
+        <translation>两半场景（%1）相差 %2 mm 和 %3 mrad，超出噪声所能解释的范围（χ² %4，上限 %5）：模型中缺少一个效应，或某个场景有误</translation>
     </message>
     <message>
-        <source>Which points are shown: all, those in the crop box, those about the board, or those beside the circles&apos; edges</source>
-        <translation type="unfinished"></translation>
+        <source>two scenes: a mistake in one of them could not be told from one in the other</source>
+        <translation>只有两个场景：无法分辨错误出在哪一个</translation>
     </message>
     <message>
-        <source>Points shown</source>
-        <translation type="unfinished"></translation>
+        <source>tag corners miss their model by %1 px: check the intrinsics and that the board is flat</source>
+        <translation>标签角点偏离模型 %1 px：请检查内参以及标定板是否平整</translation>
     </message>
     <message>
-        <source>Crop…</source>
-        <translation type="unfinished"></translation>
+        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model; scene %3 misses most: %4 mm, the others %5 mm</source>
+        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应；场景 %3 偏差最大：%4 mm，其余为 %5 mm</translation>
     </message>
     <message>
-        <source>Show a box with handles: the board is searched inside it only (C)</source>
-        <translation type="unfinished"></translation>
+        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model</source>
+        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应</translation>
     </message>
     <message>
-        <source>Number of points shown</source>
-        <translation type="unfinished"></translation>
+        <source>another assignment of the board is nearly as good (margin %1)</source>
+        <translation>标定板的另一种对应几乎同样好（裕度 %1）</translation>
     </message>
     <message>
-        <source>%1 points</source>
-        <translation type="unfinished"></translation>
+        <source>%1 is not determined: add scenes with the board turned differently</source>
+        <translation>%1未确定：请增加标定板朝向不同的场景</translation>
     </message>
-</context>
-<context>
-    <name>lvcalib::widgets::CloudSceneBuilder</name>
     <message>
-        <source>There is not enough memory to show this cloud.</source>
-        <translation type="unfinished"></translation>
+        <source>%1 is known %2 times worse than the typical direction: %3</source>
+        <translation>%1的精度比典型方向差 %2 倍：%3</translation>
     </message>
-</context>
-<context>
-    <name>lvcalib::widgets::CloudView</name>
     <message>
-        <source>Point cloud</source>
-        <translation type="unfinished"></translation>
+        <source>translation along the camera&apos;s x axis</source>
+        <translation>沿相机 x 轴的平移</translation>
     </message>
     <message>
-        <source>The cloud cannot be drawn: no OpenGL 3.2 on this screen.
-Install a graphics driver (or Mesa&apos;s software renderer).</source>
-        <translation type="unfinished"></translation>
+        <source>translation along the camera&apos;s y axis</source>
+        <translation>沿相机 y 轴的平移</translation>
     </message>
     <message>
-        <source>Drag: turn. Shift+drag or middle button: move. Wheel or right button: zoom. Click: values of a point. Lengths in metres.</source>
-        <translation type="unfinished"></translation>
+        <source>translation along the camera&apos;s z axis</source>
+        <translation>沿相机 z 轴的平移</translation>
     </message>
     <message>
-        <source>%1 (%2)</source>
-        <translation type="unfinished"></translation>
+        <source>rotation about the camera&apos;s x axis</source>
+        <translation>绕相机 x 轴的旋转</translation>
     </message>
     <message>
-        <source>Reset</source>
-        <translation type="unfinished"></translation>
+        <source>rotation about the camera&apos;s y axis</source>
+        <translation>绕相机 y 轴的旋转</translation>
     </message>
     <message>
-        <source>Show all points obliquely</source>
-        <translation type="unfinished"></translation>
+        <source>rotation about the camera&apos;s z axis</source>
+        <translation>绕相机 z 轴的旋转</translation>
     </message>
     <message>
-        <source>Top</source>
-        <translation type="unfinished"></translation>
+        <source>add a scene much nearer or farther, to part it from the turn about y</source>
+        <translation>增加一个近得多或远得多的场景，以便与绕 y 轴的旋转区分</translation>
     </message>
     <message>
-        <source>Look from above</source>
-        <translation type="unfinished"></translation>
+        <source>add a scene much nearer or farther, to part it from the turn about x</source>
+        <translation>增加一个近得多或远得多的场景，以便与绕 x 轴的旋转区分</translation>
     </message>
     <message>
-        <source>Sensor</source>
-        <translation type="unfinished"></translation>
+        <source>add a scene with the board nearer and tilted</source>
+        <translation>增加一个标定板更近且倾斜的场景</translation>
     </message>
     <message>
-        <source>Look from the LiDAR&apos;s origin</source>
-        <translation type="unfinished"></translation>
+        <source>add a scene much nearer or farther, or high or low in the image</source>
+        <translation>增加一个近得多或远得多、或位于图像上部或下部的场景</translation>
     </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ConvergencePlot</name>
     <message>
-        <source>iteration</source>
-        <translation type="unfinished"></translation>
+        <source>add a scene much nearer or farther, or far left or right in the image</source>
+        <translation>增加一个近得多或远得多、或位于图像最左或最右的场景</translation>
     </message>
     <message>
-        <source>move (mm)</source>
-        <translation type="unfinished"></translation>
+        <source>add a scene with the board near the image&apos;s edge</source>
+        <translation>增加一个标定板靠近图像边缘的场景</translation>
     </message>
     <message>
-        <source>Thin lines: size of each circle&apos;s own correction in every iteration (mm), which ends at its measurement noise. Thick line: largest move of a centre after the projection to the layout; the refinement ends when it is small.</source>
-        <translation type="unfinished"></translation>
+        <source>rejected by the user</source>
+        <translation>已被用户剔除</translation>
     </message>
     <message>
-        <source>no iterations</source>
-        <translation type="unfinished"></translation>
+        <source>not used</source>
+        <translation>未使用</translation>
     </message>
-</context>
-<context>
-    <name>lvcalib::widgets::CropForm</name>
     <message>
-        <source>roll</source>
-        <translation type="unfinished"></translation>
+        <source>the board found in the cloud does not agree with the other scenes</source>
+        <translation>点云中找到的标定板与其他场景不一致</translation>
     </message>
     <message>
-        <source>pitch</source>
-        <translation type="unfinished"></translation>
+        <source>the board is not found in the cloud (%1); the LiDAR sees past the place where the image has it: does the image belong to this cloud?</source>
+        <translation>在点云中找不到标定板（%1）；激光雷达的视线穿过了图像中标定板所在的位置：图像与点云属于同一场景吗？</translation>
     </message>
     <message>
-        <source>yaw</source>
-        <translation type="unfinished"></translation>
+        <source>the board is not found in the cloud (%1)</source>
+        <translation>在点云中找不到标定板（%1）</translation>
     </message>
     <message>
-        <source>Middle %1</source>
-        <translation type="unfinished"></translation>
+        <source>not searched</source>
+        <translation>未搜索</translation>
     </message>
     <message>
-        <source>Middle of the box along the LiDAR&apos;s %1 axis, in metres</source>
-        <translation type="unfinished"></translation>
+        <source>%1 flat patches of its size, best pattern correlation %2</source>
+        <translation>%1 个同尺寸的平面片，最佳图案相关系数 %2</translation>
     </message>
     <message>
-        <source> m</source>
-        <translation type="unfinished"></translation>
+        <source>%1 flat patches of its size</source>
+        <translation>%1 个同尺寸的平面片</translation>
     </message>
     <message>
-        <source>Side %1</source>
-        <translation type="unfinished"></translation>
+        <source>the crop box holds no points</source>
+        <translation>裁剪框内没有点</translation>
     </message>
     <message>
-        <source>Length of the box along its own %1 axis, in metres</source>
-        <translation type="unfinished"></translation>
+        <source>contradicts the other scenes by %1 mm and %2 mrad: did the board or the rig move between cloud and image?</source>
+        <translation>与其他场景相差 %1 mm 和 %2 mrad：采集点云与图像之间标定板或设备是否移动过？</translation>
     </message>
     <message>
-        <source>Turn of the box (%1), in degrees: roll about x, then pitch about y, then yaw about z of the LiDAR</source>
-        <translation type="unfinished"></translation>
+        <source>refinement did not settle within its iterations</source>
+        <translation>精化在迭代次数内未收敛</translation>
     </message>
     <message>
-        <source>°</source>
-        <translation type="unfinished"></translation>
+        <source>only %1 of %2 circles usable; node %3: %4</source>
+        <translation>%2 个圆中仅 %1 个可用；节点 %3：%4</translation>
     </message>
     <message>
-        <source>Use this crop</source>
-        <translation type="unfinished"></translation>
+        <source>only %1 of %2 circles usable</source>
+        <translation>%2 个圆中仅 %1 个可用</translation>
     </message>
     <message>
-        <source>Search the board only inside the box; runs this scene again from there</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>No crop</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Search the board in the whole cloud again</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ErrorDialog</name>
-    <message>
-        <source>No trustworthy result</source>
-        <translation>没有可信的结果</translation>
-    </message>
-    <message>
-        <source>This cannot be used</source>
-        <translation>无法使用</translation>
-    </message>
-    <message>
-        <source>Where:</source>
-        <translation>位置：</translation>
-    </message>
-    <message>
-        <source>What to do:</source>
-        <translation>处理方法：</translation>
-    </message>
-    <message>
-        <source>Copy</source>
-        <translation>复制</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ExtrinsicPage</name>
-    <message>
-        <source>Pose and quality</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Residuals and influence</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Cloud in camera colours</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>corner RMS (px)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>LiDAR RMS (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>corner residual (px)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>node residual (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>moves without it (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>turns without it (mrad)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Root mean square of the tag corners&apos; reprojection residuals, per scene (px). Pale: not used. Click: go to the scene.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Root mean square of the refined LiDAR nodes against the board&apos;s model, per scene (mm); without circles, of the plane&apos;s height</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>How far the LiDAR&apos;s origin moves when the scene is left out (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>How far the extrinsic turns when the scene is left out (mrad)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Run the calibration to see its result.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>this board has no circles</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>needs three used scenes or more</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::FigureActions</name>
-    <message>
-        <source>Save figure</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Save as PNG…</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>PNG image (*.png)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Save as PDF…</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>PDF (*.pdf)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Save data as CSV…</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Comma-separated values (*.csv)</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::GuideDialog</name>
-    <message>
-        <source>Guide</source>
-        <translation>指南</translation>
-    </message>
-    <message>
-        <source># From the board to a result
-1. **Print the board** at 1:1 with `lvcalib target target.yaml -o board.pdf`, glue it on something flat and measure a tag.
-2. **Take three to ten scenes**: an image and a cloud each, the board at 2–4 m, turned differently each time, seen whole by both sensors.
-3. **Lay out the folder**: `target.yaml`, `camera.yaml`, `scenes/NAME/image.png` and `scenes/NAME/cloud.pcd`.
-4. **Open it and press F5.** No rough guess is needed.
-5. **Look**: every scene should be *used*; a scene whose px, mm or influence stands out deserves a look on the Scene page. Untick it and the result follows at once.
-6. **Export** with Ctrl+E.
-
-# Pages
-- **Scene**: cloud and image of the scene that is selected in the list, with what was found in them. A crop box helps where the board is not found.
-- **Refinement**: how each circle&apos;s centre was found, bin by bin.
-- **Extrinsic**: the pose, its standard deviations and how the scenes agree.
-
-# Keys
-F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1 to Ctrl+3 change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.
-</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ImagePane</name>
-    <message>
-        <source>Image</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Tags</source>
-        <translation>标签</translation>
-    </message>
-    <message>
-        <source>Outlines and ids of the detected tags (green)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Residuals</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Detected minus predicted corner (px), enlarged (magenta arrows)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>How much longer than life residual arrows are drawn</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Enlargement of residuals</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Circles</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Board outline, circles and their centres as the LiDAR sees them, projected with the extrinsic (orange)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Points</source>
-        <translation>点数</translation>
-    </message>
-    <message>
-        <source>The points of the cloud view, projected with the extrinsic</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Fit</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Show the whole image (F)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>1:1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>One image pixel per screen pixel (1)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Levels</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Black</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Grey value shown as black (0 … 255 of full scale)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>White</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Grey value shown as white (0 … 255 of full scale)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Auto</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Levels that show the central 99 % of the pixels with most contrast</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Pixel under the cursor (x, y) and its grey value</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>(%1, %2): %3</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ImageView</name>
-    <message>
-        <source>Image</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Wheel: zoom. Drag: move. F: fit, 1: one to one. Click: nearest LiDAR points. Green: detected tags. Magenta arrows: corner residuals, enlarged (px). Orange: circles and outline from the LiDAR.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Fit</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>One to one</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::LogDock</name>
-    <message>
-        <source>Log</source>
-        <translation>日志</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::MainActions</name>
-    <message>
-        <source>&amp;File</source>
-        <translation>文件(&amp;F)</translation>
-    </message>
-    <message>
-        <source>&amp;Edit</source>
-        <translation>编辑(&amp;E)</translation>
-    </message>
-    <message>
-        <source>&amp;Run</source>
-        <translation>运行(&amp;R)</translation>
-    </message>
-    <message>
-        <source>&amp;View</source>
-        <translation>视图(&amp;V)</translation>
-    </message>
-    <message>
-        <source>&amp;Help</source>
-        <translation>帮助(&amp;H)</translation>
-    </message>
-    <message>
-        <source>Open &amp;recent</source>
-        <translation>最近打开(&amp;R)</translation>
-    </message>
-    <message>
-        <source>&amp;Colours</source>
-        <translation>配色(&amp;C)</translation>
-    </message>
-    <message>
-        <source>&amp;Language</source>
-        <translation>语言(&amp;L)</translation>
-    </message>
-    <message>
-        <source>Tool bar</source>
-        <translation>工具栏</translation>
-    </message>
-    <message>
-        <source>&amp;Open dataset…</source>
-        <translation>打开数据集(&amp;O)…</translation>
-    </message>
-    <message>
-        <source>Open a dataset folder</source>
-        <translation>打开数据集文件夹</translation>
-    </message>
-    <message>
-        <source>Open &amp;project…</source>
-        <translation>打开项目(&amp;P)…</translation>
-    </message>
-    <message>
-        <source>Open a .lvcalib file</source>
-        <translation>打开 .lvcalib 文件</translation>
-    </message>
-    <message>
-        <source>Try the &amp;demo</source>
-        <translation>试用演示(&amp;D)</translation>
-    </message>
-    <message>
-        <source>Simulate three scenes and open them</source>
-        <translation>仿真三个场景并打开</translation>
-    </message>
-    <message>
-        <source>&amp;Save</source>
-        <translation>保存(&amp;S)</translation>
-    </message>
-    <message>
-        <source>Save the decisions as a project</source>
-        <translation>将所作决定保存为项目</translation>
-    </message>
-    <message>
-        <source>Save &amp;as…</source>
-        <translation>另存为(&amp;A)…</translation>
-    </message>
-    <message>
-        <source>Save the project under another name</source>
-        <translation>以其他名称保存项目</translation>
-    </message>
-    <message>
-        <source>R&amp;esults…</source>
-        <translation>结果(&amp;E)…</translation>
-    </message>
-    <message>
-        <source>Show and export the result</source>
-        <translation>显示并导出结果</translation>
-    </message>
-    <message>
-        <source>&amp;Quit</source>
-        <translation>退出(&amp;Q)</translation>
-    </message>
-    <message>
-        <source>Leave the program</source>
-        <translation>退出程序</translation>
-    </message>
-    <message>
-        <source>&amp;Run all</source>
-        <translation>全部运行(&amp;R)</translation>
-    </message>
-    <message>
-        <source>Run everything that is not up to date</source>
-        <translation>运行所有未更新的步骤</translation>
-    </message>
-    <message>
-        <source>&amp;Cancel</source>
-        <translation>取消(&amp;C)</translation>
-    </message>
-    <message>
-        <source>Stop what is running</source>
-        <translation>停止当前运行</translation>
-    </message>
-    <message>
-        <source>Use board.pcd &amp;files</source>
-        <translation>使用 board.pcd 文件(&amp;F)</translation>
-    </message>
-    <message>
-        <source>Take a scene&apos;s board.pcd instead of its whole cloud where there is one</source>
-        <translation>若场景有 board.pcd，则用它代替完整点云</translation>
-    </message>
-    <message>
-        <source>&amp;Guide</source>
-        <translation>指南(&amp;G)</translation>
-    </message>
-    <message>
-        <source>From the printed board to a result</source>
-        <translation>从打印标定板到结果</translation>
-    </message>
-    <message>
-        <source>&amp;About</source>
-        <translation>关于(&amp;A)</translation>
-    </message>
-    <message>
-        <source>Version and licence</source>
-        <translation>版本与许可</translation>
-    </message>
-    <message>
-        <source>As the &amp;system</source>
-        <translation>跟随系统(&amp;S)</translation>
-    </message>
-    <message>
-        <source>&amp;Light</source>
-        <translation>浅色(&amp;L)</translation>
-    </message>
-    <message>
-        <source>&amp;Dark</source>
-        <translation>深色(&amp;D)</translation>
-    </message>
-    <message>
-        <source>Simulate four scenes and open them, with a guided tour</source>
-        <translation>模拟四个场景并打开，附带导览</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::MainWindow</name>
-    <message>
-        <source>Exported %1.</source>
-        <translation>已导出 %1。</translation>
-    </message>
-    <message>
-        <source>Exported %1</source>
-        <translation>已导出 %1</translation>
-    </message>
-    <message>
-        <source>About</source>
-        <translation>关于</translation>
-    </message>
-    <message>
-        <source>LV-Calib Workbench %1
-
-LiDAR–camera calibration with a printed board.
-GPL-3.0-or-later (core library: BSD-3-Clause)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>LV-Calib Workbench</source>
-        <translation>LV-Calib 工作台</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::PageStack</name>
-    <message>
-        <source>Scene</source>
-        <translation>场景</translation>
-    </message>
-    <message>
-        <source>Refinement</source>
-        <translation>精化</translation>
-    </message>
-    <message>
-        <source>Extrinsic</source>
-        <translation>外参</translation>
-    </message>
-    <message>
-        <source>Model</source>
-        <translation>模型</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ParametersDock</name>
-    <message>
-        <source>Parameters</source>
-        <translation>参数</translation>
-    </message>
-    <message>
-        <source>Reset all parameters</source>
-        <translation>重置全部参数</translation>
-    </message>
-    <message>
-        <source>Detection</source>
-        <translation>检测</translation>
-    </message>
-    <message>
-        <source>Localisation</source>
-        <translation>定位</translation>
-    </message>
-    <message>
-        <source>Consensus</source>
-        <translation>一致性</translation>
-    </message>
-    <message>
-        <source>Refinement</source>
-        <translation>精化</translation>
-    </message>
-    <message>
-        <source>Extrinsic</source>
-        <translation>外参</translation>
-    </message>
-    <message>
-        <source>Quality</source>
-        <translation>质量</translation>
-    </message>
-    <message>
-        <source>Default: %1.</source>
-        <translation>默认值：%1。</translation>
-    </message>
-    <message>
-        <source>on</source>
-        <translation>开</translation>
-    </message>
-    <message>
-        <source>off</source>
-        <translation>关</translation>
-    </message>
-    <message>
-        <source>Range %1 to %2, default %3.</source>
-        <translation>范围 %1 至 %2，默认值 %3。</translation>
-    </message>
-    <message>
-        <source>Back to the default %1</source>
-        <translation>恢复默认值 %1</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::PlotView</name>
-    <message>
-        <source>Show everything</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::RefinementPage</name>
-    <message>
-        <source>Choose a scene and run the calibration to see its refinement.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Angle (°)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Midpoint (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>σ (mm)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Samples</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>State</source>
-        <translation>状态</translation>
-    </message>
-    <message>
-        <source>Angular bins of the chosen node</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Every angular bin of the chosen node: where the intensity crosses its middle level (mm from the circle), its standard deviation, and why it was refused</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Replay the iterations from the first</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Replay</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Iteration shown</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Iteration</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>This scene was not refined.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>This scene was not refined: %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>This board has no circles: there is nothing to refine.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>node %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>node %1: not usable</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>node %1: |Δc| %2 mm</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>no data</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>iteration %1 of %2, largest move %3 mm</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>%1 of %2 bins used</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>; Δcu %1, Δcv %2, Δr %3 mm</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>; levels %1 and %2</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>; not usable: %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ResultsDialog</name>
-    <message>
-        <source>Results</source>
-        <translation>结果</translation>
-    </message>
-    <message>
-        <source>Takes a point from the LiDAR frame to the camera frame (x right, y down, z forward); lengths in metres</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Copy matrix</source>
-        <translation>复制矩阵</translation>
-    </message>
-    <message>
-        <source>Export YAML…</source>
-        <translation>导出 YAML…</translation>
-    </message>
-    <message>
-        <source>YAML (*.yaml)</source>
-        <translation>YAML (*.yaml)</translation>
-    </message>
-    <message>
-        <source>Export JSON…</source>
-        <translation>导出 JSON…</translation>
-    </message>
-    <message>
-        <source>JSON (*.json)</source>
-        <translation>JSON (*.json)</translation>
-    </message>
-    <message>
-        <source>Translation x y z</source>
-        <translation>平移 x y z</translation>
-    </message>
-    <message>
-        <source>± one standard deviation</source>
-        <translation>± 一倍标准差</translation>
-    </message>
-    <message>
-        <source>Quaternion x y z w</source>
-        <translation>四元数 x y z w</translation>
-    </message>
-    <message>
-        <source>Roll, pitch, yaw</source>
-        <translation>横滚、俯仰、偏航</translation>
-    </message>
-    <message>
-        <source>Rotation about camera x y z, ± σ</source>
-        <translation>绕相机 x y z 轴旋转的 ±σ</translation>
-    </message>
-    <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
-        <source>doubtful</source>
-        <translation>存疑</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
-        <source>Quality: %1</source>
-        <translation>质量：%1</translation>
-    </message>
-    <message>
-        <source>T_camera_lidar from %1 of %2 scenes; %3 px at the tag corners, %4 mm at the LiDAR nodes (root mean square).</source>
-        <translation>T_camera_lidar 由 %1/%2 个场景求得；标签角点 %3 px，激光节点 %4 mm（均方根）。</translation>
-    </message>
-    <message>
-        <source>Weakly determined</source>
-        <translation>约束较弱</translation>
-    </message>
-    <message>
-        <source>Warnings</source>
-        <translation>警告</translation>
-    </message>
-    <message>
-        <source>None.</source>
-        <translation>无。</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::SceneModel</name>
-    <message>
-        <source>missing on disk</source>
-        <translation>磁盘上缺失</translation>
-    </message>
-    <message>
-        <source>rejected</source>
-        <translation>已剔除</translation>
-    </message>
-    <message>
-        <source>not run yet</source>
-        <translation>尚未运行</translation>
-    </message>
-    <message>
-        <source> (cropped)</source>
-        <translation>（已裁剪）</translation>
+        <source>no tags in the image (the board must be in view, sharp, and neither dark nor overexposed)</source>
+        <translation>图像中没有标签（标定板须在视野内、清晰，且既不过暗也不过曝）</translation>
     </message>
     <message>
         <source>used</source>
         <translation>已使用</translation>
     </message>
     <message>
-        <source>to be run</source>
-        <translation>待运行</translation>
+        <source>too few samples</source>
+        <translation>样本太少</translation>
     </message>
     <message>
-        <source>Scene %1. Ticked: it takes part in the calibration.</source>
-        <translation>场景 %1。勾选表示参与标定。</translation>
+        <source>contrast too weak for the noise</source>
+        <translation>相对噪声对比度太弱</translation>
     </message>
     <message>
-        <source>Without this scene the result moves by %1 mm and %2 mrad.</source>
-        <translation>去掉该场景后结果移动 %1 mm、%2 mrad。</translation>
+        <source>samples on one side of the edge only</source>
+        <translation>样本只在边缘一侧</translation>
     </message>
     <message>
-        <source>Scene</source>
-        <translation>场景</translation>
+        <source>no crossing of the mid-level</source>
+        <translation>未穿过中间强度</translation>
     </message>
     <message>
-        <source>Ticked scenes take part in the calibration.</source>
-        <translation>勾选的场景参与标定。</translation>
+        <source>contradicts the other bins</source>
+        <translation>与其他区间矛盾</translation>
     </message>
     <message>
-        <source>Tags</source>
-        <translation>标签</translation>
+        <source>too few samples: %1 inside and %2 outside the circle, at least %3 each needed</source>
+        <translation>样本太少：圆内 %1 个，圆外 %2 个，各需至少 %3 个</translation>
     </message>
     <message>
-        <source>Tags found in the image.</source>
-        <translation>图像中找到的标签数。</translation>
+        <source>no contrast between circle and paper</source>
+        <translation>圆与纸面之间没有对比度</translation>
     </message>
     <message>
-        <source>Points</source>
-        <translation>点数</translation>
+        <source>too few usable bins around the circle</source>
+        <translation>圆周上可用的区间太少</translation>
     </message>
     <message>
-        <source>LiDAR points on the board.</source>
-        <translation>标定板上的激光点数。</translation>
+        <source>centre too uncertain</source>
+        <translation>圆心不确定度太大</translation>
     </message>
     <message>
-        <source>px</source>
-        <translation>px</translation>
+        <source>not refined</source>
+        <translation>未精化</translation>
     </message>
     <message>
-        <source>Root mean square of the tag corners&apos; reprojection errors, px.</source>
-        <translation>标签角点重投影误差的均方根（px）。</translation>
+        <source>not enough samples</source>
+        <translation>样本不足</translation>
     </message>
     <message>
-        <source>mm</source>
-        <translation>mm</translation>
+        <source>no contrast</source>
+        <translation>没有对比度</translation>
     </message>
     <message>
-        <source>Root mean square distance of LiDAR nodes to the board&apos;s, mm.</source>
-        <translation>激光节点到标定板节点距离的均方根（mm）。</translation>
+        <source>intensity clipped</source>
+        <translation>强度被截断</translation>
     </message>
     <message>
-        <source>Infl.</source>
-        <translation>影响</translation>
+        <source>not refined: %1</source>
+        <translation>未精化：%1</translation>
     </message>
     <message>
-        <source>Influence: how far the result moves without this scene, mm.</source>
-        <translation>影响：去掉该场景后结果移动的距离（mm）。</translation>
+        <source>not enough samples: %1</source>
+        <translation>样本不足：%1</translation>
     </message>
     <message>
-        <source>State</source>
-        <translation>状态</translation>
+        <source>no contrast: %1</source>
+        <translation>没有对比度：%1</translation>
     </message>
     <message>
-        <source>Whether the scene is used, and why not.</source>
-        <translation>场景是否被使用及原因。</translation>
+        <source>intensity clipped: %1 of the paper&apos;s samples at the highest value</source>
+        <translation>强度被截断：纸面样本的 %1 处于最大值</translation>
+    </message>
+    <message>
+        <source>intensity clipped: %1 of the circle&apos;s samples at the highest value</source>
+        <translation>强度被截断：圆内样本的 %1 处于最大值</translation>
+    </message>
+    <message>
+        <source>intensity clipped: %1 of the paper&apos;s samples at the lowest value</source>
+        <translation>强度被截断：纸面样本的 %1 处于最小值</translation>
+    </message>
+    <message>
+        <source>intensity clipped: %1 of the circle&apos;s samples at the lowest value</source>
+        <translation>强度被截断：圆内样本的 %1 处于最小值</translation>
+    </message>
+    <message>
+        <source>the cloud has no intensity</source>
+        <translation>点云没有强度</translation>
+    </message>
+    <message>
+        <source>the intensities about the circles show no transition from black to white</source>
+        <translation>圆周围的强度没有由黑到白的过渡</translation>
+    </message>
+    <message>
+        <source>the transitions about the circles have no common width</source>
+        <translation>各圆周围的过渡没有共同的宽度</translation>
+    </message>
+    <message>
+        <source>not enough samples for statistics: %1 in the overlap region, needed %2 around the circles</source>
+        <translation>样本不足以统计：重叠区内 %1 个，圆周围需要 %2 个</translation>
+    </message>
+    <message>
+        <source>no circle gives boundary samples: %1 (the first: %2)</source>
+        <translation>没有圆给出边界样本：%1（第一个：%2）</translation>
+    </message>
+    <message>
+        <source>no circle gives boundary samples: %1</source>
+        <translation>没有圆给出边界样本：%1</translation>
+    </message>
+    <message>
+        <source>%1 × %2, %3</source>
+        <translation>%1 × %2，%3</translation>
+    </message>
+    <message>
+        <source>%1 × %2</source>
+        <translation>%1 × %2 </translation>
+    </message>
+    <message>
+        <source>this board has no circles</source>
+        <translation>该标定板没有圆</translation>
+    </message>
+    <message>
+        <source>not enough scenes for a boundary response: none is in use</source>
+        <translation>场景不足以计算边界响应：没有使用中的场景</translation>
+    </message>
+    <message>
+        <source>not enough scenes for a comparison of halves: neither half alone determines the extrinsic</source>
+        <translation>场景不足以比较两半：任何一半都无法单独确定外参</translation>
+    </message>
+    <message>
+        <source>not enough scenes for a comparison of halves: %1 in use, %2 needed</source>
+        <translation>场景不足以比较两半：使用中 %1 个，需要 %2 个</translation>
+    </message>
+    <message>
+        <source>near/far</source>
+        <translation>近/远</translation>
+    </message>
+    <message>
+        <source>left/right</source>
+        <translation>左/右</translation>
+    </message>
+    <message>
+        <source>flat/tilted</source>
+        <translation>正/斜</translation>
+    </message>
+    <message>
+        <source>joint solve</source>
+        <translation>联合求解</translation>
+    </message>
+    <message>
+        <source>comparing scenes</source>
+        <translation>比较各场景</translation>
+    </message>
+    <message>
+        <source>other sizes of the board</source>
+        <translation>尝试其他标定板尺寸</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>完成</translation>
+    </message>
+    <message>
+        <source>scene %1</source>
+        <translation>场景 %1</translation>
+    </message>
+    <message>
+        <source>scene %1: %2</source>
+        <translation>场景 %1：%2</translation>
+    </message>
+    <message>
+        <source>A bin with fewer samples is refused.</source>
+        <translation>样本更少的区间将被拒绝。</translation>
+    </message>
+    <message>
+        <source>A circle with fewer overlap samples is left out.</source>
+        <translation>重叠区样本更少的圆不予采用。</translation>
+    </message>
+    <message>
+        <source>A direction known so many times worse than usual is called weak.</source>
+        <translation>精度比通常差这么多倍的方向称为弱方向。</translation>
+    </message>
+    <message>
+        <source>A position known worse than this is no result.</source>
+        <translation>位置精度差于此值则不算结果。</translation>
+    </message>
+    <message>
+        <source>A rotation known worse than this is no result.</source>
+        <translation>旋转精度差于此值则不算结果。</translation>
+    </message>
+    <message>
+        <source>A scene is left out if the rest fits so many times better without it.</source>
+        <translation>若去掉某场景后其余场景的拟合好这么多倍，则将其剔除。</translation>
+    </message>
+    <message>
+        <source>A tag or node farther off (in σ) is left out.</source>
+        <translation>偏差更大（以 σ 计）的标签或节点将被剔除。</translation>
+    </message>
+    <message>
+        <source>A tag that misses the board&apos;s pose by more is dropped.</source>
+        <translation>偏离标定板位姿更多的标签将被丢弃。</translation>
+    </message>
+    <message>
+        <source>Added in quadrature to every node&apos;s standard deviation.</source>
+        <translation>以平方和方式加到每个节点的标准差上。</translation>
+    </message>
+    <message>
+        <source>Added in quadrature to the plane&apos;s height.</source>
+        <translation>以平方和方式加到平面高度的标准差上。</translation>
+    </message>
+    <message>
+        <source>Angular bins of a densely sampled node.</source>
+        <translation>样本密集的节点的角度区间数。</translation>
+    </message>
+    <message>
+        <source>Angular bins of a sparsely sampled node.</source>
+        <translation>样本稀疏的节点的角度区间数。</translation>
+    </message>
+    <message>
+        <source>Chance of widening a stated σ though only noise is at work.</source>
+        <translation>仅有噪声时误将 σ 放大的概率。</translation>
+    </message>
+    <message>
+        <source>Closer points (the rig itself) are ignored.</source>
+        <translation>更近的点（设备自身）被忽略。</translation>
+    </message>
+    <message>
+        <source>Corner noise above this makes the result doubtful.</source>
+        <translation>角点噪声超过此值时结果存疑。</translation>
+    </message>
+    <message>
+        <source>Corner noise is never taken below this.</source>
+        <translation>角点噪声不低于此值。</translation>
+    </message>
+    <message>
+        <source>Done when no node moves by more.</source>
+        <translation>所有节点的移动都不超过此值时结束。</translation>
+    </message>
+    <message>
+        <source>Evidence by which the board assignment must win.</source>
+        <translation>标定板对应必须胜出的证据量。</translation>
+    </message>
+    <message>
+        <source>Fewer overlap samples give no statistics.</source>
+        <translation>重叠区样本更少时不作统计。</translation>
+    </message>
+    <message>
+        <source>Fewer tags make an image unusable.</source>
+        <translation>标签更少的图像不可用。</translation>
+    </message>
+    <message>
+        <source>Flatness of plane candidates; 0: from the measured noise.</source>
+        <translation>候选平面的平整度；0：由测得的噪声决定。</translation>
+    </message>
+    <message>
+        <source>Half-width of the overlap region in units of the transition&apos;s width.</source>
+        <translation>重叠区的半宽，以过渡宽度为单位。</translation>
+    </message>
+    <message>
+        <source>How far a rough extrinsic may be off.</source>
+        <translation>粗略外参允许的平移偏差。</translation>
+    </message>
+    <message>
+        <source>How far a rough extrinsic may be turned.</source>
+        <translation>粗略外参允许的旋转偏差。</translation>
+    </message>
+    <message>
+        <source>Huber threshold in standard deviations.</source>
+        <translation>Huber 阈值，以标准差计。</translation>
+    </message>
+    <message>
+        <source>Image reduction for the first tag search.</source>
+        <translation>首次搜索标签时图像的缩小倍数。</translation>
+    </message>
+    <message>
+        <source>Largest believable distance between camera and LiDAR.</source>
+        <translation>相机与激光雷达之间可信的最大距离。</translation>
+    </message>
+    <message>
+        <source>Largest correction of a node in one iteration.</source>
+        <translation>一次迭代中节点的最大修正量。</translation>
+    </message>
+    <message>
+        <source>Leave out scenes that contradict all others.</source>
+        <translation>剔除与其他所有场景矛盾的场景。</translation>
+    </message>
+    <message>
+        <source>LiDAR residuals this many times their σ make the result doubtful.</source>
+        <translation>激光雷达残差达到其 σ 的这么多倍时结果存疑。</translation>
+    </message>
+    <message>
+        <source>Look for the pattern on planes larger than the board from the start.</source>
+        <translation>从一开始就在大于标定板的平面上搜索图案。</translation>
+    </message>
+    <message>
+        <source>Most iterations of one solve.</source>
+        <translation>一次求解的最大迭代次数。</translation>
+    </message>
+    <message>
+        <source>Most iterations.</source>
+        <translation>最大迭代次数。</translation>
+    </message>
+    <message>
+        <source>Pattern correlation below this is not the board.</source>
+        <translation>图案相关系数低于此值则不是标定板。</translation>
+    </message>
+    <message>
+        <source>Plane candidates examined at full density.</source>
+        <translation>以全密度检查的候选平面数。</translation>
+    </message>
+    <message>
+        <source>Range difference of dark and white print that makes the result doubtful.</source>
+        <translation>黑白印刷区测距之差达到此值时结果存疑。</translation>
+    </message>
+    <message>
+        <source>Rcl and Pcl of FAST-LIVO2, LiDAR to camera</source>
+        <translation>FAST-LIVO2 的 Rcl 和 Pcl，激光雷达到相机</translation>
+    </message>
+    <message>
+        <source>Share of a level at the end of the intensity scale that counts as clipped.</source>
+        <translation>强度处于量程端点的比例达到此值视为截断。</translation>
+    </message>
+    <message>
+        <source>Size difference between LiDAR and model worth a warning.</source>
+        <translation>激光雷达测得尺寸与模型相差此值时发出警告。</translation>
+    </message>
+    <message>
+        <source>Size difference that makes the result untrustworthy.</source>
+        <translation>尺寸相差此值时结果不可信。</translation>
+    </message>
+    <message>
+        <source>Smallest level difference in units of the intensity noise.</source>
+        <translation>最小强度差，以强度噪声为单位。</translation>
+    </message>
+    <message>
+        <source>Systematic rotation error allowed between scenes.</source>
+        <translation>场景之间允许的系统性旋转误差。</translation>
+    </message>
+    <message>
+        <source>Systematic translation error allowed between scenes.</source>
+        <translation>场景之间允许的系统性平移误差。</translation>
+    </message>
+    <message>
+        <source>T_camera_lidar, 4x4 numbers</source>
+        <translation>T_camera_lidar，4x4 个数</translation>
+    </message>
+    <message>
+        <source>Wanted samples per bin; decides how many bins a node gets.</source>
+        <translation>每个区间期望的样本数；决定节点的区间数。</translation>
+    </message>
+    <message>
+        <source>Width of the classes of incidence.</source>
+        <translation>入射角分组的宽度。</translation>
+    </message>
+    <message>
+        <source>Width of the classes of range.</source>
+        <translation>距离分组的宽度。</translation>
+    </message>
+    <message>
+        <source>calib.json of direct_visual_lidar_calibration, T_lidar_camera</source>
+        <translation>direct_visual_lidar_calibration 的 calib.json，T_lidar_camera</translation>
+    </message>
+    <message>
+        <source>camchain with T_cam_lidar</source>
+        <translation>带 T_cam_lidar 的 camchain</translation>
+    </message>
+    <message>
+        <source>camera_ext_R and camera_ext_t of R3LIVE, camera to IMU</source>
+        <translation>R3LIVE 的 camera_ext_R 和 camera_ext_t，相机到 IMU</translation>
+    </message>
+    <message>
+        <source>false alarm</source>
+        <translation>误报概率</translation>
+    </message>
+    <message>
+        <source>fixed joint, camera in LiDAR</source>
+        <translation>固定关节，相机在激光雷达坐标系中</translation>
+    </message>
+    <message>
+        <source>guess rotation</source>
+        <translation>初值旋转偏差</translation>
+    </message>
+    <message>
+        <source>guess translation</source>
+        <translation>初值平移偏差</translation>
+    </message>
+    <message>
+        <source>incidence bin</source>
+        <translation>入射角分组</translation>
+    </message>
+    <message>
+        <source>lidar_to_cam_* of LVI-SAM, LiDAR to x-forward camera</source>
+        <translation>LVI-SAM 的 lidar_to_cam_*，激光雷达到 x 轴朝前的相机</translation>
+    </message>
+    <message>
+        <source>max bins</source>
+        <translation>最大区间数</translation>
+    </message>
+    <message>
+        <source>max clipped share</source>
+        <translation>最大截断比例</translation>
+    </message>
+    <message>
+        <source>max dark offset</source>
+        <translation>最大黑白距离差</translation>
+    </message>
+    <message>
+        <source>max iterations</source>
+        <translation>最大迭代次数</translation>
+    </message>
+    <message>
+        <source>max lever arm</source>
+        <translation>最大杆臂</translation>
+    </message>
+    <message>
+        <source>max noise scale</source>
+        <translation>最大噪声倍数</translation>
+    </message>
+    <message>
+        <source>max patches</source>
+        <translation>最大平面片数</translation>
+    </message>
+    <message>
+        <source>max reprojection</source>
+        <translation>最大重投影误差</translation>
+    </message>
+    <message>
+        <source>max sigma</source>
+        <translation>最大角点噪声</translation>
+    </message>
+    <message>
+        <source>max sigma rotation</source>
+        <translation>最大旋转标准差</translation>
+    </message>
+    <message>
+        <source>max sigma translation</source>
+        <translation>最大平移标准差</translation>
+    </message>
+    <message>
+        <source>max step</source>
+        <translation>最大步长</translation>
+    </message>
+    <message>
+        <source>min bin samples</source>
+        <translation>区间最少样本数</translation>
+    </message>
+    <message>
+        <source>min bins</source>
+        <translation>最小区间数</translation>
+    </message>
+    <message>
+        <source>min contrast</source>
+        <translation>最小对比度</translation>
+    </message>
+    <message>
+        <source>min correlation</source>
+        <translation>最小相关系数</translation>
+    </message>
+    <message>
+        <source>min margin</source>
+        <translation>最小裕度</translation>
+    </message>
+    <message>
+        <source>min node samples</source>
+        <translation>节点最少样本数</translation>
+    </message>
+    <message>
+        <source>min range</source>
+        <translation>最小距离</translation>
+    </message>
+    <message>
+        <source>min samples</source>
+        <translation>最少样本数</translation>
+    </message>
+    <message>
+        <source>min tags</source>
+        <translation>最少标签数</translation>
+    </message>
+    <message>
+        <source>node sigma floor</source>
+        <translation>节点标准差下限</translation>
+    </message>
+    <message>
+        <source>noise of points at reflectivity edges, for SLAM front ends (YAML)</source>
+        <translation>反射率边缘处点的噪声，供 SLAM 前端使用（YAML）</translation>
+    </message>
+    <message>
+        <source>overlap sigmas</source>
+        <translation>重叠区半宽</translation>
+    </message>
+    <message>
+        <source>plane sigma floor</source>
+        <translation>平面标准差下限</translation>
+    </message>
+    <message>
+        <source>plane tolerance</source>
+        <translation>平面容差</translation>
+    </message>
+    <message>
+        <source>quad decimate</source>
+        <translation>图像缩小倍数</translation>
+    </message>
+    <message>
+        <source>range bin</source>
+        <translation>距离分组</translation>
+    </message>
+    <message>
+        <source>reject bad scenes</source>
+        <translation>剔除不良场景</translation>
+    </message>
+    <message>
+        <source>rejection gate</source>
+        <translation>剔除门限</translation>
+    </message>
+    <message>
+        <source>robust threshold</source>
+        <translation>稳健阈值</translation>
+    </message>
+    <message>
+        <source>rvec and tvec as cv::projectPoints takes them (FileStorage YAML)</source>
+        <translation>cv::projectPoints 所用的 rvec 和 tvec（FileStorage YAML）</translation>
+    </message>
+    <message>
+        <source>samples per bin</source>
+        <translation>每区间样本数</translation>
+    </message>
+    <message>
+        <source>scale failure</source>
+        <translation>尺寸失败阈值</translation>
+    </message>
+    <message>
+        <source>scale warning</source>
+        <translation>尺寸警告阈值</translation>
+    </message>
+    <message>
+        <source>scene rejection gain</source>
+        <translation>场景剔除增益</translation>
+    </message>
+    <message>
+        <source>search walls</source>
+        <translation>搜索墙面</translation>
+    </message>
+    <message>
+        <source>sensor_kit_calibration.yaml with camera_link (x forward)</source>
+        <translation>带 camera_link（x 轴朝前）的 sensor_kit_calibration.yaml</translation>
+    </message>
+    <message>
+        <source>sigma px floor</source>
+        <translation>角点噪声下限</translation>
+    </message>
+    <message>
+        <source>static_transform_publisher of ROS 1, camera in LiDAR</source>
+        <translation>ROS 1 的 static_transform_publisher，相机在激光雷达坐标系中</translation>
+    </message>
+    <message>
+        <source>static_transform_publisher of ROS 2, camera in LiDAR</source>
+        <translation>ROS 2 的 static_transform_publisher，相机在激光雷达坐标系中</translation>
+    </message>
+    <message>
+        <source>systematic rotation</source>
+        <translation>系统性旋转误差</translation>
+    </message>
+    <message>
+        <source>systematic translation</source>
+        <translation>系统性平移误差</translation>
+    </message>
+    <message>
+        <source>tolerance</source>
+        <translation>收敛容差</translation>
+    </message>
+    <message>
+        <source>weak direction ratio</source>
+        <translation>弱方向比值</translation>
+    </message>
+    <message>
+        <source>%1 in the overlap region, %2 on the circle, %3 on the paper; needed %4, %5 and %6</source>
+        <translation>重叠区 %1 个，圆内 %2 个，纸面 %3 个；各需 %4、%5 和 %6 个</translation>
+    </message>
+    <message>
+        <source>black %1, white %2, noise %3</source>
+        <translation>黑 %1，白 %2，噪声 %3</translation>
+    </message>
+    <message>
+        <source>A wide footprint on a small circle moves the mid-level inwards, the more the farther.</source>
+        <translation>光斑宽而圆小，使中间强度线向内移动，距离越远越明显。</translation>
+    </message>
+    <message>
+        <source>Azimuth or elevation is read with a wrong scale.</source>
+        <translation>方位角或仰角读数的比例有误。</translation>
+    </message>
+    <message>
+        <source>Beam divergence</source>
+        <translation>光束发散</translation>
+    </message>
+    <message>
+        <source>Beams do not start at the origin of the frame, so that their direction error falls with the range.</source>
+        <translation>光束并非从坐标系原点发出，因此方向误差随距离增大而减小。</translation>
+    </message>
+    <message>
+        <source>Blooming</source>
+        <translation>光晕</translation>
+    </message>
+    <message>
+        <source>Board bow</source>
+        <translation>标定板弯曲</translation>
+    </message>
+    <message>
+        <source>Boundary bias</source>
+        <translation>边界偏移</translation>
+    </message>
+    <message>
+        <source>Bright print outshines its neighbourhood, so that edges move towards the dark side, the more the higher the contrast.</source>
+        <translation>明亮的印刷区盖过邻近区域，使边缘向暗侧移动，对比度越高越明显。</translation>
+    </message>
+    <message>
+        <source>Collimation and axis errors</source>
+        <translation>准直与轴系误差</translation>
+    </message>
+    <message>
+        <source>Corner bias</source>
+        <translation>角点偏移</translation>
+    </message>
+    <message>
+        <source>Crosstalk or phase measurement makes the range error a wave of the range.</source>
+        <translation>串扰或相位测量使测距误差成为距离的波动函数。</translation>
+    </message>
+    <message>
+        <source>Cyclic range error</source>
+        <translation>周期性测距误差</translation>
+    </message>
+    <message>
+        <source>Elevation offset of each line</source>
+        <translation>各线仰角偏移</translation>
+    </message>
+    <message>
+        <source>Elliptic footprint</source>
+        <translation>椭圆光斑</translation>
+    </message>
+    <message>
+        <source>Encoder eccentricity</source>
+        <translation>编码器偏心</translation>
+    </message>
+    <message>
+        <source>Encoder lag</source>
+        <translation>编码器滞后</translation>
+    </message>
+    <message>
+        <source>Every laser has its own delay.</source>
+        <translation>每个激光器都有各自的延迟。</translation>
+    </message>
+    <message>
+        <source>Every laser points slightly elsewhere than its table says.</source>
+        <translation>每个激光器的指向与其标称表略有差别。</translation>
+    </message>
+    <message>
+        <source>Every range is off by the same amount, for example by the internal delay or a wrong zero point.</source>
+        <translation>所有距离都偏差同一数值，例如由内部延迟或错误的零点引起。</translation>
+    </message>
+    <message>
+        <source>Focal length or principal point differ from the intrinsics file.</source>
+        <translation>焦距或主点与内参文件不同。</translation>
+    </message>
+    <message>
+        <source>Glossy print shines when the beam hits it squarely.</source>
+        <translation>光束垂直照射时，有光泽的印刷面会反光。</translation>
+    </message>
+    <message>
+        <source>Image rows are exposed one after the other while something moves.</source>
+        <translation>有物体运动时，图像各行先后曝光。</translation>
+    </message>
+    <message>
+        <source>Ink gain</source>
+        <translation>油墨扩散</translation>
+    </message>
+    <message>
+        <source>Ink spreads, so that every black edge moves outwards.</source>
+        <translation>油墨扩散，使每条黑色边缘向外移动。</translation>
+    </message>
+    <message>
+        <source>Intensity with range and incidence</source>
+        <translation>强度随距离和入射角变化</translation>
+    </message>
+    <message>
+        <source>Intrinsics error</source>
+        <translation>内参误差</translation>
+    </message>
+    <message>
+        <source>Lag of the intensity</source>
+        <translation>强度滞后</translation>
+    </message>
+    <message>
+        <source>Less light returns from far and slanted surfaces than the sensor corrects for.</source>
+        <translation>从远处和倾斜表面返回的光比传感器所补偿的更少。</translation>
+    </message>
+    <message>
+        <source>Motion during the scan</source>
+        <translation>扫描期间的运动</translation>
+    </message>
+    <message>
+        <source>Near-range error</source>
+        <translation>近距误差</translation>
+    </message>
+    <message>
+        <source>Non-linear intensity</source>
+        <translation>强度非线性</translation>
+    </message>
+    <message>
+        <source>Offset of the beam&apos;s origin</source>
+        <translation>光束原点偏移</translation>
+    </message>
+    <message>
+        <source>Offset of the receiver&apos;s view</source>
+        <translation>接收视场偏移</translation>
+    </message>
+    <message>
+        <source>Overlap of emitter and receiver is incomplete close to the sensor.</source>
+        <translation>在传感器近处，发射与接收的视场重叠不完全。</translation>
+    </message>
+    <message>
+        <source>Print scale</source>
+        <translation>打印比例</translation>
+    </message>
+    <message>
+        <source>Range error with incidence</source>
+        <translation>测距误差随入射角变化</translation>
+    </message>
+    <message>
+        <source>Range offset</source>
+        <translation>测距偏移</translation>
+    </message>
+    <message>
+        <source>Range offset of each line</source>
+        <translation>各线测距偏移</translation>
+    </message>
+    <message>
+        <source>Range pull at edges</source>
+        <translation>边缘处测距牵引</translation>
+    </message>
+    <message>
+        <source>Range scale</source>
+        <translation>测距比例</translation>
+    </message>
+    <message>
+        <source>Range walk</source>
+        <translation>距离游走</translation>
+    </message>
+    <message>
+        <source>Ranges are proportionally off: wrong clock frequency or refractive index.</source>
+        <translation>距离按比例偏差：时钟频率或折射率有误。</translation>
+    </message>
+    <message>
+        <source>Residual distortion</source>
+        <translation>残余畸变</translation>
+    </message>
+    <message>
+        <source>Rolling shutter</source>
+        <translation>卷帘快门</translation>
+    </message>
+    <message>
+        <source>Scale of the angles</source>
+        <translation>角度比例</translation>
+    </message>
+    <message>
+        <source>Specular lobe</source>
+        <translation>镜面反射瓣</translation>
+    </message>
+    <message>
+        <source>The LiDAR or the board moved while the scan was taken.</source>
+        <translation>采集扫描时激光雷达或标定板有移动。</translation>
+    </message>
+    <message>
+        <source>The angle is read a little before or after the pulse: the beam is shifted along its scan.</source>
+        <translation>角度在脉冲之前或之后读取：光束沿扫描方向偏移。</translation>
+    </message>
+    <message>
+        <source>The beam is not square to the turning axis, or the axis is tilted against the mirror.</source>
+        <translation>光束与转轴不垂直，或转轴相对反射镜倾斜。</translation>
+    </message>
+    <message>
+        <source>The board is not flat: it bends or twists.</source>
+        <translation>标定板不平：弯曲或扭曲。</translation>
+    </message>
+    <message>
+        <source>The corner detector is drawn outwards or inwards, seen from the tag&apos;s centre.</source>
+        <translation>从标签中心看，角点检测结果向外或向内偏移。</translation>
+    </message>
+    <message>
+        <source>The detector needs time to recover, so that edges move along the scan.</source>
+        <translation>探测器需要恢复时间，使边缘沿扫描方向移动。</translation>
+    </message>
+    <message>
+        <source>The footprint is wider along one axis of the LiDAR.</source>
+        <translation>光斑沿激光雷达某一轴更宽。</translation>
+    </message>
+    <message>
+        <source>The footprint stretches on a slanted surface and the echo with it.</source>
+        <translation>光斑在倾斜表面上拉长，回波也随之展宽。</translation>
+    </message>
+    <message>
+        <source>The intensity is collected beside the reported direction.</source>
+        <translation>强度的采集方向偏离报告的方向。</translation>
+    </message>
+    <message>
+        <source>The lens distorts differently than the intrinsics file says.</source>
+        <translation>镜头畸变与内参文件所述不同。</translation>
+    </message>
+    <message>
+        <source>The mid-level crossing lies outside or inside the printed edge everywhere.</source>
+        <translation>中间强度的穿越点处处位于印刷边缘的外侧或内侧。</translation>
+    </message>
+    <message>
+        <source>The print is larger or smaller than drawn, or not square.</source>
+        <translation>打印件比图纸大或小，或不是正方形。</translation>
+    </message>
+    <message>
+        <source>The range drifts while electronics warm up.</source>
+        <translation>电子器件预热期间距离漂移。</translation>
+    </message>
+    <message>
+        <source>The receiver compresses strong echoes: black and white do not change by the same factor.</source>
+        <translation>接收器压缩强回波：黑与白的变化倍数不同。</translation>
+    </message>
+    <message>
+        <source>The scale disc of the encoder is not centred on the axis.</source>
+        <translation>编码器的码盘与转轴不同心。</translation>
+    </message>
+    <message>
+        <source>The zero of azimuth or elevation is off. It is the same as a turned LiDAR: part of the extrinsic by definition.</source>
+        <translation>方位角或仰角的零位有偏差。这等同于激光雷达转动了一个角度：按定义属于外参的一部分。</translation>
+    </message>
+    <message>
+        <source>Warm-up drift</source>
+        <translation>预热漂移</translation>
+    </message>
+    <message>
+        <source>Weak echoes cross the detection threshold later (or earlier), so that dark print reads a different range than white print.</source>
+        <translation>弱回波更晚（或更早）越过检测阈值，使深色印刷区的测距与白色不同。</translation>
+    </message>
+    <message>
+        <source>Where a beam is cut by an edge, its energy comes from one side of the footprint, which on a slanted board lies nearer or farther.</source>
+        <translation>光束被边缘切割时，其能量来自光斑的一侧，在倾斜的标定板上该侧更近或更远。</translation>
+    </message>
+    <message>
+        <source>Zero of the angles</source>
+        <translation>角度零位</translation>
+    </message>
+    <message>
+        <source>a board below 1.5 m beside one beyond 3 m</source>
+        <translation>1.5 m 以内和 3 m 以外各一块标定板</translation>
+    </message>
+    <message>
+        <source>a board turned beyond 40 degrees</source>
+        <translation>转角超过 40 度的标定板</translation>
+    </message>
+    <message>
+        <source>a board turned beyond 50 degrees</source>
+        <translation>转角超过 50 度的标定板</translation>
+    </message>
+    <message>
+        <source>a board turned so that its range spans two periods</source>
+        <translation>转动标定板使其距离跨越两个周期</translation>
+    </message>
+    <message>
+        <source>boards all around the LiDAR</source>
+        <translation>在激光雷达四周放置标定板</translation>
+    </message>
+    <message>
+        <source>boards at several distances</source>
+        <translation>多个距离的标定板</translation>
+    </message>
+    <message>
+        <source>boards at several distances and angles</source>
+        <translation>多个距离和角度的标定板</translation>
+    </message>
+    <message>
+        <source>boards at several distances: a print error in mm shrinks with the distance, this does not</source>
+        <translation>多个距离的标定板：以毫米计的打印误差随距离减小，而此效应不会</translation>
+    </message>
+    <message>
+        <source>boards at the edges of the field of view</source>
+        <translation>位于视场边缘的标定板</translation>
+    </message>
+    <message>
+        <source>boards at two distances with the same print</source>
+        <translation>同一打印件在两个距离处</translation>
+    </message>
+    <message>
+        <source>boards below 2 m beside boards beyond 4 m</source>
+        <translation>2 m 以内和 4 m 以外的标定板</translation>
+    </message>
+    <message>
+        <source>boards high and low</source>
+        <translation>高处和低处的标定板</translation>
+    </message>
+    <message>
+        <source>boards in all corners of the image and at several distances</source>
+        <translation>位于图像各角且距离不同的标定板</translation>
+    </message>
+    <message>
+        <source>boards in the corners of the image</source>
+        <translation>位于图像各角的标定板</translation>
+    </message>
+    <message>
+        <source>boards near and far, strongly turned</source>
+        <translation>远近不同且转角很大的标定板</translation>
+    </message>
+    <message>
+        <source>boards square to the beam beside turned ones</source>
+        <translation>正对光束和转动的标定板</translation>
+    </message>
+    <message>
+        <source>boards that every line crosses</source>
+        <translation>每条线都扫过的标定板</translation>
+    </message>
+    <message>
+        <source>boards that every line crosses at several distances</source>
+        <translation>在多个距离处每条线都扫过的标定板</translation>
+    </message>
+    <message>
+        <source>boards turned to ±40 degrees</source>
+        <translation>转到 ±40 度的标定板</translation>
+    </message>
+    <message>
+        <source>circles at near and far distance</source>
+        <translation>近处和远处的圆</translation>
+    </message>
+    <message>
+        <source>circles far away</source>
+        <translation>远处的圆</translation>
+    </message>
+    <message>
+        <source>let the rig rest</source>
+        <translation>让设备静止</translation>
+    </message>
+    <message>
+        <source>let the rig rest; take a shorter scan</source>
+        <translation>让设备静止；缩短扫描时间</translation>
+    </message>
+    <message>
+        <source>measure a printed circle with a caliper</source>
+        <translation>用卡尺测量打印的圆</translation>
+    </message>
+    <message>
+        <source>measure the print with a ruler</source>
+        <translation>用尺测量打印件</translation>
+    </message>
+    <message>
+        <source>measure the printed board: a wrong print scale looks the same</source>
+        <translation>测量打印的标定板：错误的打印比例看起来相同</translation>
+    </message>
+    <message>
+        <source>measure the printed circles: print growth looks the same</source>
+        <translation>测量打印的圆：油墨扩散看起来相同</translation>
+    </message>
+    <message>
+        <source>none needed: turn the board by 90 degrees to confirm</source>
+        <translation>无需：将标定板转 90 度即可确认</translation>
+    </message>
+    <message>
+        <source>none: not defined apart from the extrinsic</source>
+        <translation>无：无法与外参分开定义</translation>
+    </message>
+    <message>
+        <source>prints of two contrasts, or distances with different footprints</source>
+        <translation>两种对比度的打印件，或光斑不同的距离</translation>
+    </message>
+    <message>
+        <source>repeat the first scene at the end</source>
+        <translation>最后重复第一个场景</translation>
+    </message>
+    <message>
+        <source>scans that cross edges in both directions</source>
+        <translation>沿两个方向扫过边缘的扫描</translation>
+    </message>
+    <message>
+        <source>scans that cross the board in several directions</source>
+        <translation>沿多个方向扫过标定板的扫描</translation>
     </message>
 </context>
 <context>
-    <name>lvcalib::widgets::ScenePage</name>
-    <message>
-        <source>Choose a scene in the list.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>The image is being loaded …</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Point %1: x %2, y %3, z %4 m, range %5 m</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>, intensity %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>, line %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>, time %1 ms</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>, %1 mm beyond the board&apos;s plane</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>, pixel (%1, %2)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>, not in the image</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Pixel (%1, %2)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>: no LiDAR point within %1 px</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>. Nearest: %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>: LiDAR points are linked once there is an extrinsic</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>(%1, %2)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Tag %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>: corner residuals %1 px</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>; LiDAR points on it: %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Click a point, a pixel or a tag to see its values in both views.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message numerus="yes">
-        <source>%n measurements selected on the Model page</source>
-        <translation>
-            <numerusform>模型页上选中了 %n 个测量值</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::ScenesDock</name>
-    <message>
-        <source>Scenes</source>
-        <translation>场景</translation>
-    </message>
-    <message>
-        <source>Accept</source>
-        <translation>采用</translation>
-    </message>
-    <message>
-        <source>Use the selected scenes</source>
-        <translation>采用所选场景</translation>
-    </message>
-    <message>
-        <source>Reject</source>
-        <translation>剔除</translation>
-    </message>
-    <message>
-        <source>Leave the selected scenes out</source>
-        <translation>不使用所选场景</translation>
-    </message>
-    <message>
-        <source>Run again</source>
-        <translation>重新运行</translation>
-    </message>
-    <message>
-        <source>Run all stages of the selected scenes again</source>
-        <translation>重新运行所选场景的全部步骤</translation>
-    </message>
-    <message>
-        <source>Remove crop box</source>
-        <translation>移除裁剪框</translation>
-    </message>
-    <message>
-        <source>Search the whole clouds of the selected scenes</source>
-        <translation>在所选场景的完整点云中搜索</translation>
-    </message>
-    <message>
-        <source>Add scenes…</source>
-        <translation>添加场景…</translation>
-    </message>
-    <message>
-        <source>Add scene folders from elsewhere</source>
-        <translation>从其他位置添加场景文件夹</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::StatusLine</name>
-    <message>
-        <source>Reading</source>
-        <translation>读取</translation>
-    </message>
-    <message>
-        <source>Looking at images</source>
-        <translation>检测图像</translation>
-    </message>
-    <message>
-        <source>Searching</source>
-        <translation>搜索标定板</translation>
-    </message>
-    <message>
-        <source>Refining</source>
-        <translation>精化</translation>
-    </message>
-    <message>
-        <source>Solving</source>
-        <translation>求解</translation>
-    </message>
-    <message>
-        <source>Simulating</source>
-        <translation>仿真</translation>
-    </message>
-    <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
-        <source>doubtful</source>
-        <translation>存疑</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
-        <source>%1 (out of date)</source>
-        <translation>%1（已过期）</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::WelcomePage</name>
-    <message>
-        <source>LV-Calib Workbench</source>
-        <translation>LV-Calib 工作台</translation>
-    </message>
-    <message>
-        <source>Finds how a camera and a LiDAR stand to each other from a few scenes of a printed board, says how sure it is, and shows why.</source>
-        <translation>由若干张打印标定板场景求出相机与激光雷达的相对位姿，给出不确定度并说明依据。</translation>
-    </message>
-    <message>
-        <source>Open a dataset</source>
-        <translation>打开数据集</translation>
-    </message>
-    <message>
-        <source>A folder with target.yaml, camera.yaml and scenes</source>
-        <translation>包含 target.yaml、camera.yaml 和 scenes 的文件夹</translation>
-    </message>
-    <message>
-        <source>Open a project</source>
-        <translation>打开项目</translation>
-    </message>
-    <message>
-        <source>A dataset with your decisions about it (.lvcalib)</source>
-        <translation>数据集及您的决定（.lvcalib）</translation>
-    </message>
-    <message>
-        <source>Try the demo</source>
-        <translation>试用演示</translation>
-    </message>
-    <message>
-        <source>Simulates three scenes whose true calibration is known</source>
-        <translation>仿真三个真值已知的场景</translation>
-    </message>
-    <message>
-        <source>Guide</source>
-        <translation>指南</translation>
-    </message>
-    <message>
-        <source>From the printed board to a result, step by step</source>
-        <translation>从打印标定板到结果的逐步说明</translation>
-    </message>
-    <message>
-        <source>Recent (or drop a folder on this window)</source>
-        <translation>最近打开（也可将文件夹拖到此窗口）</translation>
-    </message>
-    <message>
-        <source>Simulates four scenes with an effect hidden in them, and a tour to find it</source>
-        <translation>模拟四个藏有一个效应的场景，并带您找到它</translation>
-    </message>
-</context>
-<context>
-    <name>lvcalib::widgets::Workspace</name>
-    <message>
-        <source>Cancelled.</source>
-        <translation>已取消。</translation>
-    </message>
-    <message>
-        <source>Cancelled</source>
-        <translation>已取消</translation>
-    </message>
-    <message>
-        <source>Failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
-        <source>Autosave: %1</source>
-        <translation>自动保存：%1</translation>
-    </message>
-    <message numerus="yes">
-        <source>Opened %1 with %n scenes.</source>
-        <translation type="unfinished">
-            <numerusform></numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Saved %1.</source>
-        <translation>已保存 %1。</translation>
-    </message>
+    <name>Decisions</name>
     <message>
         <source>accept %1</source>
         <translation>采用 %1</translation>
@@ -1531,34 +1316,20 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
         <source>use whole clouds</source>
         <translation>使用完整点云</translation>
     </message>
-    <message numerus="yes">
-        <source>add %n scenes</source>
-        <translation type="unfinished">
-            <numerusform></numerusform>
-        </translation>
-    </message>
     <message>
-        <source>No result: %1</source>
-        <translation>没有结果：%1</translation>
-    </message>
-    <message>
-        <source>%1: %2 of %3 scenes, %4 px, %5 mm</source>
-        <translation>%1：%2/%3 个场景，%4 px，%5 mm</translation>
+        <source>add %1</source>
+        <translation>添加 %1</translation>
     </message>
 </context>
 <context>
-    <name>main</name>
+    <name>Docks</name>
     <message>
-        <source>LiDAR-camera calibration with a printed board</source>
-        <translation type="unfinished"></translation>
+        <source>Detach or attach</source>
+        <translation>分离或停靠</translation>
     </message>
     <message>
-        <source>Folder for settings and data, instead of the user&apos;s.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Dataset folder or project.</source>
-        <translation type="unfinished"></translation>
+        <source>Hide</source>
+        <translation>隐藏</translation>
     </message>
 </context>
 <context>
@@ -1749,6 +1520,273 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     </message>
 </context>
 <context>
+    <name>QPlatformTheme</name>
+    <message>
+        <source>OK</source>
+        <translation>确定</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>打开</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>不保存</translation>
+    </message>
+    <message>
+        <source>&amp;Yes</source>
+        <translation>是(&amp;Y)</translation>
+    </message>
+    <message>
+        <source>&amp;No</source>
+        <translation>否(&amp;N)</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets</name>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>存疑</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>Quality:</source>
+        <translation>质量：</translation>
+    </message>
+    <message>
+        <source>%1 scenes, %2 px (corners), %3 mm (LiDAR)</source>
+        <translation>%1 个场景，%2 px（角点），%3 mm（激光雷达）</translation>
+    </message>
+    <message>
+        <source>roll</source>
+        <translation>横滚</translation>
+    </message>
+    <message>
+        <source>pitch</source>
+        <translation>俯仰</translation>
+    </message>
+    <message>
+        <source>yaw</source>
+        <translation>偏航</translation>
+    </message>
+    <message>
+        <source>unbounded</source>
+        <translation>无界</translation>
+    </message>
+    <message>
+        <source>Translation (LiDAR origin in the camera frame)</source>
+        <translation>平移（激光雷达原点在相机坐标系中）</translation>
+    </message>
+    <message>
+        <source>Roll, pitch, yaw (R = Rz·Ry·Rx)</source>
+        <translation>横滚、俯仰、偏航 (R = Rz·Ry·Rx)</translation>
+    </message>
+    <message>
+        <source>T_camera_lidar</source>
+        <translation>T_camera_lidar</translation>
+    </message>
+    <message>
+        <source>Quaternion x y z w</source>
+        <translation>四元数 x y z w</translation>
+    </message>
+    <message>
+        <source>Standard deviations along the camera&apos;s axes</source>
+        <translation>沿相机各轴的标准差</translation>
+    </message>
+    <message>
+        <source>Weak directions</source>
+        <translation>弱方向</translation>
+    </message>
+    <message>
+        <source>None: the scenes determine all six.</source>
+        <translation>无：这些场景确定了全部六个方向。</translation>
+    </message>
+    <message>
+        <source>Warnings</source>
+        <translation>警告</translation>
+    </message>
+    <message>
+        <source>N</source>
+        <translation>N</translation>
+    </message>
+    <message>
+        <source>mean pitch (°)</source>
+        <translation>俯仰均值 (°)</translation>
+    </message>
+    <message>
+        <source>mean yaw (°)</source>
+        <translation>偏航均值 (°)</translation>
+    </message>
+    <message>
+        <source>mean range (mm)</source>
+        <translation>距离均值 (mm)</translation>
+    </message>
+    <message>
+        <source>σ pitch (°)</source>
+        <translation>俯仰 σ (°)</translation>
+    </message>
+    <message>
+        <source>σ yaw (°)</source>
+        <translation>偏航 σ (°)</translation>
+    </message>
+    <message>
+        <source>σ range (mm)</source>
+        <translation>距离 σ (mm)</translation>
+    </message>
+    <message>
+        <source>δ (mm)</source>
+        <translation>δ (mm)</translation>
+    </message>
+    <message>
+        <source>σ transition (mm)</source>
+        <translation>过渡 σ (mm)</translation>
+    </message>
+    <message>
+        <source>Mean of the residuals to the nearest ideal boundary points</source>
+        <translation>到最近理想边界点的残差均值</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a beam on the edge</source>
+        <translation>边缘上光束的标准差</translation>
+    </message>
+    <message>
+        <source>Samples of the overlap region</source>
+        <translation>重叠区的样本数</translation>
+    </message>
+    <message>
+        <source>Where the intensity is half way, from the circle&apos;s edge, outside positive</source>
+        <translation>强度居中处到圆边缘的距离，向外为正</translation>
+    </message>
+    <message>
+        <source>Width of the error function on the board</source>
+        <translation>误差函数在标定板上的宽度</translation>
+    </message>
+    <message>
+        <source>Numbers are given ± their own standard deviation.</source>
+        <translation>数值后的 ± 为其自身的标准差。</translation>
+    </message>
+    <message>
+        <source>no statistics</source>
+        <translation>无统计</translation>
+    </message>
+    <message>
+        <source>%1 mm, %2 mrad</source>
+        <translation>%1 mm，%2 mrad</translation>
+    </message>
+    <message>
+        <source>Halves</source>
+        <translation>两半</translation>
+    </message>
+    <message>
+        <source>scenes</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>difference</source>
+        <translation>差异</translation>
+    </message>
+    <message>
+        <source>by noise alone</source>
+        <translation>仅由噪声引起</translation>
+    </message>
+    <message>
+        <source>χ² (limit)</source>
+        <translation>χ²（上限）</translation>
+    </message>
+    <message>
+        <source>agree</source>
+        <translation>一致</translation>
+    </message>
+    <message>
+        <source>disagree</source>
+        <translation>不一致</translation>
+    </message>
+    <message>
+        <source>Not enough scenes: three are needed.</source>
+        <translation>场景不足：需要三个。</translation>
+    </message>
+    <message>
+        <source>Without</source>
+        <translation>去掉</translation>
+    </message>
+    <message>
+        <source>moves and turns by</source>
+        <translation>移动与转动</translation>
+    </message>
+    <message>
+        <source>Range</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>across the ray</source>
+        <translation>垂直于光线</translation>
+    </message>
+    <message>
+        <source>along it</source>
+        <translation>沿光线</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>A LiDAR point at %1 m falls into the image with a standard deviation of %2 px where it is best to %3 px where it is worst.</source>
+        <translation>%1 m 处的激光点投影到图像上的标准差：最好处 %2 px，最差处 %3 px。</translation>
+    </message>
+    <message>
+        <source>Halves of the scenes against each other</source>
+        <translation>两半场景相互比较</translation>
+    </message>
+    <message>
+        <source>Leaving one scene out</source>
+        <translation>留一法</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s view, one standard deviation</source>
+        <translation>相机视野中的一倍标准差</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::AboutDialog</name>
+    <message>
+        <source>About</source>
+        <translation>关于</translation>
+    </message>
+    <message>
+        <source>LV-Calib Workbench %1
+
+LiDAR–camera calibration with a printed board.
+GPL-3.0-or-later (core library: BSD-3-Clause)</source>
+        <translation>LV-Calib 工作台 %1
+
+用打印标定板标定激光雷达与相机。
+GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::AddEffectDialog</name>
     <message>
         <source>A&amp;dd</source>
@@ -1836,6 +1874,53 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::AngleDistancePlot</name>
+    <message>
+        <source>Signed distance from the circle (mm, outside positive) against the polar angle (degrees). Dots: LiDAR samples coloured by intensity. Marks: where the intensity crosses its middle level in each angular bin, ±1σ. Line: the fitted wave Δcu·cos ψ + Δcv·sin ψ + Δr. Shaded: refused bins.</source>
+        <translation>到圆的有符号距离（mm，向外为正）与极角（度）的关系。点：按强度着色的激光样本。标记：各角度区间内强度穿过中间值处，±1σ。曲线：拟合的波形 Δcu·cos ψ + Δcv·sin ψ + Δr。阴影：被拒绝的区间。</translation>
+    </message>
+    <message>
+        <source>polar angle ψ (°)</source>
+        <translation>极角 ψ (°)</translation>
+    </message>
+    <message>
+        <source>distance from the circle (mm)</source>
+        <translation>到圆的距离 (mm)</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::AnglePlot</name>
+    <message>
+        <source>yaw (°)</source>
+        <translation>偏航 (°)</translation>
+    </message>
+    <message>
+        <source>pitch (°)</source>
+        <translation>俯仰 (°)</translation>
+    </message>
+    <message>
+        <source>Angles from each sample of the overlap region (of many, some) to the nearest point of the recovered circle. Solid: ellipses of one and two standard deviations of a beam on the edge. Dashed: one standard deviation of the dots themselves.</source>
+        <translation>重叠区各样本（过多时取一部分）到所求圆上最近点的角度。实线：边缘上光束的一倍和两倍标准差椭圆。虚线：这些点自身的一倍标准差。</translation>
+    </message>
+    <message>
+        <source>σ pitch %1°
+σ yaw %2°</source>
+        <translation>俯仰 σ %1°
+偏航 σ %2°</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BarPlot</name>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::BoardIntensityView</name>
     <message>
         <source>Intensity over the board: measured, as the model predicts it, and the difference (blue: darker than predicted, red: brighter).</source>
@@ -1856,6 +1941,36 @@ GPL-3.0-or-later (core library: BSD-3-Clause)</source>
     <message>
         <source>difference (±%1)</source>
         <translation>差值（±%1）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BoardMapPlot</name>
+    <message>
+        <source>board x (mm)</source>
+        <translation>标定板 x (mm)</translation>
+    </message>
+    <message>
+        <source>board y (mm)</source>
+        <translation>标定板 y (mm)</translation>
+    </message>
+    <message>
+        <source>The board from the front. Lines: how each circle&apos;s centre moved from the first to the last iteration, enlarged. Ellipse: twice the standard deviation of the refined centre, enlarged alike. Cross: where the model has it.</source>
+        <translation>标定板正面。线：各圆心从首次到末次迭代的移动（放大）。椭圆：精化圆心的两倍标准差（同样放大）。十字：模型中的位置。</translation>
+    </message>
+    <message>
+        <source>no circles</source>
+        <translation>没有圆</translation>
+    </message>
+    <message>
+        <source>paths enlarged ×%1</source>
+        <translation>路径放大 ×%1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::BoxPlot</name>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
     </message>
 </context>
 <context>
@@ -1880,6 +1995,129 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::CloudPane</name>
+    <message>
+        <source>Cloud</source>
+        <translation>点云</translation>
+    </message>
+    <message>
+        <source>Intensity</source>
+        <translation>强度</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>高度</translation>
+    </message>
+    <message>
+        <source>Range</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>Plane residual</source>
+        <translation>平面残差</translation>
+    </message>
+    <message>
+        <source>Camera colour</source>
+        <translation>相机颜色</translation>
+    </message>
+    <message>
+        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), or the camera&apos;s own colours</source>
+        <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、超出标定板平面的距离 (mm) 或相机自身的颜色</translation>
+    </message>
+    <message>
+        <source>Colour of the points</source>
+        <translation>点的颜色</translation>
+    </message>
+    <message>
+        <source>All points</source>
+        <translation>全部点</translation>
+    </message>
+    <message>
+        <source>Crop</source>
+        <translation>裁剪框内</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>Boundary samples</source>
+        <translation>边界样本</translation>
+    </message>
+    <message>
+        <source>Which points are shown: all, those in the crop box, those about the board, or those beside the circles&apos; edges</source>
+        <translation>显示哪些点：全部、裁剪框内、标定板附近或圆边缘附近</translation>
+    </message>
+    <message>
+        <source>Points shown</source>
+        <translation>显示的点</translation>
+    </message>
+    <message>
+        <source>Crop…</source>
+        <translation>裁剪…</translation>
+    </message>
+    <message>
+        <source>Show a box with handles: the board is searched inside it only (C)</source>
+        <translation>显示带手柄的框：只在框内搜索标定板 (C)</translation>
+    </message>
+    <message>
+        <source>Number of points shown</source>
+        <translation>显示的点数</translation>
+    </message>
+    <message>
+        <source>%1 points</source>
+        <translation>%1 个点</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CloudSceneBuilder</name>
+    <message>
+        <source>There is not enough memory to show this cloud.</source>
+        <translation>内存不足，无法显示该点云。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CloudView</name>
+    <message>
+        <source>Point cloud</source>
+        <translation>点云</translation>
+    </message>
+    <message>
+        <source>The cloud cannot be drawn: no OpenGL 3.2 on this screen.
+Install a graphics driver (or Mesa&apos;s software renderer).</source>
+        <translation>无法绘制点云：此屏幕不支持 OpenGL 3.2。
+请安装显卡驱动（或 Mesa 软件渲染器）。</translation>
+    </message>
+    <message>
+        <source>Drag: turn. Shift+drag or middle button: move. Wheel or right button: zoom. Click: values of a point. Lengths in metres.</source>
+        <translation>拖动：旋转。Shift+拖动或中键：平移。滚轮或右键：缩放。单击：显示点的数值。长度单位为米。</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>复位</translation>
+    </message>
+    <message>
+        <source>Show all points obliquely</source>
+        <translation>斜视显示全部点</translation>
+    </message>
+    <message>
+        <source>Top</source>
+        <translation>俯视</translation>
+    </message>
+    <message>
+        <source>Look from above</source>
+        <translation>从上方看</translation>
+    </message>
+    <message>
+        <source>Sensor</source>
+        <translation>传感器</translation>
+    </message>
+    <message>
+        <source>Look from the LiDAR&apos;s origin</source>
+        <translation>从激光雷达原点看</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::CoachMarks</name>
     <message>
         <source>Done</source>
@@ -1892,6 +2130,76 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>End the tour</source>
         <translation>结束导览</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ConvergencePlot</name>
+    <message>
+        <source>iteration</source>
+        <translation>迭代</translation>
+    </message>
+    <message>
+        <source>move (mm)</source>
+        <translation>移动量 (mm)</translation>
+    </message>
+    <message>
+        <source>Thin lines: size of each circle&apos;s own correction in every iteration (mm), which ends at its measurement noise. Thick line: largest move of a centre after the projection to the layout; the refinement ends when it is small.</source>
+        <translation>细线：每次迭代中各圆自身修正量的大小 (mm)，最终降到其测量噪声。粗线：投影到布局之后圆心的最大移动量；足够小时精化结束。</translation>
+    </message>
+    <message>
+        <source>no iterations</source>
+        <translation>没有迭代</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CropForm</name>
+    <message>
+        <source>roll</source>
+        <translation>横滚</translation>
+    </message>
+    <message>
+        <source>pitch</source>
+        <translation>俯仰</translation>
+    </message>
+    <message>
+        <source>yaw</source>
+        <translation>偏航</translation>
+    </message>
+    <message>
+        <source>Middle %1</source>
+        <translation>中心 %1</translation>
+    </message>
+    <message>
+        <source>Middle of the box along the LiDAR&apos;s %1 axis, in metres</source>
+        <translation>框中心沿激光雷达 %1 轴的坐标（米）</translation>
+    </message>
+    <message>
+        <source>Side %1</source>
+        <translation>边长 %1</translation>
+    </message>
+    <message>
+        <source>Length of the box along its own %1 axis, in metres</source>
+        <translation>框沿自身 %1 轴的长度（米）</translation>
+    </message>
+    <message>
+        <source>Turn of the box (%1), in degrees: roll about x, then pitch about y, then yaw about z of the LiDAR</source>
+        <translation>框的转角（%1），单位为度：依次绕激光雷达 x 轴横滚、绕 y 轴俯仰、绕 z 轴偏航</translation>
+    </message>
+    <message>
+        <source>Use this crop</source>
+        <translation>使用此裁剪</translation>
+    </message>
+    <message>
+        <source>Search the board only inside the box; runs this scene again from there</source>
+        <translation>只在框内搜索标定板；该场景由此重新运行</translation>
+    </message>
+    <message>
+        <source>No crop</source>
+        <translation>不裁剪</translation>
+    </message>
+    <message>
+        <source>Search the board in the whole cloud again</source>
+        <translation>重新在完整点云中搜索标定板</translation>
     </message>
 </context>
 <context>
@@ -1919,6 +2227,653 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>The red, unexplained share is gone, in scenes held out as well (diamonds), and the extrinsic has moved. Click an earlier step or undo to compare.</source>
         <translation>红色的未解释部分消失了，留出的场景（菱形）也一样，外参随之移动。单击较早的步骤或撤销以作比较。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ErrorDialog</name>
+    <message>
+        <source>No trustworthy result</source>
+        <translation>没有可信的结果</translation>
+    </message>
+    <message>
+        <source>This cannot be used</source>
+        <translation>无法使用</translation>
+    </message>
+    <message>
+        <source>Where:</source>
+        <translation>位置：</translation>
+    </message>
+    <message>
+        <source>What to do:</source>
+        <translation>处理方法：</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>复制</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ExportPane</name>
+    <message>
+        <source>Formats</source>
+        <translation>格式</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>预览</translation>
+    </message>
+    <message>
+        <source>A YAML file with T_imu_lidar, which takes a LiDAR point to the IMU frame: a matrix, or translation_m and quaternion_xyzw</source>
+        <translation>包含 T_imu_lidar（将激光点变换到 IMU 坐标系）的 YAML 文件：矩阵，或 translation_m 和 quaternion_xyzw</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>复制</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>保存…</translation>
+    </message>
+    <message>
+        <source>Needs T_imu_lidar: choose the YAML file that holds it.</source>
+        <translation>需要 T_imu_lidar：请选择包含它的 YAML 文件。</translation>
+    </message>
+    <message>
+        <source>%1 (*.%2);;All files (*)</source>
+        <translation>%1 (*.%2);;所有文件 (*)</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ExtrinsicPage</name>
+    <message>
+        <source>Pose and quality</source>
+        <translation>位姿与质量</translation>
+    </message>
+    <message>
+        <source>Residuals and influence</source>
+        <translation>残差与影响</translation>
+    </message>
+    <message>
+        <source>Cloud in camera colours</source>
+        <translation>相机着色的点云</translation>
+    </message>
+    <message>
+        <source>corner RMS (px)</source>
+        <translation>角点 RMS (px)</translation>
+    </message>
+    <message>
+        <source>LiDAR RMS (mm)</source>
+        <translation>激光雷达 RMS (mm)</translation>
+    </message>
+    <message>
+        <source>corner residual (px)</source>
+        <translation>角点残差 (px)</translation>
+    </message>
+    <message>
+        <source>node residual (mm)</source>
+        <translation>节点残差 (mm)</translation>
+    </message>
+    <message>
+        <source>moves without it (mm)</source>
+        <translation>去掉后的移动 (mm)</translation>
+    </message>
+    <message>
+        <source>turns without it (mrad)</source>
+        <translation>去掉后的转动 (mrad)</translation>
+    </message>
+    <message>
+        <source>Root mean square of the tag corners&apos; reprojection residuals, per scene (px). Pale: not used. Click: go to the scene.</source>
+        <translation>各场景标签角点重投影残差的均方根 (px)。浅色：未使用。单击：转到该场景。</translation>
+    </message>
+    <message>
+        <source>Root mean square of the refined LiDAR nodes against the board&apos;s model, per scene (mm); without circles, of the plane&apos;s height</source>
+        <translation>各场景精化后的激光节点与标定板模型之差的均方根 (mm)；没有圆时为平面高度之差</translation>
+    </message>
+    <message>
+        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
+        <translation>各场景角点残差的长度 (px)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
+    </message>
+    <message>
+        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
+        <translation>各场景节点残差的长度 (mm)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
+    </message>
+    <message>
+        <source>How far the LiDAR&apos;s origin moves when the scene is left out (mm)</source>
+        <translation>去掉该场景时激光雷达原点的移动量 (mm)</translation>
+    </message>
+    <message>
+        <source>How far the extrinsic turns when the scene is left out (mrad)</source>
+        <translation>去掉该场景时外参的转动量 (mrad)</translation>
+    </message>
+    <message>
+        <source>Run the calibration to see its result.</source>
+        <translation>运行标定后可查看结果。</translation>
+    </message>
+    <message>
+        <source>this board has no circles</source>
+        <translation>该标定板没有圆</translation>
+    </message>
+    <message>
+        <source>needs three used scenes or more</source>
+        <translation>需要三个或更多使用中的场景</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>不确定度</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>方法</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::FigureActions</name>
+    <message>
+        <source>Save figure</source>
+        <translation>保存图形</translation>
+    </message>
+    <message>
+        <source>Save as PNG…</source>
+        <translation>另存为 PNG…</translation>
+    </message>
+    <message>
+        <source>PNG image (*.png)</source>
+        <translation>PNG 图像 (*.png)</translation>
+    </message>
+    <message>
+        <source>Save as PDF…</source>
+        <translation>另存为 PDF…</translation>
+    </message>
+    <message>
+        <source>PDF (*.pdf)</source>
+        <translation>PDF (*.pdf)</translation>
+    </message>
+    <message>
+        <source>Save data as CSV…</source>
+        <translation>将数据存为 CSV…</translation>
+    </message>
+    <message>
+        <source>Comma-separated values (*.csv)</source>
+        <translation>逗号分隔值 (*.csv)</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::GuideDialog</name>
+    <message>
+        <source>Guide</source>
+        <translation>指南</translation>
+    </message>
+    <message>
+        <source># From the board to a result
+1. **Print the board** at 1:1 with `lvcalib target target.yaml -o board.pdf`, glue it on something flat and measure a tag.
+2. **Take three to ten scenes**: an image and a cloud each, the board at 2–4 m, turned differently each time, seen whole by both sensors.
+3. **Lay out the folder**: `target.yaml`, `camera.yaml`, `scenes/NAME/image.png` and `scenes/NAME/cloud.pcd`.
+4. **Open it and press F5.** No rough guess is needed.
+5. **Look**: every scene should be *used*; a scene whose px, mm or influence stands out deserves a look on the Scene page. Untick it and the result follows at once.
+6. **Export** with Ctrl+E.
+
+# Pages
+- **Scene**: cloud and image of the scene that is selected in the list, with what was found in them. A crop box helps where the board is not found.
+- **Refinement**: how each circle&apos;s centre was found, bin by bin.
+- **Extrinsic**: the pose, its standard deviations, how the scenes agree, and the same scenes solved by other methods.
+- **Boundary response**: how returns scatter at the circles&apos; edges.
+
+# Keys
+F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.
+</source>
+        <translation># 从标定板到结果
+1. **打印标定板**：用 `lvcalib target target.yaml -o board.pdf` 按 1:1 打印，贴在平整的板上，并测量一个标签的尺寸。
+2. **采集三到十个场景**：每个场景一幅图像和一个点云，标定板距离 2–4 m，每次朝向不同，两个传感器都能看到整块板。
+3. **整理文件夹**：`target.yaml`、`camera.yaml`、`scenes/NAME/image.png` 和 `scenes/NAME/cloud.pcd`。
+4. **打开并按 F5。** 无需初值。
+5. **检查**：每个场景都应为 *已使用*；若某场景的 px、mm 或影响明显偏大，请在场景页查看。取消勾选后结果立即更新。
+6. 按 Ctrl+E **导出**。
+
+# 页面
+- **场景**：列表中所选场景的点云和图像，以及其中找到的内容。找不到标定板时可使用裁剪框。
+- **精化**：逐个角度区间展示各圆心是如何求得的。
+- **外参**：位姿、标准差、各场景的一致程度，以及用其他方法求解同样场景的结果。
+- **边界响应**：回波在圆边缘处的散布。
+
+# 按键
+F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面，Ctrl+J 剔除、Ctrl+U 采用所选场景，空格键勾选或取消勾选。
+</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ImagePane</name>
+    <message>
+        <source>Image</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>Tags</source>
+        <translation>标签</translation>
+    </message>
+    <message>
+        <source>Outlines and ids of the detected tags (green)</source>
+        <translation>检测到的标签的轮廓和编号（绿色）</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Detected minus predicted corner (px), enlarged (magenta arrows)</source>
+        <translation>检测角点减预测角点 (px)，放大显示（洋红箭头）</translation>
+    </message>
+    <message>
+        <source>How much longer than life residual arrows are drawn</source>
+        <translation>残差箭头的放大倍数</translation>
+    </message>
+    <message>
+        <source>Enlargement of residuals</source>
+        <translation>残差放大倍数</translation>
+    </message>
+    <message>
+        <source>Circles</source>
+        <translation>圆</translation>
+    </message>
+    <message>
+        <source>Board outline, circles and their centres as the LiDAR sees them, projected with the extrinsic (orange)</source>
+        <translation>激光雷达所见的标定板轮廓、圆及圆心，用外参投影（橙色）</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>点</translation>
+    </message>
+    <message>
+        <source>The points of the cloud view, projected with the extrinsic</source>
+        <translation>点云视图中的点，用外参投影</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>适应窗口</translation>
+    </message>
+    <message>
+        <source>Show the whole image (F)</source>
+        <translation>显示整幅图像 (F)</translation>
+    </message>
+    <message>
+        <source>One image pixel per screen pixel (1)</source>
+        <translation>图像像素与屏幕像素一一对应 (1)</translation>
+    </message>
+    <message>
+        <source>Levels</source>
+        <translation>色阶</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>黑场</translation>
+    </message>
+    <message>
+        <source>Grey value shown as black (0 … 255 of full scale)</source>
+        <translation>显示为黑色的灰度值（满量程 0 … 255）</translation>
+    </message>
+    <message>
+        <source>White</source>
+        <translation>白场</translation>
+    </message>
+    <message>
+        <source>Grey value shown as white (0 … 255 of full scale)</source>
+        <translation>显示为白色的灰度值（满量程 0 … 255）</translation>
+    </message>
+    <message>
+        <source>Auto</source>
+        <translation>自动</translation>
+    </message>
+    <message>
+        <source>Levels that show the central 99 % of the pixels with most contrast</source>
+        <translation>使中间 99 % 的像素对比度最大的色阶</translation>
+    </message>
+    <message>
+        <source>Pixel under the cursor (x, y) and its grey value</source>
+        <translation>光标处的像素 (x, y) 及其灰度值</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ImageView</name>
+    <message>
+        <source>Image</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>Wheel: zoom. Drag: move. F: fit, 1: one to one. Click: nearest LiDAR points. Green: detected tags. Magenta arrows: corner residuals, enlarged (px). Orange: circles and outline from the LiDAR.</source>
+        <translation>滚轮：缩放。拖动：平移。F：适应窗口，1：原始大小。单击：最近的激光点。绿色：检测到的标签。洋红箭头：放大的角点残差 (px)。橙色：激光雷达的圆和轮廓。</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>适应窗口</translation>
+    </message>
+    <message>
+        <source>One to one</source>
+        <translation>原始大小</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::LogDock</name>
+    <message>
+        <source>Log</source>
+        <translation>日志</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::MainActions</name>
+    <message>
+        <source>&amp;File</source>
+        <translation>文件(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>编辑(&amp;E)</translation>
+    </message>
+    <message>
+        <source>&amp;Run</source>
+        <translation>运行(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>视图(&amp;V)</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>帮助(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Open &amp;recent</source>
+        <translation>最近打开(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;Colours</source>
+        <translation>配色(&amp;C)</translation>
+    </message>
+    <message>
+        <source>&amp;Language</source>
+        <translation>语言(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Tool bar</source>
+        <translation>工具栏</translation>
+    </message>
+    <message>
+        <source>&amp;Open dataset…</source>
+        <translation>打开数据集(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>Open a dataset folder</source>
+        <translation>打开数据集文件夹</translation>
+    </message>
+    <message>
+        <source>Open &amp;project…</source>
+        <translation>打开项目(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>Open a .lvcalib file</source>
+        <translation>打开 .lvcalib 文件</translation>
+    </message>
+    <message>
+        <source>Try the &amp;demo</source>
+        <translation>试用演示(&amp;D)</translation>
+    </message>
+    <message>
+        <source>&amp;Save</source>
+        <translation>保存(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Save the decisions as a project</source>
+        <translation>将所作决定保存为项目</translation>
+    </message>
+    <message>
+        <source>Save &amp;as…</source>
+        <translation>另存为(&amp;A)…</translation>
+    </message>
+    <message>
+        <source>Save the project under another name</source>
+        <translation>以其他名称保存项目</translation>
+    </message>
+    <message>
+        <source>R&amp;esults…</source>
+        <translation>结果(&amp;E)…</translation>
+    </message>
+    <message>
+        <source>Show and export the result</source>
+        <translation>显示并导出结果</translation>
+    </message>
+    <message>
+        <source>&amp;Quit</source>
+        <translation>退出(&amp;Q)</translation>
+    </message>
+    <message>
+        <source>Leave the program</source>
+        <translation>退出程序</translation>
+    </message>
+    <message>
+        <source>&amp;Run all</source>
+        <translation>全部运行(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Run everything that is not up to date</source>
+        <translation>运行所有未更新的步骤</translation>
+    </message>
+    <message>
+        <source>&amp;Cancel</source>
+        <translation>取消(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Stop what is running</source>
+        <translation>停止当前运行</translation>
+    </message>
+    <message>
+        <source>Use board.pcd &amp;files</source>
+        <translation>使用 board.pcd 文件(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Take a scene&apos;s board.pcd instead of its whole cloud where there is one</source>
+        <translation>若场景有 board.pcd，则用它代替完整点云</translation>
+    </message>
+    <message>
+        <source>&amp;Guide</source>
+        <translation>指南(&amp;G)</translation>
+    </message>
+    <message>
+        <source>From the printed board to a result</source>
+        <translation>从打印标定板到结果</translation>
+    </message>
+    <message>
+        <source>&amp;About</source>
+        <translation>关于(&amp;A)</translation>
+    </message>
+    <message>
+        <source>Version and licence</source>
+        <translation>版本与许可</translation>
+    </message>
+    <message>
+        <source>As the &amp;system</source>
+        <translation>跟随系统(&amp;S)</translation>
+    </message>
+    <message>
+        <source>&amp;Light</source>
+        <translation>浅色(&amp;L)</translation>
+    </message>
+    <message>
+        <source>&amp;Dark</source>
+        <translation>深色(&amp;D)</translation>
+    </message>
+    <message>
+        <source>&amp;Undo: %1</source>
+        <translation>撤销(&amp;U)：%1</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>撤销(&amp;U)</translation>
+    </message>
+    <message>
+        <source>&amp;Redo: %1</source>
+        <translation>重做(&amp;R)：%1</translation>
+    </message>
+    <message>
+        <source>&amp;Redo</source>
+        <translation>重做(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>撤销</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>重做</translation>
+    </message>
+    <message>
+        <source>Repor&amp;t…</source>
+        <translation>报告(&amp;T)…</translation>
+    </message>
+    <message>
+        <source>Write the result as one HTML file with its figures</source>
+        <translation>将结果连同图表写成一个 HTML 文件</translation>
+    </message>
+    <message>
+        <source>Simulate four scenes and open them, with a guided tour</source>
+        <translation>模拟四个场景并打开，附带导览</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::MainWindow</name>
+    <message>
+        <source>LV-Calib Workbench</source>
+        <translation>LV-Calib 工作台</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::MethodsPane</name>
+    <message>
+        <source>3D-SVD</source>
+        <translation>3D-SVD</translation>
+    </message>
+    <message>
+        <source>W-SVD</source>
+        <translation>W-SVD</translation>
+    </message>
+    <message>
+        <source>PnP</source>
+        <translation>PnP</translation>
+    </message>
+    <message>
+        <source>Joint</source>
+        <translation>联合</translation>
+    </message>
+    <message>
+        <source>%1, raw</source>
+        <translation>%1，原始</translation>
+    </message>
+    <message>
+        <source>%1, refined</source>
+        <translation>%1，精化</translation>
+    </message>
+    <message>
+        <source>Method, centres</source>
+        <translation>方法，圆心</translation>
+    </message>
+    <message>
+        <source>corners (px)</source>
+        <translation>角点 (px)</translation>
+    </message>
+    <message>
+        <source>nodes (mm)</source>
+        <translation>节点 (mm)</translation>
+    </message>
+    <message>
+        <source>transfer (px)</source>
+        <translation>传递 (px)</translation>
+    </message>
+    <message>
+        <source>held out (px)</source>
+        <translation>留出 (px)</translation>
+    </message>
+    <message>
+        <source>held out (mm)</source>
+        <translation>留出 (mm)</translation>
+    </message>
+    <message>
+        <source>from joint (mm)</source>
+        <translation>距联合解 (mm)</translation>
+    </message>
+    <message>
+        <source>from joint (mrad)</source>
+        <translation>距联合解 (mrad)</translation>
+    </message>
+    <message>
+        <source>How the extrinsic is found, and from which circle centres: as initialised (raw) or as refined</source>
+        <translation>外参的求法，以及所用的圆心：初始（原始）或精化</translation>
+    </message>
+    <message>
+        <source>Root mean square of the corners&apos; reprojection residuals</source>
+        <translation>角点重投影残差的均方根</translation>
+    </message>
+    <message>
+        <source>Root mean square of the residuals of the refined nodes</source>
+        <translation>精化节点残差的均方根</translation>
+    </message>
+    <message>
+        <source>Corners predicted from the LiDAR alone against the corners found: an extrinsic&apos;s error undiminished by the board poses</source>
+        <translation>仅由激光雷达预测的角点与检测角点之差：未被标定板位姿吸收的外参误差</translation>
+    </message>
+    <message>
+        <source>Corners of scenes that the method has not seen</source>
+        <translation>该方法未使用的场景的角点</translation>
+    </message>
+    <message>
+        <source>Nodes of scenes that the method has not seen</source>
+        <translation>该方法未使用的场景的节点</translation>
+    </message>
+    <message>
+        <source>Distance of the LiDAR&apos;s origin to where the joint result has it</source>
+        <translation>激光雷达原点与联合解中位置的距离</translation>
+    </message>
+    <message>
+        <source>Rotation against the joint result</source>
+        <translation>相对联合解的旋转</translation>
+    </message>
+    <message>
+        <source>Methods side by side</source>
+        <translation>各方法对比</translation>
+    </message>
+    <message>
+        <source>corner residual (px)</source>
+        <translation>角点残差 (px)</translation>
+    </message>
+    <message>
+        <source>node residual (mm)</source>
+        <translation>节点残差 (mm)</translation>
+    </message>
+    <message>
+        <source>What each method leaves at the corners (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
+        <translation>各方法在角点上的残差 (px)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
+    </message>
+    <message>
+        <source>What each method leaves at the refined nodes (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
+        <translation>各方法在精化节点上的残差 (mm)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
+    </message>
+    <message>
+        <source>Run the calibration to compare the methods.</source>
+        <translation>运行标定后可比较各方法。</translation>
+    </message>
+    <message>
+        <source>There is no extrinsic to compare.</source>
+        <translation>没有可比较的外参。</translation>
+    </message>
+    <message>
+        <source>This board has no circles: there are no nodes for the other methods.</source>
+        <translation>该标定板没有圆：其他方法没有节点可用。</translation>
+    </message>
+    <message numerus="yes">
+        <source>All methods on the same %n scene(s), measured alike.</source>
+        <translation>
+            <numerusform>所有方法使用相同的 %n 个场景，以同样方式度量。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Not enough scenes for held-out residuals: two are needed.</source>
+        <translation>场景不足以计算留出残差：需要两个。</translation>
     </message>
 </context>
 <context>
@@ -2111,6 +3066,217 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::PageStack</name>
+    <message>
+        <source>Scene</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>Refinement</source>
+        <translation>精化</translation>
+    </message>
+    <message>
+        <source>Extrinsic</source>
+        <translation>外参</translation>
+    </message>
+    <message>
+        <source>Boundary response</source>
+        <translation>边界响应</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ParametersDock</name>
+    <message>
+        <source>Parameters</source>
+        <translation>参数</translation>
+    </message>
+    <message>
+        <source>Reset all parameters</source>
+        <translation>重置全部参数</translation>
+    </message>
+    <message>
+        <source>Detection</source>
+        <translation>检测</translation>
+    </message>
+    <message>
+        <source>Localisation</source>
+        <translation>定位</translation>
+    </message>
+    <message>
+        <source>Consensus</source>
+        <translation>一致性</translation>
+    </message>
+    <message>
+        <source>Refinement</source>
+        <translation>精化</translation>
+    </message>
+    <message>
+        <source>Extrinsic</source>
+        <translation>外参</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>质量</translation>
+    </message>
+    <message>
+        <source>Default: %1.</source>
+        <translation>默认值：%1。</translation>
+    </message>
+    <message>
+        <source>on</source>
+        <translation>开</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>关</translation>
+    </message>
+    <message>
+        <source>Range %1 to %2, default %3.</source>
+        <translation>范围 %1 至 %2，默认值 %3。</translation>
+    </message>
+    <message>
+        <source>Back to the default %1</source>
+        <translation>恢复默认值 %1</translation>
+    </message>
+    <message>
+        <source>Boundary response</source>
+        <translation>边界响应</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::PlotView</name>
+    <message>
+        <source>Show everything</source>
+        <translation>显示全部</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::RangePlot</name>
+    <message>
+        <source>range off the board&apos;s plane (mm)</source>
+        <translation>偏离标定板平面的距离 (mm)</translation>
+    </message>
+    <message>
+        <source>samples</source>
+        <translation>样本数</translation>
+    </message>
+    <message>
+        <source>Ranges of the samples of the overlap region, less the range of the board&apos;s plane along the same ray, in classes of 2 mm. Lines: one standard deviation of the range of a beam on the edge.</source>
+        <translation>重叠区样本的距离减去同一光线上标定板平面的距离，每组 2 mm。竖线：边缘上光束距离的一倍标准差。</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
+    </message>
+    <message>
+        <source>σ range %1 mm</source>
+        <translation>距离 σ %1 mm</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::RefinementPage</name>
+    <message>
+        <source>Choose a scene and run the calibration to see its refinement.</source>
+        <translation>选择一个场景并运行标定，即可查看其精化过程。</translation>
+    </message>
+    <message>
+        <source>Angle (°)</source>
+        <translation>角度 (°)</translation>
+    </message>
+    <message>
+        <source>Midpoint (mm)</source>
+        <translation>中点 (mm)</translation>
+    </message>
+    <message>
+        <source>σ (mm)</source>
+        <translation>σ (mm)</translation>
+    </message>
+    <message>
+        <source>Samples</source>
+        <translation>样本数</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+    <message>
+        <source>Angular bins of the chosen node</source>
+        <translation>所选节点的角度区间</translation>
+    </message>
+    <message>
+        <source>Every angular bin of the chosen node: where the intensity crosses its middle level (mm from the circle), its standard deviation, and why it was refused</source>
+        <translation>所选节点的每个角度区间：强度穿过中间值的位置（到圆的距离，mm）、其标准差以及被拒绝的原因</translation>
+    </message>
+    <message>
+        <source>Replay the iterations from the first</source>
+        <translation>从第一次迭代开始回放</translation>
+    </message>
+    <message>
+        <source>Replay</source>
+        <translation>回放</translation>
+    </message>
+    <message>
+        <source>Iteration shown</source>
+        <translation>显示的迭代</translation>
+    </message>
+    <message>
+        <source>Iteration</source>
+        <translation>迭代</translation>
+    </message>
+    <message>
+        <source>This scene was not refined.</source>
+        <translation>该场景未精化。</translation>
+    </message>
+    <message>
+        <source>This scene was not refined: %1</source>
+        <translation>该场景未精化：%1</translation>
+    </message>
+    <message>
+        <source>This board has no circles: there is nothing to refine.</source>
+        <translation>该标定板没有圆：无需精化。</translation>
+    </message>
+    <message>
+        <source>node %1</source>
+        <translation>节点 %1</translation>
+    </message>
+    <message>
+        <source>node %1: not usable</source>
+        <translation>节点 %1：不可用</translation>
+    </message>
+    <message>
+        <source>node %1: |Δc| %2 mm</source>
+        <translation>节点 %1：|Δc| %2 mm</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
+    </message>
+    <message>
+        <source>iteration %1 of %2, largest move %3 mm</source>
+        <translation>第 %1/%2 次迭代，最大移动 %3 mm</translation>
+    </message>
+    <message>
+        <source>%1 of %2 bins used</source>
+        <translation>使用 %1/%2 个区间</translation>
+    </message>
+    <message>
+        <source>; Δcu %1, Δcv %2, Δr %3 mm</source>
+        <translation>；Δcu %1，Δcv %2，Δr %3 mm</translation>
+    </message>
+    <message>
+        <source>; levels %1 and %2</source>
+        <translation>；强度 %1 和 %2</translation>
+    </message>
+    <message>
+        <source>; not usable: %1</source>
+        <translation>；不可用：%1</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::ResidualMapPlot</name>
     <message>
         <source>Mean residual of each cell. Outlined: different from zero beyond chance, all cells taken together. Corners are arrows, enlarged.</source>
@@ -2150,6 +3316,464 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>residual (%1)</source>
         <translation>残差（%1）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResponsePage</name>
+    <message>
+        <source>Scene</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>Range, incidence</source>
+        <translation>距离，入射角</translation>
+    </message>
+    <message>
+        <source>Boundary response per scene</source>
+        <translation>各场景的边界响应</translation>
+    </message>
+    <message>
+        <source>Scenes</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>By range and incidence</source>
+        <translation>按距离和入射角</translation>
+    </message>
+    <message>
+        <source>Circles left out</source>
+        <translation>未采用的圆</translation>
+    </message>
+    <message>
+        <source>Run the calibration to see how returns scatter at the circles&apos; edges.</source>
+        <translation>运行标定后可查看回波在圆边缘处的散布。</translation>
+    </message>
+    <message>
+        <source>All scenes</source>
+        <translation>全部场景</translation>
+    </message>
+    <message>
+        <source>%1–%2 m, %3–%4°</source>
+        <translation>%1–%2 m，%3–%4°</translation>
+    </message>
+    <message>
+        <source>not enough samples: %1</source>
+        <translation>样本不足：%1</translation>
+    </message>
+    <message>
+        <source>Scene %1:</source>
+        <translation>场景 %1：</translation>
+    </message>
+    <message>
+        <source>Scene %1, circle %2:</source>
+        <translation>场景 %1，圆 %2：</translation>
+    </message>
+    <message>
+        <source>None.</source>
+        <translation>无。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResultActions</name>
+    <message>
+        <source>Report written to %1.</source>
+        <translation>报告已写入 %1。</translation>
+    </message>
+    <message>
+        <source>Report written to %1</source>
+        <translation>报告已写入 %1</translation>
+    </message>
+    <message>
+        <source>Report cancelled</source>
+        <translation>报告已取消</translation>
+    </message>
+    <message>
+        <source>The report could not be written</source>
+        <translation>无法写入报告</translation>
+    </message>
+    <message>
+        <source>Exported %1.</source>
+        <translation>已导出 %1。</translation>
+    </message>
+    <message>
+        <source>Exported %1</source>
+        <translation>已导出 %1</translation>
+    </message>
+    <message>
+        <source>HTML (*.html)</source>
+        <translation>HTML (*.html)</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ResultsDialog</name>
+    <message>
+        <source>Results</source>
+        <translation>结果</translation>
+    </message>
+    <message>
+        <source>Takes a point from the LiDAR frame to the camera frame (x right, y down, z forward); lengths in metres</source>
+        <translation>将点从激光雷达坐标系变换到相机坐标系（x 向右、y 向下、z 向前）；长度单位为米</translation>
+    </message>
+    <message>
+        <source>Copy matrix</source>
+        <translation>复制矩阵</translation>
+    </message>
+    <message>
+        <source>Export YAML…</source>
+        <translation>导出 YAML…</translation>
+    </message>
+    <message>
+        <source>YAML (*.yaml)</source>
+        <translation>YAML (*.yaml)</translation>
+    </message>
+    <message>
+        <source>Export JSON…</source>
+        <translation>导出 JSON…</translation>
+    </message>
+    <message>
+        <source>JSON (*.json)</source>
+        <translation>JSON (*.json)</translation>
+    </message>
+    <message>
+        <source>Translation x y z</source>
+        <translation>平移 x y z</translation>
+    </message>
+    <message>
+        <source>± one standard deviation</source>
+        <translation>± 一倍标准差</translation>
+    </message>
+    <message>
+        <source>Quaternion x y z w</source>
+        <translation>四元数 x y z w</translation>
+    </message>
+    <message>
+        <source>Roll, pitch, yaw</source>
+        <translation>横滚、俯仰、偏航</translation>
+    </message>
+    <message>
+        <source>Rotation about camera x y z, ± σ</source>
+        <translation>绕相机 x y z 轴旋转的 ±σ</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>存疑</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>Quality: %1</source>
+        <translation>质量：%1</translation>
+    </message>
+    <message>
+        <source>T_camera_lidar from %1 of %2 scenes; %3 px at the tag corners, %4 mm at the LiDAR nodes (root mean square).</source>
+        <translation>T_camera_lidar 由 %1/%2 个场景求得；标签角点 %3 px，激光节点 %4 mm（均方根）。</translation>
+    </message>
+    <message>
+        <source>Weakly determined</source>
+        <translation>约束较弱</translation>
+    </message>
+    <message>
+        <source>Warnings</source>
+        <translation>警告</translation>
+    </message>
+    <message>
+        <source>None.</source>
+        <translation>无。</translation>
+    </message>
+    <message>
+        <source>Pose</source>
+        <translation>位姿</translation>
+    </message>
+    <message>
+        <source>For other tools</source>
+        <translation>供其他工具使用</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::SampleMapPlot</name>
+    <message>
+        <source>board x (mm)</source>
+        <translation>标定板 x (mm)</translation>
+    </message>
+    <message>
+        <source>board y (mm)</source>
+        <translation>标定板 y (mm)</translation>
+    </message>
+    <message>
+        <source>The board from the front with the returns about its circles (of many, some), blue those of the overlap region. Dashed red: circles that are left out in one of the scenes shown; the reasons are in the table below.</source>
+        <translation>标定板正面及圆周围的回波（过多时取一部分），蓝色为重叠区的回波。红色虚线：在所示某个场景中未采用的圆，原因见下表。</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::SceneModel</name>
+    <message>
+        <source>missing on disk</source>
+        <translation>磁盘上缺失</translation>
+    </message>
+    <message>
+        <source>rejected</source>
+        <translation>已剔除</translation>
+    </message>
+    <message>
+        <source>not run yet</source>
+        <translation>尚未运行</translation>
+    </message>
+    <message>
+        <source> (cropped)</source>
+        <translation>（已裁剪）</translation>
+    </message>
+    <message>
+        <source>used</source>
+        <translation>已使用</translation>
+    </message>
+    <message>
+        <source>to be run</source>
+        <translation>待运行</translation>
+    </message>
+    <message>
+        <source>Scene %1. Ticked: it takes part in the calibration.</source>
+        <translation>场景 %1。勾选表示参与标定。</translation>
+    </message>
+    <message>
+        <source>Without this scene the result moves by %1 mm and %2 mrad.</source>
+        <translation>去掉该场景后结果移动 %1 mm、%2 mrad。</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>Ticked scenes take part in the calibration.</source>
+        <translation>勾选的场景参与标定。</translation>
+    </message>
+    <message>
+        <source>Tags</source>
+        <translation>标签</translation>
+    </message>
+    <message>
+        <source>Tags found in the image.</source>
+        <translation>图像中找到的标签数。</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>点数</translation>
+    </message>
+    <message>
+        <source>LiDAR points on the board.</source>
+        <translation>标定板上的激光点数。</translation>
+    </message>
+    <message>
+        <source>px</source>
+        <translation>px</translation>
+    </message>
+    <message>
+        <source>Root mean square of the tag corners&apos; reprojection errors, px.</source>
+        <translation>标签角点重投影误差的均方根（px）。</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>Root mean square distance of LiDAR nodes to the board&apos;s, mm.</source>
+        <translation>激光节点到标定板节点距离的均方根（mm）。</translation>
+    </message>
+    <message>
+        <source>Infl.</source>
+        <translation>影响</translation>
+    </message>
+    <message>
+        <source>Influence: how far the result moves without this scene, mm.</source>
+        <translation>影响：去掉该场景后结果移动的距离（mm）。</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+    <message>
+        <source>Whether the scene is used, and why not.</source>
+        <translation>场景是否被使用及原因。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ScenePage</name>
+    <message>
+        <source>Choose a scene in the list.</source>
+        <translation>请在列表中选择一个场景。</translation>
+    </message>
+    <message>
+        <source>The image is being loaded …</source>
+        <translation>正在载入图像…</translation>
+    </message>
+    <message>
+        <source>Point %1: x %2, y %3, z %4 m, range %5 m</source>
+        <translation>点 %1：x %2，y %3，z %4 m，距离 %5 m</translation>
+    </message>
+    <message>
+        <source>, intensity %1</source>
+        <translation>，强度 %1</translation>
+    </message>
+    <message>
+        <source>, line %1</source>
+        <translation>，线 %1</translation>
+    </message>
+    <message>
+        <source>, time %1 ms</source>
+        <translation>，时间 %1 ms</translation>
+    </message>
+    <message>
+        <source>, %1 mm beyond the board&apos;s plane</source>
+        <translation>，超出标定板平面 %1 mm</translation>
+    </message>
+    <message>
+        <source>, pixel (%1, %2)</source>
+        <translation>，像素 (%1, %2)</translation>
+    </message>
+    <message>
+        <source>, not in the image</source>
+        <translation>，不在图像内</translation>
+    </message>
+    <message>
+        <source>Pixel (%1, %2)</source>
+        <translation>像素 (%1, %2)</translation>
+    </message>
+    <message>
+        <source>: no LiDAR point within %1 px</source>
+        <translation>：%1 px 内没有激光点</translation>
+    </message>
+    <message>
+        <source>. Nearest: %1</source>
+        <translation>。最近：%1</translation>
+    </message>
+    <message>
+        <source>: LiDAR points are linked once there is an extrinsic</source>
+        <translation>：求得外参后可关联激光点</translation>
+    </message>
+    <message>
+        <source>Tag %1</source>
+        <translation>标签 %1</translation>
+    </message>
+    <message>
+        <source>: corner residuals %1 px</source>
+        <translation>：角点残差 %1 px</translation>
+    </message>
+    <message>
+        <source>; LiDAR points on it: %1</source>
+        <translation>；其上的激光点：%1</translation>
+    </message>
+    <message>
+        <source>Click a point, a pixel or a tag to see its values in both views.</source>
+        <translation>单击点、像素或标签，可在两个视图中查看其数值。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n measurements selected on the Model page</source>
+        <translation>
+            <numerusform>模型页上选中了 %n 个测量值</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ScenesDock</name>
+    <message>
+        <source>Scenes</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>Accept</source>
+        <translation>采用</translation>
+    </message>
+    <message>
+        <source>Use the selected scenes</source>
+        <translation>采用所选场景</translation>
+    </message>
+    <message>
+        <source>Reject</source>
+        <translation>剔除</translation>
+    </message>
+    <message>
+        <source>Leave the selected scenes out</source>
+        <translation>不使用所选场景</translation>
+    </message>
+    <message>
+        <source>Run again</source>
+        <translation>重新运行</translation>
+    </message>
+    <message>
+        <source>Run all stages of the selected scenes again</source>
+        <translation>重新运行所选场景的全部步骤</translation>
+    </message>
+    <message>
+        <source>Remove crop box</source>
+        <translation>移除裁剪框</translation>
+    </message>
+    <message>
+        <source>Search the whole clouds of the selected scenes</source>
+        <translation>在所选场景的完整点云中搜索</translation>
+    </message>
+    <message>
+        <source>Add scenes…</source>
+        <translation>添加场景…</translation>
+    </message>
+    <message>
+        <source>Add scene folders from elsewhere</source>
+        <translation>从其他位置添加场景文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::StatusLine</name>
+    <message>
+        <source>Reading</source>
+        <translation>读取</translation>
+    </message>
+    <message>
+        <source>Looking at images</source>
+        <translation>检测图像</translation>
+    </message>
+    <message>
+        <source>Searching</source>
+        <translation>搜索标定板</translation>
+    </message>
+    <message>
+        <source>Refining</source>
+        <translation>精化</translation>
+    </message>
+    <message>
+        <source>Solving</source>
+        <translation>求解</translation>
+    </message>
+    <message>
+        <source>Simulating</source>
+        <translation>仿真</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>存疑</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>%1 (out of date)</source>
+        <translation>%1（已过期）</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>写报告</translation>
     </message>
 </context>
 <context>
@@ -2209,6 +3833,139 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Take the chosen effect out of the model</source>
         <translation>把所选效应移出模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::TransitionPlot</name>
+    <message>
+        <source>distance from the circle (mm), outside positive</source>
+        <translation>到圆的距离 (mm)，向外为正</translation>
+    </message>
+    <message>
+        <source>intensity, black 0 to white 1</source>
+        <translation>强度，黑 0 至白 1</translation>
+    </message>
+    <message>
+        <source>intensity</source>
+        <translation>强度</translation>
+    </message>
+    <message>
+        <source>Intensity of the returns about the circles against the signed distance to the nearest one. Small dots: samples (of many, some), blue those of the overlap region. Marks: means in classes of a millimetre with their standard deviation. Line: the fitted error function; δ is where it is half way, σ its width.</source>
+        <translation>圆周围回波的强度与到最近圆的有符号距离的关系。小点：样本（过多时取一部分），蓝色为重叠区样本。标记：每毫米分组的均值及其标准差。曲线：拟合的误差函数；δ 为其居中处，σ 为其宽度。</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>无数据</translation>
+    </message>
+    <message>
+        <source>δ = %1 mm
+σ = %2 mm</source>
+        <translation>δ = %1 mm
+σ = %2 mm</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::UncertaintyMapPlot</name>
+    <message>
+        <source>image u (px)</source>
+        <translation>图像 u (px)</translation>
+    </message>
+    <message>
+        <source>image v (px)</source>
+        <translation>图像 v (px)</translation>
+    </message>
+    <message>
+        <source>standard deviation (px)</source>
+        <translation>标准差 (px)</translation>
+    </message>
+    <message>
+        <source>Where in the image a LiDAR point falls is known to one standard deviation of so many pixels, from the extrinsic&apos;s covariance alone. Where the colour is bright, take a scene with the board there.</source>
+        <translation>激光点投影到图像中的位置以一倍标准差计有这么多像素的不确定度，仅由外参协方差得出。颜色明亮处，请在那里采集一个标定板场景。</translation>
+    </message>
+    <message>
+        <source>no result yet</source>
+        <translation>尚无结果</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::UncertaintyPane</name>
+    <message>
+        <source>Uncertainty</source>
+        <translation>不确定度</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::UncertaintyRangePlot</name>
+    <message>
+        <source>range (m)</source>
+        <translation>距离 (m)</translation>
+    </message>
+    <message>
+        <source>standard deviation (mm)</source>
+        <translation>标准差 (mm)</translation>
+    </message>
+    <message>
+        <source>How far a LiDAR point at this range may lie beside its true place in the camera frame: one standard deviation across the ray and along it, from the extrinsic&apos;s covariance.</source>
+        <translation>该距离处的激光点在相机坐标系中可能偏离真实位置多远：垂直于光线和沿光线的一倍标准差，由外参协方差得出。</translation>
+    </message>
+    <message>
+        <source>across the ray</source>
+        <translation>垂直于光线</translation>
+    </message>
+    <message>
+        <source>along the ray</source>
+        <translation>沿光线</translation>
+    </message>
+    <message>
+        <source>no result yet</source>
+        <translation>尚无结果</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::WelcomePage</name>
+    <message>
+        <source>LV-Calib Workbench</source>
+        <translation>LV-Calib 工作台</translation>
+    </message>
+    <message>
+        <source>Finds how a camera and a LiDAR stand to each other from a few scenes of a printed board, says how sure it is, and shows why.</source>
+        <translation>由若干张打印标定板场景求出相机与激光雷达的相对位姿，给出不确定度并说明依据。</translation>
+    </message>
+    <message>
+        <source>Open a dataset</source>
+        <translation>打开数据集</translation>
+    </message>
+    <message>
+        <source>A folder with target.yaml, camera.yaml and scenes</source>
+        <translation>包含 target.yaml、camera.yaml 和 scenes 的文件夹</translation>
+    </message>
+    <message>
+        <source>Open a project</source>
+        <translation>打开项目</translation>
+    </message>
+    <message>
+        <source>A dataset with your decisions about it (.lvcalib)</source>
+        <translation>数据集及您的决定（.lvcalib）</translation>
+    </message>
+    <message>
+        <source>Try the demo</source>
+        <translation>试用演示</translation>
+    </message>
+    <message>
+        <source>Guide</source>
+        <translation>指南</translation>
+    </message>
+    <message>
+        <source>From the printed board to a result, step by step</source>
+        <translation>从打印标定板到结果的逐步说明</translation>
+    </message>
+    <message>
+        <source>Recent (or drop a folder on this window)</source>
+        <translation>最近打开（也可将文件夹拖到此窗口）</translation>
+    </message>
+    <message>
+        <source>Simulates four scenes with an effect hidden in them, and a tour to find it</source>
+        <translation>模拟四个藏有一个效应的场景，并带您找到它</translation>
     </message>
 </context>
 <context>
@@ -2299,6 +4056,70 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Board intensity</source>
         <translation>板面强度</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::Workspace</name>
+    <message>
+        <source>Cancelled.</source>
+        <translation>已取消。</translation>
+    </message>
+    <message>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>Autosave: %1</source>
+        <translation>自动保存：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>Opened %1 with %n scenes.</source>
+        <translation>
+            <numerusform>已打开 %1，共 %n 个场景。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Saved %1.</source>
+        <translation>已保存 %1。</translation>
+    </message>
+    <message>
+        <source>No result: %1</source>
+        <translation>没有结果：%1</translation>
+    </message>
+    <message>
+        <source>%1: %2 of %3 scenes, %4 px, %5 mm</source>
+        <translation>%1：%2/%3 个场景，%4 px，%5 mm</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>存疑</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+</context>
+<context>
+    <name>main</name>
+    <message>
+        <source>LiDAR-camera calibration with a printed board</source>
+        <translation>用打印标定板标定激光雷达与相机</translation>
+    </message>
+    <message>
+        <source>Folder for settings and data, instead of the user&apos;s.</source>
+        <translation>存放设置和数据的文件夹，代替用户默认位置。</translation>
+    </message>
+    <message>
+        <source>Dataset folder or project.</source>
+        <translation>数据集文件夹或项目。</translation>
     </message>
 </context>
 </TS>

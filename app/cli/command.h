@@ -32,8 +32,10 @@ Command add_target_command(CLI::App& app);
 Command add_simulate_command(CLI::App& app);
 Command add_calibrate_command(CLI::App& app);
 Command add_discover_command(CLI::App& app);
+Command add_correct_command(CLI::App& app);
 Command add_evaluate_command(CLI::App& app);
 Command add_export_command(CLI::App& app);
+Command add_plan_command(CLI::App& app);
 Command add_report_command(CLI::App& app);
 
 }  // namespace lvcalib::cli

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <cstdio>
 
 #include "base/file_io.h"
@@ -29,19 +30,32 @@ std::string summary_of(const Discovery& discovery, const std::string& output) {
       text += part;
     }
   }
-  return text + " -> " + output;
+  const auto sigma_mm = [](const Matrix6d& m) {
+    return 1e3 * std::sqrt(m.diagonal().head<3>().sum());
+  };
+  char part[96];
+  std::snprintf(part, sizeof part, "; sigma %.2g mm, %.2g mm with what effects left out could do",
+                sigma_mm(discovery.covariance), sigma_mm(discovery.covariance_with_budget));
+  return text + part + " -> " + output;
 }
 
 Result<std::string> run(const Options& options, Session& session) {
   const std::string& output = options.calibration.output;
+  if (Status s = check_wanted(options.discovery.with); !s) return s.error();
   auto result = run_calibration(options.calibration, session);
   if (!result) return result.error();
   auto discovery = discover(*result, options.discovery, session.context);
   if (!discovery) {
     Error error = discovery.error();
     if (error.where.empty()) error.where = options.calibration.dataset;
+    if (error.kind == ErrorKind::kUntrusted && !session.context.stopped()) {
+      // Too little to look for effects, but there is a calibration.
+      if (Status s = write_results(*result, output); !s) return s.error();
+      error.message += "; the plain calibration is in " + output;
+    }
     return error;
   }
+  for (const std::string& warning : discovery->warnings) session.warn(warning);
   const CalibrationResult final = with_model(std::move(*result), *discovery);
   if (session.context.stopped()) return Error::cancelled();
   if (Status s = write_results(final, output); !s) return s.error();
@@ -61,8 +75,10 @@ Command add_discover_command(CLI::App& app) {
   command
       ->add_option("--max-effects", options->discovery.max_effects, "add no more effects than this")
       ->check(CLI::Range(0, 50));
-  command->add_option("--with", options->discovery.with,
-                      "an effect to have in the model from the start (repeatable)");
+  command->add_option(
+      "--with", options->discovery.with,
+      "an effect to have in the model from the start (repeatable): an id of the "
+      "catalogue, formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE[,COVARIATE]");
   return {command, [options](Session& session) { return run(*options, session); }};
 }
 

@@ -7,6 +7,17 @@
 #include <QTranslator>
 
 namespace lvcalib::widgets {
+namespace {
+
+// Buttons that Qt names; translated here too, as Qt's own catalogues need not be installed.
+[[maybe_unused]] constexpr const char* kQtTexts[] = {
+    QT_TRANSLATE_NOOP("QPlatformTheme", "OK"),    QT_TRANSLATE_NOOP("QPlatformTheme", "Save"),
+    QT_TRANSLATE_NOOP("QPlatformTheme", "Open"),  QT_TRANSLATE_NOOP("QPlatformTheme", "Cancel"),
+    QT_TRANSLATE_NOOP("QPlatformTheme", "Close"), QT_TRANSLATE_NOOP("QPlatformTheme", "Discard"),
+    QT_TRANSLATE_NOOP("QPlatformTheme", "&Yes"),  QT_TRANSLATE_NOOP("QPlatformTheme", "&No"),
+};
+
+}  // namespace
 
 const std::vector<std::pair<QString, QString>>& languages() {
   static const std::vector<std::pair<QString, QString>> all = {

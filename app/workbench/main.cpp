@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QIcon>
 #include <QSurfaceFormat>
 #include <QTimer>
 #include <cstdlib>
@@ -23,6 +24,7 @@ void ask_for_opengl() {
 
 int run(QApplication& application) {
   using namespace lvcalib::widgets;
+  use_language({});  // For the help; the settings may say otherwise below.
   QCommandLineParser parser;
   parser.setApplicationDescription(
       QCoreApplication::translate("main", "LiDAR-camera calibration with a printed board"));
@@ -63,6 +65,9 @@ int main(int argc, char** argv) {
   QApplication::setApplicationName(QStringLiteral("lvcalib-workbench"));
   QApplication::setOrganizationName(QStringLiteral("LV-Calib"));
   QApplication::setApplicationVersion(QStringLiteral(LVCALIB_VERSION));
+  QGuiApplication::setDesktopFileName(QStringLiteral("lvcalib-workbench"));
+  QApplication::setWindowIcon(QIcon::fromTheme(
+      QStringLiteral("lvcalib-workbench"), QIcon(QStringLiteral(":/icons/lvcalib-workbench.svg"))));
   const int status = run(application);
   // A stage that could not stop at once must not run while the program is torn down.
   if (!lvcalib::widgets::Runner::wait_for_workers(2000)) std::_Exit(status);

@@ -6,17 +6,21 @@
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QStyle>
 #include <QToolBar>
 #include <QUndoStack>
 
+#include "runner/decision_command.h"
+#include "start/app_settings.h"
 #include "style/marks.h"
 #include "style/theme.h"
 #include "workbench/language.h"
 
 namespace lvcalib::widgets {
 
-MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack) : QObject(&window) {
+MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
+    : QObject(&window), undo_stack_(&undo_stack) {
   QMenuBar* bar = window.menuBar();
   file_ = bar->addMenu(QString());
   edit_ = bar->addMenu(QString());
@@ -24,11 +28,11 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack) : QObject(
   view_ = bar->addMenu(QString());
   help_ = bar->addMenu(QString());
   make_file_menu(window);
-  undo = undo_stack.createUndoAction(this);
-  undo->setShortcut(QKeySequence::Undo);
-  redo = undo_stack.createRedoAction(this);
-  redo->setShortcut(QKeySequence::Redo);
-  edit_->addActions({undo, redo});
+  undo = add(edit_, "undo", QKeySequence::Undo);
+  redo = add(edit_, "redo", QKeySequence::Redo);
+  connect(undo, &QAction::triggered, &undo_stack, &QUndoStack::undo);
+  connect(redo, &QAction::triggered, &undo_stack, &QUndoStack::redo);
+  connect(&undo_stack, &QUndoStack::indexChanged, this, &MainActions::describe_undo);
   run = add(run_menu_, "run", Qt::Key_F5);
   cancel = add(run_menu_, "cancel", Qt::Key_Escape);
   run_menu_->addSeparator();
@@ -119,7 +123,45 @@ void MainActions::set_recent(const QStringList& paths) {
   recent_->setEnabled(!paths.isEmpty());
 }
 
+void MainActions::follow(AppSettings& settings) {
+  for (QAction* action : themes->actions())
+    action->setChecked(action->data().toString() == name_of(settings.theme()));
+  const QString code = settings.language().isEmpty() ? use_language({}) : settings.language();
+  for (QAction* action : languages->actions())
+    action->setChecked(action->data().toString() == code);
+  connect(themes, &QActionGroup::triggered, this, [&settings](const QAction* action) {
+    settings.set_theme(theme_named(action->data().toString()));
+    apply_theme(*qApp, settings.theme());
+  });
+  connect(languages, &QActionGroup::triggered, this, [&settings](const QAction* action) {
+    settings.set_language(action->data().toString());
+    use_language(settings.language());
+  });
+}
+
+void MainActions::describe_undo() {
+  if (undo_stack_ == nullptr) return;
+  const auto words = [this](int index) {
+    const auto* command = dynamic_cast<const DecisionCommand*>(undo_stack_->command(index));
+    return command != nullptr ? command->description() : QString();
+  };
+  const int index = undo_stack_->index();
+  undo->setEnabled(undo_stack_->canUndo());
+  redo->setEnabled(undo_stack_->canRedo());
+  undo->setText(undo->isEnabled() ? tr("&Undo: %1").arg(words(index - 1)) : tr("&Undo"));
+  redo->setText(redo->isEnabled() ? tr("&Redo: %1").arg(words(index)) : tr("&Redo"));
+  // The tool bar has no room for what is undone.
+  undo->setIconText(tr("Undo"));
+  redo->setIconText(tr("Redo"));
+  for (QAction* action : {undo, redo}) {
+    action->setToolTip(
+        QStringLiteral("%1 (%2)").arg(action->text().remove(QLatin1Char('&')),
+                                      action->shortcut().toString(QKeySequence::NativeText)));
+  }
+}
+
 void MainActions::retranslate() {
+  describe_undo();
   file_->setTitle(tr("&File"));
   edit_->setTitle(tr("&Edit"));
   run_menu_->setTitle(tr("&Run"));
@@ -131,6 +173,9 @@ void MainActions::retranslate() {
   tool_bar->setWindowTitle(tr("Tool bar"));
   const auto describe = [](QAction* action, const QString& text, const QString& tip) {
     action->setText(text);
+    // Tool buttons have no keys of their own; Chinese texts give theirs in brackets.
+    static const QRegularExpression key(QStringLiteral("\\(&.\\)|&"));
+    action->setIconText(QString(text).remove(key));
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
     action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));
     action->setStatusTip({});

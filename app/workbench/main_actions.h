@@ -5,13 +5,16 @@
 #include <QActionGroup>
 #include <QMenu>
 #include <QObject>
+#include <QPointer>
+#include <QUndoStack>
 #include <vector>
 
 class QMainWindow;
-class QUndoStack;
 class QToolBar;
 
 namespace lvcalib::widgets {
+
+class AppSettings;
 
 /// Menus, tool bar and actions of the main window; what they do is connected by the window.
 class MainActions : public QObject {
@@ -27,6 +30,9 @@ class MainActions : public QObject {
   /// Adds what shows and hides docks and tool bars to the View menu.
   void add_view_toggles(const QList<QAction*>& toggles);
   void set_recent(const QStringList& paths);
+  /// Shows the settings' colours and language, and changes them as the user chooses. The settings
+  /// must outlive this.
+  void follow(AppSettings& settings);
 
   QAction *open_dataset, *open_project, *demo, *save, *save_as, *results, *report, *quit;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;
@@ -41,7 +47,9 @@ class MainActions : public QObject {
   QAction* add(QMenu* menu, const char* name, const QKeySequence& keys);
   void make_file_menu(QMainWindow& window);
   void make_view_menu(QMainWindow& window);
+  void describe_undo();
 
+  QPointer<QUndoStack> undo_stack_;
   QMenu *file_, *edit_, *run_menu_, *view_, *help_, *recent_, *theme_menu_, *language_menu_;
   QAction* before_toggles_ = nullptr;
 };

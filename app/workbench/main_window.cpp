@@ -6,12 +6,12 @@
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QShortcut>
 #include <QToolBar>
 #include <utility>
 
+#include "dialogs/about_dialog.h"
 #include "dialogs/error_dialog.h"
 #include "dialogs/guide_dialog.h"
 #include "docks/log_dock.h"
@@ -21,8 +21,8 @@
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
+#include "style/texts.h"
 #include "workbench/demo_tour.h"
-#include "workbench/language.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
 #include "workbench/result_actions.h"
@@ -56,7 +56,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   actions_->add_view_toggles({scenes_->toggleViewAction(), parameters_->toggleViewAction(),
                               log_->toggleViewAction(), actions_->tool_bar->toggleViewAction()});
   connect_actions();
-  connect_appearance();
+  actions_->follow(settings_);
   connect_docks();
   connect_workspace();
   connect_pages();
@@ -79,7 +79,7 @@ MainWindow::~MainWindow() {
 
 void MainWindow::restore_window() {
   resize(1500, 940);
-  resizeDocks({scenes_, parameters_}, {470, 470}, Qt::Horizontal);
+  resizeDocks({scenes_, parameters_}, {500, 500}, Qt::Horizontal);
   resizeDocks({log_}, {140}, Qt::Vertical);
   restoreGeometry(settings_.geometry());
   restoreState(settings_.window_state());
@@ -107,7 +107,7 @@ void MainWindow::connect_actions() {
   on(actions_->open_project, open_project);
   on(actions_->demo, demo);
   on(actions_->guide, guide);
-  on(actions_->about, [this] { show_about(); });
+  on(actions_->about, [this] { (new AboutDialog(this))->show(); });
   on(actions_->save, [this] { save(false); });
   on(actions_->save_as, [this] { save(true); });
   on(actions_->results, [this] { results_->show(final_result()); });
@@ -131,22 +131,6 @@ void MainWindow::connect_actions() {
     auto* keys = new QShortcut(QKeySequence(static_cast<int>(Qt::CTRL) | (Qt::Key_1 + tab)), this);
     connect(keys, &QShortcut::activated, this, [this, tab] { pages_->show_tab(tab); });
   }
-}
-
-void MainWindow::connect_appearance() {
-  for (QAction* action : actions_->themes->actions())
-    action->setChecked(action->data().toString() == name_of(settings_.theme()));
-  const QString code = settings_.language().isEmpty() ? use_language({}) : settings_.language();
-  for (QAction* action : actions_->languages->actions())
-    action->setChecked(action->data().toString() == code);
-  connect(actions_->themes, &QActionGroup::triggered, this, [this](const QAction* action) {
-    settings_.set_theme(theme_named(action->data().toString()));
-    apply_theme(*qApp, settings_.theme());
-  });
-  connect(actions_->languages, &QActionGroup::triggered, this, [this](const QAction* action) {
-    settings_.set_language(action->data().toString());
-    use_language(settings_.language());
-  });
 }
 
 void MainWindow::connect_docks() {
@@ -197,7 +181,8 @@ void MainWindow::connect_workspace() {
   connect(w, &Workspace::failed, this, [this](const Error& error, bool modest) {
     if (!modest) show_error(error);  // Else the status line says it.
   });
-  connect(w, &Workspace::logged, log_, &LogDock::append);
+  connect(w, &Workspace::logged, log_,
+          [this](const QString& line) { log_->append(core_text(line)); });
   connect(w, &Workspace::dirty_changed, this, &MainWindow::update_title);
 }
 
@@ -344,18 +329,6 @@ void MainWindow::show_error(const Error& error) {
   (new ErrorDialog(error, this))->show();
 }
 
-void MainWindow::show_about() {
-  auto* box = new QMessageBox(QMessageBox::Information, tr("About"),
-                              tr("LV-Calib Workbench %1\n\nLiDAR–camera calibration with a printed "
-                                 "board.\nGPL-3.0-or-later "
-                                 "(core library: BSD-3-Clause)")
-                                  .arg(QString::fromStdString(version())),
-                              QMessageBox::Close, this);
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setModal(false);
-  box->show();
-}
-
 void MainWindow::update_actions() {
   const bool open = workspace_->is_open();
   const bool busy = workspace_->busy();
@@ -407,6 +380,8 @@ void MainWindow::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) {
     actions_->retranslate();
     update_title();
+    if (!workspace_->busy()) status_->show_idle({});  // What it said was in the other language.
+    status_->show_quality(workspace_->result(), workspace_->up_to_date());
   } else if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
     actions_->repaint_icons(palette());
   }

@@ -50,7 +50,6 @@ class MainWindow : public QMainWindow {
 
  private:
   void connect_actions();
-  void connect_appearance();
   void connect_docks();
   void connect_workspace();
   void connect_pages();
@@ -61,7 +60,6 @@ class MainWindow : public QMainWindow {
   bool may_drop_decisions();
   bool save(bool ask_for_path);
   void show_error(const Error& error);
-  void show_about();
   void take_opened();
   void take_result();
   void look_at(const QString& scene);

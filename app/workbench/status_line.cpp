@@ -5,6 +5,7 @@
 #include <QProgressBar>
 
 #include "style/marks.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -40,10 +41,13 @@ StatusLine::StatusLine(QWidget* parent)
 
 void StatusLine::show_progress(const QString& stage, double fraction, const QString& text) {
   // Stages have names of their own in the core; these are for people.
-  const std::pair<const char*, QString> names[] = {
-      {"load", tr("Reading")},       {"detect", tr("Looking at images")},
-      {"localize", tr("Searching")}, {"refine", tr("Refining")},
-      {"optimize", tr("Solving")},   {"simulate", tr("Simulating")}};
+  const std::pair<const char*, QString> names[] = {{"load", tr("Reading")},
+                                                   {"detect", tr("Looking at images")},
+                                                   {"localize", tr("Searching")},
+                                                   {"refine", tr("Refining")},
+                                                   {"optimize", tr("Solving")},
+                                                   {"simulate", tr("Simulating")},
+                                                   {"report", tr("Writing the report")}};
   QString name = stage;
   for (const auto& [key, words] : names) {
     if (stage == QLatin1String(key)) name = words;
@@ -52,11 +56,12 @@ void StatusLine::show_progress(const QString& stage, double fraction, const QStr
   stage_->show();
   bar_->setValue(static_cast<int>(kSteps * fraction));
   bar_->show();
-  text_->setText(text);
+  text_->setText(core_text(text));
 }
 
 void StatusLine::show_idle(const QString& message) {
   stage_->hide();
+  stage_->clear();
   bar_->hide();
   text_->setText(message);
   text_->setToolTip(message);
@@ -76,7 +81,7 @@ void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& re
                        : result->quality == Quality::kDoubtful ? tr("doubtful")
                                                                : tr("failed");
   quality_->setText(up_to_date ? word : tr("%1 (out of date)").arg(word));
-  quality_->setToolTip(QString::fromStdString(result->quality_reason));
+  quality_->setToolTip(core_text(result->quality_reason));
 }
 
 QString StatusLine::text() const {

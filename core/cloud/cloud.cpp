@@ -10,16 +10,16 @@
 namespace lvcalib {
 namespace {
 
-Result<Cloud> read(Input& input) {
+Result<Cloud> read(Input& input, PointChoice choice) {
   auto enough = input.require(4);
   if (!enough) return enough.error();
   if (input.remaining() == 0) return input.error("is empty, expected a PCD or PLY file");
   const std::string_view start = input.rest();
   try {
-    if (start.starts_with("ply")) return read_ply(input);
+    if (start.starts_with("ply")) return read_ply(input, choice);
     // A PCD file starts with a comment or with one of its header's entries.
     for (const std::string_view sign : {"#", "VERSION", "FIELDS", "COLUMNS", "\r", "\n"}) {
-      if (start.starts_with(sign)) return read_pcd(input);
+      if (start.starts_with(sign)) return read_pcd(input, choice);
     }
   } catch (const std::bad_alloc&) {
     return input.error("does not fit into memory");
@@ -31,15 +31,17 @@ Result<Cloud> read(Input& input) {
 
 }  // namespace
 
-Result<Cloud> read_cloud(const std::filesystem::path& path, std::stop_token stop) {
+Result<Cloud> read_cloud(const std::filesystem::path& path, std::stop_token stop,
+                         PointChoice choice) {
   auto input = Input::open(path, std::move(stop));
   if (!input) return input.error();
-  return read(*input);
+  return read(*input, choice);
 }
 
-Result<Cloud> read_cloud_from_memory(std::string_view content, const std::string& name) {
+Result<Cloud> read_cloud_from_memory(std::string_view content, const std::string& name,
+                                     PointChoice choice) {
   Input input = Input::from_memory(content, name);
-  return read(input);
+  return read(input, choice);
 }
 
 }  // namespace lvcalib

@@ -15,15 +15,22 @@
 
 namespace lvcalib {
 
+/// Which points of a file to read.
+enum class PointChoice {
+  kReturns,  ///< Those with finite coordinates (and fields) that are not at the origin.
+  kAll,      ///< Every one, in its place: organised clouds stay organised.
+};
+
 /// A point cloud in the LiDAR frame, column by column. Points without finite coordinates, and
-/// points at the origin (no return), are left out when a file is read. Fields that the file lacks
-/// are empty, never filled with zeros.
+/// points at the origin (no return), are left out when a file is read, unless every point is asked
+/// for. Fields that the file lacks are empty, never filled with zeros.
 struct Cloud {
   std::vector<Eigen::Vector3f> points_m;
   std::vector<float> intensity;     ///< As in the file, of any scale; empty if the file has none.
   std::vector<float> time_s;        ///< From the first time of the scan; empty if absent.
   std::vector<std::uint16_t> line;  ///< Laser line (ring, channel); empty if absent.
   std::size_t dropped = 0;  ///< Points left out because they are not finite or at the origin.
+  std::size_t rows = 1;     ///< Of an organised cloud that was read with every point; 1 otherwise.
 
   [[nodiscard]] std::size_t size() const { return points_m.size(); }
   [[nodiscard]] bool has_intensity() const { return !intensity.empty(); }
@@ -36,12 +43,14 @@ struct Cloud {
 /// reflectivity…), time (t, timestamp, offset_time, time_stamp…), line (ring, channel).
 /// One pass, memory bounded by the file's real size whatever its header claims.
 /// Errors name the file, what was expected and what was found; `stop` gives kCancelled.
-Result<Cloud> read_cloud(const std::filesystem::path& path, std::stop_token stop = {});
+Result<Cloud> read_cloud(const std::filesystem::path& path, std::stop_token stop = {},
+                         PointChoice choice = PointChoice::kReturns);
 
 /// The same from memory, for tests and fuzzing; `name` stands for the file in messages.
-Result<Cloud> read_cloud_from_memory(std::string_view content, const std::string& name);
+Result<Cloud> read_cloud_from_memory(std::string_view content, const std::string& name,
+                                     PointChoice choice = PointChoice::kReturns);
 
-/// Writes a binary PCD with the fields the cloud has, atomically.
+/// Writes a binary PCD with the fields and rows the cloud has, atomically.
 Status write_pcd(const std::filesystem::path& path, const Cloud& cloud);
 
 }  // namespace lvcalib

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace lvcalib {
 namespace {
@@ -35,8 +37,8 @@ double time_unit_s(bool is_integer, double first, double span) {
 }
 
 CloudBuilder::CloudBuilder(const BlockLayout& layout, bool time_is_integer,
-                           std::uint64_t expected_points)
-    : layout_(layout), time_is_integer_(time_is_integer) {
+                           std::uint64_t expected_points, PointChoice choice)
+    : layout_(layout), time_is_integer_(time_is_integer), choice_(choice) {
   const auto count = static_cast<std::size_t>(expected_points);
   cloud_.points_m.reserve(count);
   if (layout_.fields[kIntensity]) cloud_.intensity.reserve(count);
@@ -91,6 +93,11 @@ std::size_t CloudBuilder::choose_points(std::size_t count) {
     const bool origin = x_[i] == 0.0F && y_[i] == 0.0F && z_[i] == 0.0F;
     kept += static_cast<std::size_t>(zero == 0.0F && !origin);
   }
+  returns_ += kept;
+  if (choice_ == PointChoice::kAll) {
+    std::iota(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(count), std::uint16_t{0});
+    return count;
+  }
   cloud_.dropped += count - kept;
   return kept;
 }
@@ -98,7 +105,10 @@ std::size_t CloudBuilder::choose_points(std::size_t count) {
 void CloudBuilder::append_times(const char* block, std::size_t first, std::size_t count,
                                 std::size_t kept) {
   const FieldLayout field = moved(*layout_.fields[kTime], first);
+  const std::size_t before = cloud_.points_m.size() - kept;
   for (std::size_t k = 0; k < kept && !first_time_; ++k) {
+    // What stands where nothing came back is often zero and no time.
+    if (!is_return(before + k)) continue;
     const ExactTime time = decode_time(block, field, layout_.swap_bytes, kept_[k]);
     if (std::isfinite(time.value)) first_time_ = time;
   }
@@ -125,6 +135,7 @@ void CloudBuilder::drop_not_finite(std::vector<float>& column) {
     column.shrink_to_fit();
     return;
   }
+  if (choice_ == PointChoice::kAll) return;
   const std::size_t size = column.size();
   const auto compact = [&](auto& other, const std::vector<char>& keep) {
     if (other.empty()) return;
@@ -146,25 +157,40 @@ void CloudBuilder::drop_not_finite(std::vector<float>& column) {
 
 void CloudBuilder::scale_times() {
   if (cloud_.time_s.empty()) return;
-  const auto [low, high] = std::minmax_element(cloud_.time_s.begin(), cloud_.time_s.end());
-  const float earliest = *low;
-  const double span = static_cast<double>(*high) - earliest;
+  float earliest = std::numeric_limits<float>::infinity();
+  float latest = -earliest;
+  for (std::size_t i = 0; i < cloud_.time_s.size(); ++i) {
+    if (!is_return(i) || !std::isfinite(cloud_.time_s[i])) continue;
+    earliest = std::min(earliest, cloud_.time_s[i]);
+    latest = std::max(latest, cloud_.time_s[i]);
+  }
+  if (earliest > latest) {
+    cloud_.time_s.clear();
+    return;
+  }
+  const double span = static_cast<double>(latest) - earliest;
   const double unit = time_unit_s(time_is_integer_, first_time_->value, span);
   for (float& time : cloud_.time_s) {
     time = static_cast<float>((static_cast<double>(time) - earliest) * unit);
   }
 }
 
-Result<Cloud> CloudBuilder::finish(const std::string& name) {
+bool CloudBuilder::is_return(std::size_t i) const {
+  const Eigen::Vector3f& p = cloud_.points_m[i];
+  return choice_ == PointChoice::kReturns || (p.allFinite() && !p.isZero(0.0F));
+}
+
+Result<Cloud> CloudBuilder::finish(const std::string& name, std::uint64_t rows) {
   if (seen_ == 0) return Error::input("holds no points (its header says 0)", name);
   drop_not_finite(cloud_.intensity);
   drop_not_finite(cloud_.time_s);
-  if (cloud_.points_m.empty()) {
+  if (cloud_.points_m.empty() || returns_ == 0) {
     return Error::input("none of its " + std::to_string(seen_) +
                             " points is usable: all are NaN, infinite or at the origin",
                         name, "check the driver or the export that wrote the file");
   }
   scale_times();
+  if (choice_ == PointChoice::kAll) cloud_.rows = static_cast<std::size_t>(rows);
   return std::move(cloud_);
 }
 

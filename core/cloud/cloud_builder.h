@@ -22,12 +22,13 @@ namespace lvcalib {
 double time_unit_s(bool is_integer, double first, double span);
 
 /// Turns blocks of raw points into the columns of a Cloud, leaving out points that are no
-/// returns. Holds no more than the columns.
+/// returns unless all are wanted. Holds no more than the columns.
 class CloudBuilder {
  public:
   /// `time_is_integer`: the file's own type, where `layout` describes converted values.
   /// `expected_points`: memory to reserve; never more than the file can hold.
-  CloudBuilder(const BlockLayout& layout, bool time_is_integer, std::uint64_t expected_points);
+  CloudBuilder(const BlockLayout& layout, bool time_is_integer, std::uint64_t expected_points,
+               PointChoice choice = PointChoice::kReturns);
 
   /// Takes `count` points, laid out from `block` on.
   void append(const char* block, std::size_t count);
@@ -36,8 +37,9 @@ class CloudBuilder {
   [[nodiscard]] std::uint64_t seen() const { return seen_; }
 
   /// Completes the cloud. Times become seconds from the earliest one. A field that is finite
-  /// nowhere is dropped; points where it is not finite otherwise. Error if no point is left.
-  Result<Cloud> finish(const std::string& name);
+  /// nowhere is dropped; points where it is not finite otherwise (unless all are wanted). Error if
+  /// no return is left. `rows`: of an organised cloud.
+  Result<Cloud> finish(const std::string& name, std::uint64_t rows = 1);
 
  private:
   static constexpr std::size_t kBlock = 2048;  // scratch stays in the fastest cache
@@ -48,12 +50,15 @@ class CloudBuilder {
   void append_column(const std::array<float, kBlock>& values, std::size_t kept, bool all,
                      std::vector<float>& column);
   void drop_not_finite(std::vector<float>& column);
+  [[nodiscard]] bool is_return(std::size_t i) const;
   void scale_times();
 
   BlockLayout layout_;
   bool time_is_integer_;
+  PointChoice choice_;
   Cloud cloud_;
   std::uint64_t seen_ = 0;
+  std::uint64_t returns_ = 0;
   std::optional<ExactTime> first_time_;
   std::array<float, kBlock> x_ = {}, y_ = {}, z_ = {}, scratch_ = {};
   std::array<std::uint16_t, kBlock> lines_ = {}, kept_ = {};

@@ -154,6 +154,7 @@ class HeaderParser {
           "its PCD header lacks the number of points (POINTS, or WIDTH and HEIGHT)");
     }
     header_.points = points_ ? *points_ : *grid;
+    if (grid && *height_ > 0) header_.rows = *height_;
     header_.line_count = lines_.number();
     return std::move(header_);
   }

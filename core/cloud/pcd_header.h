@@ -24,6 +24,7 @@ struct PcdField {
 struct PcdHeader {
   std::vector<PcdField> fields;
   std::uint64_t points = 0;
+  std::uint64_t rows = 1;  ///< HEIGHT, if WIDTH is there as well; 1 otherwise.
   PcdData data = PcdData::kAscii;
   std::uint64_t line_count = 0;  ///< Lines of the header.
   [[nodiscard]] std::size_t point_bytes() const;

@@ -24,17 +24,18 @@ Result<ScalarType> field_type(const Input& input, const PcdField& field) {
 struct PcdColumns {
   RoleFields roles = {};
   std::vector<ScalarType> types;  // by role; meaningless for roles without a field
+  PointChoice choice = PointChoice::kReturns;
   [[nodiscard]] bool time_is_integer() const {
     return roles[kTime] >= 0 && is_integer(types[kTime]);
   }
 };
 
-Result<PcdColumns> find_columns(const Input& input, const PcdHeader& header) {
+Result<PcdColumns> find_columns(const Input& input, const PcdHeader& header, PointChoice choice) {
   std::vector<std::string> names;
   for (const PcdField& field : header.fields) names.push_back(field.name);
   auto roles = assign_roles(names, input.name());
   if (!roles) return roles.error();
-  PcdColumns columns{*roles, std::vector<ScalarType>(kRoleCount, ScalarType::kF32)};
+  PcdColumns columns{*roles, std::vector<ScalarType>(kRoleCount, ScalarType::kF32), choice};
   for (std::size_t role = 0; role < kRoleCount; ++role) {
     if (columns.roles[role] < 0) continue;
     auto type = field_type(input, header.fields[static_cast<std::size_t>(columns.roles[role])]);
@@ -44,9 +45,9 @@ Result<PcdColumns> find_columns(const Input& input, const PcdHeader& header) {
   return columns;
 }
 
-Result<Cloud> finish(const Input& input, std::uint64_t points, CloudBuilder& builder) {
-  if (builder.seen() < points) return truncated(input, points, builder.seen());
-  return builder.finish(input.name());
+Result<Cloud> finish(const Input& input, const PcdHeader& header, CloudBuilder& builder) {
+  if (builder.seen() < header.points) return truncated(input, header.points, builder.seen());
+  return builder.finish(input.name(), header.rows);
 }
 
 Result<Cloud> read_ascii(Input& input, const PcdHeader& header, const PcdColumns& columns) {
@@ -63,11 +64,11 @@ Result<Cloud> read_ascii(Input& input, const PcdHeader& header, const PcdColumns
   // A value takes a digit and a separator at least.
   const std::uint64_t possible = input.remaining() / (2 * words) + 1;
   CloudBuilder builder(text_layout(entries), columns.time_is_integer(),
-                       std::min(header.points, possible));
+                       std::min(header.points, possible), columns.choice);
   LineReader lines(input, header.line_count);
   const Status status = read_text_rows(input, lines, entries, header.points, builder);
   if (!status) return status.error();
-  return finish(input, header.points, builder);
+  return finish(input, header, builder);
 }
 
 Result<Cloud> read_binary(Input& input, const PcdHeader& header, const PcdColumns& columns) {
@@ -82,10 +83,11 @@ Result<Cloud> read_binary(Input& input, const PcdHeader& header, const PcdColumn
     offset += header.fields[i].bytes();
   }
   CloudBuilder builder(layout, columns.time_is_integer(),
-                       std::min<std::uint64_t>(header.points, input.remaining() / point_bytes));
+                       std::min<std::uint64_t>(header.points, input.remaining() / point_bytes),
+                       columns.choice);
   const Status status = read_binary_points(input, point_bytes, header.points, builder);
   if (!status) return status.error();
-  return finish(input, header.points, builder);
+  return finish(input, header, builder);
 }
 
 struct Block {
@@ -151,9 +153,9 @@ Result<Cloud> read_compressed(Input& input, const PcdHeader& header, const PcdCo
     offset += points * field.bytes();
   }
   input.consume(input.rest().size());
-  CloudBuilder builder(layout, columns.time_is_integer(), header.points);
+  CloudBuilder builder(layout, columns.time_is_integer(), header.points, columns.choice);
   builder.append(block->bytes.get(), points);
-  return builder.finish(input.name());
+  return builder.finish(input.name(), header.rows);
 }
 
 }  // namespace
@@ -173,10 +175,10 @@ Status read_binary_points(Input& input, std::size_t point_bytes, std::uint64_t p
   return Done{};
 }
 
-Result<Cloud> read_pcd(Input& input) {
+Result<Cloud> read_pcd(Input& input, PointChoice choice) {
   auto header = read_pcd_header(input);
   if (!header) return header.error();
-  auto columns = find_columns(input, *header);
+  auto columns = find_columns(input, *header, choice);
   if (!columns) return columns.error();
   switch (header->data) {
     case PcdData::kAscii:

@@ -77,9 +77,13 @@ std::string header_text(const Cloud& cloud) {
   add(cloud.has_time(), "time", "4", "F");
   add(cloud.has_line(), "line", "2", "U");
   const std::string size = std::to_string(cloud.size());
+  // Points that were added or taken away since leave no grid.
+  const bool grid = cloud.rows > 1 && cloud.size() % cloud.rows == 0;
+  const std::size_t rows = grid ? cloud.rows : 1;
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " +
-         sizes + "\nTYPE " + types + "\nCOUNT " + counts + "\nWIDTH " + size +
-         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + size + "\nDATA binary\n";
+         sizes + "\nTYPE " + types + "\nCOUNT " + counts + "\nWIDTH " +
+         std::to_string(cloud.size() / rows) + "\nHEIGHT " + std::to_string(rows) +
+         "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + size + "\nDATA binary\n";
 }
 
 template <class T>

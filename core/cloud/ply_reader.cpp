@@ -135,7 +135,8 @@ Status read_list_rows(Input& input, const PlyElement& vertices, bool swap_bytes,
   return Done{};
 }
 
-Result<Cloud> read_binary(Input& input, const PlyHeader& header, const RoleFields& roles) {
+Result<Cloud> read_binary(Input& input, const PlyHeader& header, const RoleFields& roles,
+                          PointChoice choice) {
   const bool file_is_little = header.format == PlyFormat::kLittleEndian;
   const bool swap_bytes = file_is_little != (std::endian::native == std::endian::little);
   for (std::size_t i = 0; i < header.vertex; ++i) {
@@ -148,7 +149,8 @@ Result<Cloud> read_binary(Input& input, const PlyHeader& header, const RoleField
       is_integer(vertices.properties[static_cast<std::size_t>(roles[kTime])].type);
   const std::size_t row_bytes = vertices.scalar_bytes();
   CloudBuilder builder(packed_layout(vertices, roles, swap_bytes), integer_time,
-                       std::min<std::uint64_t>(vertices.count, input.remaining() / row_bytes));
+                       std::min<std::uint64_t>(vertices.count, input.remaining() / row_bytes),
+                       choice);
   const Status status = vertices.has_list()
                             ? read_list_rows(input, vertices, swap_bytes, builder)
                             : read_binary_points(input, row_bytes, vertices.count, builder);
@@ -169,7 +171,8 @@ Status skip_text_element(Input& input, LineReader& lines, const PlyElement& elem
   return Done{};
 }
 
-Result<Cloud> read_ascii(Input& input, const PlyHeader& header, const RoleFields& roles) {
+Result<Cloud> read_ascii(Input& input, const PlyHeader& header, const RoleFields& roles,
+                         PointChoice choice) {
   LineReader lines(input, header.line_count);
   for (std::size_t i = 0; i < header.vertex; ++i) {
     Status status = skip_text_element(input, lines, header.elements[i]);
@@ -185,7 +188,8 @@ Result<Cloud> read_ascii(Input& input, const PlyHeader& header, const RoleFields
       is_integer(vertices.properties[static_cast<std::size_t>(roles[kTime])].type);
   // A value takes a digit and a separator at least.
   const std::uint64_t possible = input.remaining() / (2 * entries.size()) + 1;
-  CloudBuilder builder(text_layout(entries), integer_time, std::min(vertices.count, possible));
+  CloudBuilder builder(text_layout(entries), integer_time, std::min(vertices.count, possible),
+                       choice);
   const Status status = read_text_rows(input, lines, entries, vertices.count, builder);
   if (!status) return status.error();
   if (builder.seen() < vertices.count) return truncated(input, vertices.count, builder.seen());
@@ -194,13 +198,13 @@ Result<Cloud> read_ascii(Input& input, const PlyHeader& header, const RoleFields
 
 }  // namespace
 
-Result<Cloud> read_ply(Input& input) {
+Result<Cloud> read_ply(Input& input, PointChoice choice) {
   auto header = read_ply_header(input);
   if (!header) return header.error();
   auto roles = find_roles(input, header->vertices());
   if (!roles) return roles.error();
-  return header->format == PlyFormat::kAscii ? read_ascii(input, *header, *roles)
-                                             : read_binary(input, *header, *roles);
+  return header->format == PlyFormat::kAscii ? read_ascii(input, *header, *roles, choice)
+                                             : read_binary(input, *header, *roles, choice);
 }
 
 }  // namespace lvcalib

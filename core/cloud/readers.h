@@ -9,10 +9,10 @@
 namespace lvcalib {
 
 /// Reads a PCD file from its first byte on.
-Result<Cloud> read_pcd(Input& input);
+Result<Cloud> read_pcd(Input& input, PointChoice choice = PointChoice::kReturns);
 
 /// Reads a PLY file from its first byte on; points come from the element "vertex".
-Result<Cloud> read_ply(Input& input);
+Result<Cloud> read_ply(Input& input, PointChoice choice = PointChoice::kReturns);
 
 /// Feeds `points` fixed-size points to the builder, chunk by chunk.
 Status read_binary_points(Input& input, std::size_t point_bytes, std::uint64_t points,

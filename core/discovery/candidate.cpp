@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <boost/math/distributions/fisher_f.hpp>
 
@@ -53,15 +54,26 @@ double f_test(const ModelFit& fit, Eigen::Index p) {
 }
 
 // What is excluded at the size that matters is not worth a place in the model, however sure.
+// First each parameter by itself. Then all together, since parameters that act alike are each
+// undetermined although what they do is known: in units of its standard deviation the effect of the
+// estimate on the measurements is |w|, w = Lᵀθ with LLᵀ the information, and the smallest that
+// matters is that of one parameter alone at its material size. Noise adds p − 1 to w² besides the
+// direction of the effect itself; with one parameter this is the same as the first test.
 bool is_material(const EffectColumns& columns, const ModelFit& fit) {
   constexpr double kUpper95 = 1.645;
-  const Eigen::VectorXd theta = fit.solution.tail(columns.count());
-  const Eigen::VectorXd sigma = fit.covariance.diagonal().tail(columns.count()).cwiseSqrt();
-  for (int k = 0; k < columns.count(); ++k) {
+  const Eigen::Index p = columns.count();
+  const Eigen::VectorXd theta = fit.solution.tail(p);
+  const Eigen::VectorXd sigma = fit.covariance.diagonal().tail(p).cwiseSqrt();
+  const Eigen::MatrixXd s = information_of_last(fit, p);
+  bool alone = false;
+  double smallest = HUGE_VAL;
+  for (Eigen::Index k = 0; k < p; ++k) {
     const double material = columns.parameters[static_cast<std::size_t>(k)].material;
-    if (std::abs(theta(k)) + kUpper95 * sigma(k) >= material) return true;
+    alone = alone || std::abs(theta(k)) + kUpper95 * sigma(k) >= material;
+    smallest = std::min(smallest, material * std::sqrt(std::max(0.0, s(k, k))));
   }
-  return false;
+  const double size = std::sqrt(std::max(0.0, theta.dot(s * theta) - static_cast<double>(p - 1)));
+  return alone && size + kUpper95 >= smallest;
 }
 
 Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
@@ -139,12 +151,38 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   return out;
 }
 
+bool is_gain(const std::vector<double>& per_scene) {
+  const MeanAndError gain = mean_of(per_scene);
+  return gain.mean > gain.error;
+}
+
+double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index count) {
+  // Priors of the others keep them determined, but must not lend what the data do not have.
+  constexpr double kFaint = 1e-6;
+  Eigen::MatrixXd h = kFaint * fit.prior.information;
+  h.block(first, first, count, count).setZero();
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  std::vector<Eigen::Index> own;
+  std::vector<Eigen::Index> rest;
+  for (Eigen::Index k = 0; k < h.rows(); ++k)
+    (k >= first && k < first + count ? own : rest).push_back(k);
+  const Eigen::MatrixXd raw = h(own, own);
+  const Eigen::MatrixXd cross = h(rest, own);
+  const Eigen::MatrixXd left =
+      raw - cross.transpose() * Eigen::MatrixXd(h(rest, rest)).ldlt().solve(cross);
+  if (!(raw.diagonal().maxCoeff() > 0.0)) return 0.0;
+  const Eigen::VectorXd scale =
+      raw.diagonal().cwiseMax(1e-12 * raw.diagonal().maxCoeff()).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd share = scale.asDiagonal() * left * scale.asDiagonal();
+  return std::clamp(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(share).eigenvalues().maxCoeff(),
+                    0.0, 1.0);
+}
+
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options) {
   const double searched = static_cast<double>(std::max<std::size_t>(tried, 1));
   if (candidate.p_value * searched > options.false_alarm || !candidate.material) return false;
-  const MeanAndError gain = mean_of(candidate.scene_gain);
-  if (!(gain.mean > gain.error)) return false;
+  if (!is_gain(candidate.scene_gain)) return false;
   // The best of so many would gain this much by chance.
   if (candidate.total_gain() < std::log(searched)) return false;
   // The density also judges the variances, which one effect in many scenes shrinks for all: a scene

@@ -17,7 +17,9 @@ struct Candidate {
   std::array<double, kChannels> heldout_gain{};  ///< Relative fall of squares, per channel.
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
-  bool material = true;  ///< Some parameter may be as large as matters (upper 95 % limit).
+  /// It may be as large as matters: some parameter's upper 95 % limit is, and so is the limit of
+  /// what all of them do together to the measurements (see is_material in the source).
+  bool material = true;
   [[nodiscard]] double total_gain() const;
   [[nodiscard]] double best_heldout_gain() const;
 };
@@ -48,6 +50,14 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
 /// Whether held-out scenes and the test after correction for the search speak for it.
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options);
+
+/// True if the mean over scenes exceeds its standard error.
+bool is_gain(const std::vector<double>& per_scene);
+
+/// How much of the effect in the unknowns [first, first + count) of a fit the data can tell from
+/// all other unknowns: the largest share of a squared effect that is left, over its parameters.
+/// Next to nothing makes a solve singular.
+double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index count);
 
 /// Largest canonical correlation of two candidates' effects after all nuisances.
 double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,

@@ -4,48 +4,68 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/yaml_file.h"
 #include "discovery/channel_summary.h"
+#include "discovery/closed_form.h"
 #include "discovery/effect_search.h"
 #include "discovery/findings.h"
+#include "discovery/scene_advice.h"
+#include "discovery/sensitivity_budget.h"
 #include "discovery/structure_scan.h"
+#include "discovery/wanted_effects.h"
 
 namespace lvcalib {
 namespace {
 
+// What needs no measurements to be refused.
+Status check_usable(std::size_t scenes, const DiscoveryOptions& options) {
+  if (Status s = check_wanted(options.with); !s) return s;
+  if (Status s = options.user.check(); !s) return s;
+  if (Status s = options.grid.check(); !s) return s;
+  if (scenes >= 3) return Done{};
+  return Error::untrusted(
+      "not enough scenes to look for effects: " + std::to_string(scenes) +
+          (scenes == 1 ? " scene" : " scenes") + ", three or more are needed to hold one out",
+      {}, "take scenes at other distances and with the board turned differently");
+}
+
 class Discoverer {
  public:
-  Discoverer(const DiscoveryInput& input, const DiscoveryOptions& options,
-             const RunContext& context)
-      : input_(input), options_(options), context_(context) {}
+  Discoverer(const MeasurementTable& table, const ModelState& state,
+             const DiscoveryOptions& options, const RunContext& context)
+      : table_(table), state_(state), options_(options), context_(context) {}
 
   Result<Discovery> run() {
-    if (input_.scenes.size() < 3) {
-      return Error::untrusted(
-          "not enough scenes to look for effects: " + std::to_string(input_.scenes.size()) +
-              ", three or more are needed to hold one out",
-          {}, "take scenes at other distances and with the board turned differently");
-    }
-    context_.report("table", 0.0, "collecting measurements");
-    const MeasurementTable table = build_table(input_.scenes, input_.target, input_.camera,
-                                               input_.state, input_.sigma_px, options_.table);
     context_.report("model", 0.1, "fitting the base model");
-    EffectSearch search(table, input_.state, options_, context_);
-    if (Status s = add_wanted(table, search); !s) return s.error();
+    EffectSearch search(table_, state_, options_, context_);
+    if (Status s = add_wanted(search); !s) return s.error();
     if (context_.stopped()) return Error::cancelled();
     record("", search);
     out_.channels = out_.history.front().channels;
     context_.report("structure", 0.2, "looking for structure");
-    out_.structure = notable(scan_structure(table, search.state(), search.in_use(), context_));
+    out_.structure = notable(scan_structure(table_, search.state(), search.in_use(), context_));
     grow(search);
     if (context_.stopped()) return Error::cancelled();
+    settle_shapes(search);
     context_.report("verdicts", 0.9, "judging effects");
     out_.effects = judge_effects(search, selections_, options_);
-    out_.unknown = notable(scan_structure(table, search.state(), search.in_use(), context_));
-    out_.advice = advise(out_.effects);
+    for (EffectFinding& f : refused_) {
+      f.rank = static_cast<int>(out_.effects.size()) + 1;
+      out_.effects.push_back(std::move(f));
+    }
+    out_.unknown = notable(scan_structure(table_, search.state(), search.in_use(), context_));
+    suggest_closed_forms(table_, search.state(), search.in_use(), options_.closed_forms, context_,
+                         out_.unknown);
+    context_.report("advice", 0.95, "looking for the next scene");
+    out_.advice = options_.advise_scenes ? advise_scenes(search, out_.effects, options_, context_)
+                                         : advise(out_.effects);
+    const auto about_unknown = advise_unknown(out_.unknown);
+    out_.advice.insert(out_.advice.end(), about_unknown.begin(), about_unknown.end());
     for (const Selection& s : selections_) out_.selected.push_back(s.id);
     out_.state = search.state();
-    out_.covariance = search.reference().fit.covariance.topLeftCorner<6, 6>();
+    out_.scales = scales_of(table_);
+    out_.covariance = search.joint_covariance().topLeftCorner<6, 6>();
+    out_.budget = sensitivity_budget(search);
+    out_.covariance_with_budget = covariance_with_budget(out_.covariance, out_.budget);
     out_.model = search.in_use();
     if (context_.stopped()) return Error::cancelled();
     context_.report("verdicts", 1.0, "done");
@@ -53,33 +73,13 @@ class Discoverer {
   }
 
  private:
-  Status add_wanted(const MeasurementTable& table, EffectSearch& search) {
-    std::vector<std::string> known;
-    for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
-    for (const std::string& id : options_.with) {
-      const EffectPtr effect = find_effect(id);
-      if (effect == nullptr) {
-        const std::string near = nearest_word(id, known);
-        return Error::usage("there is no effect '" + id + "'" +
-                            (near.empty() ? "" : "; did you mean '" + near + "'?"));
-      }
-      if (const std::string why = why_not_testable(*effect, table); !why.empty())
-        return Error::input("the effect '" + id + "' cannot be used: " + why);
-      const bool twice = std::any_of(selections_.begin(), selections_.end(),
-                                     [&](const Selection& s) { return s.id == id; });
-      if (twice) continue;
-      // The shape number that the data prefer.
-      double shape = effect->shapes(table).front();
-      search.rank();
-      for (const Candidate& c : search.candidates()) {
-        const EffectColumns& columns = search.linear().columns.list()[c.columns];
-        if (columns.effect->info().id != id) continue;
-        shape = columns.shape;
-        break;
-      }
-      search.add(effect, shape);
-      selections_.push_back({id, {}, 0.0, 0.0, 1.0});
-    }
+  Status add_wanted(EffectSearch& search) {
+    auto wanted = add_wanted_effects(search, options_);
+    if (!wanted) return wanted.error();
+    for (const std::string& id : wanted->added) selections_.push_back({id, {}, 0.0, 0.0, 1.0});
+    fixed_ = selections_.size();
+    refused_ = std::move(wanted->refused);
+    out_.warnings = std::move(wanted->warnings);
     return Done{};
   }
 
@@ -107,17 +107,58 @@ class Discoverer {
                   c.best_heldout_gain(), c.total_gain(), c.p_value};
       search.add(columns.effect, columns.shape);
       selections_.push_back(s);
+      try_swaps(search);
       drop_superfluous(search);
-      record(s.id, search);
+      record(selections_.back().id, search);
       if (context_.stopped()) return;
     }
   }
 
+  // Whether an alias in an effect's place predicts held-out scenes better, by more than one
+  // standard error over scenes, after a full refit.
+  void try_swaps(EffectSearch& search) {
+    int left = options_.swaps;
+    for (std::size_t k = fixed_; k < selections_.size(); ++k) {
+      const std::vector<std::string> aliases = selections_[k].aliases;
+      for (const std::string& id : aliases) {
+        if (left-- <= 0 || context_.stopped()) return;
+        const EffectPtr effect = find_effect(id);
+        const bool used = std::any_of(selections_.begin(), selections_.end(),
+                                      [&](const Selection& other) { return other.id == id; });
+        if (effect == nullptr || used) continue;
+        EffectSearch trial(search);
+        trial.remove(k);
+        trial.add(effect, trial.preferred_shape(effect));
+        if (context_.stopped()) return;
+        std::vector<double> gain;
+        for (std::size_t s = 0; s < trial.reference().density.size(); ++s)
+          gain.push_back(trial.reference().density[s] - search.reference().density[s]);
+        if (!is_gain(gain)) continue;
+        const EffectInUse swapped = trial.in_use().back();
+        search.replace(k, swapped.effect, swapped.shape);
+        std::replace(selections_[k].aliases.begin(), selections_[k].aliases.end(), id,
+                     selections_[k].id);
+        selections_[k].id = id;
+      }
+    }
+  }
+
+  // The verdicts come from candidates about the model with its final shape numbers.
+  void settle_shapes(EffectSearch& search) {
+    const bool shaped =
+        std::any_of(search.in_use().begin(), search.in_use().end(),
+                    [](const EffectInUse& use) { return use.effect->has_smooth_shape(); });
+    if (!shaped) return;
+    context_.report("shapes", 0.85, "refining shape numbers");
+    search.refine_shapes();
+    search.rank();
+  }
+
   // What a later effect explains better goes again (never what the user asked for).
   void drop_superfluous(EffectSearch& search) {
-    while (!context_.stopped() && selections_.size() > options_.with.size() + 1) {
+    while (!context_.stopped() && selections_.size() > fixed_ + 1) {
       const auto k = search.superfluous();
-      if (!k || *k < options_.with.size() || *k + 1 == selections_.size()) return;
+      if (!k || *k < fixed_ || *k + 1 == selections_.size()) return;
       search.remove(*k);
       selections_.erase(selections_.begin() + static_cast<std::ptrdiff_t>(*k));
     }
@@ -129,18 +170,32 @@ class Discoverer {
     return scores;
   }
 
-  const DiscoveryInput& input_;
+  const MeasurementTable& table_;
+  const ModelState& state_;
   const DiscoveryOptions& options_;
   const RunContext& context_;
   Discovery out_;
   std::vector<Selection> selections_;
+  std::size_t fixed_ = 0;  // of the selections: what the user asked for
+  std::vector<EffectFinding> refused_;
 };
 
 }  // namespace
 
+Result<Discovery> discover_effects(const MeasurementTable& table, const ModelState& state,
+                                   const DiscoveryOptions& options, const RunContext& context) {
+  if (Status s = check_usable(table.scenes.size(), options); !s) return s.error();
+  return Discoverer(table, state, options, context).run();
+}
+
 Result<Discovery> discover_effects(const DiscoveryInput& input, const DiscoveryOptions& options,
                                    const RunContext& context) {
-  return Discoverer(input, options, context).run();
+  if (Status s = check_usable(input.scenes.size(), options); !s) return s.error();
+  context.report("table", 0.0, "collecting measurements");
+  const MeasurementTable table = build_table(input.scenes, input.target, input.camera, input.state,
+                                             input.sigma_px, options.table);
+  if (context.stopped()) return Error::cancelled();
+  return Discoverer(table, input.state, options, context).run();
 }
 
 }  // namespace lvcalib

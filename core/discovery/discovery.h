@@ -9,15 +9,20 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/rigid3.h"
+#include "discovery/board_grid.h"
 #include "model/linear_model.h"
 #include "model/mixed_model.h"
+#include "model/model_scales.h"
 #include "model/table_builder.h"
+#include "model/user_effect.h"
 
 namespace lvcalib {
 
 struct DiscoveryOptions {
-  int max_effects = 6;                ///< The search adds no more.
-  std::vector<std::string> with;      ///< Effects that are in the model from the start.
+  int max_effects = 6;  ///< The search adds no more.
+  /// Effects that are in the model from the start: ids of the catalogue, or the user's own (see
+  /// parse_user_effect). One that the data cannot bear is left out and said so.
+  std::vector<std::string> with;
   double false_alarm = 0.05;          ///< Over all candidates of a round.
   double min_gain = 0.01;             ///< Least fall of a channel's held-out squares …
   double min_gain_few_scenes = 0.03;  ///< … with three scenes or fewer.
@@ -26,7 +31,12 @@ struct DiscoveryOptions {
   double alias_correlation = 0.95;    ///< Candidates correlated higher cannot be told apart.
   double testable = 3.0;              ///< A material size must stand so many σ above zero.
   double min_structure = 0.02;        ///< Held-out share of variance worth a mention.
+  int swaps = 4;                      ///< Aliases tried in place of effects after an addition.
+  std::size_t closed_forms = 3;       ///< Covariates with unknown structure that get a formula.
   TableOptions table;
+  UserEffectOptions user;
+  bool advise_scenes = true;  ///< Compute the board poses worth taking next.
+  BoardGridOptions grid;      ///< Where they are looked for.
 };
 
 enum class EffectVerdict { kPresent, kAbsent, kAliased, kNotTestable };
@@ -41,13 +51,31 @@ struct ParameterEstimate {
   double sigma = 0.0;  ///< SI
 };
 
-/// What was found out about one effect of the catalogue.
+/// A curve at one place, SI units (and px); y only for curves of two covariates.
+struct CurvePoint {
+  double x = 0.0;
+  double y = 0.0;
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+/// A user's curve as it was found.
+struct FoundCurve {
+  Channel channel = Channel::kRange;
+  std::vector<std::string> covariates;  ///< One or two.
+  std::vector<std::string> units;       ///< Of the covariates.
+  std::vector<CurvePoint> points;       ///< Empty if the effect is no curve.
+};
+
+/// What was found out about one effect, of the catalogue or the user's own.
 struct EffectFinding {
   std::string id;
   int rank = 0;  ///< 1: explains most.
   EffectVerdict verdict = EffectVerdict::kNotTestable;
   std::vector<ParameterEstimate> parameters;
   double shape = 0.0;             ///< Chosen shape number; 0 if the effect has none.
+  double shape_sigma = 0.0;       ///< Its standard deviation; 0 if it was not estimated.
+  std::string shape_name = {};    ///< With its unit; empty if the effect has none.
   double heldout_gain = 0.0;      ///< Largest relative fall of a channel's held-out squares.
   double log_density_gain = 0.0;  ///< Sum over held-out scenes, nats.
   double p_value = 1.0;           ///< Of the F test, before the correction for the search.
@@ -58,6 +86,8 @@ struct EffectFinding {
   double extrinsic_move_mrad = 0.0;
   double kept = 0.0;  ///< Share of its squared effect that pose and levels cannot absorb.
   std::string explanation;
+  std::string spec;  ///< Of a user's own effect: makes it again (EffectInfo::spec).
+  FoundCurve curve;
 };
 
 /// How well a channel is predicted. Display units.
@@ -76,6 +106,9 @@ struct StructureScore {
   std::string covariate;
   double score = 0.0;      ///< Share of held-out variance.
   double amplitude = 0.0;  ///< RMS of the curve, display units.
+  /// A closed form that predicts scenes held out as well, as a formula to ask for; empty if none.
+  std::string formula = {};
+  double formula_score = 0.0;  ///< Share of held-out variance that it explains.
 };
 
 /// The model after a step of the search.
@@ -83,6 +116,18 @@ struct HistoryStep {
   std::string added;  ///< Empty at the start.
   std::vector<ChannelSummary> channels;
   Rigid3 camera_from_lidar;
+};
+
+/// What an effect that is not in the model could still do to the extrinsic.
+struct BudgetItem {
+  std::string id;
+  std::string parameter;  ///< The one whose size is given: the largest, measured by what matters.
+  std::string unit;
+  double size = 0.0;  ///< Upper 95 % limit (display units); the prior's where data say nothing.
+  double translation_mm = 0.0;  ///< Movement of the extrinsic at that limit.
+  double rotation_mrad = 0.0;
+  /// Second moment (one σ) of the movement, left perturbation in the camera frame.
+  Matrix6d moment = Matrix6d::Zero();
 };
 
 struct Discovery {
@@ -93,10 +138,15 @@ struct Discovery {
   std::vector<StructureScore> unknown;    ///< Left when the catalogue stopped.
   std::vector<HistoryStep> history;
   std::vector<std::string> advice;
+  std::vector<std::string> warnings;  ///< Effects asked for that could not be used, and why.
+  std::vector<BudgetItem> budget;     ///< Sensitivity budget, largest movement first.
+  /// `covariance` plus the moments of the budget: what is not in the model counted as well.
+  Matrix6d covariance_with_budget = Matrix6d::Zero();
   /// The final model.
   ModelState state;
   Matrix6d covariance = Matrix6d::Zero();  ///< Left perturbation, camera frame.
   std::vector<EffectInUse> model;
+  ModelScales scales;  ///< What the model's numbers refer to.
 };
 
 /// What discovery starts from: the scenes in use and the state of the plain calibration.
@@ -108,12 +158,21 @@ struct DiscoveryInput {
   double sigma_px = 0.0;
 };
 
+/// Checks the texts of `with` without data, so that a slip of the pen is known before long work.
+Status check_wanted(const std::vector<std::string>& with);
+
 /// Searches which effects of the catalogue are missing in the model (linearised mixed model with
 /// random effects for structure that nothing explains, candidates compared on held-out scenes,
 /// full refit after each addition, drops and swaps). Deterministic.
-/// Errors: kUntrusted with fewer than three scenes; kUsage for unknown or untestable `with`;
-/// kCancelled.
+/// Errors: kUntrusted with fewer than three scenes; kUsage for an unknown effect in `with` or one
+/// of the user's own with an error in its text; kCancelled. Effects in `with` that these data
+/// cannot bear (a missing field, values that are not finite, the same as what is in the model) are
+/// left out with a warning and the verdict "not testable".
 Result<Discovery> discover_effects(const DiscoveryInput& input, const DiscoveryOptions& options,
                                    const RunContext& context);
+
+/// The same on a table of measurements; its scenes must have one board pose each in `state`.
+Result<Discovery> discover_effects(const MeasurementTable& table, const ModelState& state,
+                                   const DiscoveryOptions& options, const RunContext& context);
 
 }  // namespace lvcalib

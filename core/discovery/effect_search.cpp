@@ -70,8 +70,16 @@ void EffectSearch::remove(std::size_t k) {
   refit();
 }
 
+void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape) {
+  const auto parameters = effect->parameters(table_);
+  in_use_[k] = {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
+  refit();
+}
+
 void EffectSearch::refit() {
   constexpr int kSteps = 4;
+  joint_covariance_.reset();
+  shape_sigmas_.clear();
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     const EffectColumnsList columns = own_columns();
     linear_ = linearize(table_, state_, in_use_, columns, context_);
@@ -232,10 +240,10 @@ std::optional<std::size_t> EffectSearch::superfluous() {
       frozen.prior_mean.push_back(-in_use_[k].values(p));
     }
     const Reference without = make_reference(linear, frozen, variances_, {});
-    double gain = 0.0;
+    std::vector<double> gain;
     for (std::size_t s = 0; s < with.density.size(); ++s)
-      gain += with.density[s] - without.density[s];
-    if (gain < 0.0) return k;
+      gain.push_back(with.density[s] - without.density[s]);
+    if (!is_gain(gain)) return k;
   }
   return std::nullopt;
 }

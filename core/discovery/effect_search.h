@@ -21,13 +21,31 @@ class EffectSearch {
   void add(const EffectPtr& effect, double shape);
   /// Takes effect number k out and refits.
   void remove(std::size_t k);
+  /// Puts another effect in the place of number k and refits.
+  void replace(std::size_t k, const EffectPtr& effect, double shape);
+  /// Among an effect's shape numbers the one whose model predicts held-out scenes best.
+  [[nodiscard]] double preferred_shape(const EffectPtr& effect) const;
+  /// Moves the shape numbers in use from the grid of the search to where the restricted likelihood
+  /// is largest (between their neighbours on the grid), refits, and estimates the covariance of all
+  /// unknowns with the shape numbers among them.
+  void refine_shapes();
+  /// Covariance of extrinsic and effects in use: with uncertain shape numbers after
+  /// refine_shapes(), with known ones before.
+  [[nodiscard]] const Eigen::MatrixXd& joint_covariance() const {
+    return joint_covariance_ ? *joint_covariance_ : reference_.fit.covariance;
+  }
+  /// Standard deviation of effect k's shape number after refine_shapes(); 0 if it has none.
+  [[nodiscard]] double shape_sigma(std::size_t k) const {
+    return k < shape_sigmas_.size() ? shape_sigmas_[k] : 0.0;
+  }
   /// Gauss–Newton on extrinsic, poses and effects until the extrinsic stands still.
   void refit();
   /// Linearises with all candidates that are testable and not in use, and evaluates each.
   void rank();
   /// After rank(): index of the best accepted candidate.
   [[nodiscard]] std::optional<std::size_t> best() const;
-  /// An effect in use whose removal the held-out scenes do not notice.
+  /// An effect in use whose removal the held-out scenes do not notice: the mean loss over scenes is
+  /// within its standard error.
   [[nodiscard]] std::optional<std::size_t> superfluous();
 
   /// Shape numbers of an effect; of very many the few that the range residuals speak for.
@@ -46,6 +64,8 @@ class EffectSearch {
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;
+  [[nodiscard]] double profile(std::size_t k, double shape) const;
+  void estimate_joint_covariance();
   [[nodiscard]] std::size_t own_count() const { return in_use_.size(); }
 
   const MeasurementTable& table_;
@@ -57,6 +77,8 @@ class EffectSearch {
   Linearization linear_;
   Reference reference_;
   std::vector<Candidate> candidates_;
+  std::optional<Eigen::MatrixXd> joint_covariance_;
+  std::vector<double> shape_sigmas_;
 };
 
 }  // namespace lvcalib

@@ -2,12 +2,15 @@
 #include "discovery/findings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
+
+#include "model/row_covariates.h"
 
 namespace lvcalib {
 namespace {
@@ -79,6 +82,53 @@ std::string move_text(const EffectFinding& finding) {
   return number("%.1f mm and %.2f mrad", finding.extrinsic_move_mm, finding.extrinsic_move_mrad);
 }
 
+// The curve over its intervals, with its standard deviation.
+FoundCurve found_curve(const EffectInUse& use, const Eigen::MatrixXd& covariance) {
+  constexpr int kAlong = 33;
+  constexpr int kTensor = 9;
+  FoundCurve out;
+  const CurveView* view = as_curve(*use.effect);
+  if (view == nullptr) return out;
+  out.channel = view->channel();
+  out.covariates = view->covariate_names();
+  out.units = view->covariate_units();
+  const auto& axes = view->basis().axes();
+  const auto places = [](const CurveAxis& axis, int count) {
+    if (axis.categories()) return axis.labels;
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k)
+      values.push_back(axis.low + (axis.high - axis.low) * k / (count - 1.0));
+    return values;
+  };
+  const bool tensor = axes.size() > 1;
+  Eigen::VectorXd by(use.values.size());
+  for (const double x : places(axes[0], tensor ? kTensor : kAlong)) {
+    for (const double y : tensor ? places(axes[1], kTensor) : std::vector<double>{0.0}) {
+      const std::array<double, 2> at{x, y};
+      view->columns_at(std::span(at).first(axes.size()), use.shape,
+                       {by.data(), static_cast<std::size_t>(by.size())});
+      out.points.push_back({x, y, by.dot(use.values), std::sqrt(by.dot(covariance * by))});
+    }
+  }
+  return out;
+}
+
+// What was found of an effect: its values, or of a curve how far it reaches.
+std::string found_text(const EffectFinding& f) {
+  if (f.curve.points.empty()) return values_text(f);
+  const auto& p = f.curve.points;
+  const auto [low, high] = std::minmax_element(
+      p.begin(), p.end(),
+      [](const CurvePoint& a, const CurvePoint& b) { return a.value < b.value; });
+  double squares = 0.0;
+  for (const CurvePoint& point : p) squares += point.sigma * point.sigma;
+  const double factor = display_factor(f.curve.channel);
+  return number("it runs from %.3g to %.3g ", factor * low->value, factor * high->value) +
+         unit_of(f.curve.channel) + " over " + joined(f.curve.covariates, " and ") +
+         number(", known to %.2g ", factor * std::sqrt(squares / static_cast<double>(p.size()))) +
+         unit_of(f.curve.channel);
+}
+
 class Judge {
  public:
   Judge(const EffectSearch& search, const std::vector<Selection>& selected,
@@ -107,7 +157,6 @@ class Judge {
 
   void add_selected(const Selection& s) {
     const auto& in_use = search_.in_use();
-    const ModelFit& fit = search_.reference().fit;
     Eigen::Index at = 6;
     for (std::size_t k = 0; k < in_use.size(); ++k) {
       const Eigen::Index n = in_use[k].values.size();
@@ -119,8 +168,12 @@ class Judge {
         f.heldout_gain = s.heldout_gain;
         f.log_density_gain = s.log_density_gain;
         f.p_value = s.p_value;
-        set_parameters(search_.linear().columns.list()[k], in_use[k].values,
-                       fit.covariance.block(at, at, n, n), f);
+        const Eigen::MatrixXd covariance = search_.joint_covariance().block(at, at, n, n);
+        set_parameters(search_.linear().columns.list()[k], in_use[k].values, covariance, f);
+        f.shape_sigma = search_.shape_sigma(k);
+        f.shape_name = in_use[k].effect->shape_name();
+        f.spec = in_use[k].effect->info().spec;
+        f.curve = found_curve(in_use[k], covariance);
         set_move(bias_of(k, at, n), f);
         explain_selected(*in_use[k].effect, f);
         out_.push_back(std::move(f));
@@ -146,9 +199,12 @@ class Judge {
 
   void explain_selected(const Effect& effect, EffectFinding& f) const {
     const EffectInfo& info = effect.info();
-    f.explanation = info.physics + " Found: " + values_text(f);
-    if (!effect.shape_name().empty())
-      f.explanation += ", " + effect.shape_name() + number(" %.3g", f.shape);
+    f.explanation = info.physics + " Found: " + found_text(f);
+    if (!effect.shape_name().empty()) {
+      f.explanation += ", " + effect.shape_name() +
+                       (f.shape_sigma > 0.0 ? number(" %.4g ± %.2g", f.shape, f.shape_sigma)
+                                            : number(" %.3g", f.shape));
+    }
     f.explanation += "; leaving it out would move the extrinsic by " + move_text(f) + ".";
     if (!f.aliases.empty()) {
       f.explanation += " These scenes cannot tell it from " + joined(f.aliases, " or ") +
@@ -271,6 +327,26 @@ std::vector<EffectFinding> judge_effects(const EffectSearch& search,
   return Judge(search, selected, options).run();
 }
 
+std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unknown) {
+  std::vector<std::string> out;
+  std::set<Channel> said;
+  for (const StructureScore& s : unknown) {
+    // The strongest covariate of a channel: others mostly see the same.
+    if (!said.insert(s.channel).second) continue;
+    const RowCovariate* covariate = find_covariate(s.channel, s.covariate);
+    const std::string name = covariate != nullptr ? covariate->identifier() : s.covariate;
+    std::string text =
+        std::string("No effect of the catalogue explains what the ") + name_of(s.channel) +
+        " channel does over " + s.covariate +
+        number(" (%.0f %% of its held-out variance, %.2g ", 100.0 * s.score, s.amplitude) +
+        unit_of(s.channel) + "); to take it out anyway: --with curve:" + name_of(s.channel) + ":" +
+        name;
+    if (!s.formula.empty()) text += ", or as a closed form: --with '" + s.formula + "'";
+    out.push_back(text);
+  }
+  return out;
+}
+
 std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
   std::vector<std::string> out;
   constexpr std::size_t kMost = 5;
@@ -279,6 +355,7 @@ std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
     if (f.verdict != EffectVerdict::kAliased || f.aliases.empty() || out.size() >= kMost) continue;
     if (f.parameters.empty()) continue;
     const EffectPtr effect = find_effect(f.id);
+    if (effect == nullptr) continue;  // the user's own
     const std::string text = "To tell " + f.id + " from " + joined(f.aliases, " and ") +
                              ", take: " + effect->info().breaker;
     out.push_back(text);

@@ -11,7 +11,9 @@ namespace lvcalib {
 namespace {
 
 constexpr int kDegree = 3;
-constexpr int kSamples = 41;  // along an axis, for means and scales
+// Places along an axis, or along each of two, for means and scales.
+constexpr int kAlong = 401;
+constexpr int kAlongEach = 41;
 
 // −1 … 1 along an interval.
 double unit_of_interval(const CurveAxis& axis, double x) {
@@ -38,15 +40,16 @@ Eigen::MatrixXd kronecker(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 // Points spread evenly over the axes.
 std::vector<std::array<double, 2>> samples_of(const std::vector<CurveAxis>& axes) {
   std::vector<std::array<double, 2>> out;
-  const auto at = [](const CurveAxis& axis, int k) {
-    return axis.low + (axis.high - axis.low) * k / (kSamples - 1.0);
+  const int count = axes.size() == 1 ? kAlong : kAlongEach;
+  const auto at = [count](const CurveAxis& axis, int k) {
+    return axis.low + (axis.high - axis.low) * k / (count - 1.0);
   };
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < count; ++i) {
     if (axes.size() == 1) {
       out.push_back({at(axes[0], i), 0.0});
       continue;
     }
-    for (int j = 0; j < kSamples; ++j) out.push_back({at(axes[0], i), at(axes[1], j)});
+    for (int j = 0; j < count; ++j) out.push_back({at(axes[0], i), at(axes[1], j)});
   }
   return out;
 }
@@ -63,13 +66,15 @@ CurveBasis::CurveBasis(std::vector<CurveAxis> axes, int splines)
   }
   free_ = axes_.size() == 1 ? 1 : 3;
   make_penalised();
-  mean_ = Eigen::VectorXd::Zero(columns());
+  // evaluate() subtracts the mean once there is one.
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(columns());
   Eigen::VectorXd all(columns());
   const auto samples = samples_of(axes_);
   for (const auto& at : samples) {
     evaluate(std::span(at).first(axes_.size()), {all.data(), static_cast<std::size_t>(all.size())});
-    mean_ += all / static_cast<double>(samples.size());
+    mean += all / static_cast<double>(samples.size());
   }
+  mean_ = std::move(mean);
 }
 
 // Eigenvectors of the penalty, each divided by the root of its eigenvalue.
@@ -83,11 +88,16 @@ void CurveBasis::make_penalised() {
   const Eigen::Index count = penalty.rows() - null;
   penalised_ = eigen.eigenvectors().rightCols(count) *
                eigen.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
-  double squares = 0.0;
   const auto samples = samples_of(axes_);
-  for (const auto& at : samples)
-    squares += (raw(std::span(at).first(axes_.size())).transpose() * penalised_).squaredNorm();
-  penalised_ /= std::sqrt(squares / static_cast<double>(samples.size()));
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
+  double squares = 0.0;
+  for (const auto& at : samples) {
+    const Eigen::VectorXd columns = penalised_.transpose() * raw(std::span(at).first(axes_.size()));
+    sum += columns;
+    squares += columns.squaredNorm();
+  }
+  const auto n = static_cast<double>(samples.size());
+  penalised_ /= std::sqrt(squares / n - (sum / n).squaredNorm());
 }
 
 Eigen::VectorXd CurveBasis::splines_at(const CurveAxis& axis, double x) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/linear_model.h"
+#include "model/scene_geometry.h"
 
 namespace lvcalib {
 
@@ -61,6 +62,24 @@ class EffectRows {
       }
       sink(c, std::span(scalars_).first(n));
     }
+  }
+
+  /// Displacement (LiDAR frame) of the measured edge point and of the print under it by effects
+  /// with values; value(c, k) gives that of parameter k of the columns c.
+  template <class Value>
+  Eigen::Vector3d displacement(const BeamPoint& beam, const Eigen::Matrix3d& lidar_from_board,
+                               Value&& value) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const EffectColumns& c : columns_) {
+      const std::size_t n = c.parameters.size();
+      reset(n);
+      c.effect->lidar(beam, table_, c.shape, std::span(moves_).first(n));
+      c.effect->board({beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
+                      std::span(board_).first(n));
+      for (std::size_t k = 0; k < n; ++k)
+        sum += value(c, k) * (moves_[k] + lidar_from_board * board_[k]);
+    }
+    return sum;
   }
 
   /// Two rows at once: u and v.
@@ -120,6 +139,18 @@ std::optional<CornerPrediction> predict(const CornerRow& row, const Camera& came
 /// Unit vector (LiDAR frame) from the node through a board point.
 Eigen::Vector3d outward_of(const BoundaryRow& row, const Eigen::Vector2d& board_m,
                            const Eigen::Matrix3d& lidar_from_board);
+
+/// An edge point as it would be measured without the displacement that effects in use give it.
+/// Edges are curved: where a point lies millimetres beside its place, the displacement along the
+/// circle's normal there is not that at its place.
+struct EdgePrediction {
+  double distance_m = 0.0;  ///< From the printed edge, outward.
+  Eigen::Vector3d row;      ///< See SceneGeometry::edge_row.
+  Eigen::Vector3d point_m;  ///< Of the plane, LiDAR frame.
+};
+/// Nothing where the ray misses the board.
+std::optional<EdgePrediction> predict(const BoundaryRow& row, const SceneGeometry& geometry,
+                                      const Eigen::Vector3d& displacement);
 
 /// The columns of effects in use, in their order.
 EffectColumnsList columns_in_use(const std::vector<EffectInUse>& in_use,

@@ -36,9 +36,9 @@ std::size_t assignment_at(const std::string& text) {
 Error syntax_error(const mu::Parser::exception_type& e, const std::string& text) {
   std::string message = e.GetMsg();
   while (!message.empty() && (message.back() == '.' || message.back() == '!')) message.pop_back();
-  // The library counts from 0 and says -1 where it means the whole.
-  const int position = e.GetPos();
-  const bool inside = position >= 0 && position <= static_cast<int>(text.size());
+  // The library counts from 0, says -1 where it means the whole, and lies beyond the end at times.
+  const int position = std::min(static_cast<int>(e.GetPos()), static_cast<int>(text.size()));
+  const bool inside = position >= 0;
   if (const auto at = message.find(" at position "); at != std::string::npos) message.resize(at);
   return Error::usage("in the formula '" + text + "'" +
                       (inside ? " at character " + std::to_string(position + 1) : "") + ": " +

@@ -150,12 +150,17 @@ class SceneAccumulator {
   }
 
   void boundary(const BoundaryRow& r) {
-    const auto range = geometry_.range_m(r.beam.direction);
-    if (!range) return;
-    const Eigen::Vector2d xy = geometry_.board_m(*range * r.beam.direction);
-    const Eigen::Vector3d a = geometry_.edge_row(r.beam.direction, outward_of(r, xy, rotation_));
-    const Vector6d by_pose = geometry_.by_board_pose(a, *range * r.beam.direction);
-    double residual = (xy - r.center_m).norm() - r.radius_m;
+    const Eigen::Vector3d moved =
+        used_rows_.displacement(r.beam, rotation_, [&](const EffectColumns& c, std::size_t j) {
+          const auto at = static_cast<std::size_t>(&c - in_use_columns_.list().data());
+          return in_use_[at].values(static_cast<Eigen::Index>(j));
+        });
+    const auto edge = predict(r, geometry_, moved);
+    if (!edge) return;
+    const Eigen::Vector3d& a = edge->row;
+    const Vector6d by_pose = geometry_.by_board_pose(a, edge->point_m);
+    // The displacement is in the prediction already; what is left of the effects moves the edge.
+    double residual = edge->distance_m + a.dot(moved);
     used_rows_.edge(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
       residual -= used_sum(c, by);
     });

@@ -242,6 +242,23 @@ ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
   return Fitter(linear, subset, start, options).run();
 }
 
+SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
+                     const ModelVariances& variances) {
+  Blocks b = blocks_of(products, indices_of(products, subset), variances.channel);
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+    const auto [first, count] = products.layout.columns_of(static_cast<VarianceGroup>(k));
+    for (int c = first; c < first + count; ++c) b.local(c, c) += 1.0 / variances.group[k];
+  }
+  for (int c = 0; c < LocalLayout::kFixed; ++c) {
+    if (b.local(c, c) <= 0.0) b.local(c, c) = 1.0;
+  }
+  SceneTerm out;
+  const Eigen::LLT<Eigen::MatrixXd> llt(b.local);
+  out.information = b.global - b.cross.transpose() * llt.solve(b.cross);
+  out.gradient = b.global_gradient - b.cross.transpose() * llt.solve(b.local_gradient);
+  return out;
+}
+
 double predictive_log_density(const ModelFit& fit, std::size_t scene) {
   Eigen::MatrixXd information = fit.prior.information;
   Eigen::VectorXd gradient = fit.prior.gradient;

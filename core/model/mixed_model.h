@@ -61,6 +61,11 @@ struct MixedModelOptions {
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options);
 
+/// What a scene's rows would say about extrinsic and columns with given variances; for scenes that
+/// are only planned. Their residuals may be anything: only `information` is of use.
+SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
+                     const ModelVariances& variances);
+
 /// Log of the density that the other scenes predict for a scene, given the fit's variances.
 double predictive_log_density(const ModelFit& fit, std::size_t scene);
 

@@ -28,7 +28,8 @@ std::string why_not_testable(const Effect& effect, const MeasurementTable& table
   const EffectNeeds& needs = effect.info().needs;
   if (needs.time && !table.has_time) return "no time in these clouds";
   if (needs.line && table.lines.size() < 2) return "no laser lines in these clouds";
-  if (needs.intensity && !table.has_intensity) return "no intensity in these clouds";
+  if (needs.intensity && !table.has_intensity)
+    return "no intensity in these clouds (or the same on all points)";
   if (needs.circles && table.boundary.empty()) return "no circles on this board";
   if (needs.tags && !table.target.has_tags()) return "no tags on this board";
   if (effect.is_gauge())

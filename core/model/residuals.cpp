@@ -94,17 +94,21 @@ class Collector {
   void boundary(std::size_t k) {
     const BoundaryRow& r = table_.boundary[k];
     const SceneGeometry& g = geometry_[static_cast<std::size_t>(r.beam.scene)];
-    const auto range = g.range_m(r.beam.direction);
-    if (!range) return;
     const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
-    const Eigen::Vector2d xy = g.board_m(*range * r.beam.direction);
-    const Eigen::Vector3d a = g.edge_row(r.beam.direction, outward_of(r, xy, rotation));
-    double residual = (xy - r.center_m).norm() - r.radius_m;
-    rows_.edge(r, a, rotation, [&](const EffectColumns& c, std::span<const double> by) {
+    const Eigen::Vector3d moved =
+        rows_.displacement(r.beam, rotation, [&](const EffectColumns& c, std::size_t j) {
+          const auto at = static_cast<std::size_t>(&c - columns_.list().data());
+          return in_use_[at].values(static_cast<Eigen::Index>(j));
+        });
+    const auto edge = predict(r, g, moved);
+    if (!edge) return;
+    // The displacement is in the prediction already; what is left of the effects moves the edge.
+    double residual = edge->distance_m + edge->row.dot(moved);
+    rows_.edge(r, edge->row, rotation, [&](const EffectColumns& c, std::span<const double> by) {
       residual -= used(c, by);
     });
     NuisanceRow nuisance = NuisanceRow::Zero();
-    nuisance.head<6>() = g.by_board_pose(a, *range * r.beam.direction);
+    nuisance.head<6>() = g.by_board_pose(edge->row, edge->point_m);
     push(residual, r.sigma_m, r.beam.scene, k, nuisance);
   }
 

@@ -46,6 +46,8 @@ std::vector<Eigen::Vector2d> scan_velocities(const Cloud& cloud) {
   std::map<int, std::vector<Ray>> lines;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
+    // Clouds read with every point hold some that are no returns.
+    if (!p.allFinite() || p.isZero(0.0) || !std::isfinite(cloud.time_s[i])) continue;
     lines[cloud.has_line() ? cloud.line[i] : 0].push_back(
         {i, cloud.time_s[i], std::atan2(p.y(), p.x()),
          std::atan2(p.z(), std::hypot(p.x(), p.y()))});

@@ -398,6 +398,19 @@ double corner_noise(const MeasurementTable& table, const ModelState& state, doub
   return sigma > 0.0 ? sigma : fallback_px;
 }
 
+// Some drivers fill the field with one number.
+bool tells_intensity(const Cloud& cloud) {
+  if (!cloud.has_intensity() || cloud.intensity.empty()) return false;
+  const auto [low, high] = std::minmax_element(cloud.intensity.begin(), cloud.intensity.end());
+  return *high > *low;
+}
+
+void forget_intensity(MeasurementTable& table) {
+  table.intensity.clear();
+  table.level = {1.0, 1.0, 1.0};
+  table.log_contrast = 0.0;
+}
+
 void list_lines(MeasurementTable& table) {
   for (const RangeRow& row : table.range) table.lines.push_back(row.beam.line);
   std::sort(table.lines.begin(), table.lines.end());
@@ -438,7 +451,7 @@ MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const
     const double last = std::max<double>(1.0, static_cast<double>(scenes.size()) - 1.0);
     table.scenes.push_back({scenes[s].name, {}, {}, static_cast<double>(s) / last});
     table.has_time = table.has_time && scenes[s].board_points->has_time();
-    table.has_intensity = table.has_intensity && scenes[s].board_points->has_intensity();
+    table.has_intensity = table.has_intensity && tells_intensity(*scenes[s].board_points);
     has_line = has_line && scenes[s].board_points->has_line();
   }
   std::vector<SceneBuilder> builders;
@@ -459,6 +472,7 @@ MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const
   const std::size_t black = levels[1].empty() ? 2 : 1;
   if (!levels[0].empty() && !levels[black].empty())
     table.log_contrast = std::log(table.level[0] / table.level[black]);
+  if (!table.has_intensity) forget_intensity(table);
   for (SceneBuilder& builder : builders) builder.set_darkness();
   const double noise_px = corner_noise(table, state, sigma_px);
   for (CornerRow& row : table.corner) row.sigma_px = noise_px;

@@ -50,6 +50,8 @@ struct ModelEffect {
   std::string id;
   std::vector<ParameterEstimate> parameters;
   double shape = 0.0;  ///< Its shape number (a period, a decay length); 0 if it has none.
+  double shape_sigma = 0.0;
+  std::string spec = {};  ///< Of a user's own effect; see make_user_effect().
 };
 
 /// A finished calibration.
@@ -60,7 +62,11 @@ struct CalibrationResult {
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
   ExtrinsicSolution extrinsic;
-  std::vector<ModelEffect> model;     ///< Effects beyond the base model; see discover().
+  std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
+  std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
+  /// The extrinsic's covariance with the budget; zero before discover().
+  Matrix6d covariance_with_budget = Matrix6d::Zero();
+  ModelScales model_scales;           ///< What the numbers of the model refer to.
   std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.

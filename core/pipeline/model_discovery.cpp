@@ -62,11 +62,14 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
     }
     ++next;
   }
+  result.budget = discovery.budget;
+  result.covariance_with_budget = discovery.covariance_with_budget;
+  result.model_scales = discovery.scales;
   result.model.clear();
   for (const EffectFinding& f : discovery.effects) {
     for (const EffectInUse& use : discovery.model) {
       if (use.effect->info().id != f.id) continue;
-      result.model.push_back({f.id, f.parameters, use.shape});
+      result.model.push_back({f.id, f.parameters, use.shape, f.shape_sigma, f.spec});
     }
   }
   return result;

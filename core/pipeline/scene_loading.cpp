@@ -13,6 +13,12 @@
 namespace lvcalib {
 namespace {
 
+// Some drivers fill the field with one number.
+bool is_constant(const std::vector<float>& values) {
+  return values.size() > 1 &&
+         std::all_of(values.begin(), values.end(), [&](float v) { return v == values.front(); });
+}
+
 using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
@@ -133,6 +139,11 @@ class SceneLoader {
     if (dataset_.target.has_circles() && !cloud->has_intensity()) {
       return fail(Error::input("the cloud has no intensity, which the board's circles need",
                                files.cloud.string(), "record it with intensity or reflectivity"));
+    }
+    if (dataset_.target.has_circles() && is_constant(cloud->intensity)) {
+      return fail(Error::input(
+          "the cloud's intensity is the same on all points, and the board's circles need contrast",
+          files.cloud.string(), "record it with intensity or reflectivity"));
     }
     start = Clock::now();
     RunContext quiet = context_;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/discovery_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
+#include "report/evidence_json.h"
+#include "report/json_values.h"
 
 namespace lvcalib {
 namespace {
@@ -20,6 +24,22 @@ ordered_json channel_json(const ChannelSummary& c) {
           {"noise_floor", c.noise_floor},
           {"unexplained", c.unexplained},
           {"heldout_rms", c.heldout_rms}};
+}
+
+ordered_json curve_json(const FoundCurve& curve) {
+  const double factor = display_factor(curve.channel);
+  ordered_json points = ordered_json::array();
+  for (const CurvePoint& p : curve.points) {
+    ordered_json point = {{"x", p.x}};
+    if (curve.covariates.size() > 1) point["y"] = p.y;
+    point["value"] = factor * p.value;
+    point["sigma"] = factor * p.sigma;
+    points.push_back(std::move(point));
+  }
+  return {{"covariates", curve.covariates},
+          {"covariate_units", curve.units},
+          {"unit", unit_of(curve.channel)},
+          {"points", std::move(points)}};
 }
 
 ordered_json effect_json(const EffectFinding& f) {
@@ -43,6 +63,19 @@ ordered_json effect_json(const EffectFinding& f) {
                     {"kept_share", f.kept},
                     {"explanation", f.explanation}};
   if (f.shape != 0.0) j["shape"] = f.shape;
+  if (f.shape_sigma > 0.0) j["shape_sigma"] = f.shape_sigma;
+  if (!f.shape_name.empty()) j["shape_name"] = f.shape_name;
+  if (!f.spec.empty()) j["spec"] = f.spec;
+  if (!f.curve.points.empty()) j["curve"] = curve_json(f.curve);
+  return j;
+}
+
+ordered_json unknown_json(const StructureScore& s) {
+  ordered_json j = {{"channel", name_of(s.channel)},
+                    {"covariates", {s.covariate}},
+                    {"score", s.score},
+                    {"amplitude", s.amplitude}};
+  if (!s.formula.empty()) j["closed_form"] = {{"with", s.formula}, {"score", s.formula_score}};
   return j;
 }
 
@@ -78,6 +111,33 @@ std::string channel_lines(const std::vector<ChannelSummary>& channels) {
   return out;
 }
 
+std::string budget_lines(const Discovery& d) {
+  constexpr std::size_t kShown = 6;
+  const auto sigma_mm = [](const Matrix6d& m) {
+    return 1e3 * std::sqrt(m.diagonal().head<3>().sum());
+  };
+  const auto sigma_mrad = [](const Matrix6d& m) {
+    return 1e3 * std::sqrt(m.diagonal().tail<3>().sum());
+  };
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "\nUncertainty of the extrinsic (one standard deviation)\n"
+                "  of the model          %8.2f mm %8.3f mrad\n"
+                "  with the budget below %8.2f mm %8.3f mrad\n",
+                sigma_mm(d.covariance), sigma_mrad(d.covariance),
+                sigma_mm(d.covariance_with_budget), sigma_mrad(d.covariance_with_budget));
+  std::string out = text;
+  if (d.budget.empty()) return out;
+  out += "\nWhat effects that are not in the model could still do (upper 95 % limits)\n";
+  for (std::size_t k = 0; k < std::min(kShown, d.budget.size()); ++k) {
+    const BudgetItem& item = d.budget[k];
+    std::snprintf(text, sizeof text, "  %-22s %8.3g %-5s %8.2f mm %8.3f mrad\n", item.id.c_str(),
+                  item.size, item.unit.c_str(), item.translation_mm, item.rotation_mrad);
+    out += text;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string discovery_as_json(const Discovery& d) {
@@ -95,14 +155,15 @@ std::string discovery_as_json(const Discovery& d) {
   for (const EffectFinding& f : d.effects) j["effects"].push_back(effect_json(f));
   j["selected"] = d.selected;
   j["unknown"] = ordered_json::array();
-  for (const StructureScore& s : d.unknown) {
-    j["unknown"].push_back(
-        {{"channel", name_of(s.channel)}, {"covariates", {s.covariate}}, {"score", s.score}});
-  }
+  for (const StructureScore& s : d.unknown) j["unknown"].push_back(unknown_json(s));
   j["history"] = ordered_json::array();
   for (std::size_t k = 0; k < d.history.size(); ++k)
     j["history"].push_back(step_json(d.history[k], static_cast<int>(k)));
   j["advice"] = d.advice;
+  j["warnings"] = d.warnings;
+  j["sensitivity_budget"] = budget_json(d.budget);
+  j["covariance"] = rows_of(d.covariance);
+  j["covariance_with_budget"] = rows_of(d.covariance_with_budget);
   return j.dump(2) + "\n";
 }
 
@@ -119,6 +180,7 @@ std::string discovery_summary(const Discovery& d) {
   }
   if (!d.selected.empty() && !d.history.empty())
     out += "\nWith them\n" + head + channel_lines(d.history.back().channels);
+  for (const std::string& w : d.warnings) out += "\nWarning: " + w + "\n";
   if (!d.unknown.empty()) {
     out += "\nStructure that no effect of the catalogue explains\n";
     for (const StructureScore& s : d.unknown) {
@@ -133,6 +195,7 @@ std::string discovery_summary(const Discovery& d) {
     for (const std::string& id : d.selected) chosen = chosen || id == f.id;
     if (!chosen) out += "  " + f.id + ": " + f.explanation + "\n";
   }
+  out += budget_lines(d);
   if (!d.advice.empty()) out += "\nAdvice\n";
   for (const std::string& a : d.advice) out += "  " + a + "\n";
   return out;

@@ -246,4 +246,17 @@ nlohmann::ordered_json profile_json(const BoardRefinement& refinement) {
   return j;
 }
 
+ordered_json budget_json(const std::vector<BudgetItem>& budget) {
+  ordered_json out = ordered_json::array();
+  for (const BudgetItem& item : budget) {
+    out.push_back({{"id", item.id},
+                   {"parameter", item.parameter},
+                   {"size", item.size},
+                   {"unit", item.unit},
+                   {"translation_mm", item.translation_mm},
+                   {"rotation_mrad", item.rotation_mrad}});
+  }
+  return out;
+}
+
 }  // namespace lvcalib

@@ -126,18 +126,10 @@ ordered_json to_json(const CalibrationResult& result) {
   }
   j["uncertainty"] = uncertainty_json(result.uncertainty);
   j["boundary_response"] = response_json(result.response);
-  j["model"] = {{"effects", ordered_json::array()}};
-  for (const ModelEffect& effect : result.model) {
-    ordered_json parameters = ordered_json::array();
-    for (const ParameterEstimate& p : effect.parameters) {
-      parameters.push_back({{"name", p.name},
-                            {"value", p.value / p.unit_in_si},
-                            {"sigma", p.sigma / p.unit_in_si},
-                            {"unit", p.unit}});
-    }
-    ordered_json e = {{"id", effect.id}, {"parameters", std::move(parameters)}};
-    if (effect.shape != 0.0) e["shape"] = effect.shape;
-    j["model"]["effects"].push_back(std::move(e));
+  j["model"] = model_json(result);
+  if (!result.covariance_with_budget.isZero(0.0)) {
+    j["sensitivity_budget"] = budget_json(result.budget);
+    j["covariance_with_budget"] = rows_of(result.covariance_with_budget);
   }
   const StageTimes& t = result.times;
   j["timing_ms"] = {{"load", t.load_ms},         {"detect", t.detect_ms},

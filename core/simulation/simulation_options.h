@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/rigid3.h"
 #include "camera/camera.h"
 #include "target/target.h"
 
@@ -70,6 +71,9 @@ struct PlacementOptions {
   bool clutter = true;         ///< Boxes on the floor.
   bool partial = false;        ///< 10 % to 50 % of the board outside the LiDAR's field of view.
   bool flush_on_wall = false;  ///< The board hangs on a wall instead of standing before it.
+  /// T_lidar_board of the first scenes, where they are wanted and not drawn; the room stands
+  /// behind.
+  std::vector<Rigid3> lidar_from_board;
 };
 
 struct SimulationOptions {

@@ -48,8 +48,11 @@ Result<SimulatedScene> Simulator::simulate_scene(int scene, const RunContext& co
   }
   const auto random = [&](Purpose purpose) { return random_for(options.seed, scene, purpose); };
   const ScanPattern pattern(options.lidar, random(Purpose::kScan));
-  auto placed = place_board(options, rig_.camera, rig_.camera_from_lidar, pattern, scene,
-                            random(Purpose::kPlacement));
+  const auto& wanted = options.placement.lidar_from_board;
+  const auto number = static_cast<std::size_t>(scene);
+  auto placed = number < wanted.size() ? Result<Rigid3>(wanted[number])
+                                       : place_board(options, rig_.camera, rig_.camera_from_lidar,
+                                                     pattern, scene, random(Purpose::kPlacement));
   if (!placed) return placed.error();
   SimulatedScene out;
   out.name = scene_name(scene);

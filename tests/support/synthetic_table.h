@@ -33,6 +33,7 @@ struct TableRecipe {
   double intensity_sigma = 0.2;
   bool time = true;
   bool lines = true;
+  bool alike = false;  ///< Every board hangs where the first does.
   std::uint64_t seed = 1;
 };
 
@@ -74,7 +75,7 @@ inline void add_table_scene(SyntheticTable& out, int scene, const TableRecipe& r
                             const Disturbance& wrong, Random& random) {
   MeasurementTable& table = out.table;
   const Target& target = table.target;
-  const Rigid3 camera_from_board = table_board(target, scene);
+  const Rigid3 camera_from_board = table_board(target, recipe.alike ? 0 : scene);
   out.truth.camera_from_board.push_back(camera_from_board);
   const SceneGeometry geometry(out.truth.camera_from_lidar, camera_from_board);
   TableScene info{std::string(1, static_cast<char>('A' + scene)), {}, {}, 0.0};

@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QStyle>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -27,7 +29,6 @@ ErrorDialog::ErrorDialog(const Error& error, QWidget* parent)
   setAttribute(Qt::WA_DeleteOnClose);
   setObjectName(QStringLiteral("error_dialog"));
   const bool untrusted = error.kind == ErrorKind::kUntrusted;
-  setWindowTitle(untrusted ? tr("No trustworthy result") : tr("This cannot be used"));
   auto* layout = new QGridLayout(this);
   auto* icon = new QLabel(this);
   icon->setPixmap(
@@ -35,23 +36,29 @@ ErrorDialog::ErrorDialog(const Error& error, QWidget* parent)
           ->standardIcon(untrusted ? QStyle::SP_MessageBoxWarning : QStyle::SP_MessageBoxCritical)
           .pixmap(40, 40));
   layout->addWidget(icon, 0, 0, 3, 1, Qt::AlignTop);
-  QString message = QString::fromStdString(error.message);
-  if (!message.isEmpty()) message[0] = message[0].toUpper();
-  layout->addWidget(selectable(message, this), 0, 1);
-  int row = 1;
-  const auto add = [&](const QString& title, const std::string& content) {
-    if (content.empty()) return;
-    layout->addWidget(selectable(title + QLatin1Char(' ') + QString::fromStdString(content), this),
-                      row++, 1);
-  };
-  add(tr("Where:"), error.where);
-  add(tr("What to do:"), error.hint);
+  QLabel* message = selectable({}, this);
+  QLabel* where = selectable({}, this);
+  QLabel* hint = selectable({}, this);
+  layout->addWidget(message, 0, 1);
+  layout->addWidget(where, 1, 1);
+  layout->addWidget(hint, 2, 1);
+  where->setHidden(error.where.empty());
+  hint->setHidden(error.hint.empty());
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-  QPushButton* copy = buttons->addButton(tr("Copy"), QDialogButtonBox::ActionRole);
+  QPushButton* copy = buttons->addButton(QString(), QDialogButtonBox::ActionRole);
+  follow_language(this, [this, error, untrusted, message, where, hint, copy] {
+    setWindowTitle(untrusted ? tr("No trustworthy result") : tr("This cannot be used"));
+    QString text = core_text(error.message);
+    if (!text.isEmpty()) text[0] = text[0].toUpper();
+    message->setText(text);
+    where->setText(tr("Where:") + QLatin1Char(' ') + QString::fromStdString(error.where));
+    hint->setText(tr("What to do:") + QLatin1Char(' ') + core_text(error.hint));
+    copy->setText(tr("Copy"));
+  });
   connect(copy, &QPushButton::clicked, this,
           [this] { QGuiApplication::clipboard()->setText(text_); });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  layout->addWidget(buttons, row + 1, 0, 1, 2);
+  layout->addWidget(buttons, 3, 0, 1, 2);
   layout->setColumnStretch(1, 1);
   setMinimumWidth(480);
 }

@@ -16,6 +16,7 @@
 
 #include "base/file_io.h"
 #include "pipeline/dataset.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 
@@ -31,17 +32,30 @@ ExportPane::ExportPane(ExportInput input, Choices& choices, QString folder, QWid
   layout->setContentsMargins(0, 4, 0, 0);
   layout->addWidget(splitter);
   connect(formats_, &QListWidget::currentRowChanged, this, &ExportPane::preview);
+  follow_language(this, [this] { retranslate(); });
   formats_->setCurrentRow(0);
+}
+
+void ExportPane::retranslate() {
+  formats_->setAccessibleName(tr("Formats"));
+  for (int row = 0; row < formats_->count(); ++row) {
+    const ExportFormat& format = export_formats()[static_cast<std::size_t>(row)];
+    formats_->item(row)->setToolTip(core_text(format.description));
+  }
+  text_->setAccessibleName(tr("Preview"));
+  imu_->setToolTip(
+      tr("A YAML file with T_imu_lidar, which takes a LiDAR point to the IMU frame: a matrix, or "
+         "translation_m and quaternion_xyzw"));
+  copy_->setText(tr("Copy"));
+  save_->setText(tr("Save…"));
+  preview();
 }
 
 QWidget* ExportPane::createList() {
   formats_ = new QListWidget(this);
   formats_->setObjectName(QStringLiteral("formats"));
-  formats_->setAccessibleName(tr("Formats"));
-  for (const ExportFormat& format : export_formats()) {
-    auto* item = new QListWidgetItem(QString::fromStdString(format.name), formats_);
-    item->setToolTip(QString::fromStdString(format.description));
-  }
+  for (const ExportFormat& format : export_formats())
+    formats_->addItem(QString::fromStdString(format.name));
   return formats_;
 }
 
@@ -52,19 +66,15 @@ QWidget* ExportPane::createPreview() {
   about_->setWordWrap(true);
   text_ = new QPlainTextEdit(page);
   text_->setObjectName(QStringLiteral("preview"));
-  text_->setAccessibleName(tr("Preview"));
   text_->setReadOnly(true);
   text_->setTabChangesFocus(true);
   text_->setLineWrapMode(QPlainTextEdit::NoWrap);
   text_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  imu_ = new QPushButton(tr("T_imu_lidar…"), page);
+  imu_ = new QPushButton(QStringLiteral("T_imu_lidar…"), page);
   imu_->setObjectName(QStringLiteral("choose_imu"));
-  imu_->setToolTip(
-      tr("A YAML file with T_imu_lidar, which takes a LiDAR point to the IMU frame: a matrix, or "
-         "translation_m and quaternion_xyzw"));
-  copy_ = new QPushButton(tr("Copy"), page);
+  copy_ = new QPushButton(page);
   copy_->setObjectName(QStringLiteral("copy_export"));
-  save_ = new QPushButton(tr("Save…"), page);
+  save_ = new QPushButton(page);
   save_->setObjectName(QStringLiteral("save_export"));
   connect(imu_, &QPushButton::clicked, this, &ExportPane::readImu);
   connect(copy_, &QPushButton::clicked, this,
@@ -95,7 +105,7 @@ void ExportPane::preview() {
   const bool lacks_imu = format.needs_imu && !input_.imu_from_lidar;
   const auto text =
       lacks_imu ? Result<std::string>(std::string()) : export_result(input_, format.name);
-  QString about = QString::fromStdString(format.description);
+  QString about = core_text(format.description);
   if (lacks_imu) {
     about += QLatin1Char('\n') + tr("Needs T_imu_lidar: choose the YAML file that holds it.");
   } else if (!text) {

@@ -33,6 +33,7 @@ class ExportPane : public QWidget {
  private:
   QWidget* createList();
   QWidget* createPreview();
+  void retranslate();
   void preview();
   void readImu();
   void save();

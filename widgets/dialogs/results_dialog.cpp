@@ -20,6 +20,7 @@
 #include "dialogs/export_pane.h"
 #include "report/exports.h"
 #include "report/result_file.h"
+#include "style/texts.h"
 #include "style/theme.h"
 
 namespace lvcalib::widgets {
@@ -63,7 +64,7 @@ QString pose_table(const UncertainRigid3& pose) {
 QString list(const std::vector<std::string>& lines) {
   QString out = QStringLiteral("<ul>");
   for (const std::string& line : lines)
-    out += QStringLiteral("<li>%1</li>").arg(QString::fromStdString(line).toHtmlEscaped());
+    out += QStringLiteral("<li>%1</li>").arg(core_text(line).toHtmlEscaped());
   return out + QStringLiteral("</ul>");
 }
 
@@ -83,8 +84,7 @@ QString quality_line(const CalibrationResult& result) {
   QString line = QStringLiteral("<h2 style='color:%1'>%2</h2>")
                      .arg(color.name(), ResultsDialog::tr("Quality: %1").arg(text));
   if (!result.quality_reason.empty()) {
-    line += QStringLiteral("<p>%1</p>")
-                .arg(QString::fromStdString(result.quality_reason).toHtmlEscaped());
+    line += QStringLiteral("<p>%1</p>").arg(core_text(result.quality_reason).toHtmlEscaped());
   }
   return line;
 }
@@ -128,50 +128,62 @@ ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Ch
     : QDialog(parent), result_(std::move(result)), choices_(choices), folder_(std::move(folder)) {
   setAttribute(Qt::WA_DeleteOnClose);
   setObjectName(QStringLiteral("results_dialog"));
-  setWindowTitle(tr("Results"));
   resize(800, 660);
   auto* tabs = new QTabWidget(this);
   tabs->setObjectName(QStringLiteral("results_tabs"));
   tabs->setDocumentMode(true);
-  tabs->addTab(create_pose(), tr("Pose"));
+  tabs->addTab(create_pose(), {});
   auto* exports = new ExportPane(export_input_of(*result_), choices_, folder_, tabs);
   connect(exports, &ExportPane::exported, this, &ResultsDialog::exported);
   connect(exports, &ExportPane::failed, this, &ResultsDialog::failed);
-  tabs->addTab(exports, tr("For other tools"));
+  tabs->addTab(exports, {});
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-  const auto add = [&](const QString& title, const char* name) {
-    QPushButton* button = buttons->addButton(title, QDialogButtonBox::ActionRole);
+  const auto add = [&](const char* name) {
+    QPushButton* button = buttons->addButton(QString(), QDialogButtonBox::ActionRole);
     button->setObjectName(QString::fromLatin1(name));
     return button;
   };
-  connect(add(tr("Copy matrix"), "copy"), &QPushButton::clicked, this,
+  QPushButton* copy = add("copy");
+  QPushButton* yaml = add("export_yaml");
+  QPushButton* json = add("export_json");
+  connect(copy, &QPushButton::clicked, this,
           [this] { QGuiApplication::clipboard()->setText(matrix_text(*result_)); });
-  connect(add(tr("Export YAML…"), "export_yaml"), &QPushButton::clicked, this, [this] {
+  connect(yaml, &QPushButton::clicked, this, [this] {
     export_file(QStringLiteral("yaml"), tr("YAML (*.yaml)"), result_as_yaml(*result_));
   });
-  connect(add(tr("Export JSON…"), "export_json"), &QPushButton::clicked, this, [this] {
+  connect(json, &QPushButton::clicked, this, [this] {
     export_file(QStringLiteral("json"), tr("JSON (*.json)"), result_as_json(*result_));
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(tabs, 1);
   layout->addWidget(buttons);
+  follow_language(this, [this, tabs, copy, yaml, json] {
+    setWindowTitle(tr("Results"));
+    tabs->setTabText(0, tr("Pose"));
+    tabs->setTabText(1, tr("For other tools"));
+    copy->setText(tr("Copy matrix"));
+    yaml->setText(tr("Export YAML…"));
+    json->setText(tr("Export JSON…"));
+  });
 }
 
 QWidget* ResultsDialog::create_pose() {
   auto* page = new QWidget(this);
   auto* text = new QTextBrowser(page);
   text->setObjectName(QStringLiteral("results"));
-  text->setHtml(results_html(*result_));
   auto* matrix = new QPlainTextEdit(matrix_text(*result_), page);
   matrix->setObjectName(QStringLiteral("matrix"));
   matrix->setReadOnly(true);
   matrix->setLineWrapMode(QPlainTextEdit::NoWrap);
   matrix->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   matrix->setFixedHeight(6 * matrix->fontMetrics().lineSpacing());
-  matrix->setToolTip(
-      tr("Takes a point from the LiDAR frame to the camera frame (x right, y down, "
-         "z forward); lengths in metres"));
+  follow_language(page, [this, text, matrix] {
+    text->setHtml(results_html(*result_));
+    matrix->setToolTip(
+        tr("Takes a point from the LiDAR frame to the camera frame (x right, y down, "
+           "z forward); lengths in metres"));
+  });
   matrix->setTabChangesFocus(true);
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(0, 4, 0, 0);

@@ -5,10 +5,13 @@
 #include <QPlainTextEdit>
 #include <QTime>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 
 LogDock::LogDock(QWidget* parent) : QDockWidget(parent), edit_(new QPlainTextEdit(this)) {
   setObjectName(QStringLiteral("log_dock"));
+  follow_language_in_title(*this);
   edit_->setObjectName(QStringLiteral("log"));
   edit_->setReadOnly(true);
   edit_->setMaximumBlockCount(kMaxLines);

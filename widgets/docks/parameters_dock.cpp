@@ -2,7 +2,6 @@
 #include "docks/parameters_dock.h"
 
 #include <QCheckBox>
-#include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QEvent>
 #include <QFormLayout>
@@ -17,19 +16,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
 bool is_switch(const OptionDeclaration& option) {
   return option.unit == "0/1";
-}
-
-// "refinement.max_step_m" → "max step".
-QString label_text(const OptionDeclaration& option) {
-  QString name = QString::fromStdString(option.key).section(QLatin1Char('.'), 1);
-  const QString suffix = QLatin1Char('_') + QString::fromStdString(option.unit);
-  if (name.endsWith(suffix)) name.chop(suffix.size());
-  return name.replace(QLatin1Char('_'), QLatin1Char(' '));
 }
 
 // The wheel scrolls the form; it must not change values that happen to lie under it.
@@ -66,6 +59,13 @@ QDoubleSpinBox* make_spin_box(const OptionDeclaration& option, const OptionDispl
 
 }  // namespace
 
+QString label_of(const OptionDeclaration& option) {
+  QString name = QString::fromStdString(option.key).section(QLatin1Char('.'), 1);
+  const QString suffix = QLatin1Char('_') + QString::fromStdString(option.unit);
+  if (name.endsWith(suffix)) name.chop(suffix.size());
+  return name.replace(QLatin1Char('_'), QLatin1Char(' '));
+}
+
 OptionDisplay display_of(const OptionDeclaration& option) {
   OptionDisplay display;
   display.unit = QString::fromStdString(option.unit);
@@ -96,6 +96,7 @@ OptionDisplay display_of(const OptionDeclaration& option) {
 
 ParametersDock::ParametersDock(QWidget* parent) : QDockWidget(parent) {
   setObjectName(QStringLiteral("parameters_dock"));
+  follow_language_in_title(*this);
   auto* body = new QWidget(this);
   auto* layout = new QVBoxLayout(body);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -205,7 +206,8 @@ void ParametersDock::retranslate() {
   const std::pair<const char*, QString> names[] = {
       {"detection", tr("Detection")}, {"localization", tr("Localisation")},
       {"consensus", tr("Consensus")}, {"refinement", tr("Refinement")},
-      {"extrinsic", tr("Extrinsic")}, {"quality", tr("Quality")}};
+      {"extrinsic", tr("Extrinsic")}, {"response", tr("Boundary response")},
+      {"quality", tr("Quality")}};
   for (auto& [section, heading] : headings_) {
     heading->setText(QString::fromStdString(section));
     for (const auto& [key, text] : names) {
@@ -218,8 +220,7 @@ void ParametersDock::retranslate() {
       return QString::number(value * field.display.factor, 'g', 6) +
              (field.display.unit.isEmpty() ? QString() : QLatin1Char(' ') + field.display.unit);
     };
-    // Descriptions come from the core; a catalogue may translate them in the context "Options".
-    const QString description = QCoreApplication::translate("Options", option.description.c_str());
+    const QString description = core_text(option.description);
     const QString range =
         is_switch(option)
             ? tr("Default: %1.").arg(option.default_value() != 0.0 ? tr("on") : tr("off"))
@@ -228,11 +229,10 @@ void ParametersDock::retranslate() {
     const QString tip = QStringLiteral("<p>%1</p><p>%2</p><p><code>%3</code></p>")
                             .arg(description.toHtmlEscaped(), range.toHtmlEscaped(),
                                  QString::fromStdString(option.key));
-    field.label->setText(
-        QCoreApplication::translate("Options", qUtf8Printable(label_text(option))));
+    field.label->setText(core_text(label_of(option)));
     field.label->setToolTip(tip);
     field.editor->setToolTip(tip);
-    field.editor->setAccessibleName(label_text(option));
+    field.editor->setAccessibleName(core_text(label_of(option)));
     field.reset->setToolTip(tr("Back to the default %1").arg(shown(option.default_value())));
   }
 }

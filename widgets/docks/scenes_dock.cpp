@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 
 #include "models/scene_model.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 
@@ -20,6 +21,7 @@ ScenesDock::ScenesDock(SceneModel& model, QWidget* parent)
       view_(new QTreeView(this)),
       bar_(new QToolBar(this)) {
   setObjectName(QStringLiteral("scenes_dock"));
+  follow_language_in_title(*this);
   auto* body = new QWidget(this);
   auto* layout = new QVBoxLayout(body);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -117,6 +119,7 @@ void ScenesDock::changeEvent(QEvent* event) {
 }
 
 void ScenesDock::retranslate() {
+  model_.retranslate();
   setWindowTitle(tr("Scenes"));
   view_->setAccessibleName(tr("Scenes"));
   const auto describe = [](QAction* action, const QString& text, const QString& tip) {

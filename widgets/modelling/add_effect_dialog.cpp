@@ -20,13 +20,16 @@
 #include "modelling/figure_source.h"
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
 
 QString searched_text(const EffectInfo& info) {
+  // Found by its English words too: they stand in files and papers.
   return QString::fromStdString(info.id + ' ' + info.title + ' ' + info.group + ' ' + info.physics +
-                                ' ' + info.formula);
+                                ' ' + info.formula + ' ') +
+         core_text(info.title) + core_text(info.physics);
 }
 
 // Each parameter at the size that matters.
@@ -218,9 +221,9 @@ void AddEffectDialog::describe() {
   }
   const EffectInfo& info = effect->info();
   const auto line = [](const QString& name, const std::string& text) {
-    return text.empty() ? QString()
-                        : QStringLiteral("<p><b>%1</b> %2</p>")
-                              .arg(name, QString::fromStdString(text).toHtmlEscaped());
+    return text.empty()
+               ? QString()
+               : QStringLiteral("<p><b>%1</b> %2</p>").arg(name, core_text(text).toHtmlEscaped());
   };
   text_->setHtml(QStringLiteral("<h3>%1</h3>").arg(effect_title(info.id).toHtmlEscaped()) +
                  line({}, info.physics) + line(tr("Formula:"), info.formula) +

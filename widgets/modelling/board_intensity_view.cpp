@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "style/texts.h"
 #include "views/color_map.h"
 
 namespace lvcalib::widgets {
@@ -39,9 +40,12 @@ QImage picture(const BoardIntensity& data, const std::vector<float>& values,
 
 BoardIntensityView::BoardIntensityView(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("board_intensity"));
-  setToolTip(
-      tr("Intensity over the board: measured, as the model predicts it, and the difference (blue: "
-         "darker than predicted, red: brighter)."));
+  follow_language(this, [this] {
+    setToolTip(tr(
+        "Intensity over the board: measured, as the model predicts it, and the difference (blue: "
+        "darker than predicted, red: brighter)."));
+    update();
+  });
   actions_ = new FigureActions(this, {QStringLiteral("board-intensity"),
                                       [this] {
                                         QImage image(2 * size(), QImage::Format_ARGB32);

@@ -4,6 +4,8 @@
 #include <QCoreApplication>
 #include <map>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -104,7 +106,7 @@ QString verdict_name(EffectVerdict verdict) {
 QString effect_title(const std::string& spec) {
   const EffectPtr effect = find_effect(spec);
   if (!effect || effect->info().title.empty()) return QString::fromStdString(spec);
-  return QString::fromStdString(effect->info().title);
+  return core_text(effect->info().title);
 }
 
 QString value_text(const ParameterEstimate& p, bool held) {

@@ -7,6 +7,7 @@
 
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
+#include "style/texts.h"
 #include "views/color_map.h"
 
 namespace lvcalib::widgets {
@@ -51,9 +52,11 @@ ResidualMapPlot::ResidualMapPlot(Plane plane, QWidget* parent) : PlotView(parent
   if (plane == Plane::kImage) yAxis->setRangeReversed(true);
   const char* names[] = {"residuals-image", "residuals-board", "residuals-directions"};
   figureActions()->setName(QString::fromLatin1(names[static_cast<int>(plane)]));
-  setToolTip(
-      tr("Mean residual of each cell. Outlined: different from zero beyond chance, all cells taken "
-         "together. Corners are arrows, enlarged."));
+  follow_language(this, [this] {
+    setToolTip(
+        tr("Mean residual of each cell. Outlined: different from zero beyond chance, all cells "
+           "taken together. Corners are arrows, enlarged."));
+  });
   connect(selectionRect(), &QCPSelectionRect::changed, this, [this](const QRect& rect) {
     const QRect r = rect.normalized();
     const double x0 = xAxis->pixelToCoord(r.left());

@@ -5,6 +5,8 @@
 #include <QPalette>
 #include <algorithm>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -86,6 +88,11 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     row.influence_mm = without.translation_mm;
     row.influence_mrad = without.rotation_mrad;
   }
+}
+
+void SceneModel::retranslate() {
+  Q_EMIT headerDataChanged(Qt::Horizontal, 0, kColumns - 1);
+  if (!rows_.empty()) Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, kColumns - 1));
 }
 
 void SceneModel::set_thumbnail(const QString& scene, const QImage& image) {
@@ -193,7 +200,7 @@ QString SceneModel::state_words(const Row& row) const {
   // A scene just taken back in still has the reason of the last run.
   if (row.reason.isEmpty() || row.reason == QLatin1String(kRejectedByUser))
     return tr("to be run") + crop;
-  return row.reason + crop;
+  return core_text(row.reason) + crop;
 }
 
 Mark SceneModel::mark_of(const Row& row) {

@@ -30,6 +30,8 @@ class SceneModel : public QAbstractTableModel {
   void set_decisions(const Decisions& decisions);
   /// Null: nothing has run yet.
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
+  /// Tells views that titles and words are in another language.
+  void retranslate();
   void set_thumbnail(const QString& scene, const QImage& image);
 
   /// Row 0…; −1 if there is no such scene.

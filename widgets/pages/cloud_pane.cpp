@@ -7,6 +7,7 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
+#include "style/texts.h"
 #include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
 #include "views/crop_form.h"
@@ -24,51 +25,60 @@ CloudPane::CloudPane(QWidget* parent) : QWidget(parent) {
   layout->addWidget(bar_);
   layout->addWidget(view_, 1);
   layout->addWidget(crop_form_);
+  follow_language(this, [this] { retranslate(); });
   connect(builder_, &CloudSceneBuilder::ready, this, &CloudPane::display);
 }
 
 void CloudPane::createToolBar() {
-  bar_ = new QToolBar(tr("Cloud"), this);
+  bar_ = new QToolBar(this);
   color_ = new QComboBox(bar_);
   color_->setObjectName("cloud-color");
-  color_->addItem(tr("Intensity"), static_cast<int>(CloudColor::kIntensity));
-  color_->addItem(tr("Height"), static_cast<int>(CloudColor::kHeight));
-  color_->addItem(tr("Range"), static_cast<int>(CloudColor::kRange));
-  color_->addItem(tr("Plane residual"), static_cast<int>(CloudColor::kPlaneResidual));
-  color_->addItem(tr("Camera colour"), static_cast<int>(CloudColor::kCameraColor));
-  color_->setToolTip(
-      tr("What the colours tell: intensity as recorded, height z (m), range (m), "
-         "range beyond the board's plane (mm), or the camera's own colours"));
-  color_->setAccessibleName(tr("Colour of the points"));
+  for (const CloudColor color : {CloudColor::kIntensity, CloudColor::kHeight, CloudColor::kRange,
+                                 CloudColor::kPlaneResidual, CloudColor::kCameraColor})
+    color_->addItem({}, static_cast<int>(color));
   filter_ = new QComboBox(bar_);
   filter_->setObjectName("cloud-filter");
-  filter_->addItem(tr("All points"), static_cast<int>(CloudFilter::kAll));
-  filter_->addItem(tr("Crop"), static_cast<int>(CloudFilter::kCrop));
-  filter_->addItem(tr("Board"), static_cast<int>(CloudFilter::kBoard));
-  filter_->addItem(tr("Boundary samples"), static_cast<int>(CloudFilter::kBoundary));
-  filter_->setToolTip(
-      tr("Which points are shown: all, those in the crop box, those about the "
-         "board, or those beside the circles' edges"));
-  filter_->setAccessibleName(tr("Points shown"));
+  for (const CloudFilter filter :
+       {CloudFilter::kAll, CloudFilter::kCrop, CloudFilter::kBoard, CloudFilter::kBoundary})
+    filter_->addItem({}, static_cast<int>(filter));
   bar_->addWidget(color_);
   bar_->addWidget(filter_);
   bar_->addSeparator();
   for (QAction* action : view_->viewActions()) bar_->addAction(action);
-  crop_action_ = bar_->addAction(tr("Crop…"));
+  crop_action_ = bar_->addAction(QString());
   crop_action_->setObjectName("crop-action");
   crop_action_->setCheckable(true);
   crop_action_->setShortcut(QKeySequence(Qt::Key_C));
   crop_action_->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   addAction(crop_action_);
-  crop_action_->setToolTip(tr("Show a box with handles: the board is searched inside it only (C)"));
   count_ = new QLabel(bar_);
   count_->setObjectName("cloud-count");
   count_->setContentsMargins(8, 0, 0, 0);
-  count_->setToolTip(tr("Number of points shown"));
   bar_->addWidget(count_);
   connect(color_, &QComboBox::currentIndexChanged, this, &CloudPane::rebuild);
   connect(filter_, &QComboBox::currentIndexChanged, this, &CloudPane::rebuild);
   connect(crop_action_, &QAction::toggled, this, &CloudPane::toggleCrop);
+}
+
+void CloudPane::retranslate() {
+  bar_->setWindowTitle(tr("Cloud"));
+  const QStringList colors = {tr("Intensity"), tr("Height"), tr("Range"), tr("Plane residual"),
+                              tr("Camera colour")};
+  for (int k = 0; k < colors.size(); ++k) color_->setItemText(k, colors[k]);
+  color_->setToolTip(
+      tr("What the colours tell: intensity as recorded, height z (m), range (m), "
+         "range beyond the board's plane (mm), or the camera's own colours"));
+  color_->setAccessibleName(tr("Colour of the points"));
+  const QStringList filters = {tr("All points"), tr("Crop"), tr("Board"), tr("Boundary samples")};
+  for (int k = 0; k < filters.size(); ++k) filter_->setItemText(k, filters[k]);
+  filter_->setToolTip(
+      tr("Which points are shown: all, those in the crop box, those about the "
+         "board, or those beside the circles' edges"));
+  filter_->setAccessibleName(tr("Points shown"));
+  crop_action_->setText(tr("Crop…"));
+  crop_action_->setToolTip(tr("Show a box with handles: the board is searched inside it only (C)"));
+  count_->setToolTip(tr("Number of points shown"));
+  updateCount();
 }
 
 void CloudPane::createCrop() {

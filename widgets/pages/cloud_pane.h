@@ -51,6 +51,7 @@ class CloudPane : public QWidget {
  private:
   void createToolBar();
   void createCrop();
+  void retranslate();
   void rebuild();
   void display(const std::shared_ptr<const CloudScene>& scene);
   void editCrop(const CropBox& box);

@@ -13,7 +13,8 @@
 #include "pages/methods_pane.h"
 #include "pages/pose_text.h"
 #include "pages/scene_overlay.h"
-#include "pages/uncertainty_text.h"
+#include "pages/uncertainty_pane.h"
+#include "style/texts.h"
 #include "views/category_plots.h"
 #include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
@@ -46,26 +47,24 @@ ExtrinsicPage::ExtrinsicPage(QWidget* parent) : QWidget(parent) {
   splitter->setChildrenCollapsible(false);
   pose_ = new QTextBrowser(splitter);
   pose_->setObjectName("pose");
-  pose_->setAccessibleName(tr("Pose and quality"));
   pose_->setMinimumWidth(280);
   tabs_ = new QTabWidget(splitter);
   tabs_->setDocumentMode(true);
-  tabs_->addTab(createPlots(), tr("Residuals and influence"));
+  tabs_->addTab(createPlots(), {});
   methods_ = new MethodsPane(tabs_);
   connect(methods_, &MethodsPane::failed, this, &ExtrinsicPage::failed);
-  tabs_->addTab(methods_, tr("Methods"));
-  uncertainty_ = new QTextBrowser(tabs_);
-  uncertainty_->setObjectName("uncertainty");
-  uncertainty_->setAccessibleName(tr("Uncertainty"));
-  tabs_->addTab(uncertainty_, tr("Uncertainty"));
-  tabs_->addTab(createCloud(), tr("Cloud in camera colours"));
+  tabs_->addTab(methods_, {});
+  uncertainty_ = new UncertaintyPane(tabs_);
+  connect(uncertainty_, &UncertaintyPane::failed, this, &ExtrinsicPage::failed);
+  tabs_->addTab(uncertainty_, {});
+  tabs_->addTab(createCloud(), {});
   splitter->addWidget(pose_);
   splitter->addWidget(tabs_);
   splitter->setStretchFactor(0, 0);
   splitter->setStretchFactor(1, 1);
   splitter->setSizes({400, 1000});
   layout->addWidget(splitter);
-  setResult(nullptr);
+  follow_language(this, [this] { retranslate(); });
 }
 
 ExtrinsicPage::~ExtrinsicPage() = default;
@@ -81,6 +80,20 @@ QWidget* ExtrinsicPage::createPlots() {
   boxes_mm_ = new BoxPlot(page);
   influence_mm_ = new BarPlot(page);
   influence_mrad_ = new BarPlot(page);
+  CategoryPlot* plots[] = {bars_px_,  bars_mm_,      boxes_px_,
+                           boxes_mm_, influence_mm_, influence_mrad_};
+  for (int k = 0; k < 6; ++k) {
+    grid->addWidget(plots[k], k / 2, k % 2);
+    watch(plots[k]);
+  }
+  return page;
+}
+
+void ExtrinsicPage::retranslate() {
+  pose_->setAccessibleName(tr("Pose and quality"));
+  const QStringList titles = {tr("Residuals and influence"), tr("Methods"), tr("Uncertainty"),
+                              tr("Cloud in camera colours")};
+  for (int k = 0; k < titles.size(); ++k) tabs_->setTabText(k, titles[k]);
   bars_px_->setValueLabel(tr("corner RMS (px)"), "rms_px");
   bars_mm_->setValueLabel(tr("LiDAR RMS (mm)"), "rms_mm");
   boxes_px_->setValueLabel(tr("corner residual (px)"), "residual_px");
@@ -101,13 +114,7 @@ QWidget* ExtrinsicPage::createPlots() {
          "whiskers to 1.5 box lengths, circles beyond"));
   influence_mm_->setToolTip(tr("How far the LiDAR's origin moves when the scene is left out (mm)"));
   influence_mrad_->setToolTip(tr("How far the extrinsic turns when the scene is left out (mrad)"));
-  CategoryPlot* plots[] = {bars_px_,  bars_mm_,      boxes_px_,
-                           boxes_mm_, influence_mm_, influence_mrad_};
-  for (int k = 0; k < 6; ++k) {
-    grid->addWidget(plots[k], k / 2, k % 2);
-    watch(plots[k]);
-  }
-  return page;
+  setResult(result_);
 }
 
 QWidget* ExtrinsicPage::createCloud() {
@@ -131,6 +138,7 @@ void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
   fillTexts();
   methods_->setResult(result_.get());
+  uncertainty_->setResult(result_.get());
   fillPlots();
   fillInfluence();
   colourise();
@@ -151,7 +159,7 @@ void ExtrinsicPage::changeEvent(QEvent* event) {
 void ExtrinsicPage::fillTexts() {
   pose_->setHtml(result_ ? pose_html(*result_, palette())
                          : "<p>" + tr("Run the calibration to see its result.") + "</p>");
-  uncertainty_->setHtml(result_ ? uncertainty_html(*result_, palette()) : QString());
+  uncertainty_->setText(result_.get());
 }
 
 // One column per scene of the result in every plot, so that a column names its scene.

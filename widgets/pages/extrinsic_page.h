@@ -18,6 +18,7 @@ class CategoryPlot;
 class CloudSceneBuilder;
 class CloudView;
 class MethodsPane;
+class UncertaintyPane;
 
 /// The extrinsic: the pose with its standard deviations, weak directions, quality and warnings;
 /// residuals per scene as bars and boxes; how the pose moves without each scene; the methods side
@@ -46,6 +47,7 @@ class ExtrinsicPage : public QWidget {
  private:
   QWidget* createPlots();
   QWidget* createCloud();
+  void retranslate();
   void watch(CategoryPlot* plot);
   void activate(int index);
   void fillPlots();
@@ -58,7 +60,7 @@ class ExtrinsicPage : public QWidget {
   QImage image_;
   int scene_ = -1;
   QTextBrowser* pose_ = nullptr;
-  QTextBrowser* uncertainty_ = nullptr;
+  UncertaintyPane* uncertainty_ = nullptr;
   MethodsPane* methods_ = nullptr;
   QTabWidget* tabs_ = nullptr;
   BarPlot* bars_px_ = nullptr;

@@ -29,7 +29,8 @@ class ImagePane : public QWidget {
  private:
   void createToolBar();
   void createLevels();
-  QAction* addToggle(const QString& text, const QString& tip, const char* name, bool on);
+  QAction* addToggle(const char* name, bool on);
+  void retranslate();
   void updateParts();
   void updateLevels();
   void automaticLevels();
@@ -41,7 +42,12 @@ class ImagePane : public QWidget {
   QAction* residuals_ = nullptr;
   QAction* circles_ = nullptr;
   QAction* points_ = nullptr;
+  QAction* fit_ = nullptr;
+  QAction* one_to_one_ = nullptr;
+  QAction* automatic_ = nullptr;
   QDoubleSpinBox* factor_ = nullptr;
+  QLabel* black_label_ = nullptr;
+  QLabel* white_label_ = nullptr;
   QSlider* black_ = nullptr;
   QSlider* white_ = nullptr;
   QLabel* place_ = nullptr;

@@ -6,10 +6,13 @@
 #include <QLabel>
 #include <QTableWidget>
 
+#include "style/texts.h"
 #include "views/category_plots.h"
 
 namespace lvcalib::widgets {
 namespace {
+
+constexpr int kColumns = 8;
 
 QString number(double value, int decimals) {
   return QString::number(value, 'f', decimals);
@@ -42,6 +45,30 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   message_ = new QLabel(this);
   message_->setObjectName("methods-message");
   message_->setWordWrap(true);
+  table_ = new QTableWidget(0, kColumns, this);
+  table_->setObjectName("methods");
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
+  table_->horizontalHeader()->setHighlightSections(false);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setTabKeyNavigation(false);
+  table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  boxes_px_ = new BoxPlot(this);
+  boxes_mm_ = new BoxPlot(this);
+  for (BoxPlot* plot : {boxes_px_, boxes_mm_})
+    connect(plot->figureActions(), &FigureActions::failed, this, &MethodsPane::failed);
+  grid->addWidget(message_, 0, 0, 1, 2);
+  grid->addWidget(table_, 1, 0, 1, 2);
+  grid->addWidget(boxes_px_, 2, 0);
+  grid->addWidget(boxes_mm_, 2, 1);
+  grid->setRowStretch(2, 1);
+  follow_language(this, [this] { retranslate(); });
+  setResult(nullptr);
+}
+
+// What the result says is set again by whoever owns it.
+void MethodsPane::retranslate() {
   const QStringList titles = {tr("Method, centres"), tr("corners (px)"),     tr("nodes (mm)"),
                               tr("transfer (px)"),   tr("held out (px)"),    tr("held out (mm)"),
                               tr("from joint (mm)"), tr("from joint (mrad)")};
@@ -56,20 +83,9 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
       tr("Nodes of scenes that the method has not seen"),
       tr("Distance of the LiDAR's origin to where the joint result has it"),
       tr("Rotation against the joint result")};
-  table_ = new QTableWidget(0, static_cast<int>(titles.size()), this);
-  table_->setObjectName("methods");
   table_->setAccessibleName(tr("Methods side by side"));
   table_->setHorizontalHeaderLabels(titles);
-  for (int k = 0; k < titles.size(); ++k) table_->horizontalHeaderItem(k)->setToolTip(tips[k]);
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
-  table_->horizontalHeader()->setHighlightSections(false);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setTabKeyNavigation(false);
-  table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
-  boxes_px_ = new BoxPlot(this);
-  boxes_mm_ = new BoxPlot(this);
+  for (int k = 0; k < kColumns; ++k) table_->horizontalHeaderItem(k)->setToolTip(tips[k]);
   boxes_px_->setValueLabel(tr("corner residual (px)"), "method_residual_px");
   boxes_mm_->setValueLabel(tr("node residual (mm)"), "method_residual_mm");
   boxes_px_->setToolTip(
@@ -78,14 +94,6 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   boxes_mm_->setToolTip(
       tr("What each method leaves at the refined nodes (mm): median, quartiles, whiskers to 1.5 "
          "box lengths, circles beyond"));
-  for (BoxPlot* plot : {boxes_px_, boxes_mm_})
-    connect(plot->figureActions(), &FigureActions::failed, this, &MethodsPane::failed);
-  grid->addWidget(message_, 0, 0, 1, 2);
-  grid->addWidget(table_, 1, 0, 1, 2);
-  grid->addWidget(boxes_px_, 2, 0);
-  grid->addWidget(boxes_mm_, 2, 1);
-  grid->setRowStretch(2, 1);
-  setResult(nullptr);
 }
 
 void MethodsPane::setResult(const CalibrationResult* result) {

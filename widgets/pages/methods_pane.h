@@ -30,6 +30,7 @@ class MethodsPane : public QWidget {
   void failed(const QString& message);
 
  private:
+  void retranslate();
   void fillTable(const std::vector<MethodResult>& methods);
   void fillBoxes(const CalibrationResult& result);
 

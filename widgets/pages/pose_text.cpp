@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/roll_pitch_yaw.h"
+#include "style/texts.h"
 #include "style/theme.h"
 
 namespace lvcalib::widgets {
@@ -50,7 +51,7 @@ QString quality_line(const CalibrationResult& result, const QPalette& palette) {
   QString line = QString("<p><b>%1 <span style='color:%2'>%3</span></b>")
                      .arg(tr("Quality:"), color.name(), name);
   if (!result.quality_reason.empty()) {
-    line += " – " + QString::fromStdString(result.quality_reason).toHtmlEscaped();
+    line += " – " + core_text(result.quality_reason).toHtmlEscaped();
   }
   line += "<br>" + tr("%1 scenes, %2 px (corners), %3 mm (LiDAR)")
                        .arg(result.extrinsic.used_scenes)
@@ -113,7 +114,7 @@ QString quaternion_line(const Rigid3& pose) {
 QString list(const std::vector<std::string>& lines) {
   QString out = "<ul style='margin-left:-22px'>";
   for (const std::string& line : lines) {
-    out += "<li>" + QString::fromStdString(line).toHtmlEscaped() + "</li>";
+    out += "<li>" + core_text(line).toHtmlEscaped() + "</li>";
   }
   return out + "</ul>";
 }

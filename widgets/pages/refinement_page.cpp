@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "refinement/node_fit.h"
+#include "style/texts.h"
 #include "style/theme.h"
 #include "views/angle_distance_plot.h"
 #include "views/board_map_plot.h"
@@ -36,6 +37,11 @@ RefinementPage::RefinementPage(QWidget* parent) : QWidget(parent) {
   grid_layout_ = new QGridLayout(grid_);
   grid_layout_->setContentsMargins(0, 0, 0, 0);
   grid_layout_->setSpacing(3);
+  notice_ = new QLabel(grid_);
+  notice_->setObjectName("refinement-notice");
+  notice_->setAlignment(Qt::AlignCenter);
+  notice_->setWordWrap(true);
+  grid_layout_->addWidget(notice_, 0, 0);
   splitter->addWidget(grid_);
   splitter->addWidget(createDetail());
   splitter->setStretchFactor(0, 5);
@@ -46,7 +52,23 @@ RefinementPage::RefinementPage(QWidget* parent) : QWidget(parent) {
   player_.setInterval(kReplayStep_ms);
   connect(&player_, &QTimer::timeout, this, &RefinementPage::advance);
   setTarget(Target());
-  display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
+  follow_language(this, [this] { retranslate(); });
+}
+
+void RefinementPage::retranslate() {
+  bins_->setHorizontalHeaderLabels(
+      {tr("Angle (°)"), tr("Midpoint (mm)"), tr("σ (mm)"), tr("Samples"), tr("State")});
+  bins_->setAccessibleName(tr("Angular bins of the chosen node"));
+  bins_->setToolTip(
+      tr("Every angular bin of the chosen node: where the intensity crosses its middle "
+         "level (mm from the circle), its standard deviation, and why it was refused"));
+  play_->setToolTip(tr("Replay the iterations from the first"));
+  play_->setAccessibleName(tr("Replay"));
+  slider_->setToolTip(tr("Iteration shown"));
+  slider_->setAccessibleName(tr("Iteration"));
+  const int shown = iteration();
+  showResult();
+  setIteration(shown);
 }
 
 RefinementPage::~RefinementPage() = default;
@@ -64,18 +86,12 @@ QWidget* RefinementPage::createDetail() {
   verdict_->setWordWrap(true);
   bins_ = new QTableWidget(0, 5, top);
   bins_->setObjectName("bins");
-  bins_->setHorizontalHeaderLabels(
-      {tr("Angle (°)"), tr("Midpoint (mm)"), tr("σ (mm)"), tr("Samples"), tr("State")});
   bins_->horizontalHeader()->setStretchLastSection(true);
   bins_->horizontalHeader()->setDefaultSectionSize(92);
   bins_->verticalHeader()->hide();
   bins_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   bins_->setSelectionBehavior(QAbstractItemView::SelectRows);
   bins_->setSelectionMode(QAbstractItemView::SingleSelection);
-  bins_->setAccessibleName(tr("Angular bins of the chosen node"));
-  bins_->setToolTip(
-      tr("Every angular bin of the chosen node: where the intensity crosses its middle "
-         "level (mm from the circle), its standard deviation, and why it was refused"));
   connect(bins_, &QTableWidget::currentCellChanged, this,
           [this](int row, int, int, int) { large_->setChosenBin(row); });
   layout->addWidget(large_, 3);
@@ -107,13 +123,9 @@ QWidget* RefinementPage::createReplay() {
   play_ = new QToolButton(bar);
   play_->setObjectName("play");
   play_->setText(QString(QChar(0x25B6)));  // Takes the palette's colour, unlike the style's icon.
-  play_->setToolTip(tr("Replay the iterations from the first"));
-  play_->setAccessibleName(tr("Replay"));
   play_->setShortcut(QKeySequence(Qt::Key_P));
   slider_ = new QSlider(Qt::Horizontal, bar);
   slider_->setObjectName("iteration");
-  slider_->setToolTip(tr("Iteration shown"));
-  slider_->setAccessibleName(tr("Iteration"));
   slider_->setPageStep(1);
   iteration_text_ = new QLabel(bar);
   iteration_text_->setMinimumWidth(330);
@@ -162,7 +174,7 @@ void RefinementPage::showResult() {
   }
   const SceneResult& scene = result_->scenes[static_cast<std::size_t>(scene_)];
   if (!scene.refinement) {
-    const QString reason = QString::fromStdString(scene.reason);
+    const QString reason = core_text(scene.reason);
     display(nullptr, nullptr,
             reason.isEmpty() ? tr("This scene was not refined.")
                              : tr("This scene was not refined: %1").arg(reason));
@@ -228,6 +240,7 @@ void RefinementPage::rebuildGrid() {
     connect(plot->figureActions(), &FigureActions::failed, this, &RefinementPage::failed);
     plots_.push_back(plot);
   }
+  notice_->setVisible(plots_.empty());  // Else half of the page would be bare.
 }
 
 int RefinementPage::iteration() const {
@@ -310,8 +323,9 @@ void RefinementPage::updateDetail() {
     large_->clear(message_.isEmpty() ? tr("no data") : QString());
   }
   fillBins(node);
+  notice_->setText(message_);
   if (node == nullptr) {
-    verdict_->setText(message_);
+    verdict_->setText(plots_.empty() ? QString() : message_);
     return;
   }
   const auto used = std::count_if(node->bins.begin(), node->bins.end(),
@@ -327,7 +341,7 @@ void RefinementPage::updateDetail() {
                 .arg(node->inner_level, 0, 'f', 0)
                 .arg(node->outer_level, 0, 'f', 0);
   } else {
-    text += tr("; not usable: %1").arg(QString::fromStdString(node->reason));
+    text += tr("; not usable: %1").arg(core_text(node->reason));
   }
   verdict_->setText(text);
 }
@@ -345,7 +359,7 @@ void RefinementPage::fillBins(const NodeRecord* record) {
         QString::number(kDegrees * bin.angle_rad, 'f', 1),
         has_midpoint ? QString::number(kMm * bin.midpoint_m, 'f', 3) : QString("–"),
         has_midpoint ? QString::number(kMm * bin.sigma_m, 'f', 3) : QString("–"),
-        QString::number(bin.samples), QString::fromStdString(describe(bin.state))};
+        QString::number(bin.samples), core_text(describe(bin.state))};
     for (int column = 0; column < cells.size(); ++column) {
       auto* item = new QTableWidgetItem(cells[column]);
       if (column < 4) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);

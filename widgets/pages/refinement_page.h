@@ -55,6 +55,7 @@ class RefinementPage : public QWidget {
  private:
   QWidget* createDetail();
   QWidget* createReplay();
+  void retranslate();
   void display(std::shared_ptr<const BoardRefinement> refinement,
                std::shared_ptr<const Cloud> points, const QString& message);
   void showResult();
@@ -92,6 +93,7 @@ class RefinementPage : public QWidget {
   QSlider* slider_ = nullptr;
   QToolButton* play_ = nullptr;
   QLabel* iteration_text_ = nullptr;
+  QLabel* notice_ = nullptr;  // In place of the small plots, if the board has no circles.
 };
 
 }  // namespace lvcalib::widgets

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "pages/response_table.h"
+#include "style/texts.h"
 #include "views/sample_map_plot.h"
 
 namespace lvcalib::widgets {
@@ -33,7 +34,17 @@ ResponsePage::ResponsePage(QWidget* parent) : QWidget(parent) {
   splitter->setSizes({560, 190});
   layout->addWidget(message_);
   layout->addWidget(splitter, 1);
-  setResult(nullptr);
+  follow_language(this, [this] { retranslate(); });
+}
+
+void ResponsePage::retranslate() {
+  title_response_table(*scenes_, tr("Scene"));
+  title_response_table(*classes_, tr("Range, incidence"));
+  scenes_->setAccessibleName(tr("Boundary response per scene"));
+  tabs_->setTabText(0, tr("Scenes"));
+  tabs_->setTabText(1, tr("By range and incidence"));
+  tabs_->setTabText(2, tr("Circles left out"));
+  refresh();
 }
 
 QWidget* ResponsePage::createPlots() {
@@ -54,21 +65,19 @@ QWidget* ResponsePage::createPlots() {
 }
 
 QWidget* ResponsePage::createTables() {
-  auto* tabs = new QTabWidget(this);
-  tabs->setDocumentMode(true);
-  scenes_ = new_response_table(tabs, tr("Scene"));
+  tabs_ = new QTabWidget(this);
+  tabs_->setDocumentMode(true);
+  scenes_ = new_response_table(tabs_);
   scenes_->setObjectName("response-scenes");
-  scenes_->setAccessibleName(tr("Boundary response per scene"));
-  classes_ = new_response_table(tabs, tr("Range, incidence"));
+  classes_ = new_response_table(tabs_);
   classes_->setObjectName("response-classes");
   classes_->setSelectionMode(QAbstractItemView::NoSelection);
-  reasons_ = new QTextBrowser(tabs);
+  reasons_ = new QTextBrowser(tabs_);
   reasons_->setObjectName("response-reasons");
-  tabs->addTab(scenes_, tr("Scenes"));
-  tabs->addTab(classes_, tr("By range and incidence"));
-  tabs->addTab(reasons_, tr("Circles left out"));
+  for (QWidget* page : std::initializer_list<QWidget*>{scenes_, classes_, reasons_})
+    tabs_->addTab(page, {});
   connect(scenes_, &QTableWidget::currentCellChanged, this, [this](int row) { activate(row); });
-  return tabs;
+  return tabs_;
 }
 
 void ResponsePage::setResult(std::shared_ptr<const CalibrationResult> result) {
@@ -92,7 +101,7 @@ void ResponsePage::refresh() {
   if (!result_) {
     message_->setText(tr("Run the calibration to see how returns scatter at the circles' edges."));
   } else {
-    message_->setText(QString::fromStdString(result_->response.reason));
+    message_->setText(core_text(result_->response.reason));
   }
   message_->setVisible(!message_->text().isEmpty());
   map_->setTarget(result_ ? result_->target : Target());
@@ -111,12 +120,12 @@ void ResponsePage::fillTables() {
   if (!result_) return;
   const BoundaryResponse& response = result_->response;
   add_response_row(*scenes_, tr("All scenes"), response.all, response.transition,
-                   QString::fromStdString(response.reason));
+                   core_text(response.reason));
   int chosen = 0;
   for (const SceneResponse& scene : response.scenes) {
     if (scene.name == chosen_) chosen = scenes_->rowCount();
     add_response_row(*scenes_, QString::fromStdString(scene.name), scene.statistics,
-                     scene.transition, QString::fromStdString(scene.reason));
+                     scene.transition, core_text(scene.reason));
   }
   if (chosen == 0) chosen_.clear();
   scenes_->setCurrentCell(chosen, 0);
@@ -139,13 +148,13 @@ void ResponsePage::fillReasons() {
     for (const SceneResponse& scene : result_->response.scenes) {
       const QString name = QString::fromStdString(scene.name).toHtmlEscaped();
       if (!scene.reason.empty()) {
-        html += "<li>" + tr("Scene %1:").arg(name) + " " +
-                QString::fromStdString(scene.reason).toHtmlEscaped() + "</li>";
+        html += "<li>" + tr("Scene %1:").arg(name) + " " + core_text(scene.reason).toHtmlEscaped() +
+                "</li>";
       }
       for (const NodeResponse& node : scene.nodes) {
         if (node.state == NodeResponseState::kUsed) continue;
         html += "<li>" + tr("Scene %1, circle %2:").arg(name).arg(node.id) + " " +
-                QString::fromStdString(node.reason).toHtmlEscaped() + "</li>";
+                core_text(node.reason).toHtmlEscaped() + "</li>";
       }
     }
   }

@@ -8,6 +8,7 @@
 #include "views/response_plots.h"
 
 class QLabel;
+class QTabWidget;
 class QTableWidget;
 class QTextBrowser;
 
@@ -38,6 +39,7 @@ class ResponsePage : public QWidget {
  private:
   QWidget* createPlots();
   QWidget* createTables();
+  void retranslate();
   void refresh();
   void fillTables();
   void fillReasons();
@@ -55,6 +57,7 @@ class ResponsePage : public QWidget {
   RangePlot* ranges_ = nullptr;
   QTableWidget* scenes_ = nullptr;
   QTableWidget* classes_ = nullptr;
+  QTabWidget* tabs_ = nullptr;
   QTextBrowser* reasons_ = nullptr;
 };
 

@@ -13,6 +13,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kMm = 1e3;
 constexpr int kFirstNumber = 2;
 constexpr int kNumbers = 6;
+constexpr int kColumns = 10;
 
 QString tr(const char* text) {
   return QCoreApplication::translate("lvcalib::widgets", text);
@@ -47,8 +48,19 @@ void put_statistics(QTableWidget& table, int row, const ResponseStatistics& s) {
 
 }  // namespace
 
-QTableWidget* new_response_table(QWidget* parent, const QString& name_title) {
-  auto* table = new QTableWidget(parent);
+QTableWidget* new_response_table(QWidget* parent) {
+  auto* table = new QTableWidget(0, kColumns, parent);
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
+  table->horizontalHeader()->setHighlightSections(false);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setSelectionMode(QAbstractItemView::SingleSelection);
+  table->setTabKeyNavigation(false);
+  return table;
+}
+
+void title_response_table(QTableWidget& table, const QString& name_title) {
   const QStringList titles = {name_title,
                               tr("N"),
                               tr("mean pitch (°)"),
@@ -59,25 +71,16 @@ QTableWidget* new_response_table(QWidget* parent, const QString& name_title) {
                               tr("σ range (mm)"),
                               tr("δ (mm)"),
                               tr("σ transition (mm)")};
-  table->setColumnCount(static_cast<int>(titles.size()));
-  table->setHorizontalHeaderLabels(titles);
+  table.setHorizontalHeaderLabels(titles);
   const QString mean = tr("Mean of the residuals to the nearest ideal boundary points");
   const QString sigma = tr("Standard deviation of a beam on the edge");
   for (int k = 0; k < kNumbers; ++k)
-    table->horizontalHeaderItem(kFirstNumber + k)->setToolTip(k < 3 ? mean : sigma);
-  table->horizontalHeaderItem(1)->setToolTip(tr("Samples of the overlap region"));
-  table->horizontalHeaderItem(8)->setToolTip(
+    table.horizontalHeaderItem(kFirstNumber + k)->setToolTip(k < 3 ? mean : sigma);
+  table.horizontalHeaderItem(1)->setToolTip(tr("Samples of the overlap region"));
+  table.horizontalHeaderItem(8)->setToolTip(
       tr("Where the intensity is half way, from the circle's edge, outside positive"));
-  table->horizontalHeaderItem(9)->setToolTip(tr("Width of the error function on the board"));
-  table->verticalHeader()->hide();
-  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
-  table->horizontalHeader()->setHighlightSections(false);
-  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table->setSelectionMode(QAbstractItemView::SingleSelection);
-  table->setTabKeyNavigation(false);
-  table->setToolTip(tr("Numbers are given ± their own standard deviation."));
-  return table;
+  table.horizontalHeaderItem(9)->setToolTip(tr("Width of the error function on the board"));
+  table.setToolTip(tr("Numbers are given ± their own standard deviation."));
 }
 
 void add_response_row(QTableWidget& table, const QString& name,

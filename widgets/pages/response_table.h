@@ -13,7 +13,10 @@ namespace lvcalib::widgets {
 
 /// A read-only table: a name, N, means and standard deviations of pitch (°), yaw (°) and range
 /// (mm), each ± its own standard deviation, δ and σ of the transition (mm).
-QTableWidget* new_response_table(QWidget* parent, const QString& name_title);
+QTableWidget* new_response_table(QWidget* parent);
+
+/// Its headings and tool tips in the present language.
+void title_response_table(QTableWidget& table, const QString& name_title);
 
 /// Adds a row; without statistics it says the reason instead of numbers.
 void add_response_row(QTableWidget& table, const QString& name,

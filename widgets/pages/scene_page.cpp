@@ -13,6 +13,7 @@
 #include "pages/cloud_pane.h"
 #include "pages/image_pane.h"
 #include "pages/scene_overlay.h"
+#include "style/texts.h"
 #include "views/cloud_view.h"
 #include "views/image_view.h"
 
@@ -71,8 +72,10 @@ ScenePage::ScenePage(QWidget* parent) : QWidget(parent) {
   selection_->setWordWrap(true);
   layout->addWidget(selection_);
   connectPanes();
-  clearSelection();
-  refresh();
+  follow_language(this, [this] {
+    clearSelection();
+    refresh();
+  });
 }
 
 ScenePage::~ScenePage() = default;
@@ -237,7 +240,7 @@ void ScenePage::selectTag(int id) {
   for (const ImageOverlay::Corner& c : overlay.corners) {
     if (c.feature_id != id || !c.has_prediction) continue;
     const QPointF r = c.detected - c.predicted;
-    residuals.push_back(tr("(%1, %2)").arg(r.x(), 0, 'f', 3).arg(r.y(), 0, 'f', 3));
+    residuals.push_back(QStringLiteral("(%1, %2)").arg(r.x(), 0, 'f', 3).arg(r.y(), 0, 'f', 3));
   }
   std::vector<std::uint32_t> inside;
   if (scene && !scene->pixels.empty() && !edge.isEmpty()) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style/texts.h"
 #include "style/theme.h"
 
 namespace lvcalib::widgets {
@@ -50,7 +51,7 @@ QString weak_directions(const CalibrationResult& result) {
   const auto& lines = result.extrinsic.weak_directions;
   if (lines.empty()) return paragraph(tr("None: the scenes determine all six."));
   QString out = "<ul>";
-  for (const std::string& line : lines) out += "<li>" + words(line) + "</li>";
+  for (const std::string& line : lines) out += "<li>" + core_text(line).toHtmlEscaped() + "</li>";
   return out + "</ul>";
 }
 
@@ -65,14 +66,15 @@ QString split_halves(const UncertaintyReport& report, const StateColors& colors)
           s.agrees()
               ? QString("<span style='color:%1'>%2</span>").arg(colors.good.name(), tr("agree"))
               : QString("<b style='color:%1'>%2</b>").arg(colors.bad.name(), tr("disagree"));
-      out += row({words(s.name), names(s.first) + " | " + names(s.second),
+      out += row({core_text(s.name).toHtmlEscaped(), names(s.first) + " | " + names(s.second),
                   pair(s.translation_mm, s.rotation_mrad),
                   pair(s.expected_translation_mm, s.expected_rotation_mrad),
                   QString("%1 (%2)").arg(s.chi_square, 0, 'f', 1).arg(s.gate, 0, 'f', 1), verdict});
     }
     out += "</table>";
   }
-  if (!report.splits_reason.empty()) out += paragraph(words(report.splits_reason));
+  if (!report.splits_reason.empty())
+    out += paragraph(core_text(report.splits_reason).toHtmlEscaped());
   return out;
 }
 

@@ -106,7 +106,7 @@ quint64 Runner::start(Work work) {
 void Runner::cancel() {
   if (!task_) return;
   task_->stop.request_stop();
-  QTimer::singleShot(kPatienceMs, this, [this, task = task_] {
+  QTimer::singleShot(kPatienceMs, Qt::PreciseTimer, this, [this, task = task_] {
     if (task != task_) return;
     abandon();
     Q_EMIT cancelled(task->id);

@@ -28,7 +28,7 @@ class Runner : public QObject {
   using Work = std::function<Deliver(const RunContext&, const Post&)>;
 
   /// How long a cancelled job may take to stop before it is abandoned.
-  static constexpr int kPatienceMs = 150;
+  static constexpr int kPatienceMs = 100;
 
   explicit Runner(QObject* parent = nullptr);
   /// Abandons what runs.

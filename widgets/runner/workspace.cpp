@@ -2,7 +2,6 @@
 #include "runner/workspace.h"
 
 #include <QDir>
-#include <QUndoCommand>
 #include <algorithm>
 #include <utility>
 
@@ -28,33 +27,6 @@ struct Workspace::Opening {
   QString project_path;
   bool unsaved = false;
   std::vector<std::string> warnings;
-};
-
-// One decision; decisions are small, so both sides are kept whole.
-class Workspace::DecisionCommand : public QUndoCommand {
- public:
-  DecisionCommand(Workspace& workspace, const QString& text, Decisions after, QString merge_key)
-      : QUndoCommand(text),
-        workspace_(workspace),
-        before_(workspace.decisions_),
-        after_(std::move(after)),
-        merge_key_(std::move(merge_key)) {}
-  void undo() override { workspace_.apply(before_); }
-  void redo() override { workspace_.apply(after_); }
-  [[nodiscard]] int id() const override { return merge_key_.isEmpty() ? -1 : 1; }
-  // Turning one spin box is one decision.
-  bool mergeWith(const QUndoCommand* other) override {
-    const auto* next = dynamic_cast<const DecisionCommand*>(other);
-    if (next == nullptr || next->merge_key_ != merge_key_) return false;
-    after_ = next->after_;
-    return true;
-  }
-
- private:
-  Workspace& workspace_;
-  Decisions before_;
-  Decisions after_;
-  QString merge_key_;
 };
 
 Workspace::Workspace(const QString& data_folder, QObject* parent)
@@ -252,8 +224,9 @@ void Workspace::set_use(const QStringList& scenes, bool use) {
     any = true;
   }
   if (!any) return;
-  decide(use ? tr("accept %1").arg(scenes.join(QStringLiteral(", ")))
-             : tr("reject %1").arg(scenes.join(QStringLiteral(", "))),
+  decide({use ? QT_TRANSLATE_NOOP("Decisions", "accept %1")
+              : QT_TRANSLATE_NOOP("Decisions", "reject %1"),
+          scenes.join(QStringLiteral(", "))},
          std::move(after));
 }
 
@@ -267,8 +240,10 @@ void Workspace::set_crop(const QString& scene, const std::optional<CropBox>& box
   if (decision_of(decisions_, scene.toStdString()).crop == box) return;
   Decisions after = decisions_;
   after.scenes[scene.toStdString()].crop = box;
-  decide(box ? tr("crop %1").arg(scene) : tr("uncrop %1").arg(scene), std::move(after),
-         box ? QStringLiteral("crop ") + scene : QString());
+  decide({box ? QT_TRANSLATE_NOOP("Decisions", "crop %1")
+              : QT_TRANSLATE_NOOP("Decisions", "uncrop %1"),
+          scene},
+         std::move(after), box ? QStringLiteral("crop ") + scene : QString());
 }
 
 void Workspace::set_option(const OptionDeclaration& option, double value) {
@@ -278,21 +253,25 @@ void Workspace::set_option(const OptionDeclaration& option, double value) {
     Q_EMIT failed(s.error(), false);
     return;
   }
-  decide(tr("change %1").arg(to_qt(option.key)), std::move(after), to_qt(option.key));
+  decide({QT_TRANSLATE_NOOP("Decisions", "change %1"), to_qt(option.key)}, std::move(after),
+         to_qt(option.key));
 }
 
 void Workspace::reset_options() {
   if (same_options(decisions_.options, CalibrationOptions{})) return;
   Decisions after = decisions_;
   after.options = CalibrationOptions{};
-  decide(tr("reset all parameters"), std::move(after));
+  decide({QT_TRANSLATE_NOOP("Decisions", "reset all parameters"), {}}, std::move(after));
 }
 
 void Workspace::set_use_crops(bool use) {
   if (decisions_.use_crops == use) return;
   Decisions after = decisions_;
   after.use_crops = use;
-  decide(use ? tr("use board.pcd files") : tr("use whole clouds"), std::move(after));
+  decide({use ? QT_TRANSLATE_NOOP("Decisions", "use board.pcd files")
+              : QT_TRANSLATE_NOOP("Decisions", "use whole clouds"),
+          {}},
+         std::move(after));
 }
 
 Status Workspace::add_scene_folders(const QStringList& folders) {
@@ -302,12 +281,16 @@ Status Workspace::add_scene_folders(const QStringList& folders) {
   if (Status s = add_scenes(dataset, paths); !s) return s;
   Decisions after = decisions_;
   after.added_scenes.insert(after.added_scenes.end(), paths.begin(), paths.end());
-  decide(tr("add %n scenes", nullptr, static_cast<int>(paths.size())), std::move(after));
+  QStringList names;
+  for (const std::filesystem::path& path : paths) names << to_qt(path.filename().string());
+  decide({QT_TRANSLATE_NOOP("Decisions", "add %1"), names.join(QStringLiteral(", "))},
+         std::move(after));
   return Done{};
 }
 
-void Workspace::decide(const QString& text, Decisions after, const QString& merge_key) {
-  undo_.push(new DecisionCommand(*this, text, std::move(after), merge_key));
+void Workspace::decide(DecisionCommand::Words words, Decisions after, const QString& merge_key) {
+  undo_.push(new DecisionCommand([this](const Decisions& d) { apply(d); }, decisions_,
+                                 std::move(after), std::move(words), merge_key));
 }
 
 void Workspace::apply(const Decisions& decisions) {
@@ -362,8 +345,11 @@ void Workspace::take_run(SessionRun run) {
   }
   up_to_date_ = true;
   const CalibrationResult& r = *state_.latest;
+  const QString quality = r.quality == Quality::kGood       ? tr("good")
+                          : r.quality == Quality::kDoubtful ? tr("doubtful")
+                                                            : tr("failed");
   const QString line = tr("%1: %2 of %3 scenes, %4 px, %5 mm")
-                           .arg(to_qt(name_of(r.quality)))
+                           .arg(quality)
                            .arg(r.extrinsic.used_scenes)
                            .arg(r.scenes.size())
                            .arg(r.extrinsic.rms_px, 0, 'f', 3)

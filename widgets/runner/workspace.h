@@ -12,6 +12,7 @@
 #include "pipeline/project_file.h"
 #include "pipeline/session.h"
 #include "runner/autosave.h"
+#include "runner/decision_command.h"
 #include "runner/runner.h"
 #include "simulation/simulation_options.h"
 
@@ -100,13 +101,12 @@ class Workspace : public QObject {
   void logged(const QString& line);
 
  private:
-  class DecisionCommand;
   struct Opening;
   void start(const Runner::Work& work);
   void open_in_background(const Runner::Work& work);
   void take_opened(Opening opening);
   void take_run(SessionRun run);
-  void decide(const QString& text, Decisions after, const QString& merge_key = {});
+  void decide(DecisionCommand::Words words, Decisions after, const QString& merge_key = {});
   void apply(const Decisions& decisions);
   void schedule(int delay_ms);
   void set_dirty(bool dirty);

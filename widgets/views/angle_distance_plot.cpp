@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -27,6 +29,12 @@ AngleDistancePlot::AngleDistancePlot(QWidget* parent) : PlotView(parent) {
   addLayer("bands", layer("grid"), limBelow);
   figureActions()->setName("angle-distance");
   setCompact(false);
+  follow_language(this, [this] { retranslate(); });
+}
+
+void AngleDistancePlot::retranslate() {
+  xAxis->setLabel(compact_ ? QString() : tr("polar angle ψ (°)"));
+  yAxis->setLabel(compact_ ? QString() : tr("distance from the circle (mm)"));
   setToolTip(
       tr("Signed distance from the circle (mm, outside positive) against the polar angle "
          "(degrees). Dots: LiDAR samples coloured by intensity. Marks: where the intensity "
@@ -36,8 +44,7 @@ AngleDistancePlot::AngleDistancePlot(QWidget* parent) : PlotView(parent) {
 
 void AngleDistancePlot::setCompact(bool compact) {
   compact_ = compact;
-  xAxis->setLabel(compact ? QString() : tr("polar angle ψ (°)"));
-  yAxis->setLabel(compact ? QString() : tr("distance from the circle (mm)"));
+  retranslate();
   axisRect()->setupFullAxesBox(!compact);
   if (compact) {
     axisRect()->setAutoMargins(QCP::msNone);

@@ -43,6 +43,7 @@ class AngleDistancePlot : public PlotView {
  private:
   static constexpr std::size_t kSmallSamples = 900;
 
+  void retranslate();
   void drawBands();
   void drawSamples();
   void drawWave();

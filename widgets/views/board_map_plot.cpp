@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -25,15 +27,17 @@ double round_down(double wanted) {
 
 BoardMapPlot::BoardMapPlot(QWidget* parent) : PlotView(parent) {
   figureActions()->setName("board-map");
-  xAxis->setLabel(tr("board x (mm)"));
-  yAxis->setLabel(tr("board y (mm)"));
   axisRect()->setupFullAxesBox(true);
   xAxis2->setTickLabels(false);
   yAxis2->setTickLabels(false);
-  setToolTip(
-      tr("The board from the front. Lines: how each circle's centre moved from the first to "
-         "the last iteration, enlarged. Ellipse: twice the standard deviation of the "
-         "refined centre, enlarged alike. Cross: where the model has it."));
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("board x (mm)"));
+    yAxis->setLabel(tr("board y (mm)"));
+    setToolTip(
+        tr("The board from the front. Lines: how each circle's centre moved from the first to "
+           "the last iteration, enlarged. Ellipse: twice the standard deviation of the "
+           "refined centre, enlarged alike. Cross: where the model has it."));
+  });
   connect(this, &PlotView::clicked, this, &BoardMapPlot::emitNodeAt);
   connect(this, &QCustomPlot::afterLayout, this, [this] {
     if (axisRect()->size() == fitted_to_) return;

@@ -9,42 +9,25 @@
 #include <vtkBoxWidget2.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkTransform.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
+#include "views/cloud_actors.h"
 #include "views/cloud_geometry.h"
 
 namespace lvcalib::widgets {
 namespace {
-
-// Small enough that one portion draws in a few milliseconds, large enough that their number does
-// not matter.
-constexpr std::size_t kPortion = 25'000;
-
-vtkSmartPointer<vtkCellArray> one_cell_of(std::size_t points) {
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->InsertNextCell(static_cast<int>(points));
-  for (std::size_t i = 0; i < points; ++i) cells->InsertCellPoint(static_cast<vtkIdType>(i));
-  return cells;
-}
 
 vtkSmartPointer<vtkTransform> as_transform(const Eigen::Matrix4d& matrix) {
   vtkNew<vtkMatrix4x4> elements;
@@ -252,78 +235,16 @@ void CloudPipeline::setScene(std::shared_ptr<const CloudScene> scene) {
     vtk_->bounds[2 * k] = s.low_m(static_cast<Eigen::Index>(k));
     vtk_->bounds[2 * k + 1] = s.high_m(static_cast<Eigen::Index>(k));
   }
-  const auto full = one_cell_of(std::min(kPortion, s.size()));
-  for (std::size_t start = 0; start < s.size(); start += kPortion) {
-    const std::size_t count = std::min(kPortion, s.size() - start);
-    // The arrays lie in the scene, which lives as long as the actors; VTK only reads them.
-    vtkNew<vtkFloatArray> xyz;
-    xyz->SetNumberOfComponents(3);
-    xyz->SetArray(const_cast<float*>(s.xyz_m.data() + 3 * start),  // NOLINT: VTK knows no const
-                  static_cast<vtkIdType>(3 * count), 1);
-    vtkNew<vtkUnsignedCharArray> rgb;
-    rgb->SetNumberOfComponents(3);
-    rgb->SetArray(const_cast<std::uint8_t*>(s.rgb.data() + 3 * start),  // NOLINT
-                  static_cast<vtkIdType>(3 * count), 1);
-    vtkNew<vtkPoints> points;
-    points->SetData(xyz);
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points);
-    data->SetVerts(count == std::min(kPortion, s.size()) ? full : one_cell_of(count));
-    data->GetPointData()->SetScalars(rgb);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->SetStatic(1);
-    auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    actor->SetProperty(vtk_->point_property);
-    actor->SetPickable(0);
-    vtk_->renderer->AddActor(actor);
-    vtk_->portions.push_back(actor);
-  }
+  vtk_->portions = point_portions(s, *vtk_->point_property);
+  for (auto& actor : vtk_->portions) vtk_->renderer->AddActor(actor);
 }
 
 void CloudPipeline::setLines(const std::vector<CloudLine>& lines) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetNumberOfComponents(3);
-  for (const CloudLine& line : lines) {
-    if (line.points_m.size() < 2) continue;
-    const vtkIdType first = points->GetNumberOfPoints();
-    cells->InsertNextCell(static_cast<int>(line.points_m.size()) + (line.closed ? 1 : 0));
-    for (const Eigen::Vector3d& p : line.points_m) {
-      cells->InsertCellPoint(points->InsertNextPoint(p.data()));
-    }
-    if (line.closed) cells->InsertCellPoint(first);
-    for (const double c : line.color) {
-      colors->InsertNextValue(static_cast<unsigned char>(std::lround(255 * c)));
-    }
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(cells);
-  data->GetCellData()->SetScalars(colors);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  // Lines lie on the surface that the points scatter about: bring them a little forward.
-  mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(-4.0, -4.0);
-  vtk_->line_actor->SetMapper(mapper);
-  vtk_->line_actor->SetVisibility(lines.empty() ? 0 : 1);
+  show_lines(*vtk_->line_actor, lines);
 }
 
 void CloudPipeline::setHighlights(const std::vector<Eigen::Vector3d>& points_m) {
-  vtkNew<vtkPoints> points;
-  for (const Eigen::Vector3d& p : points_m) points->InsertNextPoint(p.data());
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetVerts(one_cell_of(points_m.size()));
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  vtk_->highlight_actor->SetMapper(mapper);
-  constexpr std::size_t kFew = 20;
-  vtk_->highlight_actor->GetProperty()->SetPointSize(points_m.size() <= kFew ? 11.0F : 4.0F);
-  vtk_->highlight_actor->SetVisibility(points_m.empty() ? 0 : 1);
+  show_points(*vtk_->highlight_actor, points_m);
 }
 
 void CloudPipeline::setBackground(double red, double green, double blue, bool dark) {
@@ -404,7 +325,7 @@ void CloudPipeline::drawFirst(std::size_t points) {
   if (!vtk_->looked && vtk_->scene) look(CloudViewpoint::kWhole);
   vtk_->renderer->PreserveColorBufferOff();
   vtk_->renderer->PreserveDepthBufferOff();
-  const std::size_t wanted = std::max<std::size_t>(1, points / kPortion);
+  const std::size_t wanted = std::max<std::size_t>(1, points / kCloudPortion);
   vtk_->drawn = std::min(vtk_->portions.size(), wanted);
   vtk_->showPortions(0, vtk_->drawn);
   const bool lines = vtk_->line_actor->GetMapper() != nullptr;
@@ -420,7 +341,7 @@ void CloudPipeline::drawMore(std::size_t points) {
   // Adds to the picture: colours and depths of what is there already are kept.
   vtk_->renderer->PreserveColorBufferOn();
   vtk_->renderer->PreserveDepthBufferOn();
-  const std::size_t wanted = std::max<std::size_t>(1, points / kPortion);
+  const std::size_t wanted = std::max<std::size_t>(1, points / kCloudPortion);
   const std::size_t end = std::min(vtk_->portions.size(), vtk_->drawn + wanted);
   vtk_->showPortions(vtk_->drawn, end);
   vtk_->line_actor->SetVisibility(0);
@@ -435,7 +356,7 @@ bool CloudPipeline::complete() const {
 }
 
 std::size_t CloudPipeline::drawnPoints() const {
-  return vtk_->scene ? std::min(vtk_->drawn * kPortion, vtk_->scene->size()) : 0;
+  return vtk_->scene ? std::min(vtk_->drawn * kCloudPortion, vtk_->scene->size()) : 0;
 }
 
 void CloudPipeline::copyTo(unsigned framebuffer, int width_px, int height_px) {

@@ -16,9 +16,9 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-QString tr(const char* text) {
-  return QCoreApplication::translate("lvcalib::widgets", text);
-}
+struct CloudSceneText {
+  Q_DECLARE_TR_FUNCTIONS(CloudSceneText)
+};
 
 // Steps through the points by the golden section of their number: every beginning of the order
 // covers the whole scan evenly, whatever pattern the scanner has.
@@ -63,11 +63,12 @@ class Builder {
     scene_->cloud = board_only ? in_.board : in_.full;
     if (!scene_->cloud && !board_only && in_.board) {
       scene_->cloud = in_.board;
-      scene_->notice = tr("Only the board's points are loaded.");
+      scene_->notice = CloudSceneText::tr("Only the board's points are loaded.");
     }
     if (!scene_->cloud) {
-      scene_->notice = board_only ? tr("No board was found in this scene's cloud yet.")
-                                  : tr("The cloud is not loaded yet.");
+      scene_->notice = board_only
+                           ? CloudSceneText::tr("No board was found in this scene's cloud yet.")
+                           : CloudSceneText::tr("The cloud is not loaded yet.");
     }
   }
 
@@ -76,12 +77,13 @@ class Builder {
     std::vector<std::uint32_t>& order = scene_->order;
     if (in_.filter == CloudFilter::kBoundary) {
       if (in_.refinement) order = boundary_points(cloud, in_.target, *in_.refinement);
-      if (order.empty()) scene_->notice = tr("There are no boundary samples in this scene.");
+      if (order.empty())
+        scene_->notice = CloudSceneText::tr("There are no boundary samples in this scene.");
       return;
     }
     const bool crop = in_.filter == CloudFilter::kCrop && in_.crop;
     if (in_.filter == CloudFilter::kCrop && !in_.crop) {
-      scene_->notice = tr("No crop box is set: all points are shown.");
+      scene_->notice = CloudSceneText::tr("No crop box is set: all points are shown.");
     }
     order.reserve(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -143,10 +145,11 @@ class Builder {
 
   bool paintFromImage() {
     if (in_.image.isNull() || scene_->pixels.empty()) {
-      scene_->notice = tr("Camera colours need an image and an extrinsic; intensity is shown.");
+      scene_->notice =
+          CloudSceneText::tr("Camera colours need an image and an extrinsic; intensity is shown.");
       return false;
     }
-    scene_->quantity = tr("camera colour (grey: not in the image)");
+    scene_->quantity = CloudSceneText::tr("camera colour (grey: not in the image)");
     scene_->has_scale = false;
     scene_->rgb.reserve(3 * scene_->order.size());
     for (const std::uint32_t i : scene_->order) push(image_color(in_.image, scene_->pixels[i]));
@@ -160,26 +163,27 @@ class Builder {
     out.reserve(scene_->order.size());
     CloudColor color = in_.color == CloudColor::kCameraColor ? CloudColor::kIntensity : in_.color;
     if (color == CloudColor::kIntensity && !cloud.has_intensity()) {
-      scene_->notice = tr("This cloud has no intensity; range is shown.");
+      scene_->notice = CloudSceneText::tr("This cloud has no intensity; range is shown.");
       color = CloudColor::kRange;
     }
     if (color == CloudColor::kPlaneResidual && !in_.refinement) {
-      scene_->notice = tr("The board's plane is not known in this scene; range is shown.");
+      scene_->notice =
+          CloudSceneText::tr("The board's plane is not known in this scene; range is shown.");
       color = CloudColor::kRange;
     }
     for (const std::uint32_t i : scene_->order) out.push_back(quantity(cloud, i, color));
     switch (color) {
       case CloudColor::kHeight:
-        scene_->quantity = tr("height z (m)");
+        scene_->quantity = CloudSceneText::tr("height z (m)");
         break;
       case CloudColor::kRange:
-        scene_->quantity = tr("range (m)");
+        scene_->quantity = CloudSceneText::tr("range (m)");
         break;
       case CloudColor::kPlaneResidual:
-        scene_->quantity = tr("range beyond the board's plane (mm)");
+        scene_->quantity = CloudSceneText::tr("range beyond the board's plane (mm)");
         break;
       default:
-        scene_->quantity = tr("intensity");
+        scene_->quantity = CloudSceneText::tr("intensity");
     }
     return out;
   }

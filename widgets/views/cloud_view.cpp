@@ -11,6 +11,7 @@
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 
+#include "style/texts.h"
 #include "views/color_bar.h"
 #include "views/point_picking.h"
 
@@ -41,7 +42,7 @@ bool opengl_available() {
 
 CloudView::CloudView(QWidget* parent) : QWidget(parent) {
   setMinimumSize(200, 160);
-  setAccessibleName(tr("Point cloud"));
+  follow_language(this, [this] { setAccessibleName(tr("Point cloud")); });
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
@@ -49,9 +50,12 @@ CloudView::CloudView(QWidget* parent) : QWidget(parent) {
     createCanvas();
     layout->addWidget(canvas_, 0, 0);
   } else {
-    auto* message = new QLabel(tr("The cloud cannot be drawn: no OpenGL 3.2 on this screen.\n"
-                                  "Install a graphics driver (or Mesa's software renderer)."),
-                               this);
+    auto* message = new QLabel(this);
+    follow_language(message, [message] {
+      message->setText(
+          tr("The cloud cannot be drawn: no OpenGL 3.2 on this screen.\n"
+             "Install a graphics driver (or Mesa's software renderer)."));
+    });
     message->setObjectName("no-opengl");
     message->setAlignment(Qt::AlignCenter);
     message->setWordWrap(true);
@@ -82,10 +86,12 @@ void CloudView::createCanvas() {
   canvas_ = new CloudCanvas(this);
   canvas_->setContextMenuPolicy(Qt::PreventContextMenu);
   canvas_->installEventFilter(this);
-  canvas_->setToolTip(
-      tr("Drag: turn. Shift+drag or middle button: move. Wheel or right button: "
-         "zoom. Click: values of a point. Lengths in metres."));
-  canvas_->setAccessibleName(tr("Point cloud"));
+  follow_language(canvas_, [this] {
+    canvas_->setToolTip(
+        tr("Drag: turn. Shift+drag or middle button: move. Wheel or right button: "
+           "zoom. Click: values of a point. Lengths in metres."));
+    canvas_->setAccessibleName(tr("Point cloud"));
+  });
   setFocusProxy(canvas_);
   connect(canvas_, &CloudCanvas::clicked, this, &CloudView::pickAt);
   connect(canvas_, &CloudCanvas::boxEdited, this, &CloudView::boxEdited);
@@ -93,21 +99,29 @@ void CloudView::createCanvas() {
 }
 
 void CloudView::createActions() {
-  const auto add = [this](const QString& text, const QString& tip, Qt::Key key,
-                          CloudViewpoint viewpoint) {
-    auto* action = new QAction(text, this);
+  const auto add = [this](Qt::Key key, CloudViewpoint viewpoint) {
+    auto* action = new QAction(this);
     action->setShortcut(QKeySequence(key));
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    action->setToolTip(
-        tr("%1 (%2)").arg(tip, QKeySequence(key).toString(QKeySequence::NativeText)));
     action->setEnabled(hasOpenGl());
     connect(action, &QAction::triggered, this, [this, viewpoint] { look(viewpoint); });
     addAction(action);
     view_actions_.push_back(action);
   };
-  add(tr("Reset"), tr("Show all points obliquely"), Qt::Key_R, CloudViewpoint::kWhole);
-  add(tr("Top"), tr("Look from above"), Qt::Key_T, CloudViewpoint::kTop);
-  add(tr("Sensor"), tr("Look from the LiDAR's origin"), Qt::Key_S, CloudViewpoint::kSensor);
+  add(Qt::Key_R, CloudViewpoint::kWhole);
+  add(Qt::Key_T, CloudViewpoint::kTop);
+  add(Qt::Key_S, CloudViewpoint::kSensor);
+  follow_language(this, [this] {
+    const auto describe = [this](std::size_t k, const QString& text, const QString& tip) {
+      QAction* action = view_actions_[k];
+      action->setText(text);
+      action->setToolTip(QStringLiteral("%1 (%2)").arg(
+          tip, action->shortcut().toString(QKeySequence::NativeText)));
+    };
+    describe(0, tr("Reset"), tr("Show all points obliquely"));
+    describe(1, tr("Top"), tr("Look from above"));
+    describe(2, tr("Sensor"), tr("Look from the LiDAR's origin"));
+  });
 }
 
 void CloudView::setScene(std::shared_ptr<const CloudScene> scene) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -23,12 +25,14 @@ ConvergencePlot::ConvergencePlot(QWidget* parent) : PlotView(parent) {
   whole->setTickStep(1.0);
   whole->setScaleStrategy(QCPAxisTickerFixed::ssMultiples);
   xAxis->setTicker(whole);
-  xAxis->setLabel(tr("iteration"));
-  yAxis->setLabel(tr("move (mm)"));
-  setToolTip(
-      tr("Thin lines: size of each circle's own correction in every iteration (mm), which "
-         "ends at its measurement noise. Thick line: largest move of a centre after the "
-         "projection to the layout; the refinement ends when it is small."));
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("iteration"));
+    yAxis->setLabel(tr("move (mm)"));
+    setToolTip(
+        tr("Thin lines: size of each circle's own correction in every iteration (mm), which "
+           "ends at its measurement noise. Thick line: largest move of a centre after the "
+           "projection to the layout; the refinement ends when it is small."));
+  });
   connect(this, &PlotView::clicked, this, [this](const QPointF& place) {
     const int k = static_cast<int>(std::lround(xAxis->pixelToCoord(place.x())));
     if (k >= 1 && k <= static_cast<int>(history_.size())) Q_EMIT iterationClicked(k - 1);

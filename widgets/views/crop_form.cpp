@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/roll_pitch_yaw.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -24,44 +25,56 @@ CropForm::CropForm(QWidget* parent) : QWidget(parent) {
   grid->setHorizontalSpacing(4);
   grid->setVerticalSpacing(2);
   const std::array<QString, 3> axes{"x", "y", "z"};
-  const std::array<QString, 3> turns{tr("roll"), tr("pitch"), tr("yaw")};
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    center_[i] = addField(0, k, tr("Middle %1").arg(axes[i]),
-                          tr("Middle of the box along the LiDAR's %1 axis, in metres").arg(axes[i]),
-                          -1e4, 1e4, tr(" m"));
-    size_[i] = addField(1, k, tr("Side %1").arg(axes[i]),
-                        tr("Length of the box along its own %1 axis, in metres").arg(axes[i]),
-                        kSmallestSide_m, 1e4, tr(" m"));
-    angle_[i] = addField(2, k, turns[i],
-                         tr("Turn of the box (%1), in degrees: roll about x, then pitch about y, "
-                            "then yaw about z of the LiDAR")
-                             .arg(turns[i]),
-                         -180.0, 180.0, tr("°"));
+    center_[i] = addField(0, k, -1e4, 1e4, " m", [axis = axes[i]] {
+      return FieldTexts{tr("Middle %1").arg(axis),
+                        tr("Middle of the box along the LiDAR's %1 axis, in metres").arg(axis)};
+    });
+    size_[i] = addField(1, k, kSmallestSide_m, 1e4, " m", [axis = axes[i]] {
+      return FieldTexts{tr("Side %1").arg(axis),
+                        tr("Length of the box along its own %1 axis, in metres").arg(axis)};
+    });
+    angle_[i] = addField(2, k, -180.0, 180.0, "°", [k] {
+      const QString turn = k == 0 ? tr("roll") : k == 1 ? tr("pitch") : tr("yaw");
+      return FieldTexts{turn,
+                        tr("Turn of the box (%1), in degrees: roll about x, then pitch about y, "
+                           "then yaw about z of the LiDAR")
+                            .arg(turn)};
+    });
   }
-  use_ = new QPushButton(tr("Use this crop"), this);
+  use_ = new QPushButton(this);
   use_->setObjectName("crop-use");
-  use_->setToolTip(tr("Search the board only inside the box; runs this scene again from there"));
-  clear_ = new QPushButton(tr("No crop"), this);
+  clear_ = new QPushButton(this);
   clear_->setObjectName("crop-clear");
-  clear_->setToolTip(tr("Search the board in the whole cloud again"));
+  follow_language(this, [this] {
+    use_->setText(tr("Use this crop"));
+    use_->setToolTip(tr("Search the board only inside the box; runs this scene again from there"));
+    clear_->setText(tr("No crop"));
+    clear_->setToolTip(tr("Search the board in the whole cloud again"));
+  });
   grid->addWidget(use_, 0, 6);
   grid->addWidget(clear_, 1, 6);
   connect(use_, &QPushButton::clicked, this, [this] { Q_EMIT applied(box()); });
   connect(clear_, &QPushButton::clicked, this, &CropForm::cleared);
 }
 
-QDoubleSpinBox* CropForm::addField(int row, int column, const QString& name, const QString& tip,
-                                   double low, double high, const QString& suffix) {
+QDoubleSpinBox* CropForm::addField(int row, int column, double low, double high,
+                                   const QString& suffix,
+                                   const std::function<FieldTexts()>& texts) {
   auto* box = new QDoubleSpinBox(this);
   box->setRange(low, high);
   box->setDecimals(row == 2 ? 2 : 3);
   box->setSingleStep(row == 2 ? 1.0 : 0.05);
   box->setSuffix(suffix);
-  box->setToolTip(tip);
-  box->setAccessibleName(name);
   box->setKeyboardTracking(false);
-  auto* label = new QLabel(name, this);
+  auto* label = new QLabel(this);
+  follow_language(this, [box, label, texts] {
+    const auto [name, tip] = texts();
+    label->setText(name);
+    box->setAccessibleName(name);
+    box->setToolTip(tip);
+  });
   label->setBuddy(box);
   auto* grid = qobject_cast<QGridLayout*>(layout());
   grid->addWidget(label, row, 2 * column, Qt::AlignRight);

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <array>
+#include <functional>
 
 #include "pipeline/crop_box.h"
 
@@ -30,8 +31,11 @@ class CropForm : public QWidget {
   void cleared();
 
  private:
-  QDoubleSpinBox* addField(int row, int column, const QString& name, const QString& tip, double low,
-                           double high, const QString& suffix);
+  struct FieldTexts {
+    QString name, tip;
+  };
+  QDoubleSpinBox* addField(int row, int column, double low, double high, const QString& suffix,
+                           const std::function<FieldTexts()>& texts);
 
   std::array<QDoubleSpinBox*, 3> center_{};
   std::array<QDoubleSpinBox*, 3> size_{};

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style/texts.h"
 #include "views/plot_view.h"
 
 namespace lvcalib::widgets {
@@ -44,11 +45,13 @@ ImageView::ImageView(QWidget* parent) : QGraphicsView(parent) {
   viewport()->setCursor(Qt::CrossCursor);
   setMinimumSize(160, 120);
   setFrameShape(QFrame::NoFrame);
-  setAccessibleName(tr("Image"));
-  setToolTip(
-      tr("Wheel: zoom. Drag: move. F: fit, 1: one to one. Click: nearest LiDAR points. "
-         "Green: detected tags. Magenta arrows: corner residuals, enlarged (px). "
-         "Orange: circles and outline from the LiDAR."));
+  follow_language(this, [this] {
+    setAccessibleName(tr("Image"));
+    setToolTip(
+        tr("Wheel: zoom. Drag: move. F: fit, 1: one to one. Click: nearest LiDAR points. "
+           "Green: detected tags. Magenta arrows: corner residuals, enlarged (px). "
+           "Orange: circles and outline from the LiDAR."));
+  });
   actions_ = new FigureActions(
       this, {"image", [this] { return picture(); }, [this] { return image_as_pdf(picture()); },
              [this] { return cornersAsCsv(); }});

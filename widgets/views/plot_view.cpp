@@ -63,6 +63,7 @@ void PlotView::setTable(const QStringList& header, std::vector<QStringList> rows
 
 void PlotView::changeEvent(QEvent* event) {
   QCustomPlot::changeEvent(event);
+  if (event->type() == QEvent::LanguageChange) return rebuild();
   if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
   colors_ = PlotColors::of(palette());
   applyColors();

@@ -32,7 +32,7 @@ class PlotView : public QCustomPlot {
   void clicked(const QPointF& place);
 
  protected:
-  /// Draws everything anew with colors(); called when the palette changes.
+  /// Draws everything anew with colors(); called when palette or language change.
   virtual void rebuild() = 0;
   /// Empties the figure, keeping the axes.
   void clearFigure();

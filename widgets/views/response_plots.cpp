@@ -9,6 +9,7 @@
 
 #include "base/statistics.h"
 #include "response/response_curves.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -70,12 +71,16 @@ std::vector<const BoundarySample*> ResponseScope::samples(bool overlap_only,
 
 TransitionPlot::TransitionPlot(QWidget* parent) : PlotView(parent) {
   figureActions()->setName("transition");
-  xAxis->setLabel(tr("distance from the circle (mm), outside positive"));
-  setToolTip(
-      tr("Intensity of the returns about the circles against the signed distance to the nearest "
-         "one. Small dots: samples (of many, some), blue those of the overlap "
-         "region. Marks: means in classes of a millimetre with their standard deviation. Line: "
-         "the fitted error function; δ is where it is half way, σ its width."));
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("distance from the circle (mm), outside positive"));
+    yAxis->setLabel(scope_.scenes.size() > 1 ? tr("intensity, black 0 to white 1")
+                                             : tr("intensity"));
+    setToolTip(
+        tr("Intensity of the returns about the circles against the signed distance to the nearest "
+           "one. Small dots: samples (of many, some), blue those of the overlap "
+           "region. Marks: means in classes of a millimetre with their standard deviation. Line: "
+           "the fitted error function; δ is where it is half way, σ its width."));
+  });
 }
 
 void TransitionPlot::setScope(const ResponseScope& scope) {
@@ -119,7 +124,7 @@ void TransitionPlot::rebuild() {
     drawMeans(*scope_.scenes[k], alone ? colors().mark : colors().series(scope_.colors[k]), rows);
   }
   if (scope_.transition != nullptr) drawFit();
-  if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : scope_.reason);
+  if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
   drawCaption();
   setTable({"scene", "distance_mm", "mean_intensity", "sigma", "samples"}, std::move(rows));
   replot(rpQueuedReplot);
@@ -187,12 +192,14 @@ void TransitionPlot::drawCaption() {
 
 AnglePlot::AnglePlot(QWidget* parent) : PlotView(parent) {
   figureActions()->setName("pitch-yaw");
-  xAxis->setLabel(tr("yaw (°)"));
-  yAxis->setLabel(tr("pitch (°)"));
-  setToolTip(
-      tr("Angles from each sample of the overlap region (of many, some) to the nearest point of "
-         "the recovered circle. Solid: ellipses of one and two standard deviations of a beam on "
-         "the edge. Dashed: one standard deviation of the dots themselves."));
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("yaw (°)"));
+    yAxis->setLabel(tr("pitch (°)"));
+    setToolTip(
+        tr("Angles from each sample of the overlap region (of many, some) to the nearest point of "
+           "the recovered circle. Solid: ellipses of one and two standard deviations of a beam on "
+           "the edge. Dashed: one standard deviation of the dots themselves."));
+  });
   connect(this, &QCustomPlot::afterLayout, this, [this] {
     // Degrees are as long up as across.
     const double aspect = axisRect()->height() > 10
@@ -244,7 +251,7 @@ void AnglePlot::rebuild() {
             .arg(plus_minus(std_dev.x(), sigma.x(), 4), plus_minus(std_dev.y(), sigma.y(), 4)),
         colors().text);
   } else {
-    showMessage(scope_.reason.isEmpty() ? tr("no data") : scope_.reason);
+    showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
   }
   setTable({"pitch_deg", "yaw_deg", "range_mm"}, std::move(rows));
   replot(rpQueuedReplot);
@@ -270,12 +277,14 @@ RangePlot::RangePlot(QWidget* parent) : PlotView(parent) {
   figureActions()->setName("range-histogram");
   axisRect()->setRangeZoom(Qt::Horizontal);
   axisRect()->setRangeDrag(Qt::Horizontal);
-  xAxis->setLabel(tr("range off the board's plane (mm)"));
-  yAxis->setLabel(tr("samples"));
-  setToolTip(
-      tr("Ranges of the samples of the overlap region, less the range of the board's plane along "
-         "the same ray, in classes of 2 mm. Lines: one standard deviation of the range of a beam "
-         "on the edge."));
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("range off the board's plane (mm)"));
+    yAxis->setLabel(tr("samples"));
+    setToolTip(
+        tr("Ranges of the samples of the overlap region, less the range of the board's plane along "
+           "the same ray, in classes of 2 mm. Lines: one standard deviation of the range of a beam "
+           "on the edge."));
+  });
 }
 
 void RangePlot::setScope(const ResponseScope& scope) {
@@ -307,7 +316,7 @@ void RangePlot::rebuild() {
   if (scope_.statistics != nullptr) {
     drawSigma();
   } else {
-    showMessage(scope_.reason.isEmpty() ? tr("no data") : scope_.reason);
+    showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
   }
   setTable({"low_mm", "high_mm", "samples"}, std::move(rows));
   replot(rpQueuedReplot);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "style/texts.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -13,12 +15,14 @@ constexpr std::size_t kMostDots = 12'000;
 
 SampleMapPlot::SampleMapPlot(QWidget* parent) : PlotView(parent) {
   figureActions()->setName("boundary-samples");
-  xAxis->setLabel(tr("board x (mm)"));
-  yAxis->setLabel(tr("board y (mm)"));
-  setToolTip(
-      tr("The board from the front with the returns about its circles (of many, some), blue "
-         "those of the overlap region. Dashed red: circles that are left out in one "
-         "of the scenes shown; the reasons are in the table below."));
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("board x (mm)"));
+    yAxis->setLabel(tr("board y (mm)"));
+    setToolTip(
+        tr("The board from the front with the returns about its circles (of many, some), blue "
+           "those of the overlap region. Dashed red: circles that are left out in one "
+           "of the scenes shown; the reasons are in the table below."));
+  });
   connect(this, &QCustomPlot::afterLayout, this, [this] {
     if (axisRect()->size() == fitted_to_) return;
     fitted_to_ = axisRect()->size();
@@ -71,7 +75,7 @@ void SampleMapPlot::rebuild() {
                     csv_number(kMm * static_cast<double>(s->distance_m)),
                     csv_number(static_cast<double>(s->intensity)), s->overlap ? "1" : "0"});
   }
-  if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : scope_.reason);
+  if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
   setTable({"x_mm", "y_mm", "distance_mm", "intensity", "overlap"}, std::move(rows));
   replot(rpQueuedReplot);
 }

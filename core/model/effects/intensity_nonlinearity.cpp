@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <numbers>
 
 #include "model/catalogue_effect.h"
 
@@ -15,17 +16,29 @@ class IntensityNonlinearity final : public CatalogueEffect {
              .title = "Non-linear intensity",
              .physics = "The receiver compresses strong echoes: black and white do not change by "
                         "the same factor.",
-             .formula = "ln I = g ln(true I), seen as a contrast that changes with the geometry",
+             .formula = "ln I = (1+g) ln(true I): contrast changes with the geometry, and the "
+                        "mid-level crossing of edges moves",
              .source = "Mitka and Klapa 2025",
              .breaker = "boards at several distances",
              .needs = {.intensity = true}},
-            {{"g", "1", 1.0, 0.1, 2.0}}) {}
+            {{"g", "1", 1.0, 0.2, 2.0}}) {}
 
   void intensity(const IntensityRow& row, const MeasurementTable& /*table*/, double /*shape*/,
                  std::span<double> by) const override {
     const double weaker =
         std::log(std::cos(row.beam.incidence_rad)) - 2.0 * std::log(row.beam.range_m);
     by[0] = row.print == Print::kWhite ? 0.0 : weaker;
+  }
+
+  // The middle between two transformed levels is not the transformed middle. With the dark level as
+  // unit: I = m where m = (1+c)/2, dI/dg = (c ln c)/2 - m ln m, and dd = dI (σ √2π)/(c-1).
+  void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<double> by) const override {
+    const double contrast = std::exp(row.log_contrast);
+    if (!(contrast > 1.0)) return;
+    const double middle = 0.5 * (1.0 + contrast);
+    const double level = 0.5 * contrast * row.log_contrast - middle * std::log(middle);
+    by[0] = row.transition_m * std::sqrt(2.0 * std::numbers::pi) * level / (contrast - 1.0);
   }
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "model/catalogue_effect.h"
@@ -16,25 +17,40 @@ class RangeWalk final : public CatalogueEffect {
              .physics = "Weak echoes cross the detection threshold later (or earlier), so that "
                         "dark print reads a different range than white print.",
              .formula = "dr = a g(P), g = 0 for the usual white and 1 for the usual black, a power "
-                        "of 1/P or ln P",
+                        "of 1/P or ln P; P from the intensity, or from print, range and incidence",
              .source = "Livox HAP and Mid-70 manuals; Laconte 2019",
              .breaker = "boards at two distances with the same print",
              .needs = {.intensity = true}},
             {{"a", "mm", 1e-3, 2e-3, 0.05}}) {}
 
-  // g is a power of 1/P or ln P for exponent 0 and in a power of 1/P otherwise.
+  // g is linear in ln P for exponent 0 and in a power of 1/P otherwise. Many LiDARs report
+  // intensities that are freed from range and incidence: those shapes put cos θ/r² back, beside
+  // white at three metres.
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable&) const override {
-    return {0.0, 0.25, 0.5, 1.0};
+    return {0.0, 0.25, 0.5, 1.0, kByGeometry, kByGeometry + 0.25, kByGeometry + 0.5};
   }
-  [[nodiscard]] std::string shape_name() const override { return "exponent"; }
+  [[nodiscard]] std::string shape_name() const override {
+    return "exponent (2 more: power by range and incidence)";
+  }
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {
+    double darkness = beam.darkness;
+    if (shape >= kByGeometry && table.log_contrast > 0.0) {
+      const double weaker = 2.0 * std::log(beam.range_m / kReference_m) -
+                            std::log(std::max(0.05, std::cos(beam.incidence_rad)));
+      darkness += weaker / table.log_contrast;
+      shape -= kByGeometry;
+    }
     const double exponent = shape * table.log_contrast;
-    const double g = exponent > 1e-6 ? std::expm1(exponent * beam.darkness) / std::expm1(exponent)
-                                     : beam.darkness;
+    const double g =
+        exponent > 1e-6 ? std::expm1(exponent * darkness) / std::expm1(exponent) : darkness;
     by[0] = g * beam.direction;
   }
+
+ private:
+  static constexpr double kByGeometry = 2.0;
+  static constexpr double kReference_m = 3.0;
 };
 
 }  // namespace

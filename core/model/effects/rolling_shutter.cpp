@@ -13,18 +13,21 @@ class RollingShutter final : public CatalogueEffect {
             {.id = "rolling_shutter",
              .group = "time",
              .title = "Rolling shutter",
-             .physics = "Image rows are exposed one after the other while something moves.",
-             .formula = "du = v y/H, dv = w y/H",
+             .physics = "Image rows are exposed one after the other while the camera turns.",
+             .formula = "du = y/H (v (1+x²) + w x y), dv = y/H (v x y + w (1+y²)), y/H the row",
              .source = "derived",
              .breaker = "let the rig rest",
              .needs = {}},
             {{"v", "px", 1.0, 0.3, 50.0}, {"w", "px", 1.0, 0.3, 50.0}}) {}
 
-  void camera(const CornerRow& row, const Eigen::Vector2d& /*normalized*/, const Camera& camera,
+  void camera(const CornerRow& row, const Eigen::Vector2d& normalized, const Camera& camera,
               double /*shape*/, std::span<Eigen::Vector2d> by) const override {
-    const double share = row.pixel.y() / camera.height_px - 0.5;
-    by[0] = share * Eigen::Vector2d::UnitX();
-    by[1] = share * Eigen::Vector2d::UnitY();
+    // The pose is that of the first row, as the formula has it.
+    const double share = row.pixel.y() / camera.height_px;
+    const double x = normalized.x();
+    const double y = normalized.y();
+    by[0] = share * Eigen::Vector2d(1.0 + x * x, x * y);
+    by[1] = share * Eigen::Vector2d(x * y, 1.0 + y * y);
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloud/cloud.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -86,6 +87,36 @@ TEST(Cloud, LeavesOutPointsThatAreNoReturns) {
   EXPECT_EQ(cloud->points_m[0], Eigen::Vector3f(1, 2, 3));
   EXPECT_EQ(cloud->points_m[1], Eigen::Vector3f(0, 0, -5));
   EXPECT_THAT(cloud->intensity, testing::ElementsAre(4, 6));
+}
+
+TEST(Cloud, EveryPointStaysInItsPlaceWhenAllAreWanted) {
+  // Two rows of three; unset points carry times of zero, returns times since 1970.
+  std::string header =
+      test::pcd_header("x y z intensity time", "4 4 4 4 8", "F F F F F", "1 1 1 1 1", 6, "ascii");
+  header.replace(header.find("WIDTH 6\nHEIGHT 1"), 16, "WIDTH 3\nHEIGHT 2");
+  const std::string rows =
+      "1 2 3 4 1700000000.5\nnan nan nan nan 0\n0 0 0 0 0\n4 5 6 nan 1700000000.25\n"
+      "1 -inf 1 9 0\n7 8 9 1 1700000001.25\n";
+  const auto cloud = read_cloud_from_memory(header + rows, "m", PointChoice::kAll);
+  ASSERT_TRUE(cloud.ok()) << cloud.error().text();
+  ASSERT_EQ(cloud->size(), 6U);
+  EXPECT_EQ(cloud->rows, 2U);
+  EXPECT_EQ(cloud->dropped, 0U);
+  EXPECT_TRUE(std::isnan(cloud->points_m[1].x()));
+  EXPECT_TRUE(cloud->points_m[2].isZero());
+  EXPECT_EQ(cloud->points_m[5], Eigen::Vector3f(7, 8, 9));
+  EXPECT_TRUE(std::isnan(cloud->intensity[3]));
+  EXPECT_FLOAT_EQ(cloud->time_s[0], 0.25F);
+  EXPECT_FLOAT_EQ(cloud->time_s[3], 0.0F);
+  EXPECT_FLOAT_EQ(cloud->time_s[5], 1.0F);
+  EXPECT_EQ(read_cloud_from_memory(header + rows, "m")->rows, 1U);
+}
+
+TEST(Cloud, WithoutAnyReturnIsNoUseEvenWhenAllAreWanted) {
+  const auto cloud = read_cloud_from_memory(test::ascii_header(2) + "nan 2 3 4\n0 0 0 9\n", "m",
+                                            PointChoice::kAll);
+  ASSERT_FALSE(cloud.ok());
+  EXPECT_THAT(cloud.error().text(), HasSubstr("none of its 2 points"));
 }
 
 TEST(Cloud, MissingFieldsStayEmpty) {

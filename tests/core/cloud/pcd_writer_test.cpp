@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,6 +67,24 @@ TEST_F(PcdWriter, HeaderListsOnlyTheFieldsThatAreThere) {
                                        "U\nCOUNT 1 1 1 1 1\nWIDTH 3\nHEIGHT 1\n"));
   EXPECT_THAT(text, testing::HasSubstr("POINTS 3\nDATA binary\n"));
   EXPECT_FALSE(read_cloud(path)->has_time());
+}
+
+TEST_F(PcdWriter, OrganisedCloudsStayOrganised) {
+  Cloud cloud = random_cloud(12);
+  cloud.rows = 3;
+  cloud.points_m[5].setConstant(std::numeric_limits<float>::quiet_NaN());
+  const fs::path path = folder_ / "cloud.pcd";
+  ASSERT_TRUE(write_pcd(path, cloud).ok());
+  const auto back = read_cloud(path, {}, PointChoice::kAll);
+  ASSERT_TRUE(back.ok()) << back.error().text();
+  EXPECT_EQ(back->rows, 3U);
+  EXPECT_EQ(back->size(), 12U);
+  EXPECT_TRUE(std::isnan(back->points_m[5].x()));
+  EXPECT_EQ(back->intensity, cloud.intensity);
+  // Rows that the points no longer fill are no rows.
+  cloud.rows = 5;
+  ASSERT_TRUE(write_pcd(path, cloud).ok());
+  EXPECT_EQ(read_cloud(path, {}, PointChoice::kAll)->rows, 1U);
 }
 
 TEST_F(PcdWriter, FailuresLeaveNothingBehind) {

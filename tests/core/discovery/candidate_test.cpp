@@ -58,6 +58,48 @@ TEST_F(Candidates, ASureButTinyEffectIsNotMaterial) {
   EXPECT_FALSE(is_accepted(bias, 1, 6, options_));
 }
 
+// Boards at which range and incidence go together, so that n and p act alike: neither is known, but
+// what they do together is.
+test::SyntheticTable collinear_intensity(double size) {
+  auto made = test::synthetic_table({});
+  for (IntensityRow& row : made.table.intensity) {
+    row.beam.range_m = 1.0 / std::cos(row.beam.incidence_rad);
+    row.log_intensity += size * std::log(std::cos(row.beam.incidence_rad));
+  }
+  return made;
+}
+
+TEST_F(Candidates, ParametersThatActAlikeAreJudgedTogether) {
+  prepare(collinear_intensity(0.0), {"intensity_geometry"});
+  const Candidate none = evaluate(0);
+  EXPECT_GT(std::sqrt(none.fit.parameter_covariance()(0, 0)), 0.3);  // n alone: undetermined
+  EXPECT_FALSE(none.material);
+  prepare(collinear_intensity(1.5), {"intensity_geometry"});
+  EXPECT_TRUE(evaluate(0).material);
+}
+
+TEST_F(Candidates, WhatIsLeftOfAnEffectIsTheShareThatNothingElseDoes) {
+  const auto made = test::synthetic_table({});
+  EffectColumnsList columns;
+  for (const char* id : {"range_scale", "range_scale", "range_walk"})
+    columns.add(find_effect(id), 0.0, made.table);
+  linear_ = linearize(made.table, made.truth, {}, columns, {});
+  ColumnSubset subset;
+  for (const EffectColumns& c : columns.list()) append_columns(c, nullptr, subset);
+  const ModelFit fit = fit_model(linear_, subset, {}, {.rounds = 0});
+  EXPECT_LT(determined_share(fit, 6, 1), 1e-6);  // its twin is in the model
+  EXPECT_LT(determined_share(fit, 7, 1), 1e-6);
+  EXPECT_GT(determined_share(fit, 8, 1), 0.01);
+  EXPECT_LE(determined_share(fit, 8, 1), 1.0);
+}
+
+TEST(IsGain, MeansMoreThanOneStandardError) {
+  EXPECT_TRUE(is_gain({1.0, 1.2, 0.8}));
+  EXPECT_FALSE(is_gain({3.0, -1.5, -1.0}));
+  EXPECT_FALSE(is_gain({-1.0, -1.0, -1.1}));
+  EXPECT_FALSE(is_gain({5.0}));  // one scene has no standard error
+}
+
 TEST_F(Candidates, TheSearchRaisesTheBar) {
   Candidate c;
   c.p_value = 0.002;

@@ -187,6 +187,54 @@ TEST_F(Search, SameInputSameAnswer) {
   EXPECT_EQ(a.state().camera_from_lidar.matrix(), b.state().camera_from_lidar.matrix());
 }
 
+TEST_F(Search, ReplacingIsRemovingAndAdding) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.008 * beam.darkness; };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch a(made.table, made.truth, options_, context_);
+  a.add(find_effect("range_scale"), 0.0);
+  EffectSearch b(a);
+  a.replace(0, find_effect("range_walk"), 0.0);
+  b.remove(0);
+  b.add(find_effect("range_walk"), 0.0);
+  ASSERT_EQ(a.in_use().size(), 1U);
+  EXPECT_EQ(a.in_use()[0].effect->info().id, "range_walk");
+  EXPECT_NEAR(a.in_use()[0].values(0), b.in_use()[0].values(0), 1e-5);
+  EXPECT_LT(translation_distance_m(a.state().camera_from_lidar, b.state().camera_from_lidar), 1e-5);
+}
+
+// Range error over azimuth that no effect of the catalogue has.
+test::Disturbance ripple() {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.008 * std::sin(25.0 * beam.azimuth_rad); };
+  return wrong;
+}
+
+TEST(Discover, UnknownStructureIsNamedWithACurveAndAFormulaThatTakeItOut) {
+  const auto made = test::synthetic_table({}, ripple());
+  DiscoveryOptions options;
+  options.max_effects = 3;
+  const auto first = discover_effects(made.table, made.truth, options, {});
+  ASSERT_TRUE(first.ok()) << first.error().text();
+  ASSERT_FALSE(first->unknown.empty());
+  EXPECT_EQ(first->unknown[0].channel, Channel::kRange);
+  EXPECT_EQ(first->unknown[0].covariate, "azimuth");
+  EXPECT_THAT(first->unknown[0].formula, HasSubstr("formula:range:"));
+  EXPECT_THAT(first->advice, ::testing::Contains(HasSubstr("--with curve:range:azimuth")));
+  for (const std::string& wanted :
+       {std::string("curve:range:azimuth"), first->unknown[0].formula}) {
+    options.with = {wanted};
+    const auto second = discover_effects(made.table, made.truth, options, {});
+    ASSERT_TRUE(second.ok()) << second.error().text();
+    EXPECT_EQ(second->selected.front(), wanted);
+    for (const StructureScore& s : second->unknown) {
+      EXPECT_FALSE(s.channel == Channel::kRange && s.covariate == "azimuth")
+          << "left with " << wanted << ": " << s.score;
+    }
+    EXPECT_GT(second->covariance_with_budget.trace(), second->covariance.trace());
+  }
+}
+
 TEST(Discover, TooFewScenesAreRefusedInWords) {
   const auto result = discover_effects({}, {}, {});
   ASSERT_FALSE(result.ok());

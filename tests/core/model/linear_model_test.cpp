@@ -31,7 +31,8 @@ TEST_P(EffectDerivative, ResidualsFallByTheColumnTimesTheValue) {
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     EffectInUse use{effect, shape,
                     Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
-    const double step = parameters[p].material;
+    // Edges are curved: their prediction is linear in small displacements only.
+    const double step = 0.01 * parameters[p].material;
     use.values(static_cast<Eigen::Index>(p)) = step;
     for (const Channel channel : kAllChannels) {
       const auto before = residuals_of(made.table, made.truth, {}, channel);
@@ -45,7 +46,7 @@ TEST_P(EffectDerivative, ResidualsFallByTheColumnTimesTheValue) {
         const auto at = scene.layout.size() + 6 + static_cast<int>(p);
         expected += step * step * scene.products[static_cast<std::size_t>(channel)](at, at);
       }
-      EXPECT_NEAR(squares, expected, 1e-6 * expected + 1e-12) << name_of(channel);
+      EXPECT_NEAR(squares, expected, 5e-3 * expected + 1e-12) << name_of(channel);
     }
   }
 }

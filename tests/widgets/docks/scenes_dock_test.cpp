@@ -60,6 +60,23 @@ TEST_F(ScenesDockTest, SpaceTicksAndArrowsChangeTheSceneLookedAt) {
   EXPECT_NE(activated.last().first().toString(), "Z");
 }
 
+// The menu of the list belongs to the row under the pointer.
+TEST_F(ScenesDockTest, TheMenuRunsTheClickedSceneAgain) {
+  dock_.select("A");
+  ASSERT_EQ(view_->contextMenuPolicy(), Qt::ActionsContextMenu);
+  for (const char* name : {"accept", "reject", "run_again", "uncrop", "add_scenes"})
+    EXPECT_TRUE(view_->actions().contains(action(name))) << name;
+  const QModelIndex row =
+      view_->model()->match(view_->model()->index(0, 0), Qt::DisplayRole, "B")[0];
+  QTest::mouseClick(view_->viewport(), Qt::RightButton, Qt::NoModifier,
+                    view_->visualRect(row).center());
+  QSignalSpy again(&dock_, &ScenesDock::run_again_wanted);
+  ASSERT_TRUE(action("run_again")->isEnabled());
+  action("run_again")->trigger();
+  ASSERT_EQ(again.count(), 1);
+  EXPECT_EQ(again.first().first().toStringList(), QStringList{"B"});
+}
+
 TEST_F(ScenesDockTest, SortsByAnyColumn) {
   view_->sortByColumn(SceneModel::kName, Qt::DescendingOrder);
   EXPECT_EQ(view_->model()->index(0, 0).data().toString(), "Z");

@@ -11,7 +11,8 @@ namespace lvcalib::widgets {
 namespace {
 
 TEST(ResponseTable, NumbersInDegreesAndMillimetresWithTheirSigma) {
-  const std::unique_ptr<QTableWidget> table(new_response_table(nullptr, "Scene"));
+  const std::unique_ptr<QTableWidget> table(new_response_table(nullptr));
+  title_response_table(*table, "Scene");
   constexpr double kRadians = std::numbers::pi / 180.0;
   ResponseStatistics s;
   s.n = 321;
@@ -41,7 +42,8 @@ TEST(ResponseTable, NumbersInDegreesAndMillimetresWithTheirSigma) {
 }
 
 TEST(ResponseTable, WithoutStatisticsTheReasonStandsInPlaceOfNumbers) {
-  const std::unique_ptr<QTableWidget> table(new_response_table(nullptr, "Scene"));
+  const std::unique_ptr<QTableWidget> table(new_response_table(nullptr));
+  title_response_table(*table, "Scene");
   add_response_row(*table, "B", std::nullopt, std::nullopt, "not enough samples: 7 of 200");
   EXPECT_EQ(table->item(0, 2)->text(), "not enough samples: 7 of 200");
   EXPECT_EQ(table->columnSpan(0, 2), 6);

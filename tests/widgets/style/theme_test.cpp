@@ -2,6 +2,10 @@
 #include "style/theme.h"
 
 #include <QApplication>
+#include <QImage>
+#include <QPainter>
+#include <QStyle>
+#include <QStyleOptionButton>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -41,6 +45,28 @@ TEST(Theme, TextAndStatesAreReadableInLightAndDark) {
       }
     }
     EXPECT_GT(contrast(p.color(QPalette::HighlightedText), p.color(QPalette::Highlight)), 3.0);
+  }
+}
+
+// An empty check box must be seen: in the list of scenes it is what brings a scene back.
+TEST(Theme, AnEmptyCheckBoxHasAVisibleEdge) {
+  for (const Theme theme : {Theme::kLight, Theme::kDark}) {
+    apply_theme(*qApp, theme);
+    for (const auto element : {QStyle::PE_IndicatorCheckBox, QStyle::PE_IndicatorItemViewItemCheck,
+                               QStyle::PE_IndicatorRadioButton}) {
+      QImage image(20, 20, QImage::Format_RGB32);
+      const QColor ground = qApp->palette().color(QPalette::Base);
+      image.fill(ground);
+      QStyleOptionButton option;
+      option.palette = qApp->palette();
+      option.rect = QRect(3, 3, 13, 13);
+      option.state = QStyle::State_Enabled | QStyle::State_Off;
+      QPainter painter(&image);
+      qApp->style()->drawPrimitive(element, &option, &painter);
+      painter.end();
+      EXPECT_GT(contrast(image.pixelColor(9, 3), ground), 3.0)
+          << name_of(theme).toStdString() << " " << element;
+    }
   }
 }
 

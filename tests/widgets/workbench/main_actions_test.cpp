@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "workbench/main_actions.h"
 
+#include <QApplication>
 #include <QMainWindow>
 #include <QMap>
 #include <QMenuBar>
 #include <QSignalSpy>
+#include <QTemporaryDir>
 #include <QUndoStack>
 
 #include <gtest/gtest.h>
+
+#include "start/app_settings.h"
+#include "workbench/language.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -20,6 +25,7 @@ TEST(MainActions, EveryActionHasTextAndNoShortcutIsTakenTwice) {
   for (const QAction* action : actions.findChildren<QAction*>()) {
     if (action->isSeparator() || action->menu() != nullptr) continue;
     EXPECT_FALSE(action->text().isEmpty()) << action->objectName().toStdString();
+    EXPECT_FALSE(action->iconText().contains('&')) << action->objectName().toStdString();
     const QString keys = action->shortcut().toString();
     if (keys.isEmpty()) continue;
     EXPECT_FALSE(taken.contains(keys)) << keys.toStdString();
@@ -29,6 +35,32 @@ TEST(MainActions, EveryActionHasTextAndNoShortcutIsTakenTwice) {
   EXPECT_TRUE(taken.contains("Esc"));
   for (const QAction* menu : window.menuBar()->actions())
     EXPECT_TRUE(menu->text().contains('&')) << "no key for " << menu->text().toStdString();
+}
+
+TEST(MainActions, ColoursAndLanguageAreKeptInTheSettings) {
+  const QTemporaryDir folder;
+  AppSettings settings(folder.path());
+  settings.set_theme(Theme::kDark);
+  settings.set_language("en");
+  QMainWindow window;
+  QUndoStack undo;
+  MainActions actions(window, undo);
+  actions.follow(settings);
+  ASSERT_NE(actions.themes->checkedAction(), nullptr);
+  EXPECT_EQ(actions.themes->checkedAction()->data().toString(), name_of(Theme::kDark));
+  EXPECT_EQ(actions.languages->checkedAction()->data().toString(), "en");
+  for (QAction* action : actions.themes->actions()) {
+    if (action->data().toString() == name_of(Theme::kLight)) action->trigger();
+  }
+  for (QAction* action : actions.languages->actions()) {
+    if (action->data().toString() == "zh_CN") action->trigger();
+  }
+  EXPECT_EQ(settings.theme(), Theme::kLight);
+  EXPECT_FALSE(is_dark(qApp->palette()));
+  EXPECT_EQ(settings.language(), "zh_CN");
+  EXPECT_EQ(QCoreApplication::translate("lvcalib::widgets::MainActions", "&Quit"),
+            QString::fromUtf8("退出(&Q)"));
+  use_language("en");
 }
 
 TEST(MainActions, RecentPathsAskToBeOpened) {

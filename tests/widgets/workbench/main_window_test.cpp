@@ -262,7 +262,9 @@ TEST_F(MainWindowTest, CancelActsWithinAFifthOfASecondAndNothingIsLost) {
     clock.start();
     QTest::keyClick(window_.get(), Qt::Key_Escape);
     ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }, 5000));
-    EXPECT_LT(clock.elapsed(), 260) << "after " << delay_ms << " ms";
+    const auto elapsed_ms = clock.elapsed();
+    std::cout << "cancelled after " << delay_ms << " ms: " << elapsed_ms << " ms\n";
+    EXPECT_LE(elapsed_ms, 200) << "after " << delay_ms << " ms";
     EXPECT_TRUE(find<QAction>(*window_, "run")->isEnabled());
   }
   trigger(*window_, "run");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Usage: lvcalib-screenshots FOLDER [DATASET]. Opens a dataset (without one: the demo), runs it and
-// writes a picture of every page and dialog to the folder, in light and dark.
+// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE]. Opens a dataset (without one: the
+// demo), runs it and writes a picture of every page and dialog to the folder, in light and dark.
 
 #include <QApplication>
 #include <QComboBox>
@@ -43,6 +43,62 @@ class Photographer {
   widgets::MainWindow& window_;
   QString folder_;
 };
+
+void choose(const widgets::MainWindow& window, const char* what, const QString& value) {
+  for (QAction* action : window.findChildren<QAction*>(QString::fromLatin1(what))) {
+    if (action->data().toString() == value) action->trigger();
+  }
+}
+
+void photograph_pages(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  const QStringList names = {QStringLiteral("scene"), QStringLiteral("refinement"),
+                             QStringLiteral("extrinsic"), QStringLiteral("response"),
+                             QStringLiteral("model")};
+  auto* tabs = test::find<QTabWidget>(window, "pages");
+  for (int tab = 0; tab < tabs->count(); ++tab) {
+    tabs->setCurrentIndex(tab);
+    const QString name = names.value(tab, QStringLiteral("page-%1").arg(tab + 1));
+    camera.take(name + QLatin1Char('-') + theme);
+    if (name == QLatin1String("scene")) {
+      auto* crop = test::find<QAction>(window, "crop-action");
+      crop->setChecked(true);
+      camera.take(QStringLiteral("crop-") + theme);
+      crop->setChecked(false);
+    }
+    // Pages within the page: the pose's neighbours, the response's tables.
+    auto* inner = tabs->currentWidget()->findChild<QTabWidget*>();
+    for (int k = 1; inner != nullptr && k < inner->count(); ++k) {
+      inner->setCurrentIndex(k);
+      camera.take(QStringLiteral("%1-%2-%3").arg(name).arg(k + 1).arg(theme));
+    }
+    if (inner != nullptr) inner->setCurrentIndex(0);
+  }
+}
+
+void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  const auto take = [&](const char* object, const QString& name) {
+    if (auto* dialog = test::find<QDialog>(window, object)) {
+      camera.take(name + QLatin1Char('-') + theme, dialog);
+      dialog->close();
+    }
+  };
+  test::trigger(window, "results");
+  if (auto* results = test::find<QDialog>(window, "results_dialog")) {
+    camera.take(QStringLiteral("results-") + theme, results);
+    test::find<QTabWidget>(*results, "results_tabs")->setCurrentIndex(1);
+    auto* formats = test::find<QListWidget>(*results, "formats");
+    formats->setCurrentItem(
+        formats->findItems(QStringLiteral("kalibr"), Qt::MatchExactly).value(0));
+  }
+  take("results_dialog", QStringLiteral("exports"));
+  test::trigger(window, "guide");
+  take("guide_dialog", QStringLiteral("guide"));
+  test::trigger(window, "about");
+  take("about_dialog", QStringLiteral("about"));
+  window.open(QStringLiteral("/nowhere/rig"));
+  test::wait_until([&] { return test::find<QDialog>(window, "error_dialog") != nullptr; }, 5000);
+  take("error_dialog", QStringLiteral("error"));
+}
 
 bool wait_for_model(widgets::MainWindow& window) {
   return test::wait_until([&] { return window.model_work().step() && !window.model_work().busy(); },
@@ -122,6 +178,8 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (!test::wait_until([&] { return !window.workspace().busy(); })) return 1;
   camera.take(QStringLiteral("opened"));
   test::trigger(window, "run");
+  QTest::qWait(500);
+  camera.take(QStringLiteral("running"));
   if (!test::wait_until(
           [&] { return window.workspace().result() != nullptr && !window.workspace().busy(); }))
     return 1;
@@ -132,29 +190,11 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   camera.take(QStringLiteral("model-tour"));
   if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
   for (const char* theme : {"light", "dark"}) {
-    for (QAction* action : window.findChildren<QAction*>(QStringLiteral("theme"))) {
-      if (action->data().toString() == QLatin1String(theme)) action->trigger();
-    }
-    for (int tab = 0; tab < tabs->count(); ++tab) {
-      tabs->setCurrentIndex(tab);
-      camera.take(QStringLiteral("%1-%2").arg(
-          QStringList{QStringLiteral("scene"), QStringLiteral("refinement"),
-                      QStringLiteral("extrinsic"), QStringLiteral("response"),
-                      QStringLiteral("model")}
-              .value(tab),
-          QLatin1String(theme)));
-    }
+    choose(window, "theme", QString::fromLatin1(theme));
+    photograph_pages(window, camera, QString::fromLatin1(theme));
+    tabs->setCurrentIndex(4);
     photograph_model(window, camera, QLatin1String(theme));
-    test::trigger(window, "results");
-    if (auto* results = test::find<QDialog>(window, "results_dialog")) {
-      camera.take(QStringLiteral("results-") + QLatin1String(theme), results);
-      test::find<QTabWidget>(*results, "results_tabs")->setCurrentIndex(1);
-      auto* formats = test::find<QListWidget>(*results, "formats");
-      formats->setCurrentItem(
-          formats->findItems(QStringLiteral("kalibr"), Qt::MatchExactly).value(0));
-      camera.take(QStringLiteral("exports-") + QLatin1String(theme), results);
-      results->close();
-    }
+    photograph_dialogs(window, camera, QString::fromLatin1(theme));
   }
   return 0;
 }
@@ -171,7 +211,7 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   const QStringList arguments = QApplication::arguments();
   if (arguments.size() < 2) {
-    std::fprintf(stderr, "usage: lvcalib-screenshots FOLDER [DATASET]\n");
+    std::fprintf(stderr, "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE]\n");
     return 2;
   }
   QDir().mkpath(arguments.at(1));
@@ -182,7 +222,10 @@ int main(int argc, char** argv) {
   int status = 0;
   {
     widgets::MainWindow window(settings, answers);
-    status = photograph(window, arguments.at(1), arguments.value(2));
+    choose(window, "language", arguments.value(3, QStringLiteral("en")));
+    const QString dataset = arguments.value(2);
+    status =
+        photograph(window, arguments.at(1), dataset == QLatin1String("demo") ? QString() : dataset);
   }
   widgets::Runner::wait_for_workers(10'000);
   return status;

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/scene_advice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "discovery/predicted_scene.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr std::size_t kMostPairs = 3;
+constexpr std::size_t kMostUnseen = 2;
+constexpr double kTells = 3.0;       // σ by which a difference must stand out
+constexpr double kWorthwhile = 1.2;  // a scene that gains less is not worth the way
+constexpr double kUnseenMove_mm = 1.0;
+
+using Block = InformationBlock;
+
+std::vector<Eigen::Index> indices_of(const std::vector<Block>& blocks) {
+  std::vector<Eigen::Index> out;
+  for (const Block& b : blocks) {
+    for (Eigen::Index k = 0; k < b.count; ++k) out.push_back(b.first + k);
+  }
+  return out;
+}
+
+// Information of `mine` once `rest` is integrated out.
+Eigen::MatrixXd schur(const Eigen::MatrixXd& h, const std::vector<Eigen::Index>& mine,
+                      const std::vector<Eigen::Index>& rest) {
+  const Eigen::MatrixXd cross = h(rest, mine);
+  return Eigen::MatrixXd(h(mine, mine)) -
+         cross.transpose() * Eigen::MatrixXd(h(rest, rest)).ldlt().solve(cross);
+}
+
+std::string number(const char* format, double a, double b = 0.0) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+class Adviser {
+ public:
+  Adviser(const EffectSearch& search, const std::vector<EffectFinding>& findings,
+          const DiscoveryOptions& options, const RunContext& context)
+      : search_(search), findings_(findings), options_(options), context_(context) {}
+
+  std::vector<std::string> run() {
+    choose_requests();
+    if (!collect()) return {};
+    for (const auto& [a, b] : pairs_) tell_apart(a, b);
+    for (const EffectFinding* f : unseen_) make_visible(*f);
+    shrink_extrinsic();
+    return std::move(out_);
+  }
+
+ private:
+  struct Involved {
+    EffectColumns columns;  // in the search's linearisation
+    Block block;
+  };
+
+  // Pairs of an effect in the model with its aliases; effects that may be there unseen.
+  void choose_requests() {
+    for (const EffectFinding& f : findings_) {
+      const bool in_model =
+          std::any_of(search_.in_use().begin(), search_.in_use().end(),
+                      [&](const EffectInUse& use) { return use.effect->info().id == f.id; });
+      if (!in_model) continue;
+      for (const std::string& alias : f.aliases) {
+        if (pairs_.size() < kMostPairs && is_candidate(alias)) pairs_.emplace_back(f.id, alias);
+      }
+    }
+    for (const EffectFinding& f : findings_) {
+      if (f.verdict == EffectVerdict::kNotTestable && !f.parameters.empty() &&
+          f.extrinsic_move_mm >= kUnseenMove_mm && is_candidate(f.id))
+        unseen_.push_back(&f);
+    }
+    std::stable_sort(unseen_.begin(), unseen_.end(),
+                     [](const EffectFinding* a, const EffectFinding* b) {
+                       return a->extrinsic_move_mm > b->extrinsic_move_mm;
+                     });
+    if (unseen_.size() > kMostUnseen) unseen_.resize(kMostUnseen);
+  }
+
+  [[nodiscard]] const Candidate* candidate(const std::string& id) const {
+    for (const Candidate& c : search_.candidates()) {
+      if (search_.linear().columns.list()[c.columns].effect->info().id == id) return &c;
+    }
+    return nullptr;
+  }
+  [[nodiscard]] bool is_candidate(const std::string& id) const { return candidate(id) != nullptr; }
+
+  void involve(const EffectColumns& columns) {
+    const std::string& id = columns.effect->info().id;
+    if (involved_.count(id) != 0) return;
+    const auto first = 6 + static_cast<Eigen::Index>(subset_.columns.size());
+    involved_[id] = {columns, {first, columns.count()}};
+    append_columns(columns, nullptr, subset_);
+    predicted_columns_.add(columns.effect, columns.shape, search_.table());
+  }
+
+  // Information of the scenes taken and of every pose of the grid, over all that is involved.
+  bool collect() {
+    const auto& list = search_.linear().columns.list();
+    for (std::size_t k = 0; k < search_.in_use().size(); ++k) {
+      involve(list[k]);
+      own_.push_back(involved_.at(list[k].effect->info().id).block);
+    }
+    for (const auto& [a, b] : pairs_) involve(list[candidate(b)->columns]);
+    for (const EffectFinding* f : unseen_) involve(list[candidate(f->id)->columns]);
+    const ModelVariances& variances = search_.reference().fit.variances;
+    const auto size = 6 + static_cast<Eigen::Index>(subset_.columns.size());
+    now_ = Eigen::MatrixXd::Zero(size, size);
+    for (std::size_t k = 0; k < subset_.columns.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k) + 6;
+      now_(at, at) = 1.0 / (subset_.prior_sigma[k] * subset_.prior_sigma[k]);
+    }
+    for (const SceneProducts& scene : search_.linear().scenes)
+      now_ += scene_term(scene, subset_, variances).information;
+    const SensorModel sensors = sensors_of(search_.table());
+    const Rigid3& camera_from_lidar = search_.state().camera_from_lidar;
+    poses_ = board_grid(search_.table().target, search_.table().camera, options_.grid);
+    std::erase_if(poses_, [&](const BoardPose& pose) {
+      return !lidar_sees(sensors, search_.table().target,
+                         camera_from_lidar.inverse() * pose.camera_from_board);
+    });
+    ColumnSubset subset = subset_;
+    std::iota(subset.columns.begin(), subset.columns.end(), 0);
+    added_ = predicted_information(poses_, sensors, search_.table(), camera_from_lidar,
+                                   predicted_columns_, subset, variances, context_);
+    return !added_.empty();
+  }
+
+  // The pose with the largest value of a function of the information with it.
+  template <class Value>
+  std::pair<std::size_t, double> best(Value&& value) const {
+    std::pair<std::size_t, double> out{0, -HUGE_VAL};
+    for (std::size_t k = 0; k < added_.size(); ++k) {
+      const double v = value(now_ + added_[k]);
+      if (v > out.second) out = {k, v};
+    }
+    return out;
+  }
+
+  void tell_apart(const std::string& a, const std::string& b) {
+    const Block& block_a = involved_.at(a).block;
+    const Block& block_b = involved_.at(b).block;
+    std::vector<Block> rest{{0, 6}};
+    Eigen::VectorXd values;
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      if (own_[k].first == block_a.first)
+        values = search_.in_use()[k].values;
+      else
+        rest.push_back(own_[k]);
+    }
+    const auto sigmas = [&](const Eigen::MatrixXd& h) {
+      return std::sqrt(std::max(0.0, t_optimality(now_, h, block_a, block_b, rest, values)));
+    };
+    const auto [pose, after] = best(sigmas);
+    const double before = sigmas(now_);
+    if (after < kTells || after < kWorthwhile * before) {
+      out_.push_back("No further scene of this board will tell " + a + " from " + b +
+                     number(" (at best %.1f σ); measure instead: ", after) +
+                     involved_.at(b).columns.effect->info().breaker);
+      return;
+    }
+    out_.push_back("To tell " + a + " from " + b + ", take a scene with the board " +
+                   poses_[pose].text() +
+                   number("; the difference would stand %.1f σ (now %.1f σ)", after, before));
+  }
+
+  void make_visible(const EffectFinding& f) {
+    const Involved& effect = involved_.at(f.id);
+    std::vector<Block> rest{{0, 6}};
+    rest.insert(rest.end(), own_.begin(), own_.end());
+    const auto mine = indices_of({effect.block});
+    const auto others = indices_of(rest);
+    const auto t = [&](const Eigen::MatrixXd& h) {
+      const Eigen::MatrixXd covariance =
+          schur(h, mine, others)
+              .ldlt()
+              .solve(Eigen::MatrixXd::Identity(effect.block.count, effect.block.count));
+      double least = HUGE_VAL;
+      for (Eigen::Index k = 0; k < effect.block.count; ++k) {
+        const double material = effect.columns.parameters[static_cast<std::size_t>(k)].material;
+        least = std::min(least, material / std::sqrt(std::max(1e-300, covariance(k, k))));
+      }
+      return least;
+    };
+    const auto [pose, after] = best(t);
+    const double before = t(now_);
+    const std::string what =
+        f.id + number(" (it could move the extrinsic by %.1f mm and %.2f mrad)",
+                      f.extrinsic_move_mm, f.extrinsic_move_mrad);
+    if (after < kWorthwhile * before) {
+      out_.push_back("No further scene of this board will show " + what +
+                     "; measure instead: " + effect.columns.effect->info().breaker);
+      return;
+    }
+    out_.push_back("To see whether there is " + what + ", take a scene with the board " +
+                   poses_[pose].text() +
+                   number("; what matters of it would stand %.1f σ (now %.1f σ)", after, before));
+  }
+
+  void shrink_extrinsic() {
+    std::vector<Eigen::Index> mine(6);
+    std::iota(mine.begin(), mine.end(), 0);
+    const auto others = indices_of(own_);
+    const auto worst = [&](const Eigen::MatrixXd& h) {
+      const Eigen::MatrixXd information =
+          others.empty() ? Eigen::MatrixXd(h(mine, mine)) : schur(h, mine, others);
+      // A milliradian weighs as much as a millimetre: they are alike at one metre.
+      return 1e3 /
+             std::sqrt(std::max(1e-12, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(information)
+                                           .eigenvalues()
+                                           .minCoeff()));
+    };
+    const auto [pose, after] = best([&](const Eigen::MatrixXd& h) { return -worst(h); });
+    const double before = worst(now_);
+    if (-after * kWorthwhile > before) return;
+    out_.push_back(
+        "The extrinsic's weakest direction gains most from a scene with the board " +
+        poses_[pose].text() +
+        number(": its standard deviation falls from %.2g to %.2g mm (or mrad)", before, -after));
+  }
+
+  const EffectSearch& search_;
+  const std::vector<EffectFinding>& findings_;
+  const DiscoveryOptions& options_;
+  const RunContext& context_;
+  std::vector<std::pair<std::string, std::string>> pairs_;
+  std::vector<const EffectFinding*> unseen_;
+  std::map<std::string, Involved> involved_;
+  std::vector<Block> own_;
+  ColumnSubset subset_;
+  EffectColumnsList predicted_columns_;
+  Eigen::MatrixXd now_;
+  std::vector<BoardPose> poses_;
+  std::vector<Eigen::MatrixXd> added_;
+  std::vector<std::string> out_;
+};
+
+}  // namespace
+
+double noncentrality(const Eigen::MatrixXd& information, const InformationBlock& mine,
+                     const std::vector<InformationBlock>& rest, const Eigen::VectorXd& values) {
+  return values.dot(schur(information, indices_of({mine}), indices_of(rest)) * values);
+}
+
+double t_optimality(const Eigen::MatrixXd& now, const Eigen::MatrixXd& with_scene,
+                    const InformationBlock& a, const InformationBlock& b,
+                    const std::vector<InformationBlock>& rest, const Eigen::VectorXd& values) {
+  const auto both = schur(now, indices_of({a, b}), indices_of(rest));
+  const Eigen::VectorXd mimic = Eigen::MatrixXd(both.bottomRightCorner(b.count, b.count))
+                                    .ldlt()
+                                    .solve(both.bottomLeftCorner(b.count, a.count) * values);
+  std::vector<InformationBlock> without_a = rest;
+  without_a.push_back(b);
+  std::vector<InformationBlock> without_b = rest;
+  without_b.push_back(a);
+  return 0.5 * (noncentrality(with_scene, a, without_a, values) +
+                noncentrality(with_scene, b, without_b, mimic));
+}
+
+std::vector<std::string> advise_scenes(const EffectSearch& search,
+                                       const std::vector<EffectFinding>& findings,
+                                       const DiscoveryOptions& options, const RunContext& context) {
+  return Adviser(search, findings, options, context).run();
+}
+
+}  // namespace lvcalib

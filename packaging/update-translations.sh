@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Reads all texts of the window into the catalogues: from widgets/ and app/workbench/, and from the
+# lists that the core declares (translations/core_texts.cpp). New texts come in as unfinished, texts
+# that are gone are dropped; then translate with Qt Linguist, or in an editor.
+#   packaging/update-translations.sh [FOLDER]   catalogues in FOLDER (default translations)
+# CORE_TEXTS: the program built from translations/core_texts.cpp; without it, it is built first.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+folder=$(realpath -m "${1:-$root/translations}")
+
+if [[ -z ${CORE_TEXTS:-} ]]; then
+  cmake --build "$root/build/release" --target lvcalib_core_texts >&2
+  CORE_TEXTS="$root/build/release/bin/lvcalib_core_texts"
+fi
+lupdate=${LUPDATE:-/usr/lib/qt6/bin/lupdate}
+[[ -x $lupdate ]] || lupdate=lupdate
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$CORE_TEXTS" >"$work/core_texts.cpp"
+"$lupdate" -no-obsolete -locations none -I "$root/widgets" -I "$root/app" "$root/widgets" "$root/app/workbench" \
+  "$work/core_texts.cpp" -ts "$folder"/*.ts

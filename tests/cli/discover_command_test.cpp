@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// discover on what it cannot work with: every case gets a verdict or a message in words.
+#include <algorithm>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/child_process.h"
+#include "cli/good_dataset.h"
+#include "cloud/cloud.h"
+
+namespace lvcalib::testing {
+namespace {
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class DiscoverCommand : public ::testing::Test {
+ protected:
+  [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
+  [[nodiscard]] Outcome discover(const fs::path& dataset,
+                                 const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"discover", dataset,         "-o", out(),
+                                          "--quiet",  "--max-effects", "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_lvcalib(arguments);
+  }
+  [[nodiscard]] nlohmann::json json(const char* name) const {
+    return nlohmann::json::parse(read_file(out() / name));
+  }
+  static nlohmann::json effect(const nlohmann::json& discovery, const std::string& id) {
+    for (const auto& e : discovery["effects"]) {
+      if (e["id"] == id) return e;
+    }
+    ADD_FAILURE() << id << " is not listed";
+    return {};
+  }
+  // A copy of the good dataset with changed clouds.
+  [[nodiscard]] fs::path with_clouds(const std::function<void(Cloud&)>& change) const {
+    const fs::path copy = folder_.path() / "changed";
+    copy_dataset(good_dataset(), copy);
+    for (const std::string& name : scene_names(copy)) {
+      const fs::path path = copy / "scenes" / name / "cloud.pcd";
+      auto read = read_cloud(path);
+      EXPECT_TRUE(read.ok());
+      change(*read);
+      fs::remove(path);
+      EXPECT_TRUE(write_pcd(path, *read).ok());
+    }
+    return copy;
+  }
+  TemporaryFolder folder_{"discover"};
+};
+
+TEST_F(DiscoverCommand, SlipsOfThePenAreSaidBeforeLongWork) {
+  const fs::path none = "/nowhere";  // not even looked at
+  const Outcome formula = discover(none, {"--with", "formula:range:a*sin("});
+  EXPECT_EQ(formula.status, 2);
+  EXPECT_THAT(formula.err, HasSubstr("character"));
+  const Outcome covariate = discover(none, {"--with", "curve:range:azimut"});
+  EXPECT_EQ(covariate.status, 2);
+  EXPECT_THAT(covariate.err, HasSubstr("did you mean 'azimuth'?"));
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(DiscoverCommand, OneSceneAndTwoAreTooFewButCalibrated) {
+  const Outcome two = discover(good_dataset(), {"--reject", "C"});
+  EXPECT_EQ(two.status, 1);
+  EXPECT_THAT(two.err, HasSubstr("2 scenes, three or more are needed"));
+  EXPECT_TRUE(fs::exists(out() / "result.json"));
+  EXPECT_FALSE(fs::exists(out() / "discovery.json"));
+  const Outcome one = discover(good_dataset(), {"--reject", "C", "--reject", "B"});
+  EXPECT_EQ(one.status, 1);
+  EXPECT_THAT(one.err, HasSubstr("1 scene, three or more are needed"));
+}
+
+TEST_F(DiscoverCommand, GoesOnWithoutWhatTheDataCannotBear) {
+  const Outcome outcome = discover(
+      good_dataset(), {"--with", "formula:range:a/(board_x-board_x)", "--with", "range_walk",
+                       "--with", "range_walk", "--with", "curve:range:azimuth"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("not a finite number"));
+  EXPECT_THAT(outcome.err, HasSubstr("asked for twice"));
+  EXPECT_THAT(outcome.out, HasSubstr("with what effects left out could do"));
+  const auto discovery = json("discovery.json");
+  EXPECT_EQ(effect(discovery, "formula:range:a/(board_x-board_x)")["verdict"], "not_testable");
+  const auto curve = effect(discovery, "curve:range:azimuth");
+  EXPECT_EQ(curve["curve"]["points"].size(), 33U);
+  EXPECT_THAT(curve["spec"].get<std::string>(), HasSubstr("curve:range:azimuth["));
+  EXPECT_EQ(discovery["warnings"].size(), 2U);
+  ASSERT_FALSE(discovery["sensitivity_budget"].empty());
+  const auto result = json("result.json");
+  EXPECT_EQ(result["sensitivity_budget"], discovery["sensitivity_budget"]);
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_GE(result["covariance_with_budget"][k][k].get<double>(),
+              result["covariance"][k][k].get<double>());
+  }
+  EXPECT_EQ(result["model"]["effects"][1]["id"], "curve:range:azimuth");
+  EXPECT_EQ(result["model"]["effects"][1]["spec"], curve["spec"]);
+}
+
+TEST_F(DiscoverCommand, MissingFieldsAreNotTestable) {
+  const fs::path dataset = with_clouds([](Cloud& cloud) {
+    cloud.time_s.clear();
+    cloud.line.clear();
+  });
+  const Outcome outcome = discover(dataset, {"--with", "scan_motion"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no time in these clouds"));
+  const auto discovery = json("discovery.json");
+  EXPECT_EQ(effect(discovery, "scan_motion")["verdict"], "not_testable");
+  EXPECT_THAT(effect(discovery, "encoder_lag")["explanation"].get<std::string>(),
+              HasSubstr("no time"));
+  EXPECT_THAT(effect(discovery, "channel_range_offset")["explanation"].get<std::string>(),
+              HasSubstr("no laser lines"));
+}
+
+TEST_F(DiscoverCommand, ConstantIntensityIsRefusedInWords) {
+  const fs::path dataset = with_clouds(
+      [](Cloud& cloud) { std::fill(cloud.intensity.begin(), cloud.intensity.end(), 42.0F); });
+  const Outcome outcome = discover(dataset);
+  // Circles cannot be seen without contrast.
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("intensity is the same on all points"));
+  EXPECT_FALSE(fs::exists(out() / "discovery.json"));
+}
+
+TEST_F(DiscoverCommand, ScenesAllAlikeExcludeNothingThatThePoseAbsorbs) {
+  const fs::path copy = folder_.path() / "alike";
+  copy_dataset(good_dataset(), copy);
+  for (const char* name : {"B", "C"}) {
+    for (const char* file : {"image.png", "cloud.pcd"}) {
+      fs::remove(copy / "scenes" / name / file);
+      fs::copy_file(good_dataset() / "scenes" / "A" / file, copy / "scenes" / name / file);
+    }
+  }
+  const Outcome outcome = discover(copy);
+  ASSERT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.err;
+  ASSERT_TRUE(fs::exists(out() / "discovery.json")) << outcome.err;
+  const auto discovery = json("discovery.json");
+  for (const char* id : {"intrinsics_error", "footprint_offset", "beam_origin_offset"})
+    EXPECT_NE(effect(discovery, id)["verdict"], "absent") << id;
+  EXPECT_FALSE(discovery["advice"].empty());
+  EXPECT_FALSE(discovery["sensitivity_budget"].empty());
+}
+
+}  // namespace
+}  // namespace lvcalib::testing

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "discovery/effect_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/pose_matchers.h"
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+class SearchState : public ::testing::Test {
+ protected:
+  static test::SyntheticTable with_walk(double size_m) {
+    test::Disturbance wrong;
+    wrong.range_m = [size_m](const BeamPoint& beam) { return size_m * beam.darkness; };
+    return test::synthetic_table({}, wrong);
+  }
+  [[nodiscard]] static std::string id_of(const EffectSearch& search, const Candidate& c) {
+    return search.linear().columns.list()[c.columns].effect->info().id;
+  }
+  DiscoveryOptions options_;
+  RunContext context_;
+};
+
+TEST_F(SearchState, RefitFindsTheTruthFromAWrongStart) {
+  const auto made = test::synthetic_table({});
+  ModelState start = made.truth;
+  Random random(8);
+  start.camera_from_lidar = test::disturbed(start.camera_from_lidar, random, 0.004, 0.004);
+  for (Rigid3& board : start.camera_from_board)
+    board = test::disturbed(board, random, 0.002, 0.002);
+  const EffectSearch search(made.table, start, options_, context_);
+  EXPECT_LT(test::chi_square_of({search.state().camera_from_lidar,
+                                 search.reference().fit.covariance.topLeftCorner<6, 6>().eval()},
+                                made.truth.camera_from_lidar),
+            22.5);
+}
+
+TEST_F(SearchState, AddedEffectsTakeTheirValueAndLeaveTheCandidates) {
+  const auto made = with_walk(0.008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  ASSERT_FALSE(search.candidates().empty());
+  EXPECT_EQ(id_of(search, search.candidates().front()), "range_walk");
+  ASSERT_TRUE(search.best().has_value());
+  search.add(find_effect("range_walk"), 0.0);
+  ASSERT_EQ(search.in_use().size(), 1U);
+  EXPECT_NEAR(search.in_use()[0].values(0), 0.008, 0.0008);
+  search.rank();
+  for (const Candidate& c : search.candidates()) EXPECT_NE(id_of(search, c), "range_walk");
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(SearchState, RemovedEffectsLeaveNoTrace) {
+  const auto made = with_walk(0.0);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  const Rigid3 before = search.state().camera_from_lidar;
+  search.add(find_effect("range_offset"), 0.0);
+  search.remove(0);
+  EXPECT_TRUE(search.in_use().empty());
+  // To a twentieth of what the scenes determine.
+  const Vector6d sigma = search.reference().fit.covariance.diagonal().head<6>().cwiseSqrt();
+  const Vector6d moved = se3_log(search.state().camera_from_lidar * before.inverse());
+  EXPECT_LT(moved.cwiseQuotient(sigma).norm(), 0.05);
+}
+
+TEST_F(SearchState, WhatIsNotThereIsSuperfluousAndWhatIsThereIsNot) {
+  const auto made = with_walk(0.008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.add(find_effect("range_walk"), 0.0);
+  EXPECT_FALSE(search.superfluous().has_value());
+  search.add(find_effect("board_bow"), 0.0);
+  const auto k = search.superfluous();
+  ASSERT_TRUE(k.has_value());
+  EXPECT_EQ(search.in_use()[*k].effect->info().id, "board_bow");
+}
+
+TEST_F(SearchState, CandidatesComeBestFirst) {
+  const auto made = with_walk(0.008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  for (const Candidate& c : search.candidates()) {
+    EXPECT_EQ(c.scene_gain.size(), made.table.scenes.size());
+    EXPECT_GE(c.p_value, 0.0);
+    EXPECT_LE(c.p_value, 1.0);
+  }
+  EXPECT_GT(search.candidates().front().total_gain(), search.candidates().back().total_gain());
+  EXPECT_GT(search.candidates().front().best_heldout_gain(), 0.05);
+}
+
+TEST_F(SearchState, StopsWhenAsked) {
+  const auto made = with_walk(0.008);
+  std::stop_source source;
+  source.request_stop();
+  context_.stop = source.get_token();
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  EXPECT_TRUE(search.candidates().empty());
+  EXPECT_FALSE(search.best().has_value());
+  EXPECT_FALSE(search.superfluous().has_value());
+}
+
+}  // namespace
+}  // namespace lvcalib

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/model_discovery.h"
+
+#include <gtest/gtest.h>
+
+#include "support/pose_matchers.h"
+#include "support/synthetic_observations.h"
+
+namespace lvcalib {
+namespace {
+
+// Four scenes of which the third is not used, solved from synthetic observations.
+CalibrationResult four_scenes() {
+  CalibrationResult result;
+  result.camera = test::test_camera();
+  const auto observations =
+      test::observed_scenes(4, result.target, result.camera, test::test_extrinsic(), {}, 1);
+  std::vector<SceneObservations> used = observations;
+  used.erase(used.begin() + 2);
+  auto solution = solve_extrinsic(used, result.camera, result.target, {});
+  if (!solution) {
+    ADD_FAILURE() << solution.error().text();
+    return result;
+  }
+  result.extrinsic = *solution;
+  for (std::size_t s = 0; s < observations.size(); ++s) {
+    SceneResult scene;
+    scene.name = observations[s].name;
+    scene.used = s != 2;
+    scene.view.emplace();
+    scene.view->corners = observations[s].corners;
+    scene.refinement.emplace();
+    scene.refinement->plane = observations[s].plane;
+    scene.refinement->lidar_from_board = observations[s].lidar_from_board;
+    scene.board_points.points_m.push_back({1.0F, 0.0F, 0.0F});
+    result.scenes.push_back(std::move(scene));
+  }
+  return result;
+}
+
+TEST(DiscoveryInput, HoldsTheScenesInUseWithTheirPoses) {
+  const CalibrationResult result = four_scenes();
+  const DiscoveryInput input = discovery_input(result);
+  ASSERT_EQ(input.scenes.size(), 3U);
+  ASSERT_EQ(input.state.camera_from_board.size(), 3U);
+  EXPECT_EQ(input.scenes[2].name, result.scenes[3].name);
+  EXPECT_EQ(input.scenes[2].refinement, &*result.scenes[3].refinement);
+  EXPECT_EQ(input.scenes[2].board_points, &result.scenes[3].board_points);
+  EXPECT_THAT(input.state.camera_from_lidar,
+              test::IsNearPose(result.extrinsic.camera_from_lidar.transform, 1e-9, 1e-9));
+  EXPECT_EQ(input.sigma_px, result.extrinsic.sigma_px);
+}
+
+TEST(DiscoveryInput, OutlyingCornersStayOut) {
+  CalibrationResult result = four_scenes();
+  const std::size_t before = discovery_input(result).scenes[0].corners.size();
+  ASSERT_GT(before, 2U);
+  result.extrinsic.scenes[0].corners[1].used = false;
+  EXPECT_EQ(discovery_input(result).scenes[0].corners.size(), before - 1);
+}
+
+TEST(Discover, TooFewScenesAreRefused) {
+  CalibrationResult result = four_scenes();
+  result.scenes[0].used = false;
+  const auto discovery = discover(result, {}, {});
+  ASSERT_FALSE(discovery.ok());
+  EXPECT_EQ(discovery.error().kind, ErrorKind::kUntrusted);
+}
+
+TEST(WithModel, PutsPoseBoardsEffectsAndScalesIntoTheResult) {
+  const CalibrationResult before = four_scenes();
+  Discovery discovery;
+  discovery.state.camera_from_lidar = test::test_extrinsic();
+  discovery.state.camera_from_lidar.translation.x() += 0.5;
+  discovery.covariance = 1e-6 * Matrix6d::Identity();
+  for (int k = 0; k < 3; ++k) {
+    discovery.state.camera_from_board.push_back(Rigid3{});
+    discovery.state.camera_from_board.back().translation.z() = 10.0 + k;
+  }
+  discovery.model.push_back({find_effect("range_near"), 1.2, Eigen::VectorXd::Constant(1, 0.02)});
+  discovery.scales.log_contrast = 2.5;
+  EffectFinding found;
+  found.id = "range_near";
+  found.parameters.push_back({"a", "mm", 1e-3, 0.02, 0.001});
+  EffectFinding not_found;
+  not_found.id = "range_offset";
+  discovery.effects = {found, not_found};
+  const CalibrationResult after = with_model(before, discovery);
+  EXPECT_THAT(after.extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(discovery.state.camera_from_lidar, 1e-9, 1e-9));
+  EXPECT_EQ(after.extrinsic.camera_from_lidar.covariance, discovery.covariance);
+  ASSERT_EQ(after.model.size(), 1U);
+  EXPECT_EQ(after.model[0].id, "range_near");
+  EXPECT_EQ(after.model[0].shape, 1.2);
+  EXPECT_EQ(after.model[0].parameters[0].value, 0.02);
+  EXPECT_EQ(after.model_scales.log_contrast, 2.5);
+  // The board poses go to the scenes in use, in their order.
+  const std::string names[] = {before.scenes[0].name, before.scenes[1].name, before.scenes[3].name};
+  for (int k = 0; k < 3; ++k) {
+    for (const SceneSolution& s : after.extrinsic.scenes) {
+      if (s.name == names[k]) {
+        EXPECT_EQ(s.camera_from_board.translation.z(), 10.0 + k);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lvcalib

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/uncertainty_plots.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "widgets/views/plots_test.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+// Three by two cells that grow to the right; one is behind the camera.
+ProjectedUncertainty example() {
+  ProjectedUncertainty map;
+  map.columns = 3;
+  map.rows = 2;
+  map.range_m = 5.0;
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      map.pixel.emplace_back(100.0 + 200.0 * column, 100.0 + 200.0 * row);
+      map.sigma_px.push_back(row == 1 && column == 0 ? std::nan("") : 0.1 * (column + 1));
+    }
+  }
+  return map;
+}
+
+TEST(UncertaintyMapPlot, ShowsEveryCellInTheColourOfItsValue) {
+  UncertaintyMapPlot plot;
+  plot.resize(500, 340);
+  plot.setMap(example(), {600, 400});
+  const auto rows = test::rows_of(plot.csv());
+  ASSERT_EQ(rows.size(), 6);
+  EXPECT_EQ(rows[2], "500,100,0.3");
+  const QImage picture = plot.toPixmap(500, 340).toImage();
+  const auto at = [&](double u, double v) {
+    return picture.pixelColor(static_cast<int>(plot.xAxis->coordToPixel(u)),
+                              static_cast<int>(plot.yAxis->coordToPixel(v)));
+  };
+  EXPECT_GT(at(500, 100).lightness(), at(100, 100).lightness() + 20);
+  EXPECT_EQ(at(100, 300), plot.colors().background);  // no ray there
+}
+
+TEST(UncertaintyMapPlot, ImageStandsUprightWithSquarePixels) {
+  UncertaintyMapPlot plot;
+  plot.resize(500, 340);
+  plot.setMap(example(), {600, 400});
+  plot.toPixmap(500, 340);
+  EXPECT_LT(plot.yAxis->coordToPixel(0), plot.yAxis->coordToPixel(400));
+  EXPECT_NEAR(plot.xAxis->coordToPixel(100) - plot.xAxis->coordToPixel(0),
+              plot.yAxis->coordToPixel(100) - plot.yAxis->coordToPixel(0), 1.0);
+}
+
+TEST(UncertaintyMapPlot, NothingIsSaidToBeNothing) {
+  UncertaintyMapPlot plot;
+  plot.setMap(std::nullopt, {});
+  EXPECT_TRUE(plot.csv().isEmpty());
+  ProjectedUncertainty blind = example();
+  for (double& sigma : blind.sigma_px) sigma = std::nan("");
+  plot.setMap(blind, {600, 400});
+  EXPECT_TRUE(plot.csv().isEmpty());
+}
+
+TEST(UncertaintyRangePlot, ShowsBothCurvesOverTheirRange) {
+  UncertaintyRangePlot plot;
+  plot.resize(400, 300);
+  plot.setRanges({{2.0, 0.5, 0.2}, {10.0, 1.5, 0.3}, {50.0, 7.0, 0.9}});
+  const auto rows = test::rows_of(plot.csv());
+  ASSERT_EQ(rows.size(), 3);
+  EXPECT_EQ(rows[1], "10,1.5,0.3");
+  EXPECT_TRUE(plot.xAxis->range().contains(2.0) && plot.xAxis->range().contains(50.0));
+  EXPECT_TRUE(plot.yAxis->range().contains(0.2) && plot.yAxis->range().contains(7.0));
+  EXPECT_TRUE(test::shows(plot, plot.colors().series(0)));
+  EXPECT_TRUE(test::shows(plot, plot.colors().series(1)));
+  plot.setRanges({});
+  EXPECT_TRUE(plot.csv().isEmpty());
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The language is changed from the menu while everything is open: nothing may stay in English.
+#include <QDialog>
+#include <QRegularExpression>
+#include <QTabWidget>
+#include <QTemporaryDir>
+#include <algorithm>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dialogs/error_dialog.h"
+#include "runner/demo.h"
+#include "views/color_bar.h"
+#include "widgets/support/driver.h"
+#include "widgets/support/visible_texts.h"
+#include "workbench/language.h"
+
+namespace lvcalib {
+namespace {
+
+using test::find;
+using test::trigger;
+using test::wait_until;
+
+// Names, units, file names and keys are the same in every language.
+const std::set<QString>& same_everywhere() {
+  static const std::set<QString> words = {
+      "Calib",       "LiDAR", "AprilTag", "AprilGrid", "YAML",     "JSON", "PNG",    "PDF",
+      "CSV",         "HTML",  "SVD",      "PnP",       "RMS",      "IMU",  "SLAM",   "ROS",
+      "OpenGL",      "Mesa",  "Huber",    "Ctrl",      "Shift",    "Esc",  "Home",   "mrad",
+      "rad",         "deg",   "lvcalib",  "English",   "GPL",      "BSD",  "Clause", "later",
+      "tagSize",     "nat",   "LVI",      "SAM",       "camchain", "LIVO", "FAST",   "LIVE",
+      "FileStorage", "Rcl",   "Pcl",      "rvec",      "tvec",     "cos",  "sin",    "Del",
+      "raw",         "demo",  "dataset",  "target"};
+  return words;
+}
+
+// English words of a text, after what is the same in every language is taken out.
+QStringList english_words(QString text) {
+  static const QRegularExpression code("<code>.*?</code>|<style>.*?</style>|<[^>]*>");
+  // Paths, file names, identifiers, format specifiers: anything with . / _ * or a digit in it.
+  static const QRegularExpression names(
+      "[^\\s，。：；（）]*[A-Za-z0-9_]+[./_*0-9:][^\\s，。：；（）]*");
+  static const QRegularExpression word("[A-Za-z]{3,}");
+  text.remove(code);
+  text.remove(names);
+  QStringList out;
+  for (auto i = word.globalMatch(text); i.hasNext();) {
+    const QString found = i.next().captured();
+    if (!same_everywhere().contains(found)) out << found;
+  }
+  return out;
+}
+
+void choose_language(const QMainWindow& window, const QString& code) {
+  for (QAction* action : window.findChildren<QAction*>(QStringLiteral("language"))) {
+    if (action->data().toString() == code) action->trigger();
+  }
+}
+
+class RetranslationTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    simulation::SimulationOptions options;
+    options.seed = 3;
+    options.scenes = 3;
+    options.lidar.points = 100'000;
+    options.image.width_px = 800;
+    options.image.height_px = 500;
+    const QString dataset = folder_.filePath(QStringLiteral("dataset"));
+    ASSERT_TRUE(widgets::make_demo(dataset.toStdString(), options, {}).ok());
+    settings_ = std::make_unique<widgets::AppSettings>(folder_.filePath("settings"));
+    window_ = std::make_unique<widgets::MainWindow>(*settings_, answers_);
+    window_->show();
+    choose_language(*window_, "en");
+    window_->open(dataset);
+    ASSERT_TRUE(wait_until([&] { return window_->workspace().is_open(); }));
+  }
+  void TearDown() override {
+    window_.reset();
+    widgets::use_language("en");
+    EXPECT_TRUE(widgets::Runner::wait_for_workers(60'000));
+  }
+
+  // Calibrates, leaves a scene out, visits every page and opens every dialog that stays open.
+  void show_everything() {
+    ASSERT_TRUE(trigger(*window_, "run"));
+    ASSERT_TRUE(test::wait_for_result(*window_));
+    auto* tabs = find<QTabWidget>(*window_, "pages");
+    for (int k = 0; k < tabs->count(); ++k) {
+      tabs->setCurrentIndex(k);
+      QTest::qWait(20);
+    }
+    window_->workspace().set_use({window_->workspace().missing_scenes() + QStringList{"02"}},
+                                 false);
+    ASSERT_TRUE(test::wait_for_result(*window_));
+    for (const char* name : {"results", "guide", "about"}) ASSERT_TRUE(trigger(*window_, name));
+    const auto* result = window_->workspace().result().get();
+    auto* error = new widgets::ErrorDialog(
+        Error::untrusted("the scenes determine only 5 of 6 directions of the extrinsic",
+                         result->dataset, "add a scene with the board nearer and tilted"),
+        window_.get());
+    error->show();
+    QTest::qWait(20);
+  }
+
+  // Clouds get their legends from the background.
+  void wait_for_legends(const QString& old_script) {
+    const QRegularExpression old(old_script);
+    wait_until(
+        [&] {
+          const auto bars = window_->findChildren<widgets::ColorBar*>();
+          return std::none_of(bars.begin(), bars.end(), [&](const widgets::ColorBar* bar) {
+            return bar->accessibleName().contains(old);
+          });
+        },
+        10'000);
+  }
+
+  QTemporaryDir folder_;
+  test::Answers answers_;
+  std::unique_ptr<widgets::AppSettings> settings_;
+  std::unique_ptr<widgets::MainWindow> window_;
+};
+
+TEST_F(RetranslationTest, NoEnglishIsLeftAfterASwitchToChinese) {
+  show_everything();
+  const std::size_t before = test::TextCollector(*window_).texts().size();
+  ASSERT_GT(before, 400U);
+  choose_language(*window_, "zh_CN");
+  wait_for_legends("[A-Za-z]{3}");
+  const std::vector<test::SaidText> said = test::TextCollector(*window_).texts();
+  EXPECT_GE(said.size() + 4, before) << "only the status line may have fallen silent";
+  for (const test::SaidText& text : said) {
+    EXPECT_THAT(english_words(text.text), ::testing::IsEmpty())
+        << text.where.toStdString() << " says: " << text.text.toStdString();
+  }
+}
+
+TEST_F(RetranslationTest, BackToEnglishNoChineseIsLeft) {
+  choose_language(*window_, "zh_CN");
+  show_everything();
+  choose_language(*window_, "en");
+  wait_for_legends("\\p{Han}");
+  static const QRegularExpression han("\\p{Han}");
+  const std::vector<test::SaidText> said = test::TextCollector(*window_).texts();
+  for (const test::SaidText& text : said) {
+    if (text.text == QString::fromUtf8("简体中文")) continue;
+    EXPECT_FALSE(text.text.contains(han))
+        << text.where.toStdString() << " says: " << text.text.toStdString();
+  }
+}
+
+TEST(EnglishWords, AreFoundBesideNamesAndNumbers) {
+  EXPECT_THAT(english_words(QString::fromUtf8("角点 RMS (px)")), ::testing::IsEmpty());
+  EXPECT_THAT(english_words("corner RMS (px)"), ::testing::ElementsAre("corner"));
+  EXPECT_THAT(english_words(QString::fromUtf8("<p>打开 target.yaml</p><code>a.b c</code>")),
+              ::testing::IsEmpty());
+  EXPECT_THAT(english_words(QString::fromUtf8("结果：two scenes")),
+              ::testing::ElementsAre("two", "scenes"));
+}
+
+}  // namespace
+}  // namespace lvcalib

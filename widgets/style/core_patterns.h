@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QtGlobal>
+
+namespace lvcalib::widgets {
+
+/// The core library's sentences that a user of the window meets, with %1, %2 … for what is filled
+/// in; the first that fits counts, so that special ones stand before general ones. Texts that the
+/// core declares in lists (options, formats) are not here: packaging/update-translations.sh reads
+/// them from the core itself.
+inline constexpr const char* kCorePatterns[] = {
+    // Verdict and warnings of a result.
+    QT_TRANSLATE_NOOP("Core", "result: %1"),
+    QT_TRANSLATE_NOOP("Core", "scene %1 is not used: %2"),
+    QT_TRANSLATE_NOOP(
+        "Core", "only one usable scene: nothing to check the result against; take two or more"),
+    QT_TRANSLATE_NOOP("Core", "the scenes determine only %1 of 6 directions of the extrinsic"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the scenes leave the extrinsic open: ± %1 mm and ± %2 mrad along the worst "
+                      "axes; add scenes with the board turned differently"),
+    QT_TRANSLATE_NOOP("Core",
+                      "LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % "
+                      "larger than target.yaml says; measure the print and correct tagSize"),
+    QT_TRANSLATE_NOOP("Core",
+                      "LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % "
+                      "smaller than target.yaml says; measure the print and correct tagSize"),
+    QT_TRANSLATE_NOOP("Core",
+                      "black print reads %1 mm farther than white: the LiDAR's range depends on "
+                      "the reflectivity, an effect is missing in the model"),
+    QT_TRANSLATE_NOOP("Core",
+                      "black print reads %1 mm nearer than white: the LiDAR's range depends on "
+                      "the reflectivity, an effect is missing in the model"),
+    QT_TRANSLATE_NOOP("Core",
+                      "scene %1: its board measures %2 % larger than in the other scenes: is it "
+                      "another print?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "scene %1: its board measures %2 % smaller than in the other scenes: is it "
+                      "another print?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the halves of the scenes (%1) differ by %2 mm and %3 mrad, more than noise "
+                      "explains (χ² %4, at most %5): an effect is missing in the model, or one "
+                      "scene is off"),
+    QT_TRANSLATE_NOOP(
+        "Core", "two scenes: a mistake in one of them could not be told from one in the other"),
+    QT_TRANSLATE_NOOP("Core",
+                      "tag corners miss their model by %1 px: check the intrinsics and that the "
+                      "board is flat"),
+    QT_TRANSLATE_NOOP("Core",
+                      "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an "
+                      "effect is missing in the model; scene %3 misses most: %4 mm, the others "
+                      "%5 mm"),
+    QT_TRANSLATE_NOOP("Core",
+                      "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an "
+                      "effect is missing in the model"),
+    QT_TRANSLATE_NOOP("Core", "another assignment of the board is nearly as good (margin %1)"),
+    // Weak directions.
+    QT_TRANSLATE_NOOP("Core", "%1 is not determined: add scenes with the board turned differently"),
+    QT_TRANSLATE_NOOP("Core", "%1 is known %2 times worse than the typical direction: %3"),
+    QT_TRANSLATE_NOOP("Core", "translation along the camera's x axis"),
+    QT_TRANSLATE_NOOP("Core", "translation along the camera's y axis"),
+    QT_TRANSLATE_NOOP("Core", "translation along the camera's z axis"),
+    QT_TRANSLATE_NOOP("Core", "rotation about the camera's x axis"),
+    QT_TRANSLATE_NOOP("Core", "rotation about the camera's y axis"),
+    QT_TRANSLATE_NOOP("Core", "rotation about the camera's z axis"),
+    QT_TRANSLATE_NOOP("Core",
+                      "add a scene much nearer or farther, to part it from the turn about y"),
+    QT_TRANSLATE_NOOP("Core",
+                      "add a scene much nearer or farther, to part it from the turn about x"),
+    QT_TRANSLATE_NOOP("Core", "add a scene with the board nearer and tilted"),
+    QT_TRANSLATE_NOOP("Core", "add a scene much nearer or farther, or high or low in the image"),
+    QT_TRANSLATE_NOOP("Core",
+                      "add a scene much nearer or farther, or far left or right in the image"),
+    QT_TRANSLATE_NOOP("Core", "add a scene with the board near the image's edge"),
+    // Why a scene is not used.
+    QT_TRANSLATE_NOOP("Core", "rejected by the user"),
+    QT_TRANSLATE_NOOP("Core", "not used"),
+    QT_TRANSLATE_NOOP("Core", "the board found in the cloud does not agree with the other scenes"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the board is not found in the cloud (%1); the LiDAR sees past the place "
+                      "where the image has it: does the image belong to this cloud?"),
+    QT_TRANSLATE_NOOP("Core", "the board is not found in the cloud (%1)"),
+    QT_TRANSLATE_NOOP("Core", "not searched"),
+    QT_TRANSLATE_NOOP("Core", "%1 flat patches of its size, best pattern correlation %2"),
+    QT_TRANSLATE_NOOP("Core", "%1 flat patches of its size"),
+    QT_TRANSLATE_NOOP("Core", "the crop box holds no points"),
+    QT_TRANSLATE_NOOP("Core",
+                      "contradicts the other scenes by %1 mm and %2 mrad: did the board or the rig "
+                      "move between cloud and image?"),
+    QT_TRANSLATE_NOOP("Core", "refinement did not settle within its iterations"),
+    QT_TRANSLATE_NOOP("Core", "only %1 of %2 circles usable; node %3: %4"),
+    QT_TRANSLATE_NOOP("Core", "only %1 of %2 circles usable"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "no tags in the image (the board must be in view, sharp, and neither dark nor "
+        "overexposed)"),
+    // Bins and nodes of the refinement.
+    QT_TRANSLATE_NOOP("Core", "used"),
+    QT_TRANSLATE_NOOP("Core", "too few samples"),
+    QT_TRANSLATE_NOOP("Core", "contrast too weak for the noise"),
+    QT_TRANSLATE_NOOP("Core", "samples on one side of the edge only"),
+    QT_TRANSLATE_NOOP("Core", "no crossing of the mid-level"),
+    QT_TRANSLATE_NOOP("Core", "contradicts the other bins"),
+    QT_TRANSLATE_NOOP("Core",
+                      "too few samples: %1 inside and %2 outside the circle, at least %3 each "
+                      "needed"),
+    QT_TRANSLATE_NOOP("Core", "no contrast between circle and paper"),
+    QT_TRANSLATE_NOOP("Core", "too few usable bins around the circle"),
+    QT_TRANSLATE_NOOP("Core", "centre too uncertain"),
+    // Boundary response.
+    QT_TRANSLATE_NOOP("Core", "not refined"),
+    QT_TRANSLATE_NOOP("Core", "not enough samples"),
+    QT_TRANSLATE_NOOP("Core", "no contrast"),
+    QT_TRANSLATE_NOOP("Core", "intensity clipped"),
+    QT_TRANSLATE_NOOP("Core", "not refined: %1"),
+    QT_TRANSLATE_NOOP("Core", "not enough samples: %1"),
+    QT_TRANSLATE_NOOP("Core", "no contrast: %1"),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 in the overlap region, %2 on the circle, %3 on the paper; needed %4, %5 "
+                      "and %6"),
+    QT_TRANSLATE_NOOP("Core", "black %1, white %2, noise %3"),
+    QT_TRANSLATE_NOOP("Core", "intensity clipped: %1 of the paper's samples at the highest value"),
+    QT_TRANSLATE_NOOP("Core", "intensity clipped: %1 of the circle's samples at the highest value"),
+    QT_TRANSLATE_NOOP("Core", "intensity clipped: %1 of the paper's samples at the lowest value"),
+    QT_TRANSLATE_NOOP("Core", "intensity clipped: %1 of the circle's samples at the lowest value"),
+    QT_TRANSLATE_NOOP("Core", "the cloud has no intensity"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the intensities about the circles show no transition from black to white"),
+    QT_TRANSLATE_NOOP("Core", "the transitions about the circles have no common width"),
+    QT_TRANSLATE_NOOP("Core",
+                      "not enough samples for statistics: %1 in the overlap region, needed %2 "
+                      "around the circles"),
+    QT_TRANSLATE_NOOP("Core", "no circle gives boundary samples: %1 (the first: %2)"),
+    QT_TRANSLATE_NOOP("Core", "no circle gives boundary samples: %1"),
+    QT_TRANSLATE_NOOP("Core", "%1 × %2, %3"),
+    QT_TRANSLATE_NOOP("Core", "%1 × %2"),
+    QT_TRANSLATE_NOOP("Core", "this board has no circles"),
+    QT_TRANSLATE_NOOP("Core", "not enough scenes for a boundary response: none is in use"),
+    // Halves of the scenes.
+    QT_TRANSLATE_NOOP("Core",
+                      "not enough scenes for a comparison of halves: neither half alone determines "
+                      "the extrinsic"),
+    QT_TRANSLATE_NOOP("Core", "not enough scenes for a comparison of halves: %1 in use, %2 needed"),
+    QT_TRANSLATE_NOOP("Core", "near/far"),
+    QT_TRANSLATE_NOOP("Core", "left/right"),
+    QT_TRANSLATE_NOOP("Core", "flat/tilted"),
+    // Progress.
+    QT_TRANSLATE_NOOP("Core", "joint solve"),
+    QT_TRANSLATE_NOOP("Core", "comparing scenes"),
+    QT_TRANSLATE_NOOP("Core", "other sizes of the board"),
+    QT_TRANSLATE_NOOP("Core", "done"),
+    QT_TRANSLATE_NOOP("Core", "scene %1"),
+    // Scenes named before anything else that is said of them.
+    QT_TRANSLATE_NOOP("Core", "scene %1: %2"),
+};
+
+}  // namespace lvcalib::widgets

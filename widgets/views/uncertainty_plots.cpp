@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/uncertainty_plots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "style/texts.h"
+#include "views/color_map.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr int kGradientStops = 32;
+
+QCPColorGradient gradient() {
+  QCPColorGradient out;
+  out.clearColorStops();
+  for (int k = 0; k <= kGradientStops; ++k) {
+    const double share = static_cast<double>(k) / kGradientStops;
+    out.setColorStopAt(share, QColor(map_color(ColorMap::kSequential, share)));
+  }
+  out.setNanHandling(QCPColorGradient::nhTransparent);
+  return out;
+}
+
+QSharedPointer<QCPAxisTickerLog> decades() {
+  QSharedPointer<QCPAxisTickerLog> ticker(new QCPAxisTickerLog);
+  ticker->setSubTickCount(9);
+  return ticker;
+}
+
+}  // namespace
+
+UncertaintyMapPlot::UncertaintyMapPlot(QWidget* parent) : PlotView(parent) {
+  setObjectName("uncertainty-map");
+  figureActions()->setName("uncertainty-map");
+  yAxis->setRangeReversed(true);
+  scale_ = new QCPColorScale(this);
+  scale_->setType(QCPAxis::atRight);
+  scale_->setGradient(gradient());
+  scale_->setRangeDrag(false);
+  scale_->setRangeZoom(false);
+  plotLayout()->addElement(0, 1, scale_);
+  auto* margins = new QCPMarginGroup(this);
+  axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  scale_->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("image u (px)"));
+    yAxis->setLabel(tr("image v (px)"));
+    scale_->axis()->setLabel(tr("standard deviation (px)"));
+    setToolTip(
+        tr("Where in the image a LiDAR point falls is known to one standard deviation of so many "
+           "pixels, from the extrinsic's covariance alone. Where the colour is bright, take a "
+           "scene with the board there."));
+  });
+  connect(this, &QCustomPlot::afterLayout, this, [this] {
+    if (axisRect()->size() == fitted_to_) return;
+    fitted_to_ = axisRect()->size();
+    fit();
+    replot(rpQueuedReplot);
+  });
+}
+
+void UncertaintyMapPlot::setMap(std::optional<ProjectedUncertainty> map, const QSize& image_px) {
+  map_ = std::move(map);
+  image_px_ = image_px;
+  fit();
+  rebuild();
+}
+
+// The image in the middle, with square pixels.
+void UncertaintyMapPlot::fit() {
+  if (image_px_.isEmpty()) return;
+  const double w = image_px_.width();
+  const double h = image_px_.height();
+  const QRect rect = axisRect()->rect();
+  const double aspect = rect.height() > 10 ? static_cast<double>(rect.width()) / rect.height() : 1;
+  const double half_y = 0.5 * std::max(h, w / aspect);
+  setHome({0.5 * w - half_y * aspect, 0.5 * w + half_y * aspect},
+          {0.5 * h - half_y, 0.5 * h + half_y});
+}
+
+void UncertaintyMapPlot::drawCells(const ProjectedUncertainty& map) {
+  auto* cells = new QCPColorMap(xAxis, yAxis);
+  cells->data()->setSize(map.columns, map.rows);
+  const Eigen::Vector2d first = map.pixel.front();
+  const Eigen::Vector2d last = map.pixel.back();
+  cells->data()->setRange({first.x(), last.x()}, {first.y(), last.y()});
+  double low = HUGE_VAL;
+  double high = 0.0;
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      const double sigma = map.sigma_px[static_cast<std::size_t>(row * map.columns + column)];
+      cells->data()->setCell(column, row, sigma);
+      if (!std::isfinite(sigma)) continue;
+      low = std::min(low, sigma);
+      high = std::max(high, sigma);
+    }
+  }
+  cells->setInterpolate(false);
+  cells->setColorScale(scale_);
+  cells->setGradient(gradient());
+  // Zero stands at the dark end, so that a colour means the same whatever the best spot is.
+  scale_->setDataRange({0.0, std::max(high, 1e-6)});
+}
+
+void UncertaintyMapPlot::styleScale() {
+  QCPAxis* axis = scale_->axis();
+  axis->setTickLabelColor(colors().text);
+  axis->setLabelColor(colors().text);
+  axis->setLabelFont(xAxis->labelFont());
+  axis->setTickLabelFont(xAxis->tickLabelFont());
+  axis->setBasePen(QPen(colors().axis));
+  axis->setTickPen(QPen(colors().axis));
+  axis->setSubTickPen(QPen(colors().axis));
+}
+
+void UncertaintyMapPlot::rebuild() {
+  clearFigure();
+  styleScale();
+  std::vector<QStringList> rows;
+  const bool any = map_ && !map_->pixel.empty() &&
+                   std::any_of(map_->sigma_px.begin(), map_->sigma_px.end(),
+                               [](double sigma) { return std::isfinite(sigma); });
+  scale_->setVisible(any);
+  if (any) {
+    drawCells(*map_);
+    auto* frame = new QCPItemRect(this);
+    frame->topLeft->setCoords(0, 0);
+    frame->bottomRight->setCoords(image_px_.width(), image_px_.height());
+    frame->setPen(QPen(colors().axis));
+    for (std::size_t k = 0; k < map_->pixel.size(); ++k) {
+      rows.push_back({csv_number(map_->pixel[k].x()), csv_number(map_->pixel[k].y()),
+                      csv_number(map_->sigma_px[k])});
+    }
+  } else {
+    showMessage(tr("no result yet"));
+  }
+  setTable({"u_px", "v_px", "sigma_px"}, std::move(rows));
+  replot(rpQueuedReplot);
+}
+
+UncertaintyRangePlot::UncertaintyRangePlot(QWidget* parent) : PlotView(parent) {
+  setObjectName("uncertainty-range");
+  figureActions()->setName("uncertainty-range");
+  for (QCPAxis* axis : {xAxis, yAxis}) {
+    axis->setScaleType(QCPAxis::stLogarithmic);
+    axis->setTicker(decades());
+    axis->setNumberFormat("gb");
+    axis->setNumberPrecision(0);
+  }
+  legend->setVisible(true);
+  axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
+  follow_language(this, [this] {
+    xAxis->setLabel(tr("range (m)"));
+    yAxis->setLabel(tr("standard deviation (mm)"));
+    setToolTip(
+        tr("How far a LiDAR point at this range may lie beside its true place in the camera frame: "
+           "one standard deviation across the ray and along it, from the extrinsic's covariance."));
+  });
+}
+
+void UncertaintyRangePlot::setRanges(std::vector<RangeUncertainty> ranges) {
+  ranges_ = std::move(ranges);
+  double low = HUGE_VAL;
+  double high = 0.0;
+  for (const RangeUncertainty& r : ranges_) {
+    for (const double mm : {r.across_mm, r.along_mm}) {
+      if (!(mm > 0.0)) continue;
+      low = std::min(low, mm);
+      high = std::max(high, mm);
+    }
+  }
+  if (low <= high && ranges_.size() > 1)
+    setHome({0.8 * ranges_.front().range_m, 1.25 * ranges_.back().range_m}, {0.6 * low, 2 * high});
+  rebuild();
+}
+
+void UncertaintyRangePlot::drawCurve(bool across) {
+  QCPGraph* graph = addGraph();
+  const QColor color = colors().series(across ? 0 : 1);
+  graph->setName(across ? tr("across the ray") : tr("along the ray"));
+  graph->setPen(QPen(color, 2.0));
+  graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(color), color, 6});
+  for (const RangeUncertainty& r : ranges_)
+    graph->addData(r.range_m, across ? r.across_mm : r.along_mm);
+}
+
+void UncertaintyRangePlot::rebuild() {
+  clearFigure();
+  legend->setVisible(!ranges_.empty());
+  legend->setBrush(Qt::NoBrush);
+  legend->setBorderPen(Qt::NoPen);
+  legend->setTextColor(colors().text);
+  std::vector<QStringList> rows;
+  if (ranges_.empty()) {
+    showMessage(tr("no result yet"));
+  } else {
+    drawCurve(true);
+    drawCurve(false);
+  }
+  for (const RangeUncertainty& r : ranges_)
+    rows.push_back({csv_number(r.range_m), csv_number(r.across_mm), csv_number(r.along_mm)});
+  setTable({"range_m", "across_mm", "along_mm"}, std::move(rows));
+  replot(rpQueuedReplot);
+}
+
+}  // namespace lvcalib::widgets

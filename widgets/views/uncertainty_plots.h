@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "extrinsic/uncertainty.h"
+#include "views/plot_view.h"
+
+namespace lvcalib::widgets {
+
+/// One standard deviation (px) of the pixel that a LiDAR point falls into, over the image.
+class UncertaintyMapPlot : public PlotView {
+  Q_OBJECT
+
+ public:
+  explicit UncertaintyMapPlot(QWidget* parent = nullptr);
+
+  /// Shows a map of an image of this size; nothing: says that there is none.
+  void setMap(std::optional<ProjectedUncertainty> map, const QSize& image_px);
+
+ protected:
+  void rebuild() override;
+
+ private:
+  void fit();
+  void drawCells(const ProjectedUncertainty& map);
+  void styleScale();
+
+  std::optional<ProjectedUncertainty> map_;
+  QSize image_px_;
+  QSize fitted_to_;
+  QCPColorScale* scale_ = nullptr;
+};
+
+/// One standard deviation (mm) of a LiDAR point in the camera frame against its range, across the
+/// ray and along it.
+class UncertaintyRangePlot : public PlotView {
+  Q_OBJECT
+
+ public:
+  explicit UncertaintyRangePlot(QWidget* parent = nullptr);
+
+  void setRanges(std::vector<RangeUncertainty> ranges);
+
+ protected:
+  void rebuild() override;
+
+ private:
+  void drawCurve(bool across);
+
+  std::vector<RangeUncertainty> ranges_;
+};
+
+}  // namespace lvcalib::widgets
