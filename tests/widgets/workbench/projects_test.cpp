@@ -99,7 +99,7 @@ TEST_F(ProjectsTest, UnsavedDecisionsAreAskedAboutBeforeClosing) {
 
 TEST_F(ProjectsTest, AMovedDatasetIsAskedFor) {
   ASSERT_TRUE(
-      write_project(path("p.lvcalib").toStdString(), {dataset().toStdString() + "-old", {}}).ok());
+      write_project(path("p.lvcalib").toStdString(), {dataset().toStdString() + "-old", {}, {}}).ok());
   open(path("p.lvcalib"));
   EXPECT_EQ(answers_.asked_moved, 1);
   EXPECT_FALSE(window_->workspace().is_open());
@@ -111,7 +111,7 @@ TEST_F(ProjectsTest, AMovedDatasetIsAskedFor) {
 }
 
 TEST_F(ProjectsTest, MissingScenesAreMarkedAndTheRestIsUsable) {
-  Project project{dataset().toStdString(), {}};
+  Project project{dataset().toStdString(), {}, {}};
   project.decisions.scenes["Z"].use = true;
   ASSERT_TRUE(write_project(path("p.lvcalib").toStdString(), project).ok());
   open(path("p.lvcalib"));
@@ -190,7 +190,7 @@ TEST_F(ProjectsTest, DecisionsSurviveAKill) {
 TEST_F(ProjectsTest, ARefusedRecoveryIsNotOfferedAgain) {
   window_.reset();
   QDir().mkpath(path("data"));
-  Project project{dataset().toStdString(), {}};
+  Project project{dataset().toStdString(), {}, {}};
   const std::string text = "# project: \n" + project_as_text(project, path("data").toStdString());
   // No process has this id: it is above the system's limit.
   ASSERT_TRUE(
