@@ -970,8 +970,8 @@ were saved. Take them up again?</source>
         <translation>光束垂直照射时，有光泽的印刷面会反光。</translation>
     </message>
     <message>
-        <source>Image rows are exposed one after the other while something moves.</source>
-        <translation>有物体运动时，图像各行先后曝光。</translation>
+        <source>Image rows are exposed one after the other while the camera turns.</source>
+        <translation>相机转动时，图像各行先后曝光。</translation>
     </message>
     <message>
         <source>Ink gain</source>

@@ -13,9 +13,11 @@
 namespace lvcalib {
 namespace {
 
-// Some drivers fill the field with one number.
+// Some drivers fill the field with one number. So few points that they are no scan may share one by
+// chance; they are too few for a board as well, which the search says.
 bool is_constant(const std::vector<float>& values) {
-  return values.size() > 1 &&
+  constexpr std::size_t kScan = 1000;
+  return values.size() >= kScan &&
          std::all_of(values.begin(), values.end(), [&](float v) { return v == values.front(); });
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "modelling/model_text.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -25,10 +26,13 @@ QString axis_text(const std::string& name, const std::string& unit) {
 ResidualPlot::ResidualPlot(QWidget* parent) : PlotView(parent) {
   setObjectName(QStringLiteral("residual_plot"));
   figureActions()->setName(QStringLiteral("residuals"));
-  setToolTip(tr(
-      "Each residual (measured − predicted) as a dot, denser where there are more. Marks: means "
-      "of groups with two standard deviations, filled where they differ from zero beyond "
-      "chance. Dashed lines: the noise of a single residual. Grey: the means of the base model."));
+  follow_language(this, [this] {
+    setToolTip(
+        tr("Each residual (measured − predicted) as a dot, denser where there are more. Marks: "
+           "means of groups with two standard deviations, filled where they differ from zero "
+           "beyond chance. Dashed lines: the noise of a single residual. Grey: the means of the "
+           "base model."));
+  });
   connect(selectionRect(), &QCPSelectionRect::changed, this,
           [this](const QRect& rect) { emitBrush(rect); });
   connect(selectionRect(), &QCPSelectionRect::accepted, this,

@@ -104,7 +104,7 @@ TEST_F(HtmlReportTest, TellsTheModelAndWhatItStillMisses) {
   ASSERT_TRUE(stored.ok()) << stored.error().text();
   EXPECT_EQ(nesting_error(stored->html), "");
   for (const char* part :
-       {"Error before and after", "8.312", "0.625", "Added: range_walk", "42 %", "far &amp; wide",
+       {"Error before and after", "8.31", "0.625", "Added: range_walk", "42 %", "far &amp; wide",
         "What these scenes cannot show", "8.77", "0.6 %", "Take one more scene at 60 degrees."}) {
     EXPECT_THAT(stored->html, HasSubstr(part));
   }

@@ -19,7 +19,7 @@ ProjectedUncertainty example() {
   for (int row = 0; row < 2; ++row) {
     for (int column = 0; column < 3; ++column) {
       map.pixel.emplace_back(100.0 + 200.0 * column, 100.0 + 200.0 * row);
-      map.sigma_px.push_back(row == 1 && column == 0 ? std::nan("") : 0.1 * (column + 1));
+      map.sigma_px.push_back(row == 1 && column == 0 ? std::nan("") : 0.25 * (column + 1));
     }
   }
   return map;
@@ -31,14 +31,14 @@ TEST(UncertaintyMapPlot, ShowsEveryCellInTheColourOfItsValue) {
   plot.setMap(example(), {600, 400});
   const auto rows = test::rows_of(plot.csv());
   ASSERT_EQ(rows.size(), 6);
-  EXPECT_EQ(rows[2], "500,100,0.3");
+  EXPECT_EQ(rows[2], "500,100,0.75");
   const QImage picture = plot.toPixmap(500, 340).toImage();
   const auto at = [&](double u, double v) {
     return picture.pixelColor(static_cast<int>(plot.xAxis->coordToPixel(u)),
                               static_cast<int>(plot.yAxis->coordToPixel(v)));
   };
   EXPECT_GT(at(500, 100).lightness(), at(100, 100).lightness() + 20);
-  EXPECT_EQ(at(100, 300), plot.colors().background);  // no ray there
+  EXPECT_EQ(at(130, 330), plot.colors().background);  // no ray there
 }
 
 TEST(UncertaintyMapPlot, ImageStandsUprightWithSquarePixels) {

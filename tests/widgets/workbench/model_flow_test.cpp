@@ -136,7 +136,7 @@ TEST_F(Flow, TheTourLeadsFromTheFirstLookToTheFallenError) {
 }
 
 TEST_F(Flow, TwoHiddenEffectsAreFoundOneAfterTheOther) {
-  ASSERT_TRUE(open_and_run(small_rig(5, {{"range_walk", 10.0}, {"board_bow", 6.0}}), false));
+  ASSERT_TRUE(open_and_run(small_rig(5, {{"range_walk", 10.0}, {"board_bow", 4.0}}), false));
   std::set<std::string> found;
   for (std::size_t k = 1; k <= 2; ++k) {
     ASSERT_NE(work().ranking(), nullptr);

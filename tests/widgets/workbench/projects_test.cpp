@@ -99,7 +99,8 @@ TEST_F(ProjectsTest, UnsavedDecisionsAreAskedAboutBeforeClosing) {
 
 TEST_F(ProjectsTest, AMovedDatasetIsAskedFor) {
   ASSERT_TRUE(
-      write_project(path("p.lvcalib").toStdString(), {dataset().toStdString() + "-old", {}, {}}).ok());
+      write_project(path("p.lvcalib").toStdString(), {dataset().toStdString() + "-old", {}, {}})
+          .ok());
   open(path("p.lvcalib"));
   EXPECT_EQ(answers_.asked_moved, 1);
   EXPECT_FALSE(window_->workspace().is_open());

@@ -45,6 +45,7 @@ QStringList english_words(QString text) {
       "[^\\s，。：；（）]*[A-Za-z0-9_]+[./_*0-9:][^\\s，。：；（）]*");
   static const QRegularExpression word("[A-Za-z]{3,}");
   text.remove(code);
+  text.replace(QLatin1String("&nbsp;"), QLatin1String(" "));
   text.remove(names);
   QStringList out;
   for (auto i = word.globalMatch(text); i.hasNext();) {
