@@ -14,18 +14,19 @@ namespace lvcalib::widgets {
 UncertaintyPane::UncertaintyPane(QWidget* parent) : QWidget(parent) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 4, 0, 0);
-  auto* across = new QSplitter(Qt::Horizontal, this);
-  across->setChildrenCollapsible(false);
-  text_ = new QTextBrowser(across);
+  auto* halves = new QSplitter(Qt::Vertical, this);
+  halves->setChildrenCollapsible(false);
+  text_ = new QTextBrowser(halves);
   text_->setObjectName("uncertainty");
-  auto* plots = new QSplitter(Qt::Vertical, across);
+  auto* plots = new QSplitter(Qt::Horizontal, halves);
   plots->setChildrenCollapsible(false);
   map_ = new UncertaintyMapPlot(plots);
   range_ = new UncertaintyRangePlot(plots);
   connect(map_->figureActions(), &FigureActions::failed, this, &UncertaintyPane::failed);
   connect(range_->figureActions(), &FigureActions::failed, this, &UncertaintyPane::failed);
-  across->setSizes({520, 480});
-  layout->addWidget(across);
+  plots->setSizes({560, 440});
+  halves->setSizes({440, 400});
+  layout->addWidget(halves);
   follow_language(this, [this] { text_->setAccessibleName(tr("Uncertainty")); });
 }
 

@@ -143,12 +143,11 @@ void UncertaintyMapPlot::rebuild() {
 UncertaintyRangePlot::UncertaintyRangePlot(QWidget* parent) : PlotView(parent) {
   setObjectName("uncertainty-range");
   figureActions()->setName("uncertainty-range");
-  for (QCPAxis* axis : {xAxis, yAxis}) {
-    axis->setScaleType(QCPAxis::stLogarithmic);
-    axis->setTicker(decades());
-    axis->setNumberFormat("gb");
-    axis->setNumberPrecision(0);
-  }
+  xAxis->setScaleType(QCPAxis::stLogarithmic);
+  yAxis->setScaleType(QCPAxis::stLogarithmic);
+  yAxis->setTicker(decades());
+  yAxis->setNumberFormat("gb");
+  yAxis->setNumberPrecision(0);
   legend->setVisible(true);
   axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
   follow_language(this, [this] {
@@ -162,6 +161,10 @@ UncertaintyRangePlot::UncertaintyRangePlot(QWidget* parent) : PlotView(parent) {
 
 void UncertaintyRangePlot::setRanges(std::vector<RangeUncertainty> ranges) {
   ranges_ = std::move(ranges);
+  // Decades alone would leave a span of one or two without numbers.
+  QSharedPointer<QCPAxisTickerText> ticks(new QCPAxisTickerText);
+  for (const RangeUncertainty& r : ranges_) ticks->addTick(r.range_m, QString::number(r.range_m));
+  xAxis->setTicker(ticks);
   double low = HUGE_VAL;
   double high = 0.0;
   for (const RangeUncertainty& r : ranges_) {
