@@ -52,9 +52,7 @@ class Discoverer {
       f.rank = static_cast<int>(out_.effects.size()) + 1;
       out_.effects.push_back(std::move(f));
     }
-    out_.unknown = scan_structure(table_, search.state(), search.in_use(), context_);
-    std::erase_if(out_.unknown,
-                  [&](const StructureScore& s) { return !is_unknown_structure(s, options_); });
+    out_.unknown = notable(scan_structure(table_, search.state(), search.in_use(), context_));
     suggest_closed_forms(table_, search.state(), search.in_use(), options_.closed_forms, context_,
                          out_.unknown);
     context_.report("advice", 0.95, "looking for the next scene");

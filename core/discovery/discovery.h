@@ -106,8 +106,6 @@ struct StructureScore {
   std::string covariate;
   double score = 0.0;      ///< Share of held-out variance.
   double amplitude = 0.0;  ///< RMS of the curve, display units.
-  double share_improved = 0.0;  ///< Of the scenes: predicted better with the curve of the others.
-  bool beyond_scatter = false;  ///< The mean gain over scenes exceeds its standard error.
   /// A closed form that predicts scenes held out as well, as a formula to ask for; empty if none.
   std::string formula = {};
   double formula_score = 0.0;  ///< Share of held-out variance that it explains.

@@ -7,7 +7,6 @@
 
 #include "discovery/effect_search.h"
 #include "discovery/findings.h"
-#include "discovery/structure_scan.h"
 
 namespace lvcalib {
 namespace {
@@ -161,7 +160,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   out.advice = advise(findings);
   if (!any) {
     for (const StructureScore& score : step.structure) {
-      if (is_unknown_structure(score, basis.options)) out.unknown.push_back(score);
+      if (score.score >= basis.options.min_structure) out.unknown.push_back(score);
     }
   }
   return out;

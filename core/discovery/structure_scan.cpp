@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -119,30 +118,11 @@ void project(SceneSums& s) {
   s.squares -= s.nuisance_residual.dot(y);
 }
 
-// Chance improves some scenes and worsens others, and one scene alone can make up the whole gain.
-void judge_scenes(const std::vector<double>& drops, StructureScore& out) {
-  const auto n = static_cast<double>(drops.size());
-  if (drops.size() < 2) return;
-  const double mean = std::accumulate(drops.begin(), drops.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double drop : drops) squares += (drop - mean) * (drop - mean);
-  out.beyond_scatter = mean > std::sqrt(squares / (n - 1.0) / n);
-  const auto improved = std::count_if(drops.begin(), drops.end(), [](double d) { return d > 0.0; });
-  out.share_improved = static_cast<double>(improved) / n;
-}
-
 }  // namespace
-
-bool is_unknown_structure(const StructureScore& score, const DiscoveryOptions& options) {
-  return score.score >= options.min_structure && score.beyond_scatter &&
-         score.share_improved >= options.scenes_improved;
-}
 
 StructureScore structure_score(const Covariate& covariate, Channel channel,
                                const ChannelResiduals& residuals, int scenes) {
-  StructureScore out;
-  out.channel = channel;
-  out.covariate = covariate.name;
+  StructureScore out{channel, covariate.name, 0.0, 0.0};
   const Basis basis(covariate);
   std::vector<SceneSums> sums = accumulate(covariate, basis, residuals, scenes);
   Eigen::MatrixXd curve = Eigen::MatrixXd::Zero(basis.size(), basis.size());
@@ -159,7 +139,6 @@ StructureScore structure_score(const Covariate& covariate, Channel channel,
   double before = 0.0;
   double after = 0.0;
   double fitted = 0.0;
-  std::vector<double> drops;
   for (const SceneSums& s : sums) {
     Eigen::MatrixXd others = curve - s.curve;
     others.diagonal().array() += ridge;
@@ -167,12 +146,10 @@ StructureScore structure_score(const Covariate& covariate, Channel channel,
     before += s.squares;
     const double drop = 2.0 * c.dot(s.curve_residual) - c.dot(s.curve * c);
     after += s.squares - drop;
-    if (s.weight > 0.0) drops.push_back(drop);
     fitted += c.dot(s.curve * c);
   }
   if (!(before > 0.0) || !std::isfinite(after)) return out;
   out.score = 1.0 - after / before;
-  judge_scenes(drops, out);
   out.amplitude =
       weight > 0.0 ? display_factor(channel) * std::sqrt(std::max(0.0, fitted) / weight) : 0.0;
   return out;

@@ -15,10 +15,6 @@ namespace lvcalib {
 StructureScore structure_score(const Covariate& covariate, Channel channel,
                                const ChannelResiduals& residuals, int scenes);
 
-/// Whether structure is worth a mention when no effect explains it: large enough, in most scenes, and
-/// beyond their scatter, as an effect has to be.
-bool is_unknown_structure(const StructureScore& score, const DiscoveryOptions& options);
-
 /// Scores of every covariate of every channel, best first. Scenes held out one by one.
 std::vector<StructureScore> scan_structure(const MeasurementTable& table, const ModelState& state,
                                            const std::vector<EffectInUse>& in_use,

@@ -25,43 +25,6 @@ TEST(StructureScan, NamesChannelAndCovariateOfARipple) {
   EXPECT_EQ(scores.front().channel, Channel::kRange);
   EXPECT_EQ(scores.front().covariate, "azimuth");
   EXPECT_GT(scores.front().score, 0.05);
-  EXPECT_TRUE(is_unknown_structure(scores.front(), {}));
-}
-
-TEST(StructureScan, UnknownStructureIsInMostScenesAndBeyondTheirScatter) {
-  DiscoveryOptions options;
-  StructureScore score;
-  score.score = 0.04;
-  score.share_improved = 1.0;
-  score.beyond_scatter = true;
-  EXPECT_TRUE(is_unknown_structure(score, options));
-  score.share_improved = 0.5;
-  EXPECT_FALSE(is_unknown_structure(score, options));
-  score.share_improved = 1.0;
-  score.beyond_scatter = false;
-  EXPECT_FALSE(is_unknown_structure(score, options));
-  score.beyond_scatter = true;
-  score.score = 0.01;
-  EXPECT_FALSE(is_unknown_structure(score, options));
-}
-
-// However low the share worth a mention is set, noise hardly ever passes.
-TEST(StructureScan, NoiseIsHardlyEverUnknownStructure) {
-  DiscoveryOptions options;
-  options.min_structure = 1e-6;
-  int passed = 0;
-  int scanned = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    test::TableRecipe recipe;
-    recipe.seed = seed;
-    const auto made = test::synthetic_table(recipe);
-    for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {})) {
-      ++scanned;
-      passed += is_unknown_structure(s, options) ? 1 : 0;
-    }
-  }
-  EXPECT_GT(scanned, 100);
-  EXPECT_LT(passed, 0.05 * scanned);
 }
 
 TEST(StructureScan, ScoreIsTheShareOfHeldOutVariance) {
