@@ -71,7 +71,7 @@ class EffectSearch {
   const MeasurementTable& table_;
   ModelState state_;
   const DiscoveryOptions& options_;
-  const RunContext& context_;
+  RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it
   std::vector<EffectInUse> in_use_;
   ModelVariances variances_;
   Linearization linear_;

@@ -95,7 +95,8 @@ TEST(SensitivityBudget, OneParameterMovesByItsLimit) {
     if (columns.effect->info().id != "range_scale") continue;
     const double value = c.fit.solution.tail(1)(0);
     const double sigma = std::sqrt(c.fit.covariance.bottomRightCorner(1, 1)(0, 0));
-    const BudgetItem* item = find(sensitivity_budget(search), "range_scale");
+    const auto budget = sensitivity_budget(search);
+    const BudgetItem* item = find(budget, "range_scale");
     ASSERT_NE(item, nullptr);
     const double limit = std::abs(value) + 1.645 * sigma;
     EXPECT_NEAR(item->size, limit / 1e-6, 1e-6 * limit / 1e-6);
