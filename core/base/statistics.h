@@ -7,6 +7,9 @@
 
 namespace lvcalib {
 
+/// The normal distribution lies below so many standard deviations with probability 0.95.
+inline constexpr double kUpper95 = 1.645;
+
 /// Quantile q in [0, 1] by linear interpolation between order statistics. NaN for no values.
 /// Takes its argument by value, since it is reordered.
 double quantile(std::vector<double> values, double q);

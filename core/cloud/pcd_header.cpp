@@ -15,18 +15,18 @@ namespace {
 // Bounds on what a header may claim, far beyond any real file, so that sizes never overflow.
 constexpr std::size_t kMostFields = 4096;
 constexpr std::uint64_t kLargestPoint = std::uint64_t{1} << 20;
-constexpr std::size_t kLongestHeader = std::size_t{4} << 20;
+constexpr std::size_t kLongestPcdHeader = std::size_t{4} << 20;
 
-class HeaderParser {
+class PcdHeaderParser {
  public:
-  explicit HeaderParser(Input& input) : input_(input), lines_(input) {}
+  explicit PcdHeaderParser(Input& input) : input_(input), lines_(input) {}
 
   Result<PcdHeader> parse() {
     const std::uint64_t start = input_.remaining();
     for (;;) {
       auto line = lines_.next();
       if (!line) return line.error();
-      if (!line->has_value() || start - input_.remaining() > kLongestHeader) {
+      if (!line->has_value() || start - input_.remaining() > kLongestPcdHeader) {
         return input_.error("its PCD header ends without a DATA line");
       }
       std::string_view words = **line;
@@ -179,7 +179,7 @@ std::size_t PcdHeader::point_bytes() const {
 }
 
 Result<PcdHeader> read_pcd_header(Input& input) {
-  return HeaderParser(input).parse();
+  return PcdHeaderParser(input).parse();
 }
 
 }  // namespace lvcalib

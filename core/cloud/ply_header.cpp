@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostElements = 256;
 constexpr std::size_t kMostProperties = 4096;
 constexpr std::uint64_t kMostRows = std::uint64_t{1} << 40;
-constexpr std::size_t kLongestHeader = std::size_t{4} << 20;
+constexpr std::size_t kLongestPlyHeader = std::size_t{4} << 20;
 
 std::optional<ScalarType> ply_type(std::string_view name) {
   using enum ScalarType;
@@ -29,16 +29,16 @@ std::optional<ScalarType> ply_type(std::string_view name) {
   return std::nullopt;
 }
 
-class HeaderParser {
+class PlyHeaderParser {
  public:
-  explicit HeaderParser(Input& input) : input_(input), lines_(input) {}
+  explicit PlyHeaderParser(Input& input) : input_(input), lines_(input) {}
 
   Result<PlyHeader> parse() {
     const std::uint64_t start = input_.remaining();
     for (;;) {
       auto line = lines_.next();
       if (!line) return line.error();
-      if (!line->has_value() || start - input_.remaining() > kLongestHeader) {
+      if (!line->has_value() || start - input_.remaining() > kLongestPlyHeader) {
         return input_.error("its PLY header ends without an end_header line");
       }
       std::string_view words = **line;
@@ -152,7 +152,7 @@ std::size_t PlyElement::scalar_bytes() const {
 }
 
 Result<PlyHeader> read_ply_header(Input& input) {
-  return HeaderParser(input).parse();
+  return PlyHeaderParser(input).parse();
 }
 
 }  // namespace lvcalib

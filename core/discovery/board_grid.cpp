@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/units.h"
+
 namespace lvcalib {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // Corners that frame the pattern; neighbours first, so that two of them tell the tags' size.
 std::vector<Eigen::Vector2d> pattern_corners(const Target& target) {

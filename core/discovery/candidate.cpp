@@ -10,6 +10,8 @@
 #include <Eigen/SVD>
 #include <boost/math/distributions/fisher_f.hpp>
 
+#include "base/statistics.h"
+
 namespace lvcalib {
 namespace {
 
@@ -60,7 +62,6 @@ double f_test(const ModelFit& fit, Eigen::Index p) {
 // matters is that of one parameter alone at its material size. Noise adds p − 1 to w² besides the
 // direction of the effect itself; with one parameter this is the same as the first test.
 bool is_material(const EffectColumns& columns, const ModelFit& fit) {
-  constexpr double kUpper95 = 1.645;
   const Eigen::Index p = columns.count();
   const Eigen::VectorXd theta = fit.solution.tail(p);
   const Eigen::VectorXd sigma = fit.covariance.diagonal().tail(p).cwiseSqrt();
@@ -76,6 +77,25 @@ bool is_material(const EffectColumns& columns, const ModelFit& fit) {
   return alone && size + kUpper95 >= smallest;
 }
 
+// Whether enough scenes are predicted better, of those that say something: an effect that shows
+// only where a board faces the beam leaves the others as they were. The density also judges the
+// variances, which one effect in many scenes shrinks for all: a scene whose squares fall is
+// predicted better as well.
+bool improves_scenes(const Candidate& candidate, const DiscoveryOptions& options) {
+  constexpr std::size_t kFewest = 2;
+  std::size_t improved = 0;
+  std::size_t speaking = 0;
+  for (std::size_t s = 0; s < candidate.scene_gain.size(); ++s) {
+    if (std::abs(candidate.scene_gain[s]) < options.speaking_nats) continue;
+    ++speaking;
+    const bool fell =
+        s < candidate.scene_squares_fall.size() && candidate.scene_squares_fall[s] > 0;
+    improved += candidate.scene_gain[s] > 0.0 || fell ? 1 : 0;
+  }
+  return improved >= kFewest &&
+         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
+}
+
 Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
   const Eigen::MatrixXd l = m.llt().matrixL();
   return l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(m.rows(), m.cols()));
@@ -89,6 +109,19 @@ double Candidate::total_gain() const {
 
 double Candidate::best_heldout_gain() const {
   return *std::max_element(heldout_gain.begin(), heldout_gain.end());
+}
+
+Channel Candidate::main_channel() const {
+  const auto best = std::max_element(heldout_fall.begin(), heldout_fall.end());
+  return static_cast<Channel>(best - heldout_fall.begin());
+}
+
+void Candidate::set_heldout(const std::array<double, kChannels>& with,
+                            const std::array<double, kChannels>& without) {
+  for (std::size_t k = 0; k < kChannels; ++k) {
+    heldout_gain[k] = without[k] > 0.0 ? 1.0 - with[k] / without[k] : 0.0;
+    heldout_fall[k] = without[k] - with[k];
+  }
 }
 
 void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
@@ -140,8 +173,13 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
       without[k] += reference.heldout[s][k];
     }
   }
-  for (std::size_t k = 0; k < kChannels; ++k)
-    out.heldout_gain[k] = without[k] > 0.0 ? 1.0 - with[k] / without[k] : 0.0;
+  out.set_heldout(with, without);
+  for (const Channel channel : kAllChannels) {
+    double& share = out.acting_share[static_cast<std::size_t>(channel)];
+    share = 0.0;
+    for (int k = 0; k < c.count(); ++k)
+      share = std::max(share, linear.acting_share(channel, c.first + k));
+  }
   const Vector6d move = out.fit.solution.head<6>() - reference.fit.solution.head<6>();
   const Matrix6d covariance = reference.fit.covariance.topLeftCorner<6, 6>();
   for (int k = 0; k < 6; ++k) {
@@ -185,19 +223,14 @@ bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scen
   if (!is_gain(candidate.scene_gain)) return false;
   // The best of so many would gain this much by chance.
   if (candidate.total_gain() < std::log(searched)) return false;
-  // The density also judges the variances, which one effect in many scenes shrinks for all: a scene
-  // whose squares fall is predicted better as well.
-  std::size_t improved = 0;
-  for (std::size_t s = 0; s < candidate.scene_gain.size(); ++s) {
-    const bool fell =
-        s < candidate.scene_squares_fall.size() && candidate.scene_squares_fall[s] > 0;
-    improved += candidate.scene_gain[s] > 0.0 || fell ? 1 : 0;
-  }
-  if (static_cast<double>(improved) < options.scenes_improved * static_cast<double>(scenes))
-    return false;
+  if (!improves_scenes(candidate, options)) return false;
+  // An effect that acts on few rows is asked for the same fall on those.
   const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
-  return candidate.best_heldout_gain() >= least ||
-         candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
+  for (std::size_t k = 0; k < kChannels; ++k) {
+    const double share = candidate.acting_share[k];
+    if (share > 0.0 && candidate.heldout_gain[k] >= least * share) return true;
+  }
+  return candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
 }
 
 double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,

@@ -15,6 +15,9 @@ struct Candidate {
   std::vector<double> scene_gain;  ///< Predictive log-density over that without it, per scene.
   std::vector<double> scene_squares_fall;        ///< Held-out squares over all channels, per scene.
   std::array<double, kChannels> heldout_gain{};  ///< Relative fall of squares, per channel.
+  std::array<double, kChannels> heldout_fall{};  ///< Fall of squares, units of the noise.
+  /// Largest share of a channel's rows on which one of its parameters acts.
+  std::array<double, kChannels> acting_share{1.0, 1.0, 1.0, 1.0};
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
   /// It may be as large as matters: some parameter's upper 95 % limit is, and so is the limit of
@@ -22,6 +25,11 @@ struct Candidate {
   bool material = true;
   [[nodiscard]] double total_gain() const;
   [[nodiscard]] double best_heldout_gain() const;
+  /// The channel whose held-out squares fall most, counted in units of the noise.
+  [[nodiscard]] Channel main_channel() const;
+  /// Takes the falls of squares from the sums over scenes with and without it.
+  void set_heldout(const std::array<double, kChannels>& with,
+                   const std::array<double, kChannels>& without);
 };
 
 /// The model that candidates are compared with.

@@ -260,6 +260,7 @@ void suggest_closed_forms(const MeasurementTable& table, const ModelState& state
   const int scenes = static_cast<int>(table.scenes.size());
   for (std::size_t k = 0; k < std::min(most, scores.size()); ++k) {
     if (context.stopped()) return;
+    if (!scores[k].second_covariate.empty()) continue;  // formulas of one covariate
     const ChannelResiduals residuals = residuals_of(table, state, in_use, scores[k].channel);
     for (const Covariate& c : covariates_of(table, scores[k].channel, residuals)) {
       if (c.name != scores[k].covariate) continue;

@@ -42,7 +42,8 @@ class Discoverer {
     record("", search);
     out_.channels = out_.history.front().channels;
     context_.report("structure", 0.2, "looking for structure");
-    out_.structure = notable(scan_structure(table_, search.state(), search.in_use(), context_));
+    out_.structure = notable_structure(table_, search.state(), search.in_use(),
+                                       options_.min_structure, context_);
     grow(search);
     if (context_.stopped()) return Error::cancelled();
     settle_shapes(search);
@@ -52,7 +53,8 @@ class Discoverer {
       f.rank = static_cast<int>(out_.effects.size()) + 1;
       out_.effects.push_back(std::move(f));
     }
-    out_.unknown = notable(scan_structure(table_, search.state(), search.in_use(), context_));
+    out_.unknown = notable_structure(table_, search.state(), search.in_use(),
+                                     options_.min_structure, context_);
     suggest_closed_forms(table_, search.state(), search.in_use(), options_.closed_forms, context_,
                          out_.unknown);
     context_.report("advice", 0.95, "looking for the next scene");
@@ -162,12 +164,6 @@ class Discoverer {
       search.remove(*k);
       selections_.erase(selections_.begin() + static_cast<std::ptrdiff_t>(*k));
     }
-  }
-
-  [[nodiscard]] std::vector<StructureScore> notable(std::vector<StructureScore> scores) const {
-    std::erase_if(scores,
-                  [&](const StructureScore& s) { return !(s.score >= options_.min_structure); });
-    return scores;
   }
 
   const MeasurementTable& table_;

@@ -27,7 +27,8 @@ struct DiscoveryOptions {
   double min_gain = 0.01;             ///< Least fall of a channel's held-out squares …
   double min_gain_few_scenes = 0.03;  ///< … with three scenes or fewer.
   double min_extrinsic_move = 0.5;    ///< Or so many σ that the extrinsic moves.
-  double scenes_improved = 0.75;      ///< Share of scenes that must be predicted better.
+  double scenes_improved = 0.75;      ///< Share of scenes that must be predicted better, …
+  double speaking_nats = 0.5;         ///< … of those whose log-density changes by so much.
   double alias_correlation = 0.95;    ///< Candidates correlated higher cannot be told apart.
   double testable = 3.0;              ///< A material size must stand so many σ above zero.
   double min_structure = 0.02;        ///< Held-out share of variance worth a mention.
@@ -109,6 +110,12 @@ struct StructureScore {
   /// A closed form that predicts scenes held out as well, as a formula to ask for; empty if none.
   std::string formula = {};
   double formula_score = 0.0;  ///< Share of held-out variance that it explains.
+  /// Of a surface over two covariates; empty of a curve.
+  std::string second_covariate = {};
+  /// "board x" or "board x and board y".
+  [[nodiscard]] std::string covariates() const {
+    return second_covariate.empty() ? covariate : covariate + " and " + second_covariate;
+  }
 };
 
 /// The model after a step of the search.

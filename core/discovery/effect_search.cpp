@@ -206,8 +206,7 @@ void EffectSearch::refit_promising() {
         without[channel] += reference_.heldout[s][channel];
       }
     }
-    for (std::size_t channel = 0; channel < kChannels; ++channel)
-      c.heldout_gain[channel] = without[channel] > 0.0 ? 1.0 - with[channel] / without[channel] : 0;
+    c.set_heldout(with, without);
   }
 }
 

@@ -10,18 +10,12 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/statistics.h"
+#include "base/text.h"
 #include "model/row_covariates.h"
 
 namespace lvcalib {
 namespace {
-
-constexpr double kUpper95 = 1.645;
-
-std::string number(const char* format, double a, double b = 0.0) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
 
 std::string joined(const std::vector<std::string>& words, const char* between) {
   std::string out;
@@ -30,8 +24,8 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 }
 
 std::string value_text(const ParameterEstimate& p) {
-  return p.name + " = " + number("%.3g ± %.2g ", p.value / p.unit_in_si, p.sigma / p.unit_in_si) +
-         p.unit;
+  return p.name + " = " +
+         formatted("%.3g ± %.2g ", p.value / p.unit_in_si, p.sigma / p.unit_in_si) + p.unit;
 }
 
 std::string values_text(const EffectFinding& finding) {
@@ -79,7 +73,7 @@ void set_move(const Vector6d& move, EffectFinding& finding) {
 }
 
 std::string move_text(const EffectFinding& finding) {
-  return number("%.1f mm and %.2f mrad", finding.extrinsic_move_mm, finding.extrinsic_move_mrad);
+  return formatted("%.1f mm and %.2f mrad", finding.extrinsic_move_mm, finding.extrinsic_move_mrad);
 }
 
 // The curve over its intervals, with its standard deviation.
@@ -123,9 +117,10 @@ std::string found_text(const EffectFinding& f) {
   double squares = 0.0;
   for (const CurvePoint& point : p) squares += point.sigma * point.sigma;
   const double factor = display_factor(f.curve.channel);
-  return number("it runs from %.3g to %.3g ", factor * low->value, factor * high->value) +
+  return formatted("it runs from %.3g to %.3g ", factor * low->value, factor * high->value) +
          unit_of(f.curve.channel) + " over " + joined(f.curve.covariates, " and ") +
-         number(", known to %.2g ", factor * std::sqrt(squares / static_cast<double>(p.size()))) +
+         formatted(", known to %.2g ",
+                   factor * std::sqrt(squares / static_cast<double>(p.size()))) +
          unit_of(f.curve.channel);
 }
 
@@ -202,8 +197,8 @@ class Judge {
     f.explanation = info.physics + " Found: " + found_text(f);
     if (!effect.shape_name().empty()) {
       f.explanation += ", " + effect.shape_name() +
-                       (f.shape_sigma > 0.0 ? number(" %.4g ± %.2g", f.shape, f.shape_sigma)
-                                            : number(" %.3g", f.shape));
+                       (f.shape_sigma > 0.0 ? formatted(" %.4g ± %.2g", f.shape, f.shape_sigma)
+                                            : formatted(" %.3g", f.shape));
     }
     f.explanation += "; leaving it out would move the extrinsic by " + move_text(f) + ".";
     if (!f.aliases.empty()) {
@@ -259,8 +254,8 @@ class Judge {
     f.verdict = EffectVerdict::kNotTestable;
     if (!visible) {
       f.explanation = "These scenes could not show it: " + values_text(f) +
-                      number("; they keep %.1f %% of its effect after the poses adapt, and it",
-                             100.0 * f.kept) +
+                      formatted("; they keep %.1f %% of its effect after the poses adapt, and it",
+                                100.0 * f.kept) +
                       moved + ". To see it: " + columns.effect->info().breaker + ".";
     } else {
       f.explanation = "Undecided: " + values_text(f) +
@@ -333,12 +328,16 @@ std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unkno
   for (const StructureScore& s : unknown) {
     // The strongest covariate of a channel: others mostly see the same.
     if (!said.insert(s.channel).second) continue;
-    const RowCovariate* covariate = find_covariate(s.channel, s.covariate);
-    const std::string name = covariate != nullptr ? covariate->identifier() : s.covariate;
+    const auto identifier = [&](const std::string& covariate) {
+      const RowCovariate* known = find_covariate(s.channel, covariate);
+      return known != nullptr ? known->identifier() : covariate;
+    };
+    std::string name = identifier(s.covariate);
+    if (!s.second_covariate.empty()) name += "," + identifier(s.second_covariate);
     std::string text =
         std::string("No effect of the catalogue explains what the ") + name_of(s.channel) +
-        " channel does over " + s.covariate +
-        number(" (%.0f %% of its held-out variance, %.2g ", 100.0 * s.score, s.amplitude) +
+        " channel does over " + s.covariates() +
+        formatted(" (%.0f %% of its held-out variance, %.2g ", 100.0 * s.score, s.amplitude) +
         unit_of(s.channel) + "); to take it out anyway: --with curve:" + name_of(s.channel) + ":" +
         name;
     if (!s.formula.empty()) text += ", or as a closed form: --with '" + s.formula + "'";

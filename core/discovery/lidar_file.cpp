@@ -5,12 +5,12 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/units.h"
 #include "base/yaml_file.h"
 
 namespace lvcalib {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr int kTraits = 64;
 
 // Reads keys one by one and keeps the first error.

@@ -3,19 +3,16 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <map>
 
+#include "base/text.h"
 #include "discovery/effect_search.h"
 #include "discovery/findings.h"
+#include "discovery/structure_scan.h"
 
 namespace lvcalib {
 namespace {
-
-std::string number(const char* format, double a, double b = 0.0) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
 
 std::string values_text(const std::vector<ParameterEstimate>& parameters) {
   constexpr std::size_t kShown = 4;
@@ -24,7 +21,7 @@ std::string values_text(const std::vector<ParameterEstimate>& parameters) {
     if (k == kShown) return out + ", …";
     const ParameterEstimate& p = parameters[k];
     out += (out.empty() ? "" : ", ") + p.name +
-           number(" = %.3g ± %.2g ", p.value / p.unit_in_si, p.sigma / p.unit_in_si) + p.unit;
+           formatted(" = %.3g ± %.2g ", p.value / p.unit_in_si, p.sigma / p.unit_in_si) + p.unit;
   }
   return out;
 }
@@ -72,18 +69,16 @@ class Proposer {
     f.verdict = f.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
     f.extrinsic_move_mm = proposal.gained_mm;
     f.extrinsic_move_mrad = proposal.gained_mrad;
-    f.explanation = explain(columns_of(c).effect->info(), proposal);
+    f.explanation = explain(columns_of(c).effect->info(), c.main_channel(), proposal);
   }
 
-  static std::string explain(const EffectInfo& info, const EffectProposal& proposal) {
-    const auto& fall = proposal.heldout_fall;
-    const auto best =
-        static_cast<std::size_t>(std::max_element(fall.begin(), fall.end()) - fall.begin());
+  static std::string explain(const EffectInfo& info, Channel best, const EffectProposal& proposal) {
     std::string out = info.physics + " Found: " + values_text(proposal.finding.parameters) +
                       ". With it, scenes held out have " +
-                      number("%.0f %% less squared error in the ", 100.0 * fall[best]) +
-                      name_of(kAllChannels[best]) + " channel and the extrinsic moves by " +
-                      number("%.1f mm and %.2f mrad.", proposal.gained_mm, proposal.gained_mrad);
+                      formatted("%.0f %% less squared error in the ",
+                                100.0 * proposal.heldout_fall[static_cast<std::size_t>(best)]) +
+                      name_of(best) + " channel and the extrinsic moves by " +
+                      formatted("%.1f mm and %.2f mrad.", proposal.gained_mm, proposal.gained_mrad);
     if (!proposal.finding.aliases.empty()) {
       std::string others;
       for (const std::string& id : proposal.finding.aliases)
@@ -159,9 +154,14 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   }
   out.advice = advise(findings);
   if (!any) {
-    for (const StructureScore& score : step.structure) {
-      if (score.score >= basis.options.min_structure) out.unknown.push_back(score);
-    }
+    const auto places =
+        scan_places(basis.table, step.state, step.in_use(), step.structure, context);
+    std::merge(step.structure.begin(), step.structure.end(), places.begin(), places.end(),
+               std::back_inserter(out.unknown),
+               [](const StructureScore& a, const StructureScore& b) { return a.score > b.score; });
+    std::erase_if(out.unknown, [&](const StructureScore& s) {
+      return !(s.score >= basis.options.min_structure);
+    });
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "base/text.h"
 #include "discovery/predicted_scene.h"
 
 namespace lvcalib {
@@ -37,12 +38,6 @@ Eigen::MatrixXd schur(const Eigen::MatrixXd& h, const std::vector<Eigen::Index>&
   const Eigen::MatrixXd cross = h(rest, mine);
   return Eigen::MatrixXd(h(mine, mine)) -
          cross.transpose() * Eigen::MatrixXd(h(rest, rest)).ldlt().solve(cross);
-}
-
-std::string number(const char* format, double a, double b = 0.0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
 }
 
 class Adviser {
@@ -167,13 +162,13 @@ class Adviser {
     const double before = sigmas(now_);
     if (after < kTells || after < kWorthwhile * before) {
       out_.push_back("No further scene of this board will tell " + a + " from " + b +
-                     number(" (at best %.1f σ); measure instead: ", after) +
+                     formatted(" (at best %.1f σ); measure instead: ", after) +
                      involved_.at(b).columns.effect->info().breaker);
       return;
     }
     out_.push_back("To tell " + a + " from " + b + ", take a scene with the board " +
                    poses_[pose].text() +
-                   number("; the difference would stand %.1f σ (now %.1f σ)", after, before));
+                   formatted("; the difference would stand %.1f σ (now %.1f σ)", after, before));
   }
 
   void make_visible(const EffectFinding& f) {
@@ -197,16 +192,16 @@ class Adviser {
     const auto [pose, after] = best(t);
     const double before = t(now_);
     const std::string what =
-        f.id + number(" (it could move the extrinsic by %.1f mm and %.2f mrad)",
-                      f.extrinsic_move_mm, f.extrinsic_move_mrad);
+        f.id + formatted(" (it could move the extrinsic by %.1f mm and %.2f mrad)",
+                         f.extrinsic_move_mm, f.extrinsic_move_mrad);
     if (after < kWorthwhile * before) {
       out_.push_back("No further scene of this board will show " + what +
                      "; measure instead: " + effect.columns.effect->info().breaker);
       return;
     }
-    out_.push_back("To see whether there is " + what + ", take a scene with the board " +
-                   poses_[pose].text() +
-                   number("; what matters of it would stand %.1f σ (now %.1f σ)", after, before));
+    out_.push_back(
+        "To see whether there is " + what + ", take a scene with the board " + poses_[pose].text() +
+        formatted("; what matters of it would stand %.1f σ (now %.1f σ)", after, before));
   }
 
   void shrink_extrinsic() {
@@ -228,7 +223,7 @@ class Adviser {
     out_.push_back(
         "The extrinsic's weakest direction gains most from a scene with the board " +
         poses_[pose].text() +
-        number(": its standard deviation falls from %.2g to %.2g mm (or mrad)", before, -after));
+        formatted(": its standard deviation falls from %.2g to %.2g mm (or mrad)", before, -after));
   }
 
   const EffectSearch& search_;

@@ -7,10 +7,10 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/statistics.h"
+
 namespace lvcalib {
 namespace {
-
-constexpr double kUpper95 = 1.645;
 
 using Moves = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 

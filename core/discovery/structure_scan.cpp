@@ -13,56 +13,110 @@
 namespace lvcalib {
 namespace {
 
-constexpr int kSplines = 8;
-constexpr int kKnots = kSplines - 3;  // intervals
+constexpr int kCoarse = 8;   // splines of a covariate
+constexpr int kFine = 32;    // where rows are many: ripples of several periods over the board
+constexpr int kSurface = 8;  // in either direction
+constexpr std::size_t kRowsPerSpline = 50;
 constexpr int kNuisance = LocalLayout::kFixed;
+
+// Values that are not zero in a row, with their columns.
+struct BasisRow {
+  std::array<int, 16> column{};
+  std::array<double, 16> value{};
+  int count = 0;
+};
 
 // Cubic B-splines over quantiles of the covariate; categories have one column each.
 class Basis {
  public:
-  explicit Basis(const Covariate& covariate) : categories_(covariate.categories) {
+  Basis(const Covariate& covariate, int splines)
+      : categories_(covariate.categories), intervals_(splines - 3) {
     std::vector<float> sorted = covariate.values;
     std::sort(sorted.begin(), sorted.end());
     if (categories_) {
       sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-      labels_ = std::move(sorted);
+      knots_ = std::move(sorted);
       return;
     }
     // Equal shares of rows between knots keep every spline supported.
-    for (int k = 0; k <= kKnots; ++k) {
-      const auto at = static_cast<std::size_t>(static_cast<double>(k) / kKnots *
+    for (int k = 0; k <= intervals_; ++k) {
+      const auto at = static_cast<std::size_t>(static_cast<double>(k) / intervals_ *
                                                static_cast<double>(sorted.size() - 1));
-      quantiles_.push_back(sorted[at]);
+      knots_.push_back(sorted[at]);
     }
   }
 
   [[nodiscard]] int size() const {
-    return categories_ ? static_cast<int>(labels_.size()) : kSplines;
+    return categories_ ? static_cast<int>(knots_.size()) : intervals_ + 3;
   }
 
-  // Up to four non-zero columns; returns the first, the values in `out`.
-  int evaluate(float x, std::array<double, 4>& out) const {
+  void evaluate(float x, BasisRow& out) const {
     if (categories_) {
-      out = {1.0, 0.0, 0.0, 0.0};
-      return static_cast<int>(std::lower_bound(labels_.begin(), labels_.end(), x) -
-                              labels_.begin());
+      out.count = 1;
+      out.value[0] = 1.0;
+      out.column[0] =
+          static_cast<int>(std::lower_bound(knots_.begin(), knots_.end(), x) - knots_.begin());
+      return;
     }
-    int interval = 0;
-    while (interval < kKnots - 1 && x >= quantiles_[static_cast<std::size_t>(interval) + 1])
-      ++interval;
-    const double low = quantiles_[static_cast<std::size_t>(interval)];
-    const double high = quantiles_[static_cast<std::size_t>(interval) + 1];
+    const auto above = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, x);
+    const auto interval = static_cast<std::size_t>(above - knots_.begin()) - 1;
+    const double low = knots_[interval];
+    const double high = knots_[interval + 1];
     const double t = high > low ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0.0;
     const double u = 1.0 - t;
-    out = {u * u * u / 6.0, (3 * t * t * t - 6 * t * t + 4) / 6.0,
-           (3 * u * u * u - 6 * u * u + 4) / 6.0, t * t * t / 6.0};
-    return interval;
+    out.count = 4;
+    for (int k = 0; k < 4; ++k)
+      out.column[static_cast<std::size_t>(k)] = static_cast<int>(interval) + k;
+    out.value[0] = u * u * u / 6.0;
+    out.value[1] = (3 * t * t * t - 6 * t * t + 4) / 6.0;
+    out.value[2] = (3 * u * u * u - 6 * u * u + 4) / 6.0;
+    out.value[3] = t * t * t / 6.0;
   }
 
  private:
   bool categories_;
-  std::vector<float> labels_;
-  std::vector<float> quantiles_;
+  int intervals_;
+  std::vector<float> knots_;  // or labels
+};
+
+// A curve over one covariate, evaluated at row k.
+class Curve {
+ public:
+  Curve(const Covariate& covariate, int splines) : of_(covariate), basis_(covariate, splines) {}
+  [[nodiscard]] int size() const { return basis_.size(); }
+  void evaluate(std::size_t k, BasisRow& out) const { basis_.evaluate(of_.values[k], out); }
+
+ private:
+  const Covariate& of_;
+  Basis basis_;
+};
+
+// Products of splines over two covariates.
+class Surface {
+ public:
+  Surface(const Covariate& x, const Covariate& y)
+      : x_(x), y_(y), basis_x_(x, kSurface), basis_y_(y, kSurface) {}
+  [[nodiscard]] int size() const { return basis_x_.size() * basis_y_.size(); }
+  void evaluate(std::size_t k, BasisRow& out) const {
+    BasisRow bx;
+    BasisRow by;
+    basis_x_.evaluate(x_.values[k], bx);
+    basis_y_.evaluate(y_.values[k], by);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(bx.count); ++i) {
+      for (std::size_t j = 0; j < static_cast<std::size_t>(by.count); ++j, ++n) {
+        out.column[n] = bx.column[i] * basis_y_.size() + by.column[j];
+        out.value[n] = bx.value[i] * by.value[j];
+      }
+    }
+    out.count = static_cast<int>(n);
+  }
+
+ private:
+  const Covariate& x_;
+  const Covariate& y_;
+  Basis basis_x_;
+  Basis basis_y_;
 };
 
 // Whitened cross products of one scene: curve, nuisance, residual.
@@ -76,26 +130,26 @@ struct SceneSums {
   double weight = 0.0;
 };
 
-std::vector<SceneSums> accumulate(const Covariate& covariate, const Basis& basis,
-                                  const ChannelResiduals& residuals, int scenes) {
+template <class Shape>
+std::vector<SceneSums> accumulate(const Shape& shape, const ChannelResiduals& residuals,
+                                  int scenes) {
   std::vector<SceneSums> sums(static_cast<std::size_t>(scenes));
   for (SceneSums& s : sums) {
-    s.curve.setZero(basis.size(), basis.size());
-    s.curve_nuisance.setZero(basis.size(), kNuisance);
-    s.curve_residual.setZero(basis.size());
+    s.curve.setZero(shape.size(), shape.size());
+    s.curve_nuisance.setZero(shape.size(), kNuisance);
+    s.curve_residual.setZero(shape.size());
   }
-  std::array<double, 4> b{};
+  BasisRow b;
   for (std::size_t k = 0; k < residuals.values.size(); ++k) {
     SceneSums& s = sums[static_cast<std::size_t>(residuals.scene[k])];
     const double w = 1.0 / (residuals.sigma[k] * residuals.sigma[k]);
-    const int first = basis.evaluate(covariate.values[k], b);
-    const int count = covariate.categories ? 1 : 4;
-    for (int i = 0; i < count; ++i) {
-      const double wi = w * b[static_cast<std::size_t>(i)];
-      s.curve_residual(first + i) += wi * residuals.values[k];
-      s.curve_nuisance.row(first + i) += wi * residuals.nuisance[k].transpose();
-      for (int j = 0; j < count; ++j)
-        s.curve(first + i, first + j) += wi * b[static_cast<std::size_t>(j)];
+    shape.evaluate(k, b);
+    const auto count = static_cast<std::size_t>(b.count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double wi = w * b.value[i];
+      s.curve_residual(b.column[i]) += wi * residuals.values[k];
+      s.curve_nuisance.row(b.column[i]) += wi * residuals.nuisance[k].transpose();
+      for (std::size_t j = 0; j < count; ++j) s.curve(b.column[i], b.column[j]) += wi * b.value[j];
     }
     s.nuisance.noalias() += w * residuals.nuisance[k] * residuals.nuisance[k].transpose();
     s.nuisance_residual += w * residuals.values[k] * residuals.nuisance[k];
@@ -118,15 +172,11 @@ void project(SceneSums& s) {
   s.squares -= s.nuisance_residual.dot(y);
 }
 
-}  // namespace
-
-StructureScore structure_score(const Covariate& covariate, Channel channel,
-                               const ChannelResiduals& residuals, int scenes) {
-  StructureScore out{channel, covariate.name, 0.0, 0.0};
-  const Basis basis(covariate);
-  std::vector<SceneSums> sums = accumulate(covariate, basis, residuals, scenes);
-  Eigen::MatrixXd curve = Eigen::MatrixXd::Zero(basis.size(), basis.size());
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(basis.size());
+template <class Shape>
+void score(const Shape& shape, const ChannelResiduals& residuals, int scenes, StructureScore& out) {
+  std::vector<SceneSums> sums = accumulate(shape, residuals, scenes);
+  Eigen::MatrixXd curve = Eigen::MatrixXd::Zero(shape.size(), shape.size());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(shape.size());
   double weight = 0.0;
   for (SceneSums& s : sums) {
     weight += s.weight;
@@ -148,11 +198,59 @@ StructureScore structure_score(const Covariate& covariate, Channel channel,
     after += s.squares - drop;
     fitted += c.dot(s.curve * c);
   }
-  if (!(before > 0.0) || !std::isfinite(after)) return out;
+  if (!(before > 0.0) || !std::isfinite(after)) return;
   out.score = 1.0 - after / before;
   out.amplitude =
-      weight > 0.0 ? display_factor(channel) * std::sqrt(std::max(0.0, fitted) / weight) : 0.0;
+      weight > 0.0 ? display_factor(out.channel) * std::sqrt(std::max(0.0, fitted) / weight) : 0.0;
+}
+
+const Covariate* find_in(const std::vector<Covariate>& covariates, const std::string& name) {
+  const auto at = std::find_if(covariates.begin(), covariates.end(),
+                               [&](const Covariate& c) { return c.name == name; });
+  return at == covariates.end() ? nullptr : &*at;
+}
+
+void sort_best_first(std::vector<StructureScore>& scores) {
+  std::stable_sort(
+      scores.begin(), scores.end(),
+      [](const StructureScore& a, const StructureScore& b) { return a.score > b.score; });
+}
+
+// Places in two dimensions where something local may sit: on the board, in the field of view.
+constexpr std::array<std::pair<const char*, const char*>, 2> kPlaces{
+    {{"board x", "board y"}, {"azimuth", "elevation"}}};
+
+// Surfaces that predict held-out scenes better than either of their covariates alone.
+std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
+                                     const std::vector<StructureScore>& alone,
+                                     const ChannelResiduals& residuals, int scenes) {
+  std::vector<StructureScore> out;
+  for (const auto& [first, second] : kPlaces) {
+    const Covariate* x = find_in(covariates, first);
+    const Covariate* y = find_in(covariates, second);
+    if (x == nullptr || y == nullptr || x->values.size() < kRowsPerSpline * kSurface * kSurface)
+      continue;
+    StructureScore s{residuals.channel, x->name, 0.0, 0.0};
+    s.second_covariate = y->name;
+    score(Surface(*x, *y), residuals, scenes, s);
+    const auto worse = [&](const StructureScore& one) {
+      return (one.covariate != first && one.covariate != second) || one.score < s.score;
+    };
+    if (std::all_of(alone.begin(), alone.end(), worse)) out.push_back(s);
+  }
   return out;
+}
+
+}  // namespace
+
+StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
+                               int scenes) {
+  StructureScore out{residuals.channel, covariate.name, 0.0, 0.0};
+  score(Curve(covariate, kCoarse), residuals, scenes, out);
+  if (covariate.categories || covariate.values.size() < kRowsPerSpline * kFine) return out;
+  StructureScore fine = out;
+  score(Curve(covariate, kFine), residuals, scenes, fine);
+  return fine.score > out.score ? fine : out;
 }
 
 std::vector<StructureScore> scan_structure(const MeasurementTable& table, const ModelState& state,
@@ -166,14 +264,46 @@ std::vector<StructureScore> scan_structure(const MeasurementTable& table, const 
     const auto covariates = covariates_of(table, channel, residuals);
     std::vector<StructureScore> scores(covariates.size());
     parallel_for(covariates.size(), context.thread_count(), [&](std::size_t k) {
-      if (!context.stopped())
-        scores[k] = structure_score(covariates[k], channel, residuals, scenes);
+      if (!context.stopped()) scores[k] = structure_score(covariates[k], residuals, scenes);
     });
     out.insert(out.end(), scores.begin(), scores.end());
   }
-  std::stable_sort(out.begin(), out.end(), [](const StructureScore& a, const StructureScore& b) {
-    return a.score > b.score;
+  sort_best_first(out);
+  return out;
+}
+
+std::vector<StructureScore> scan_places(const MeasurementTable& table, const ModelState& state,
+                                        const std::vector<EffectInUse>& in_use,
+                                        const std::vector<StructureScore>& alone,
+                                        const RunContext& context) {
+  const int scenes = static_cast<int>(table.scenes.size());
+  std::vector<std::vector<StructureScore>> found(kAllChannels.size());
+  parallel_for(kAllChannels.size(), context.thread_count(), [&](std::size_t k) {
+    const Channel channel = kAllChannels[k];
+    // Corners have two axes, which no single surface over the board or the image describes.
+    if (channel == Channel::kCorner || table.size(channel) == 0 || context.stopped()) return;
+    const ChannelResiduals residuals = residuals_of(table, state, in_use, channel);
+    std::vector<StructureScore> same;
+    for (const StructureScore& s : alone) {
+      if (s.channel == channel) same.push_back(s);
+    }
+    found[k] = surfaces(covariates_of(table, channel, residuals), same, residuals, scenes);
   });
+  std::vector<StructureScore> out;
+  for (const auto& one : found) out.insert(out.end(), one.begin(), one.end());
+  sort_best_first(out);
+  return out;
+}
+
+std::vector<StructureScore> notable_structure(const MeasurementTable& table,
+                                              const ModelState& state,
+                                              const std::vector<EffectInUse>& in_use, double least,
+                                              const RunContext& context) {
+  std::vector<StructureScore> out = scan_structure(table, state, in_use, context);
+  const auto places = scan_places(table, state, in_use, out, context);
+  out.insert(out.end(), places.begin(), places.end());
+  std::erase_if(out, [&](const StructureScore& s) { return !(s.score >= least); });
+  sort_best_first(out);
   return out;
 }
 

@@ -11,13 +11,27 @@ namespace lvcalib {
 /// Share of held-out variance that a smooth curve of one covariate explains: cubic B-splines
 /// (shrunken means for categories) fitted on all scenes but one and predicted on that one, whose
 /// pose and levels are fitted again. `amplitude` is the curve's RMS. Not above zero if there is
-/// none.
-StructureScore structure_score(const Covariate& covariate, Channel channel,
-                               const ChannelResiduals& residuals, int scenes);
+/// none. Eight splines, or thirty-two if the rows bear them and scenes held out prefer them.
+StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
+                               int scenes);
 
 /// Scores of every covariate of every channel, best first. Scenes held out one by one.
 std::vector<StructureScore> scan_structure(const MeasurementTable& table, const ModelState& state,
                                            const std::vector<EffectInUse>& in_use,
                                            const RunContext& context);
+
+/// Something local, a bump on the board or a flaw in the field of view, hardly shows over one
+/// covariate: surfaces over the board and over azimuth and elevation (8 × 8 splines), those that
+/// predict scenes held out better than `alone`, the scores of their covariates. Best first.
+std::vector<StructureScore> scan_places(const MeasurementTable& table, const ModelState& state,
+                                        const std::vector<EffectInUse>& in_use,
+                                        const std::vector<StructureScore>& alone,
+                                        const RunContext& context);
+
+/// scan_structure and scan_places together, those of at least `least`, best first.
+std::vector<StructureScore> notable_structure(const MeasurementTable& table,
+                                              const ModelState& state,
+                                              const std::vector<EffectInUse>& in_use, double least,
+                                              const RunContext& context);
 
 }  // namespace lvcalib

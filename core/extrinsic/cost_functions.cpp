@@ -7,14 +7,6 @@ namespace {
 template <int Rows>
 using BlockJacobian = Eigen::Matrix<double, Rows, 7, Eigen::RowMajor>;
 
-// ∂(Exp(ξ)X)/∂ξ = [I, −[X]ₓ].
-Eigen::Matrix<double, 3, 6> point_by_pose(const Eigen::Vector3d& point) {
-  Eigen::Matrix<double, 3, 6> j;
-  j.leftCols<3>().setIdentity();
-  j.rightCols<3>() = -skew(point);
-  return j;
-}
-
 // A board point in camera and LiDAR frame, and its LiDAR coordinates' Jacobian by the pose of the
 // board in the camera; by the extrinsic it is the negative.
 struct LidarPoint {
@@ -43,6 +35,13 @@ void store(double** jacobians, const Eigen::Matrix<double, Rows, 6>& by_board_po
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 3, 6> point_by_pose(const Eigen::Vector3d& point) {
+  Eigen::Matrix<double, 3, 6> j;
+  j.leftCols<3>().setIdentity();
+  j.rightCols<3>() = -skew(point);
+  return j;
+}
 
 Rigid3 rigid_from_block(const double* block) {
   return {Eigen::Quaterniond(block[3], block[0], block[1], block[2]),

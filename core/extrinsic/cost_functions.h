@@ -17,6 +17,9 @@
 
 namespace lvcalib {
 
+/// ∂(Exp(ξ)X)/∂ξ at ξ = 0: [I, −[X]ₓ], m and rad.
+Eigen::Matrix<double, 3, 6> point_by_pose(const Eigen::Vector3d& point);
+
 /// Reads and writes a transform as a parameter block.
 Rigid3 rigid_from_block(const double* block);
 void rigid_to_block(const Rigid3& transform, double* block);

@@ -29,12 +29,6 @@ void for_each_node(const MethodInput& input, F&& work) {
   }
 }
 
-Eigen::Matrix<double, 3, 6> point_by_pose(const Eigen::Vector3d& point) {
-  Eigen::Matrix<double, 3, 6> j;
-  j << Eigen::Matrix3d::Identity(), -skew(point);
-  return j;
-}
-
 // Covariance of the board pose that the corners alone give.
 Matrix6d pose_covariance(const MethodInput& input, std::size_t s) {
   Matrix6d information = Matrix6d::Zero();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "cloud/plane.h"
 #include "localization/outline_match.h"
 #include "localization/pattern_match.h"
@@ -12,7 +13,6 @@
 namespace lvcalib {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Local maxima taken from the coarse search: the true place and shifts by one tag; how many of
 // them are tried in every symmetric assignment; how many are refined on fine cells.
 constexpr std::size_t kPosesPerPatch = 6;
@@ -111,7 +111,7 @@ class BoardSearch {
       const bool copy = std::any_of(kept.begin(), kept.end(), [&](const PlanarPatch& other) {
         return other.open && patch.open &&
                (other.center_m - patch.center_m).norm() < 0.02 * size_.minCoeff() &&
-               std::abs(other.normal.dot(patch.normal)) > std::cos(1.0 * kDegree) &&
+               std::abs(other.normal.dot(patch.normal)) > std::cos(1.0 * kRadPerDeg) &&
                std::abs(static_cast<double>(other.voxels.size()) - points) < 0.01 * points;
       });
       if (!copy) kept.push_back(std::move(patch));
@@ -131,7 +131,7 @@ class BoardSearch {
         const Eigen::Vector3d pb =
             other.patch.center_m + b.x() * other.patch.axis_u + b.y() * other.patch.axis_v;
         return (pa - pb).norm() < 0.1 * other.patch.extent_m.y() &&
-               item.patch.normal.dot(other.patch.normal) > std::cos(5.0 * kDegree);
+               item.patch.normal.dot(other.patch.normal) > std::cos(5.0 * kRadPerDeg);
       });
       if (!repeated) kept.push_back(std::move(item));
     }
@@ -160,9 +160,9 @@ class BoardSearch {
     const int symmetry = target_.outline_symmetry();
     if (misfit < 0.12 * size_.minCoeff()) {
       for (int d = -2; d <= 2; ++d)
-        range.angles_rad.push_back(outline.angle_rad + 3.0 * d * kDegree);
+        range.angles_rad.push_back(outline.angle_rad + 3.0 * d * kRadPerDeg);
     } else {
-      for (int d = 0; d < 72 / symmetry; ++d) range.angles_rad.push_back(5.0 * d * kDegree);
+      for (int d = 0; d < 72 / symmetry; ++d) range.angles_rad.push_back(5.0 * d * kRadPerDeg);
     }
     return search_pattern(samples, pyramid_.levels.front(), outline_.center_m(), range,
                           separation_m(), kPosesPerPatch, context_);
@@ -284,7 +284,7 @@ class BoardSearch {
     for (std::size_t m = 0; m < matches.size(); ++m) {
       const int turns = m < kTurnedPoses ? symmetry : 1;
       for (int turn = 0; turn < turns; ++turn) {
-        poses.push_back({matches[m].pose.angle_rad + turn * 360.0 * kDegree / symmetry,
+        poses.push_back({matches[m].pose.angle_rad + turn * 360.0 * kRadPerDeg / symmetry,
                          matches[m].pose.center_m});
       }
     }
@@ -347,7 +347,7 @@ class BoardSearch {
     const double along = std::max(patch.thickness_m, 0.01);
     candidate.lidar_from_board.covariance =
         covariance_about_center(candidate.lidar_from_board.transform, across, along,
-                                2.0 * along / (0.5 * size_.minCoeff()), 8.0 * kDegree);
+                                2.0 * along / (0.5 * size_.minCoeff()), 8.0 * kRadPerDeg);
     candidate.gain = match.gain();
     candidate.patch = index;
     return candidate;

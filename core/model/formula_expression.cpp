@@ -59,13 +59,13 @@ std::vector<std::string> names_used(const std::string& text) {
   return out;
 }
 
+}  // namespace
+
 // A parser and the variables it reads; used by one thread at a time.
-struct Evaluator {
+struct FormulaEvaluator {
   std::vector<double> values;
   mu::Parser parser;
 };
-
-}  // namespace
 
 struct FormulaExpression::Content {
   std::string text;
@@ -73,9 +73,9 @@ struct FormulaExpression::Content {
   std::vector<std::size_t> variables;
   std::vector<std::string> coefficients;
   mutable std::mutex mutex;
-  mutable std::vector<std::unique_ptr<Evaluator>> idle;
+  mutable std::vector<std::unique_ptr<FormulaEvaluator>> idle;
 
-  [[nodiscard]] std::unique_ptr<Evaluator> borrow() const {
+  [[nodiscard]] std::unique_ptr<FormulaEvaluator> borrow() const {
     {
       const std::lock_guard lock(mutex);
       if (!idle.empty()) {
@@ -84,14 +84,14 @@ struct FormulaExpression::Content {
         return out;
       }
     }
-    auto out = std::make_unique<Evaluator>();
+    auto out = std::make_unique<FormulaEvaluator>();
     out->values.assign(names.size(), 0.0);
     for (std::size_t k = 0; k < names.size(); ++k) out->parser.DefineVar(names[k], &out->values[k]);
     out->parser.SetExpr(text);
     return out;
   }
 
-  void give_back(std::unique_ptr<Evaluator> evaluator) const {
+  void give_back(std::unique_ptr<FormulaEvaluator> evaluator) const {
     const std::lock_guard lock(mutex);
     idle.push_back(std::move(evaluator));
   }

@@ -31,6 +31,13 @@ class SparseRow {
       for (std::size_t b = 0; b <= a; ++b) products(index_[b], index_[a]) += va * value_[b];
     }
   }
+  void add_fourth_powers(Eigen::VectorXd& sums, int first, double weight) const {
+    for (std::size_t a = 0; a < index_.size(); ++a) {
+      if (index_[a] < first || index_[a] >= first + sums.size()) continue;
+      const double square = weight * value_[a] * value_[a];
+      sums(index_[a] - first) += square * square;
+    }
+  }
 
  private:
   std::vector<int> index_;
@@ -84,6 +91,7 @@ class SceneAccumulator {
     effects_ = extrinsic_ + 6;
     residual_ = effects_ + columns.columns();
     for (auto& m : out_.products) m.setZero(residual_ + 1, residual_ + 1);
+    for (auto& v : out_.fourth_powers) v.setZero(columns.columns());
   }
 
   SceneProducts run() {
@@ -119,8 +127,11 @@ class SceneAccumulator {
   }
   void finish(Channel channel, double residual, double sigma) {
     row_.set(residual_, residual);
-    row_.add_to(out_.products[static_cast<std::size_t>(channel)], 1.0 / (sigma * sigma));
-    ++out_.rows[static_cast<std::size_t>(channel)];
+    const auto at = static_cast<std::size_t>(channel);
+    const double weight = 1.0 / (sigma * sigma);
+    row_.add_to(out_.products[at], weight);
+    row_.add_fourth_powers(out_.fourth_powers[at], effects_, weight);
+    ++out_.rows[at];
   }
 
   void range(const RangeRow& r) {
@@ -271,6 +282,21 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
       out.scenes[s] = SceneAccumulator(table, state, in_use, columns, s).run();
   });
   return out;
+}
+
+double Linearization::acting_share(Channel channel, int effect_column) const {
+  const auto at = static_cast<std::size_t>(channel);
+  double squares = 0.0;
+  double fourth = 0.0;
+  double rows = 0.0;
+  for (const SceneProducts& s : scenes) {
+    const int column = s.layout.size() + 6 + effect_column;
+    squares += s.products[at](column, column);
+    fourth += s.fourth_powers[at](effect_column);
+    rows += s.rows[at];
+  }
+  if (!(fourth > 0.0)) return 0.0;
+  return std::min(1.0, 3.0 * squares * squares / (rows * fourth));
 }
 
 ModelState moved(const ModelState& state, const Vector6d& extrinsic,

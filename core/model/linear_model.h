@@ -76,6 +76,8 @@ struct LocalLayout {
 struct SceneProducts {
   LocalLayout layout;
   std::array<Eigen::MatrixXd, kChannels> products;
+  /// Sums of the whitened effect columns' fourth powers, one per effect column.
+  std::array<Eigen::VectorXd, kChannels> fourth_powers;
   std::array<int, kChannels> rows{};
 };
 
@@ -84,6 +86,10 @@ struct Linearization {
   EffectColumnsList columns;
   std::vector<SceneProducts> scenes;
   [[nodiscard]] int effect_columns() const { return columns.columns(); }
+  /// Share of a channel's rows on which an effect column acts, 0…1, as three times the inverse of
+  /// the column's kurtosis about zero: 1 if it is spread over the rows like a normal variable or
+  /// more evenly, s if it is so on a share s of the rows and zero elsewhere.
+  [[nodiscard]] double acting_share(Channel channel, int effect_column) const;
 };
 
 /// Computes the cross products; scenes in parallel. Cost is linear in rows and in the number of

@@ -23,6 +23,7 @@ class Collector {
   }
 
   ChannelResiduals run(Channel channel) {
+    out_.channel = channel;
     switch (channel) {
       case Channel::kCorner:
         for (std::size_t k = 0; k < table_.corner.size(); ++k) corner(k);

@@ -13,6 +13,7 @@ using NuisanceRow = Eigen::Matrix<double, LocalLayout::kFixed, 1>;
 /// Residuals of a channel's rows (measured − predicted − effects in use; SI and px). Corner rows
 /// give two values each, u and v. For plots and for the search for structure.
 struct ChannelResiduals {
+  Channel channel = Channel::kRange;
   std::vector<double> values;
   std::vector<double> sigma;
   std::vector<int> scene;

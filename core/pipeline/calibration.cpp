@@ -9,15 +9,10 @@
 #include "base/parallel.h"
 #include "pipeline/quality.h"
 #include "pipeline/scene_loading.h"
+#include "pipeline/stopwatch.h"
 
 namespace lvcalib {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 std::vector<SceneHypotheses> hypotheses(const CalibrationResult& result) {
   std::vector<SceneHypotheses> out;

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "pipeline/stopwatch.h"
 
 namespace lvcalib {
 namespace {
@@ -19,12 +20,6 @@ bool is_constant(const std::vector<float>& values) {
   constexpr std::size_t kScan = 1000;
   return values.size() >= kScan &&
          std::all_of(values.begin(), values.end(), [&](float v) { return v == values.front(); });
-}
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 // Distance from the camera to the middle of the board.

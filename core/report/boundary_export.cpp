@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/units.h"
 #include "report/exports.h"
 #include "report/result_file.h"
 
@@ -40,7 +41,7 @@ constexpr const char* kExplanation =
 # the front end's usual range noise in place of C(2, 2).
 )";
 
-std::string number(double v) {
+std::string short_number(double v) {
   char text[40];
   std::snprintf(text, sizeof text, "%.9g", v);
   return text;
@@ -50,20 +51,18 @@ std::string flow(const json& list) {
   std::string out = "[";
   for (const json& v : list) {
     if (out.size() > 1) out += ", ";
-    out += v.is_array() ? flow(v) : number(v.get<double>());
+    out += v.is_array() ? flow(v) : short_number(v.get<double>());
   }
   return out + "]";
 }
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::string statistics(const json& j, const std::string& indent) {
   const auto value = [&](const char* key) { return j.at(key).get<double>(); };
   std::string out = indent + "n: " + std::to_string(j.at("n").get<long>()) + "\n";
   if (!j.contains("covariance")) return out;
-  out += indent + "mean: [" + number(kDegree * value("mean_pitch_deg")) + ", " +
-         number(kDegree * value("mean_yaw_deg")) + ", " + number(1e-3 * value("mean_range_mm")) +
-         "]\n";
+  out += indent + "mean: [" + short_number(kRadPerDeg * value("mean_pitch_deg")) + ", " +
+         short_number(kRadPerDeg * value("mean_yaw_deg")) + ", " +
+         short_number(1e-3 * value("mean_range_mm")) + "]\n";
   return out + indent + "covariance: " + flow(j.at("covariance")) + "\n";
 }
 
@@ -72,9 +71,9 @@ std::string body(const json& response) {
   std::string out = "boundary_response:\n  units: {pitch: rad, yaw: rad, range: m}\n  all:\n" +
                     statistics(all, "    ");
   const double width =
-      kDegree * std::sqrt(0.5 * (std::pow(all.at("std_pitch_deg").get<double>(), 2) +
-                                 std::pow(all.at("std_yaw_deg").get<double>(), 2)));
-  out += "  transition:\n    width_rad: " + number(width) + "\n  cells:\n";
+      kRadPerDeg * std::sqrt(0.5 * (std::pow(all.at("std_pitch_deg").get<double>(), 2) +
+                                    std::pow(all.at("std_yaw_deg").get<double>(), 2)));
+  out += "  transition:\n    width_rad: " + short_number(width) + "\n  cells:\n";
   for (const json& cell : response.at("by_range_and_incidence")) {
     out += "    - range_m: " + flow(cell.at("range_m")) +
            "\n      incidence_deg: " + flow(cell.at("incidence_deg")) + "\n" +

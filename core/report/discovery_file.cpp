@@ -71,8 +71,10 @@ ordered_json effect_json(const EffectFinding& f) {
 }
 
 ordered_json unknown_json(const StructureScore& s) {
+  ordered_json covariates = {s.covariate};
+  if (!s.second_covariate.empty()) covariates.push_back(s.second_covariate);
   ordered_json j = {{"channel", name_of(s.channel)},
-                    {"covariates", {s.covariate}},
+                    {"covariates", covariates},
                     {"score", s.score},
                     {"amplitude", s.amplitude}};
   if (!s.formula.empty()) j["closed_form"] = {{"with", s.formula}, {"score", s.formula_score}};
@@ -147,7 +149,7 @@ std::string discovery_as_json(const Discovery& d) {
   j["structure"] = ordered_json::array();
   for (const StructureScore& s : d.structure) {
     j["structure"].push_back({{"channel", name_of(s.channel)},
-                              {"covariate", s.covariate},
+                              {"covariate", s.covariates()},
                               {"score", s.score},
                               {"amplitude", s.amplitude}});
   }
@@ -184,7 +186,7 @@ std::string discovery_summary(const Discovery& d) {
   if (!d.unknown.empty()) {
     out += "\nStructure that no effect of the catalogue explains\n";
     for (const StructureScore& s : d.unknown) {
-      out += std::string("  ") + name_of(s.channel) + " against " + s.covariate +
+      out += std::string("  ") + name_of(s.channel) + " against " + s.covariates() +
              line(": %.1f %% of the held-out variance, %.3g ", 100.0 * s.score, s.amplitude, 0, 0) +
              unit_of(s.channel) + "\n";
     }

@@ -13,8 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxResultBytes = 256U << 20U;
-
 Result<double> number_at(const json& j, const char* key, const std::string& where) {
   const auto found = j.find(key);
   if (found == j.end() || !found->is_number())

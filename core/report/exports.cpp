@@ -12,7 +12,7 @@
 namespace lvcalib {
 namespace {
 
-std::string number(double value) {
+std::string yaml_number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.12g", value == 0.0 ? 0.0 : value);
   // YAML 1.1 readers take "1" for an integer where a float is asked for.
@@ -24,7 +24,7 @@ std::string number(double value) {
 template <class Values>
 std::string list(const Values& values, const char* separator = ", ") {
   std::string out;
-  for (const double v : values) out += (out.empty() ? "" : separator) + number(v);
+  for (const double v : values) out += (out.empty() ? "" : separator) + yaml_number(v);
   return out;
 }
 
@@ -172,10 +172,10 @@ Result<std::string> write_ros2(const ExportInput& input) {
   return "#!/bin/sh\n" +
          comment(input, {"T_lidar_camera: pose of the camera (child) in the LiDAR frame (parent), "
                          "p_lidar = T * p_camera"}) +
-         "ros2 run tf2_ros static_transform_publisher --x " + number(t.x()) + " --y " +
-         number(t.y()) + " --z " + number(t.z()) + " --qx " + number(q(0)) + " --qy " +
-         number(q(1)) + " --qz " + number(q(2)) + " --qw " + number(q(3)) +
-         " --frame-id lidar --child-frame-id camera\n";
+         "ros2 run tf2_ros static_transform_publisher --x " + yaml_number(t.x()) + " --y " +
+         yaml_number(t.y()) + " --z " + yaml_number(t.z()) + " --qx " + yaml_number(q(0)) +
+         " --qy " + yaml_number(q(1)) + " --qz " + yaml_number(q(2)) + " --qw " +
+         yaml_number(q(3)) + " --frame-id lidar --child-frame-id camera\n";
 }
 
 Result<std::string> write_urdf(const ExportInput& input) {
@@ -221,7 +221,7 @@ Result<std::string> write_autoware(const ExportInput& input) {
   const Rigid3 T = input.camera_from_lidar.inverse() * body_from_optical().inverse();
   const RollPitchYaw a = angles_of(T);
   const auto line = [](const char* key, double value) {
-    return std::string("    ") + key + ": " + number(value) + "\n";
+    return std::string("    ") + key + ": " + yaml_number(value) + "\n";
   };
   return comment(input, {"pose of camera_link (child) in sensor_kit_base_link (parent), here the "
                          "LiDAR frame itself:",
@@ -259,7 +259,7 @@ Result<std::string> write_lvi_sam(const ExportInput& input) {
   const Rigid3 T = body_from_optical() * input.camera_from_lidar;
   const RollPitchYaw a = angles_of(T);
   const auto line = [](const char* key, double value) {
-    return std::string("lidar_to_cam_") + key + ": " + number(value) + "\n";
+    return std::string("lidar_to_cam_") + key + ": " + yaml_number(value) + "\n";
   };
   return comment(input,
                  {"takes a point from the LiDAR frame to the camera frame turned to x "

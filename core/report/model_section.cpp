@@ -42,7 +42,7 @@ json entry(const json& step, const char* part, const std::string& channel) {
   return at == all->end() ? json(nullptr) : *at;
 }
 
-std::string number_of(const json& j, int digits = 3) {
+std::string number_text(const json& j, int digits = 3) {
   return j.is_number() ? shown(j.get<double>(), digits) : "–";
 }
 
@@ -62,8 +62,8 @@ std::string budget(const json& discovery) {
     rows.push_back({html_escaped(name), std::to_string(c.at("n").get<long long>()),
                     text_of(c, "unit"), number_at(c, "noise_floor"), cell(first, "rms"),
                     cell(last, "rms"), cell(first, "unexplained"), cell(last, "unexplained"),
-                    number_of(entry(first, "heldout_rms", name)),
-                    number_of(entry(last, "heldout_rms", name))});
+                    number_text(entry(first, "heldout_rms", name)),
+                    number_text(entry(last, "heldout_rms", name))});
   }
   std::string out = "<h3>Error before and after</h3>\n" + html_table(rows);
   std::string steps;

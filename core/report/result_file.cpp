@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMaxResultBytes = 256U << 20U;
-
 ordered_json pose_json(const Rigid3& pose) {
   const Eigen::Vector4d q = pose.rotation.coeffs();
   return {{"matrix", rows_of(pose.matrix())},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -8,6 +9,9 @@
 #include "pipeline/calibration.h"
 
 namespace lvcalib {
+
+/// Larger result files are refused.
+inline constexpr std::size_t kMaxResultBytes = std::size_t{256} << 20;
 
 /// The library's version, as in result files.
 std::string version();

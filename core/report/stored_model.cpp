@@ -11,13 +11,12 @@
 #include "base/yaml_file.h"
 #include "model/user_effect.h"
 #include "report/evidence_json.h"
+#include "report/result_file.h"
 
 namespace lvcalib {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr std::size_t kMaxResultBytes = 256U << 20U;
 
 ordered_json scales_json(const ModelScales& scales) {
   return {{"white_level", scales.level[static_cast<std::size_t>(Print::kWhite)]},

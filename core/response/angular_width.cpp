@@ -13,7 +13,7 @@
 namespace lvcalib {
 namespace {
 
-constexpr std::size_t kFewest = 40;
+constexpr std::size_t kFewestForWidth = 40;
 
 using Unknowns = Eigen::Matrix<double, 6, 1>;  // A_pp, A_py, A_yy, δ, μ_in, μ_out
 using Normal = Eigen::Matrix<double, 6, 6>;
@@ -23,12 +23,12 @@ Eigen::Vector3d quadratic_terms(const BoundarySample& s) {
   return {b.x() * b.x(), 2.0 * b.x() * b.y(), b.y() * b.y()};
 }
 
-class Fit {
+class WidthFit {
  public:
-  explicit Fit(const std::vector<const BoundarySample*>& samples) : samples_(samples) {}
+  explicit WidthFit(const std::vector<const BoundarySample*>& samples) : samples_(samples) {}
 
   std::optional<AngularWidth> run() {
-    if (samples_.size() < kFewest || !start()) return std::nullopt;
+    if (samples_.size() < kFewestForWidth || !start()) return std::nullopt;
     constexpr int kIterations = 30;
     constexpr int kSpreadRounds = 8;
     constexpr int kFewestRounds = 4;
@@ -133,7 +133,7 @@ class Fit {
 }  // namespace
 
 std::optional<AngularWidth> fit_angular_width(const std::vector<const BoundarySample*>& samples) {
-  return Fit(samples).run();
+  return WidthFit(samples).run();
 }
 
 }  // namespace lvcalib

@@ -15,7 +15,7 @@ namespace {
 
 using Levels = PlateauLevels;
 
-constexpr std::size_t kFewest = 20;
+constexpr std::size_t kFewestForFit = 20;
 
 std::optional<Levels> levels_of(std::span<const TransitionPoint> points, double delta_m,
                                 double sigma_m) {
@@ -40,9 +40,9 @@ struct System {
 // between black and white, skewed on either side: any loss that favours the bulk would be pulled
 // to the nearer level. So all samples between the levels count by their squares, weighed by the
 // mean square at their place; only what no mixture of black and white gives is left out.
-class Fit {
+class TransitionFitter {
  public:
-  Fit(std::span<const TransitionPoint> points, const Levels& levels, double sigma_m)
+  TransitionFitter(std::span<const TransitionPoint> points, const Levels& levels, double sigma_m)
       : points_(points), levels_(levels), x_(levels.in, levels.out, 0.0, sigma_m) {}
 
   bool run() {
@@ -53,7 +53,7 @@ class Fit {
     for (int i = 0; i < kIterations; ++i) {
       if (i < kSpreadRounds) measure_spread();
       const System s = system();
-      if (s.used < static_cast<int>(kFewest)) return false;
+      if (s.used < static_cast<int>(kFewestForFit)) return false;
       const Eigen::LDLT<Matrix4d> factor(s.normal);
       if (factor.info() != Eigen::Success) return false;
       Vector4d step = factor.solve(s.rhs);
@@ -119,10 +119,10 @@ class Fit {
 
 std::optional<TransitionFit> fit_transition(std::span<const TransitionPoint> points,
                                             double sigma_start_m) {
-  if (points.size() < kFewest || !(sigma_start_m > 0.0)) return std::nullopt;
+  if (points.size() < kFewestForFit || !(sigma_start_m > 0.0)) return std::nullopt;
   const auto levels = levels_of(points, 0.0, sigma_start_m);
   if (!levels || !levels->stand_clear()) return std::nullopt;
-  Fit fit(points, *levels, sigma_start_m);
+  TransitionFitter fit(points, *levels, sigma_start_m);
   if (!fit.run()) return std::nullopt;
   TransitionFit out;
   const Matrix4d covariance = fit.covariance(out.samples);

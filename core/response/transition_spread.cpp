@@ -12,7 +12,7 @@ namespace {
 // Plateaus begin this many σ from the edge, but keep this share of what lies on their side.
 constexpr double kPlateau = 2.0;
 constexpr double kKept = 0.4;
-constexpr std::size_t kFewest = 10;
+constexpr std::size_t kFewestForSpread = 10;
 constexpr double kStray = 6.0;  // Standard deviations beyond a level.
 
 }  // namespace
@@ -45,7 +45,7 @@ std::optional<PlateauLevels> plateau_levels(const std::vector<std::pair<double, 
     if (z < clear_in) in.push_back(intensity);
     if (z > clear_out) out.push_back(intensity);
   }
-  if (in.size() < kFewest || out.size() < kFewest) return std::nullopt;
+  if (in.size() < kFewestForSpread || out.size() < kFewestForSpread) return std::nullopt;
   PlateauLevels levels;
   levels.noise_in = mad_sigma(in);
   levels.noise_out = mad_sigma(out);

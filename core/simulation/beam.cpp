@@ -6,10 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
+
 namespace lvcalib::simulation {
 namespace {
 
-constexpr double kGoldenAngle = 2.399963229728653;
 constexpr std::size_t kMaxRays = 256;  // As check() allows.
 constexpr double kReferenceRange = 3.0;
 // The weakest signal still ranged like a black print, not worse: receivers adapt their gain.
@@ -120,7 +121,8 @@ Beam::Beam(const LidarOptions& options, const RayCaster& caster, const BeamDistu
   double variance = 0.0;
   for (int i = 0; i < options.beam_rays; ++i) {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - (i + 0.5) / options.beam_rays));
-    nodes_.push_back({radius * std::cos(kGoldenAngle * i), radius * std::sin(kGoldenAngle * i)});
+    nodes_.push_back(
+        {radius * std::cos(kGoldenAngleRad * i), radius * std::sin(kGoldenAngleRad * i)});
     variance += 0.5 * radius * radius / options.beam_rays;
   }
   const double scale = 1.0 / std::sqrt(variance);

@@ -6,13 +6,12 @@
 #include <numbers>
 #include <optional>
 
+#include "base/units.h"
 #include "simulation/seeds.h"
 
 namespace lvcalib::simulation {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kGoldenAngle = 2.399963229728653;
 constexpr int kTries = 20'000;
 
 // Part of the image, on either side, where the board's centre may lie.
@@ -79,12 +78,12 @@ class Placer {
     Eigen::Matrix3d facing;
     facing << x, z.cross(x), z;
     const double share = scene_ == 0 ? random_.uniform(0.0, 0.4) : random_.uniform(0.5, 1.0);
-    const double tilt = share * options_.max_tilt_deg * kDegree;
-    double direction = first_tilt_direction_ + kGoldenAngle * scene_ + random_.normal(0.0, 0.2);
+    const double tilt = share * options_.max_tilt_deg * kRadPerDeg;
+    double direction = first_tilt_direction_ + kGoldenAngleRad * scene_ + random_.normal(0.0, 0.2);
     if (options_.flush_on_wall) direction = std::numbers::pi * (0.5 + scene_ % 2);
     const Eigen::Vector3d axis(std::cos(direction), std::sin(direction), 0.0);
     const Eigen::Vector3d roll(0.0, 0.0,
-                               options_.max_roll_deg * kDegree * random_.uniform(-1.0, 1.0));
+                               options_.max_roll_deg * kRadPerDeg * random_.uniform(-1.0, 1.0));
     const Eigen::Quaterniond rotation =
         Eigen::Quaterniond(facing) * so3_exp(tilt * axis) * so3_exp(roll);
     const Eigen::Vector3d center(center_.x(), center_.y(), 0.0);

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "simulation/board_placement.h"
 
 namespace lvcalib::simulation {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kBoardThickness = 0.008;  // Between a board and the wall it hangs on.
 constexpr double kStandGap = 0.03;         // Between the board and its stand.
 
@@ -51,7 +51,7 @@ class RoomBuilder {
   void turn_room() {
     const Eigen::Vector3d turn(random_.normal(0.0, 1.0), random_.normal(0.0, 1.0),
                                random_.uniform(-12.0, 12.0));
-    lidar_from_room_ = so3_exp(turn * kDegree).toRotationMatrix();
+    lidar_from_room_ = so3_exp(turn * kRadPerDeg).toRotationMatrix();
     if (!options_.placement.flush_on_wall) return;
     const Eigen::Vector3d ahead = -(lidar_from_board_.rotation * Eigen::Vector3d::UnitZ());
     const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(ahead).normalized();
@@ -182,12 +182,12 @@ class RoomBuilder {
     const Eigen::Vector2d half = 0.5 * board_.outline().size_m();
     const Texture print = decoy_print();
     for (int attempt = 0; attempt < 400; ++attempt) {
-      const double azimuth = random_.uniform(-40.0, 40.0) * kDegree;
+      const double azimuth = random_.uniform(-40.0, 40.0) * kRadPerDeg;
       const double distance = random_.uniform(1.8, 5.5);
       const Eigen::Vector3d center(distance * std::cos(azimuth), distance * std::sin(azimuth),
-                                   distance * std::tan(random_.uniform(-10.0, 12.0) * kDegree));
-      const double yaw = azimuth + random_.uniform(-40.0, 40.0) * kDegree;
-      const double pitch = random_.uniform(-20.0, 20.0) * kDegree;
+                                   distance * std::tan(random_.uniform(-10.0, 12.0) * kRadPerDeg));
+      const double yaw = azimuth + random_.uniform(-40.0, 40.0) * kRadPerDeg;
+      const double pitch = random_.uniform(-20.0, 20.0) * kRadPerDeg;
       if (!within_room(center, half.norm()) ||
           !leaves_board_free(lidar_from_room_ * center, half.norm())) {
         continue;

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
+
 namespace lvcalib::simulation {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // Prism speeds in turns per second, and the share of the deflection that the first prism makes:
@@ -20,9 +21,9 @@ constexpr double kFirstPrismShare = 0.505;
 constexpr double kRosetteRateHz = 100'000.0;
 constexpr double kAviaRateHz = 240'000.0;
 // 77.2° by 70.4°: six fields of 70.4° spread over the difference.
-constexpr double kAviaLineStep = (77.2 - 70.4) / 5.0 * kDegree;
+constexpr double kAviaLineStep = (77.2 - 70.4) / 5.0 * kRadPerDeg;
 
-constexpr double kSpinningElevation = 45.0 * kDegree;
+constexpr double kSpinningElevation = 45.0 * kRadPerDeg;
 constexpr double kRevolutionS = 0.1;
 
 }  // namespace
@@ -31,7 +32,7 @@ ScanPattern::ScanPattern(const LidarOptions& options, Random random)
     : kind_(options.kind),
       size_(static_cast<std::size_t>(point_count(options))),
       lines_(static_cast<std::size_t>(line_count(options))),
-      half_fov_rad_(0.5 * options.fov_deg * kDegree),
+      half_fov_rad_(0.5 * options.fov_deg * kRadPerDeg),
       phase_first_rad_(random.uniform(0.0, kTurn)),
       phase_second_rad_(random.uniform(0.0, kTurn)) {
   const double step = kind_ == LidarKind::kSpinning

@@ -87,7 +87,7 @@ json record_of(const EffectTask& task, const simulation::SimulatedRig& rig,
     json list = json::array();
     for (const StructureScore& s : scores)
       list.push_back(
-          {{"channel", name_of(s.channel)}, {"covariate", s.covariate}, {"score", s.score}});
+          {{"channel", name_of(s.channel)}, {"covariate", s.covariates()}, {"score", s.score}});
     return list;
   };
   out["structure"] = structure_json(d.structure);

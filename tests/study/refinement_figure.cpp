@@ -12,8 +12,8 @@
 namespace lvcalib::study {
 namespace {
 
-constexpr int kWidth = 1200;
-constexpr int kHeight = 470;
+constexpr int kPanelWidth = 1200;
+constexpr int kPanelHeight = 470;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct Choice {
@@ -137,7 +137,7 @@ bool has_refused_bins(const NodeRecord& node) {
 }
 
 void draw_legend(Canvas& canvas, bool refused) {
-  const double y = kHeight - 24;
+  const double y = kPanelHeight - 24;
   const auto entry = [&](double x, const Color& color, const char* words) {
     canvas.line(x, y - 8, x, y + 8, color, 1.8);
     canvas.disc(x, y, 4, color);
@@ -161,7 +161,7 @@ Status draw_refinement(const CalibrationResult& result, const std::filesystem::p
   const NodeRecord& first = history.front().nodes[choice.node];
   const NodeRecord& last = history.back().nodes[choice.node];
   const double range = 1.08 * std::max(needed_range_mm(first), needed_range_mm(last));
-  Canvas canvas(path, kWidth, kHeight);
+  Canvas canvas(path, kPanelWidth, kPanelHeight);
   char title[96];
   std::snprintf(title, sizeof title, "First iteration: centre off by %.2f mm",
                 1e3 * first.wave_m.head<2>().norm());

@@ -182,10 +182,12 @@ QWidget* AddEffectDialog::createCurve() {
   return page;
 }
 
-void AddEffectDialog::suggestCurve(Channel channel, const QString& covariate) {
+void AddEffectDialog::suggestCurve(Channel channel, const QString& covariate,
+                                   const QString& second) {
   tabs_->setCurrentIndex(kCurve);
   curve_channel_->setCurrentIndex(std::max(0, curve_channel_->findData(static_cast<int>(channel))));
   curve_first_->setCurrentIndex(std::max(0, curve_first_->findData(covariate)));
+  curve_second_->setCurrentIndex(std::max(0, curve_second_->findData(second)));
 }
 
 void AddEffectDialog::filter(const QString& words) {

@@ -29,7 +29,7 @@ class AddEffectDialog : public QDialog {
   AddEffectDialog(const ModelStepPtr& step, QWidget* parent = nullptr);
   ~AddEffectDialog() override;
   /// Opens on the curve of a covariate.
-  void suggestCurve(Channel channel, const QString& covariate);
+  void suggestCurve(Channel channel, const QString& covariate, const QString& second = {});
 
  Q_SIGNALS:
   void addWanted(const QString& spec);

@@ -82,6 +82,13 @@ QColor verdict_color(const EffectProposal& p, const QPalette& palette) {
   return colors.idle;
 }
 
+QString covariates_text(const StructureScore& s) {
+  const QString first = covariate_name(s.covariate);
+  return s.second_covariate.empty()
+             ? first
+             : MissingPane::tr("%1 and %2").arg(first, covariate_name(s.second_covariate));
+}
+
 }  // namespace
 
 MissingPane::MissingPane(QWidget* parent)
@@ -193,7 +200,8 @@ void MissingPane::add() {
   const QTreeWidgetItem* item = list_->currentItem();
   if (!ranking_ || item == nullptr || !item->data(kEffect, kUnknown).isValid()) return;
   const StructureScore& s = ranking_->unknown[item->data(kEffect, kUnknown).toUInt()];
-  Q_EMIT curveWanted(s.channel, QString::fromStdString(s.covariate));
+  Q_EMIT curveWanted(s.channel, QString::fromStdString(s.covariate),
+                     QString::fromStdString(s.second_covariate));
 }
 
 void MissingPane::fill() {
@@ -240,8 +248,7 @@ void MissingPane::addProposal(const EffectProposal& p, int index) {
 void MissingPane::addUnknown(int index) {
   const StructureScore& s = ranking_->unknown[static_cast<std::size_t>(index)];
   auto* item = new QTreeWidgetItem(list_);
-  item->setText(kEffect,
-                tr("%1 against %2").arg(channel_name(s.channel), covariate_name(s.covariate)));
+  item->setText(kEffect, tr("%1 against %2").arg(channel_name(s.channel), covariates_text(s)));
   item->setData(kEffect, kUnknown, index);
   item->setText(kVerdict, tr("unknown"));
   item->setForeground(kVerdict, state_colors(palette()).doubtful);
@@ -327,7 +334,7 @@ void MissingPane::describeStructure(const StructureScore& s) {
       tr("<p>In scenes held out, %1 % of the variance of the %2 residuals goes with %3 (%4 %5). No "
          "effect of the catalogue explains it: a smooth curve can stand in for it.</p>")
           .arg(100.0 * s.score, 0, 'f', 1)
-          .arg(channel_name(s.channel), covariate_name(s.covariate))
+          .arg(channel_name(s.channel), covariates_text(s))
           .arg(s.amplitude, 0, 'g', 2)
           .arg(unit_text(s.channel)));
   setPattern(nullptr);

@@ -43,7 +43,7 @@ class MissingPane : public QWidget {
   void chosen();
   /// Structure that no effect explains was chosen.
   void structureChosen(lvcalib::Channel channel, const QString& covariate);
-  void curveWanted(lvcalib::Channel channel, const QString& covariate);
+  void curveWanted(lvcalib::Channel channel, const QString& covariate, const QString& second);
 
  protected:
   void changeEvent(QEvent* event) override;

@@ -105,7 +105,9 @@ void ModelPage::connectParts() {
   connect(missing_, &MissingPane::chosen, this, &ModelPage::takeChosen);
   connect(missing_, &MissingPane::structureChosen, where_, &WherePane::look);
   connect(missing_, &MissingPane::curveWanted, this,
-          [this](Channel channel, const QString& covariate) { openDialog(covariate, channel); });
+          [this](Channel channel, const QString& covariate, const QString& second) {
+            openDialog(covariate, channel, second);
+          });
   connect(&source_, &FigureSource::patternReady, this,
           [this](const std::shared_ptr<const ResidualFigure>& figure) {
             if (pattern_is_proposal_) missing_->setPattern(figure);
@@ -203,10 +205,11 @@ void ModelPage::takeChosen() {
   source_.requestPattern(use);
 }
 
-void ModelPage::openDialog(const QString& covariate, std::optional<Channel> channel) {
+void ModelPage::openDialog(const QString& covariate, std::optional<Channel> channel,
+                           const QString& second) {
   if (!shown_) return;
   auto* dialog = new AddEffectDialog(shown_, this);
-  if (channel) dialog->suggestCurve(*channel, covariate);
+  if (channel) dialog->suggestCurve(*channel, covariate, second);
   connect(dialog, &AddEffectDialog::addWanted, this, [this](const QString& spec) {
     if (!work_.busy()) work_.add(spec);
   });

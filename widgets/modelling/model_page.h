@@ -50,7 +50,8 @@ class ModelPage : public QWidget {
   void takeRanking();
   void takeChosen();
   void describeSteps();
-  void openDialog(const QString& covariate, std::optional<Channel> channel);
+  void openDialog(const QString& covariate, std::optional<Channel> channel,
+                  const QString& second = {});
   void forward(const std::vector<SelectedSample>& samples);
 
   ModelWork& work_;

@@ -14,7 +14,7 @@
 namespace lvcalib {
 namespace {
 
-Target small_target() {
+Target viewed_target() {
   Target target;
   target.tag_columns = 3;
   target.tag_rows = 2;
@@ -30,7 +30,7 @@ GrayImage picture(const Target& target, const Camera& camera, const Rigid3& pose
 }
 
 TEST(BoardView, PoseAgreesWithTheTruth) {
-  const Target target = small_target();
+  const Target target = viewed_target();
   Camera camera = testing::pinhole(400, 300, 400);
   camera.distortion.head<2>() << -0.2, 0.05;
   const Rigid3 pose = testing::facing_pose(target, 0.9, 0.15, 0.35, -0.3);
@@ -48,7 +48,7 @@ TEST(BoardView, PoseAgreesWithTheTruth) {
 }
 
 TEST(BoardView, DifferentImageSizeIsAnErrorNamingBoth) {
-  const Target target = small_target();
+  const Target target = viewed_target();
   const Camera camera = testing::pinhole(400, 300, 400);
   const GrayImage image{200, 150, std::vector<float>(200 * 150, 0.0F)};
   const auto view = find_board_in_image(image, target, camera, {}, {});
@@ -59,7 +59,7 @@ TEST(BoardView, DifferentImageSizeIsAnErrorNamingBoth) {
 }
 
 TEST(BoardView, PixelsThatAreNotNumbersDoNoHarm) {
-  const Target target = small_target();
+  const Target target = viewed_target();
   const Camera camera = testing::pinhole(400, 300, 400);
   GrayImage image = picture(target, camera, testing::facing_pose(target, 0.9, 0.1, 0.3, 0));
   for (std::size_t i = 0; i < image.pixels.size(); i += 977) image.pixels[i] = std::nanf("");
@@ -70,7 +70,7 @@ TEST(BoardView, PixelsThatAreNotNumbersDoNoHarm) {
 
 // A second copy of one tag beside the board: the one that fits the board is kept.
 TEST(BoardView, OfTwoTagsWithOneIdTheFittingOneIsKept) {
-  const Target target = small_target();
+  const Target target = viewed_target();
   const Camera camera = testing::pinhole(560, 300, 400);
   const Rigid3 pose = testing::facing_pose(target, 0.9, 0.0, 0.2, 0.1);
   GrayImage image = picture(target, camera, pose);
@@ -92,7 +92,7 @@ TEST(BoardView, OfTwoTagsWithOneIdTheFittingOneIsKept) {
 }
 
 TEST(BoardView, WrongSpacingIsNoticed) {
-  const Target printed = small_target();
+  const Target printed = viewed_target();
   Target told = printed;
   told.type = TargetType::kAprilGrid;
   told.tag_spacing = 1.2;
@@ -110,7 +110,7 @@ TEST(BoardView, StopIsHonoured) {
   context.stop = source.get_token();
   const Camera camera = testing::pinhole(64, 64, 100);
   const GrayImage image{64, 64, std::vector<float>(64 * 64, 0.0F)};
-  const auto view = find_board_in_image(image, small_target(), camera, {}, context);
+  const auto view = find_board_in_image(image, viewed_target(), camera, {}, context);
   ASSERT_FALSE(view.ok());
   EXPECT_EQ(view.error().kind, ErrorKind::kCancelled);
 }

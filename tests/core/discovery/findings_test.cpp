@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const EffectFinding& finding(const std::vector<EffectFinding>& all, const std::string& id) {
+const EffectFinding& finding_of(const std::vector<EffectFinding>& all, const std::string& id) {
   const auto at =
       std::find_if(all.begin(), all.end(), [&](const EffectFinding& f) { return f.id == id; });
   EXPECT_NE(at, all.end()) << id;
@@ -63,7 +63,7 @@ TEST_F(Findings, EveryEffectOfTheCatalogueIsJudgedOnceAndRanked) {
 }
 
 TEST_F(Findings, PresentTellsValueUncertaintyAndWhatItDoes) {
-  const EffectFinding f = finding(judged(with_walk(), {"range_walk"}), "range_walk");
+  const EffectFinding f = finding_of(judged(with_walk(), {"range_walk"}), "range_walk");
   EXPECT_EQ(f.verdict, EffectVerdict::kPresent);
   ASSERT_EQ(f.parameters.size(), 1U);
   EXPECT_NEAR(f.parameters[0].value, 0.008, 3.0 * f.parameters[0].sigma);
@@ -73,7 +73,7 @@ TEST_F(Findings, PresentTellsValueUncertaintyAndWhatItDoes) {
 
 TEST_F(Findings, AliasedNamesTheOthersAndTheSceneThatTells) {
   const EffectFinding f =
-      finding(judged(with_walk(), {"range_walk"}, {"range_near"}), "range_walk");
+      finding_of(judged(with_walk(), {"range_walk"}, {"range_near"}), "range_walk");
   EXPECT_EQ(f.verdict, EffectVerdict::kAliased);
   EXPECT_THAT(f.explanation, HasSubstr("range_near"));
   EXPECT_THAT(f.explanation, HasSubstr(find_effect("range_walk")->info().breaker));
@@ -98,7 +98,7 @@ TEST_F(Findings, FewNoisyScenesMakeEffectsNotTestableRatherThanAbsent) {
   recipe.range_sigma_m = 0.05;
   const auto all = judged(test::synthetic_table(recipe));
   for (const char* id : {"range_offset", "range_scale", "range_near", "range_incidence"}) {
-    const EffectFinding& f = finding(all, id);
+    const EffectFinding& f = finding_of(all, id);
     EXPECT_EQ(f.verdict, EffectVerdict::kNotTestable) << id;
     EXPECT_THAT(f.explanation, HasSubstr(find_effect(id)->info().breaker)) << id;
   }
@@ -108,9 +108,9 @@ TEST_F(Findings, MissingFieldsAreNamed) {
   test::TableRecipe recipe;
   recipe.time = recipe.lines = false;
   const auto all = judged(test::synthetic_table(recipe));
-  EXPECT_THAT(finding(all, "scan_motion").explanation, HasSubstr("no time"));
-  EXPECT_THAT(finding(all, "channel_angle_offset").explanation, HasSubstr("no laser lines"));
-  EXPECT_TRUE(finding(all, "scan_motion").parameters.empty());
+  EXPECT_THAT(finding_of(all, "scan_motion").explanation, HasSubstr("no time"));
+  EXPECT_THAT(finding_of(all, "channel_angle_offset").explanation, HasSubstr("no laser lines"));
+  EXPECT_TRUE(finding_of(all, "scan_motion").parameters.empty());
 }
 
 TEST_F(Findings, AliasesOfACandidateAreThoseWithItsPattern) {

@@ -21,9 +21,9 @@ double rms_of(const std::vector<float>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-class Columns : public ::testing::Test {
+class ColumnsOfResiduals : public ::testing::Test {
  protected:
-  Columns() {
+  ColumnsOfResiduals() {
     test::Disturbance wrong;
     wrong.range_m = [](const BeamPoint& beam) { return 0.008 * beam.darkness; };
     auto made = test::synthetic_table({}, wrong);
@@ -35,7 +35,7 @@ class Columns : public ::testing::Test {
   ModelStepPtr base_, walk_;
 };
 
-TEST_F(Columns, BeforeAndAfterStandSideBySide) {
+TEST_F(ColumnsOfResiduals, BeforeAndAfterStandSideBySide) {
   const ResidualColumns c = residual_columns(*walk_, *base_, Channel::kRange);
   ASSERT_EQ(c.size(), base_->table().range.size());
   ASSERT_EQ(c.before.size(), c.size());
@@ -53,7 +53,7 @@ TEST_F(Columns, BeforeAndAfterStandSideBySide) {
   EXPECT_FALSE(after[1].residual.significant);
 }
 
-TEST_F(Columns, CornersHaveTwoComponents) {
+TEST_F(ColumnsOfResiduals, CornersHaveTwoComponents) {
   const ResidualColumns c = residual_columns(*base_, *base_, Channel::kCorner);
   ASSERT_EQ(c.size(), 2 * base_->table().corner.size());
   EXPECT_THAT(c.component, Contains(0));
@@ -61,7 +61,7 @@ TEST_F(Columns, CornersHaveTwoComponents) {
   EXPECT_EQ(c.before, c.value);
 }
 
-TEST_F(Columns, ThePatternOfAnEffectIsWhatItAdds) {
+TEST_F(ColumnsOfResiduals, ThePatternOfAnEffectIsWhatItAdds) {
   EffectInUse use{find_effect("range_walk"), 0.0, Eigen::VectorXd::Constant(1, 0.005)};
   const auto raw = effect_pattern(*base_, use, Channel::kRange, false);
   const auto& rows = base_->table().range;
@@ -84,7 +84,7 @@ TEST_F(Columns, ThePatternOfAnEffectIsWhatItAdds) {
     EXPECT_NEAR(static_cast<double>(twice[k]), 2.0 * static_cast<double>(once[k]), 1e-3);
 }
 
-TEST_F(Columns, ThePatternAtItsEstimateIsWhatIsSeen) {
+TEST_F(ColumnsOfResiduals, ThePatternAtItsEstimateIsWhatIsSeen) {
   const EffectInUse found = walk_->terms[0].use;
   const auto predicted = effect_pattern(*base_, found, Channel::kRange, true);
   const ResidualColumns c = residual_columns(*base_, *base_, Channel::kRange);
@@ -99,7 +99,7 @@ TEST_F(Columns, ThePatternAtItsEstimateIsWhatIsSeen) {
   EXPECT_NEAR(model[1].residual.mean - model[0].residual.mean, step_seen, 0.1 * step_seen);
 }
 
-TEST_F(Columns, AnEffectShowsInItsChannelsOnly) {
+TEST_F(ColumnsOfResiduals, AnEffectShowsInItsChannelsOnly) {
   EXPECT_THAT(channels_of(*find_effect("corner_bias"), 0.0, *base_), ElementsAre(Channel::kCorner));
   const auto walk = channels_of(*find_effect("range_walk"), 0.0, *base_);
   EXPECT_THAT(walk, Contains(Channel::kRange));

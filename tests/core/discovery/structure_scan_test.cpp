@@ -42,7 +42,7 @@ TEST(StructureScan, ScoreIsTheShareOfHeldOutVariance) {
   const auto residuals = residuals_of(made.table, made.truth, {}, Channel::kRange);
   for (const Covariate& c : covariates_of(made.table, Channel::kRange, residuals)) {
     if (c.name != "print") continue;
-    const StructureScore s = structure_score(c, Channel::kRange, residuals, 6);
+    const StructureScore s = structure_score(c, residuals, 6);
     EXPECT_NEAR(s.score, curve / (curve + 64.0), 0.02);
     EXPECT_NEAR(s.amplitude, std::sqrt(curve), 0.15 * std::sqrt(curve));
   }

@@ -72,12 +72,12 @@ TEST_P(EffectDerivative, ActsOnSomething) {
   }
 }
 
-std::vector<std::string> all_ids() {
+std::vector<std::string> all_effect_ids() {
   std::vector<std::string> ids;
   for (const EffectPtr& effect : effect_catalogue()) ids.push_back(effect->info().id);
   return ids;
 }
-INSTANTIATE_TEST_SUITE_P(Catalogue, EffectDerivative, ::testing::ValuesIn(all_ids()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EffectDerivative, ::testing::ValuesIn(all_effect_ids()),
                          [](const auto& info) { return info.param; });
 
 TEST(Linearize, PoseColumnsAreTheDerivativesOfTheResiduals) {

@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Discovery sample() {
+Discovery sample_discovery() {
   Discovery d;
   EffectFinding f;
   f.id = "range_cyclic";
@@ -40,7 +40,7 @@ Discovery sample() {
 }
 
 TEST(DiscoveryFile, HasBudgetShapesCurvesAndClosedForms) {
-  const auto j = nlohmann::json::parse(discovery_as_json(sample()));
+  const auto j = nlohmann::json::parse(discovery_as_json(sample_discovery()));
   EXPECT_EQ(j["effects"][0]["shape_sigma"], 0.002);
   EXPECT_EQ(j["effects"][0]["shape_name"], "period (m)");
   EXPECT_FALSE(j["effects"][0].contains("curve"));
@@ -60,7 +60,7 @@ TEST(DiscoveryFile, HasBudgetShapesCurvesAndClosedForms) {
 }
 
 TEST(DiscoveryFile, TheSummarySaysWhatIsLeftOpen) {
-  const std::string text = discovery_summary(sample());
+  const std::string text = discovery_summary(sample_discovery());
   EXPECT_THAT(text, HasSubstr("Warning: something was left out"));
   EXPECT_THAT(text, HasSubstr("could still do"));
   EXPECT_THAT(text, HasSubstr("range_offset"));

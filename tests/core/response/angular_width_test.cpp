@@ -13,9 +13,9 @@
 namespace lvcalib {
 namespace {
 
-constexpr double kDelta = 0.0004;
+constexpr double kEdgeShift = 0.0004;
 
-Eigen::Matrix2d ellipse() {
+Eigen::Matrix2d beam_covariance() {
   Eigen::Matrix2d a;
   a << 1.0e-6, 0.2e-6, 0.2e-6, 2.0e-6;
   return a;
@@ -28,9 +28,9 @@ std::vector<BoundarySample> ring(int count, double jitter_share, std::uint64_t s
   for (int i = 0; i < count; ++i) {
     const double psi = 2.0 * std::numbers::pi * random.uniform();
     const Eigen::Vector2d b = 3.0 * Eigen::Vector2d(std::sin(psi), std::cos(psi));
-    const double sigma = std::sqrt(b.dot(ellipse() * b));
+    const double sigma = std::sqrt(b.dot(beam_covariance() * b));
     const double d = random.uniform(-0.02, 0.02);
-    const double beam = d - kDelta + std::sqrt(jitter_share) * sigma * random.normal();
+    const double beam = d - kEdgeShift + std::sqrt(jitter_share) * sigma * random.normal();
     const double soft = std::sqrt(1.0 - jitter_share) * sigma;
     const double level = soft > 0 ? normal_cdf(beam / soft) : (beam > 0 ? 1.0 : 0.0);
     BoundarySample s;
@@ -55,11 +55,11 @@ TEST(AngularWidth, FindsTheEllipseOfJitteringAndOfWideBeams) {
     const auto width = fit_angular_width(pointers(samples));
     ASSERT_TRUE(width.has_value()) << share;
     // Four stated errors; a variance errs twice as much as a width.
-    EXPECT_LT((width->covariance_rad2 - ellipse()).norm(),
-              8.0 * width->relative_sigma * ellipse().norm())
+    EXPECT_LT((width->covariance_rad2 - beam_covariance()).norm(),
+              8.0 * width->relative_sigma * beam_covariance().norm())
         << share;
     EXPECT_LT(width->relative_sigma, 0.02) << share;
-    EXPECT_NEAR(width->delta_m, kDelta, 2e-4) << share;
+    EXPECT_NEAR(width->delta_m, kEdgeShift, 2e-4) << share;
   }
 }
 
@@ -69,7 +69,7 @@ TEST(AngularWidth, StatedErrorIsThatOfRepetition) {
     const auto samples = ring(2'000, 0.5, seed);
     const auto width = fit_angular_width(pointers(samples));
     ASSERT_TRUE(width.has_value());
-    const double ratio = std::sqrt(width->covariance_rad2.trace() / ellipse().trace());
+    const double ratio = std::sqrt(width->covariance_rad2.trace() / beam_covariance().trace());
     errors.push_back((ratio - 1.0) / width->relative_sigma);
   }
   EXPECT_NEAR(rms(errors), 1.0, 0.4);

@@ -8,12 +8,12 @@ namespace lvcalib {
 namespace {
 using ::testing::HasSubstr;
 
-Target default_board() {
+Target laid_out_board() {
   return {};
 }
 
 TEST(SheetLayout, TilesOverlapAndCoverTheBoard) {
-  const Target target = default_board();
+  const Target target = laid_out_board();
   for (const char* paper : {"A4", "A3", "A2", "A1", "A0", "Letter", "300x250", "a4"}) {
     for (const double overlap : {0.0, 10.0, 25.0}) {
       const SheetOptions options{.paper = paper, .overlap_mm = overlap};
@@ -51,7 +51,7 @@ TEST(SheetLayout, SmallBoardsStillHaveAScaleBar) {
 }
 
 TEST(SheetLayout, RefusesWhatCannotBePrinted) {
-  const Target target = default_board();
+  const Target target = laid_out_board();
   const auto refused = [&](const Target& t, const SheetOptions& options, const char* why) {
     const auto layout = lay_out_sheet(t, options);
     ASSERT_FALSE(layout.ok()) << why;
