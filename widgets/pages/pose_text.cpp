@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/roll_pitch_yaw.h"
+#include "base/units.h"
 #include "style/texts.h"
 #include "style/theme.h"
 
@@ -13,8 +14,6 @@ namespace lvcalib::widgets {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kMm = 1e3;
-
 QString tr(const char* text) {
   return QCoreApplication::translate("lvcalib::widgets", text);
 }
@@ -64,8 +63,8 @@ QString translation_table(const UncertainRigid3& pose) {
   QString out = "<table>";
   const char* axes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) {
-    out += row({axes[k], number(kMm * pose.transform.translation(k), 2) + " mm",
-                "± " + number(kMm * std::sqrt(pose.covariance(k, k)), 2)});
+    out += row({axes[k], number(kMmPerM * pose.transform.translation(k), 2) + " mm",
+                "± " + number(kMmPerM * std::sqrt(pose.covariance(k, k)), 2)});
   }
   return out + "</table>";
 }
@@ -88,7 +87,7 @@ QString camera_sigma_table(const UncertainRigid3& pose) {
   QString out = "<table>";
   const char* axes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) {
-    out += row({axes[k], number(kMm * std::sqrt(pose.covariance(k, k)), 3) + " mm",
+    out += row({axes[k], number(kMmPerM * std::sqrt(pose.covariance(k, k)), 3) + " mm",
                 number(1e3 * std::sqrt(pose.covariance(k + 3, k + 3)), 3) + " mrad"});
   }
   return out + "</table>";

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/units.h"
 #include "refinement/node_fit.h"
 #include "style/texts.h"
 #include "style/theme.h"
@@ -23,7 +24,6 @@ namespace lvcalib::widgets {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kMm = 1e3;
 constexpr int kReplayStep_ms = 350;
 
 }  // namespace
@@ -286,7 +286,7 @@ QString RefinementPage::nodeTitle(int id) const {
   const NodeRecord* node = record(id);
   if (node == nullptr) return tr("node %1").arg(id);
   if (!node->valid) return tr("node %1: not usable").arg(id);
-  return tr("node %1: |Δc| %2 mm").arg(id).arg(kMm * node->wave_m.head<2>().norm(), 0, 'f', 2);
+  return tr("node %1: |Δc| %2 mm").arg(id).arg(kMmPerM * node->wave_m.head<2>().norm(), 0, 'f', 2);
 }
 
 void RefinementPage::updatePlots() {
@@ -306,7 +306,7 @@ void RefinementPage::updatePlots() {
     iteration_text_->setText(tr("iteration %1 of %2, largest move %3 mm")
                                  .arg(slider_->value() + 1)
                                  .arg(refinement_->history.size())
-                                 .arg(kMm * refinement_->history[k].max_update_m, 0, 'f', 3));
+                                 .arg(kMmPerM * refinement_->history[k].max_update_m, 0, 'f', 3));
   } else {
     iteration_text_->clear();
   }
@@ -332,7 +332,7 @@ void RefinementPage::updateDetail() {
                                   [](const BinRecord& b) { return b.state == BinState::kUsed; });
   QString text = tr("%1 of %2 bins used").arg(used).arg(node->bins.size());
   if (node->valid) {
-    const Eigen::Vector3d wave = kMm * node->wave_m;
+    const Eigen::Vector3d wave = kMmPerM * node->wave_m;
     text += tr("; Δcu %1, Δcv %2, Δr %3 mm")
                 .arg(wave.x(), 0, 'f', 2)
                 .arg(wave.y(), 0, 'f', 2)
@@ -357,8 +357,8 @@ void RefinementPage::fillBins(const NodeRecord* record) {
     const bool has_midpoint = bin.sigma_m > 0.0;
     const QStringList cells{
         QString::number(kDegrees * bin.angle_rad, 'f', 1),
-        has_midpoint ? QString::number(kMm * bin.midpoint_m, 'f', 3) : QString("–"),
-        has_midpoint ? QString::number(kMm * bin.sigma_m, 'f', 3) : QString("–"),
+        has_midpoint ? QString::number(kMmPerM * bin.midpoint_m, 'f', 3) : QString("–"),
+        has_midpoint ? QString::number(kMmPerM * bin.sigma_m, 'f', 3) : QString("–"),
         QString::number(bin.samples), core_text(describe(bin.state))};
     for (int column = 0; column < cells.size(); ++column) {
       auto* item = new QTableWidgetItem(cells[column]);

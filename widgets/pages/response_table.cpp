@@ -6,11 +6,12 @@
 #include <QTableWidget>
 #include <numbers>
 
+#include "base/units.h"
+
 namespace lvcalib::widgets {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kMm = 1e3;
 constexpr int kFirstNumber = 2;
 constexpr int kNumbers = 6;
 constexpr int kColumns = 10;
@@ -33,7 +34,7 @@ void put(QTableWidget& table, int row, int column, const QString& text) {
 }
 
 void put_statistics(QTableWidget& table, int row, const ResponseStatistics& s) {
-  const Eigen::Vector3d unit(kDegrees, kDegrees, kMm);
+  const Eigen::Vector3d unit(kDegrees, kDegrees, kMmPerM);
   const Eigen::Vector3d mean = s.mean.cwiseProduct(unit);
   const Eigen::Vector3d mean_sigma = s.mean_sigma.cwiseProduct(unit);
   const Eigen::Vector3d std_dev = s.std_dev().cwiseProduct(unit);
@@ -99,8 +100,10 @@ void add_response_row(QTableWidget& table, const QString& name,
     table.setSpan(row, kFirstNumber, 1, kNumbers);
   }
   if (transition) {
-    put(table, row, 8, plus_minus(kMm * transition->delta_m, kMm * transition->delta_sigma_m, 3));
-    put(table, row, 9, plus_minus(kMm * transition->sigma_m, kMm * transition->sigma_sigma_m, 3));
+    put(table, row, 8,
+        plus_minus(kMmPerM * transition->delta_m, kMmPerM * transition->delta_sigma_m, 3));
+    put(table, row, 9,
+        plus_minus(kMmPerM * transition->sigma_m, kMmPerM * transition->sigma_sigma_m, 3));
   }
 }
 

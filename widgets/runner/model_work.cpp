@@ -11,10 +11,6 @@
 namespace lvcalib::widgets {
 namespace {
 
-QString to_qt(const std::string& text) {
-  return QString::fromStdString(text);
-}
-
 std::string key_of(const std::vector<ModelDecision>& decisions) {
   std::string key;
   for (const ModelDecision& d : decisions) {
@@ -180,7 +176,7 @@ void ModelWork::run(Place goal, const QString& text) {
     const auto fail = [this](const Error& error) -> Runner::Deliver {
       if (error.kind == ErrorKind::kCancelled) return {};
       return [this, error] {
-        Q_EMIT logged(to_qt(error.text()));
+        Q_EMIT logged(QString::fromStdString(error.text()));
         Q_EMIT failed(error);
       };
     };
@@ -232,14 +228,15 @@ void ModelWork::add(const QString& spec) {
 void ModelWork::remove(std::size_t k) {
   if (!step() || k >= step()->terms.size()) return;
   const std::string& spec = step()->terms[k].spec;
-  decide({ModelChange::kRemove, spec, {}}, tr("remove %1").arg(to_qt(spec)));
+  decide({ModelChange::kRemove, spec, {}}, tr("remove %1").arg(QString::fromStdString(spec)));
 }
 
 void ModelWork::set_on(std::size_t k, bool on) {
   if (!step() || k >= step()->terms.size() || step()->terms[k].on == on) return;
   const std::string& spec = step()->terms[k].spec;
   decide({on ? ModelChange::kSwitchOn : ModelChange::kSwitchOff, spec, {}},
-         on ? tr("switch %1 on").arg(to_qt(spec)) : tr("switch %1 off").arg(to_qt(spec)));
+         on ? tr("switch %1 on").arg(QString::fromStdString(spec))
+            : tr("switch %1 off").arg(QString::fromStdString(spec)));
 }
 
 void ModelWork::hold(std::size_t k, const std::optional<Eigen::VectorXd>& values) {
@@ -247,8 +244,8 @@ void ModelWork::hold(std::size_t k, const std::optional<Eigen::VectorXd>& values
   const std::string& spec = step()->terms[k].spec;
   ModelDecision decision{values ? ModelChange::kHold : ModelChange::kRelease, spec, {}};
   if (values) decision.values.assign(values->data(), values->data() + values->size());
-  decide(std::move(decision),
-         values ? tr("hold %1").arg(to_qt(spec)) : tr("fit %1 again").arg(to_qt(spec)));
+  decide(std::move(decision), values ? tr("hold %1").arg(QString::fromStdString(spec))
+                                     : tr("fit %1 again").arg(QString::fromStdString(spec)));
 }
 
 void ModelWork::find_all() {
@@ -268,7 +265,8 @@ void ModelWork::run_find_all() {
           last = next;
           post([this, next, decisions] {
             keep(decisions, next);
-            push({decisions, decisions.size()}, tr("add %1").arg(to_qt(next->changed)));
+            push({decisions, decisions.size()},
+                 tr("add %1").arg(QString::fromStdString(next->changed)));
           });
         },
         context);

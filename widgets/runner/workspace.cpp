@@ -10,10 +10,6 @@
 namespace lvcalib::widgets {
 namespace {
 
-QString to_qt(const std::string& text) {
-  return QString::fromStdString(text);
-}
-
 std::filesystem::path absolute_path(const QString& path) {
   return {QDir::cleanPath(QDir::current().absoluteFilePath(path)).toStdString()};
 }
@@ -112,7 +108,7 @@ void Workspace::open_project(const QString& path) {
     Opening opening;
     opening.project = file->project;
     opening.warnings = file->warnings;
-    opening.project_path = to_qt(absolute_path(path).string());
+    opening.project_path = QString::fromStdString(absolute_path(path).string());
     auto opened = open_project_dataset(opening.project);
     if (!opened) return report(opened.error());
     opening.opened = std::move(*opened);
@@ -166,7 +162,8 @@ void Workspace::open_demo(const simulation::SimulationOptions& options) {
       }
       Q_EMIT run_ended(QString());
       // Not within the delivery, whose job is just ending.
-      QTimer::singleShot(0, this, [this, folder] { open_dataset(to_qt(folder.string())); });
+      QTimer::singleShot(0, this,
+                         [this, folder] { open_dataset(QString::fromStdString(folder.string())); });
     });
   });
 }
@@ -174,10 +171,10 @@ void Workspace::open_demo(const simulation::SimulationOptions& options) {
 void Workspace::take_opened(Opening opening) {
   for (const auto* list :
        {&opening.warnings, &opening.opened.warnings, &opening.opened.dataset.warnings}) {
-    for (const std::string& warning : *list) Q_EMIT logged(to_qt(warning));
+    for (const std::string& warning : *list) Q_EMIT logged(QString::fromStdString(warning));
   }
   if (opening.opened.dataset_moved) {
-    const QString path = to_qt(opening.project.dataset.string());
+    const QString path = QString::fromStdString(opening.project.dataset.string());
     waiting_ = std::make_unique<Opening>(std::move(opening));
     Q_EMIT dataset_moved(path);
     return;
@@ -187,7 +184,8 @@ void Workspace::take_opened(Opening opening) {
   model_ = std::move(opening.project.model);
   project_path_ = opening.project_path;
   missing_.clear();
-  for (const std::string& name : opening.opened.missing_scenes) missing_ << to_qt(name);
+  for (const std::string& name : opening.opened.missing_scenes)
+    missing_ << QString::fromStdString(name);
   state_ = {};
   up_to_date_ = false;
   undo_.clear();
@@ -195,14 +193,14 @@ void Workspace::take_opened(Opening opening) {
   set_dirty(opening.unsaved);
   keep_or_clear_autosave();
   Q_EMIT logged(tr("Opened %1 with %n scenes.", nullptr, static_cast<int>(dataset_.scenes.size()))
-                    .arg(to_qt(dataset_.path.string())));
+                    .arg(QString::fromStdString(dataset_.path.string())));
   Q_EMIT opened();
   Q_EMIT decisions_changed();
   Q_EMIT result_changed();
 }
 
 Status Workspace::save(const QString& path) {
-  const QString absolute = to_qt(absolute_path(path).string());
+  const QString absolute = QString::fromStdString(absolute_path(path).string());
   if (Status s = write_project(absolute_path(path), project()); !s) return s;
   project_path_ = absolute;
   if (taken_up_) Autosave::discard(*taken_up_);
@@ -253,8 +251,8 @@ void Workspace::set_option(const OptionDeclaration& option, double value) {
     Q_EMIT failed(s.error(), false);
     return;
   }
-  decide({QT_TRANSLATE_NOOP("Decisions", "change %1"), to_qt(option.key)}, std::move(after),
-         to_qt(option.key));
+  decide({QT_TRANSLATE_NOOP("Decisions", "change %1"), QString::fromStdString(option.key)},
+         std::move(after), QString::fromStdString(option.key));
 }
 
 void Workspace::reset_options() {
@@ -282,7 +280,8 @@ Status Workspace::add_scene_folders(const QStringList& folders) {
   Decisions after = decisions_;
   after.added_scenes.insert(after.added_scenes.end(), paths.begin(), paths.end());
   QStringList names;
-  for (const std::filesystem::path& path : paths) names << to_qt(path.filename().string());
+  for (const std::filesystem::path& path : paths)
+    names << QString::fromStdString(path.filename().string());
   decide({QT_TRANSLATE_NOOP("Decisions", "add %1"), names.join(QStringLiteral(", "))},
          std::move(after));
   return Done{};
@@ -338,8 +337,8 @@ void Workspace::take_run(SessionRun run) {
   state_ = std::move(run.state);
   if (cancelled) return;  // The runner says so.
   if (run.error) {
-    Q_EMIT logged(to_qt(run.error->text()));
-    Q_EMIT run_ended(tr("No result: %1").arg(to_qt(run.error->message)));
+    Q_EMIT logged(QString::fromStdString(run.error->text()));
+    Q_EMIT run_ended(tr("No result: %1").arg(QString::fromStdString(run.error->message)));
     Q_EMIT failed(*run.error, run.solved_only);
     return;
   }
@@ -355,7 +354,7 @@ void Workspace::take_run(SessionRun run) {
                            .arg(r.extrinsic.rms_px, 0, 'f', 3)
                            .arg(r.extrinsic.rms_mm, 0, 'f', 3);
   Q_EMIT logged(line);
-  for (const std::string& warning : r.warnings) Q_EMIT logged(to_qt(warning));
+  for (const std::string& warning : r.warnings) Q_EMIT logged(QString::fromStdString(warning));
   Q_EMIT result_changed();
   Q_EMIT run_ended(line);
 }

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kMm = 1e3;
 constexpr int kIntensityLevels = 16;
 
 // Fixed places every 90° read better than the automatic ones.
@@ -67,7 +67,7 @@ void AngleDistancePlot::setData(AngleDistanceData data) {
   const double before = data_.reach_m;
   data_ = std::move(data);
   message_.clear();
-  const double reach = kMm * data_.reach_m;
+  const double reach = kMmPerM * data_.reach_m;
   // A replay keeps the user's zoom as long as the reach stays.
   if (before != data_.reach_m || xAxis->range().size() < 6.0) {
     setHome({-180.0, 180.0}, {-reach, reach});
@@ -131,7 +131,7 @@ void AngleDistancePlot::drawSamples() {
     const double share = std::clamp((s.intensity - scale.low) / width, 0.0, 1.0);
     const auto level = static_cast<std::size_t>(std::lround(share * (kIntensityLevels - 1)));
     angles[level].push_back(kDegrees * s.angle_rad);
-    distances[level].push_back(kMm * s.distance_m);
+    distances[level].push_back(kMmPerM * s.distance_m);
   }
   for (std::size_t level = 0; level < kIntensityLevels; ++level) {
     if (angles[level].isEmpty()) continue;
@@ -160,7 +160,7 @@ void AngleDistancePlot::drawWave() {
     const double psi = degree / kDegrees;
     const Eigen::Vector3d basis(std::cos(psi), std::sin(psi), 1.0);
     angles.push_back(degree);
-    distances.push_back(kMm * basis.dot(data_.record.wave_m));
+    distances.push_back(kMmPerM * basis.dot(data_.record.wave_m));
   }
   QCPGraph* wave = addGraph();
   wave->setPen(QPen(colors().fit, compact_ ? 1.6 : 2.2));
@@ -175,7 +175,7 @@ void AngleDistancePlot::drawBins() {
                               bin.state == BinState::kWeakContrast;
     if (has_midpoint) {
       (bin.state == BinState::kUsed ? used : refused)
-          ->addData(kDegrees * bin.angle_rad, kMm * bin.midpoint_m);
+          ->addData(kDegrees * bin.angle_rad, kMmPerM * bin.midpoint_m);
     } else {
       // No midpoint: a cross on the zero line says that the bin was looked at.
       refused->addData(kDegrees * bin.angle_rad, 0.0);
@@ -194,7 +194,7 @@ void AngleDistancePlot::drawBins() {
   bars->setWhiskerWidth(compact_ ? 3 : 6);
   bars->setSymbolGap(0);
   for (const BinRecord& bin : data_.record.bins) {
-    if (bin.state == BinState::kUsed) bars->addData(kMm * bin.sigma_m);
+    if (bin.state == BinState::kUsed) bars->addData(kMmPerM * bin.sigma_m);
   }
 }
 
@@ -221,8 +221,8 @@ void AngleDistancePlot::fillTable() {
   for (const BinRecord& bin : data_.record.bins) {
     rows.push_back({QString("bin"),
                     csv_number(kDegrees * bin.angle_rad),
-                    csv_number(kMm * bin.midpoint_m),
-                    csv_number(kMm * bin.sigma_m),
+                    csv_number(kMmPerM * bin.midpoint_m),
+                    csv_number(kMmPerM * bin.sigma_m),
                     QString::number(bin.samples),
                     QString::fromStdString(describe(bin.state)),
                     {}});
@@ -230,7 +230,7 @@ void AngleDistancePlot::fillTable() {
   for (const NodeSample& s : data_.samples) {
     rows.push_back({QString("sample"),
                     csv_number(kDegrees * s.angle_rad),
-                    csv_number(kMm * s.distance_m),
+                    csv_number(kMmPerM * s.distance_m),
                     {},
                     {},
                     {},

@@ -6,12 +6,11 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/units.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
-
-constexpr double kMm = 1e3;
 
 // 1, 2 or 5 times a power of ten, not above `wanted`.
 double round_down(double wanted) {
@@ -77,8 +76,8 @@ void BoardMapPlot::setChosenNode(int id) {
 // The board in the middle, with equal scales along both axes.
 void BoardMapPlot::fit() {
   const BoardOutline outline = target_.outline();
-  const Eigen::Vector2d center = kMm * outline.center_m();
-  const Eigen::Vector2d half = 0.54 * kMm * outline.size_m();
+  const Eigen::Vector2d center = kMmPerM * outline.center_m();
+  const Eigen::Vector2d half = 0.54 * kMmPerM * outline.size_m();
   const QRect rect = axisRect()->rect();
   const double aspect =
       rect.height() > 10 ? static_cast<double>(rect.width()) / rect.height() : 1.0;
@@ -100,8 +99,8 @@ void BoardMapPlot::drawBoard() {
   const auto rectangle = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                              const QBrush& brush) {
     auto* item = new QCPItemRect(this);
-    item->topLeft->setCoords(kMm * low.x(), kMm * high.y());
-    item->bottomRight->setCoords(kMm * high.x(), kMm * low.y());
+    item->topLeft->setCoords(kMmPerM * low.x(), kMmPerM * high.y());
+    item->bottomRight->setCoords(kMmPerM * high.x(), kMmPerM * low.y());
     item->setPen(QPen(colors().axis));
     item->setBrush(brush);
   };
@@ -116,8 +115,10 @@ void BoardMapPlot::drawBoard() {
   for (const TargetNode& node : target_.nodes()) {
     const double r = target_.circle_radius_m;
     auto* circle = new QCPItemEllipse(this);
-    circle->topLeft->setCoords(kMm * (node.center_m.x() - r), kMm * (node.center_m.y() + r));
-    circle->bottomRight->setCoords(kMm * (node.center_m.x() + r), kMm * (node.center_m.y() - r));
+    circle->topLeft->setCoords(kMmPerM * (node.center_m.x() - r),
+                               kMmPerM * (node.center_m.y() + r));
+    circle->bottomRight->setCoords(kMmPerM * (node.center_m.x() + r),
+                                   kMmPerM * (node.center_m.y() - r));
     circle->setPen(QPen(node.id == chosen_ ? colors().emphasis : colors().axis,
                         node.id == chosen_ ? 2.5 : 1.0));
   }
@@ -125,12 +126,12 @@ void BoardMapPlot::drawBoard() {
 
 void BoardMapPlot::drawPath(const CenterPath& path, int index) {
   const auto place = [&](const Eigen::Vector2d& offset) {
-    return Eigen::Vector2d(kMm * (path.board_m + enlargement_ * offset));
+    return Eigen::Vector2d(kMmPerM * (path.board_m + enlargement_ * offset));
   };
   auto* model = addGraph();
   model->setLineStyle(QCPGraph::lsNone);
   model->setScatterStyle({QCPScatterStyle::ssCross, QPen(colors().zero), Qt::NoBrush, 7});
-  model->addData(kMm * path.board_m.x(), kMm * path.board_m.y());
+  model->addData(kMmPerM * path.board_m.x(), kMmPerM * path.board_m.y());
   if (!path.valid) {
     model->setScatterStyle(
         {QCPScatterStyle::ssCrossCircle, QPen(colors().refused, 1.5), Qt::NoBrush, 11});
@@ -163,7 +164,7 @@ void BoardMapPlot::drawEllipse(const CenterPath& path, const QPen& pen) {
     const Eigen::Vector2d on_ellipse =
         axes.eigenvectors() *
         Eigen::Vector2d(radii.x() * std::cos(angle), radii.y() * std::sin(angle));
-    const Eigen::Vector2d p = kMm * (path.board_m + enlargement_ * (path.final_m + on_ellipse));
+    const Eigen::Vector2d p = kMmPerM * (path.board_m + enlargement_ * (path.final_m + on_ellipse));
     curve->addData(p.x(), p.y());
   }
 }
@@ -188,8 +189,8 @@ void BoardMapPlot::fillTable() {
   std::vector<QStringList> rows;
   for (const CenterPath& path : paths_) {
     const auto row = [&](const QString& kind, std::size_t k, const Eigen::Vector2d& p) {
-      rows.push_back({QString::number(path.id), kind, QString::number(k), csv_number(kMm * p.x()),
-                      csv_number(kMm * p.y())});
+      rows.push_back({QString::number(path.id), kind, QString::number(k),
+                      csv_number(kMmPerM * p.x()), csv_number(kMmPerM * p.y())});
     };
     for (std::size_t k = 0; k < path.predicted_m.size(); ++k) {
       row("layout", k, path.predicted_m[k]);
@@ -201,8 +202,8 @@ void BoardMapPlot::fillTable() {
 }
 
 void BoardMapPlot::emitNodeAt(const QPointF& place) {
-  const Eigen::Vector2d p(xAxis->pixelToCoord(place.x()) / kMm,
-                          yAxis->pixelToCoord(place.y()) / kMm);
+  const Eigen::Vector2d p(xAxis->pixelToCoord(place.x()) / kMmPerM,
+                          yAxis->pixelToCoord(place.y()) / kMmPerM);
   for (const TargetNode& node : target_.nodes()) {
     if ((node.center_m - p).norm() < 0.35 * target_.tag_pitch_m()) {
       Q_EMIT nodeClicked(node.id);

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kMm = 1e3;
 // What a logarithmic axis can still show: a tenth of a micrometre.
 constexpr double kSmallestMm = 1e-4;
 
@@ -48,9 +48,9 @@ void ConvergencePlot::setHistory(std::vector<IterationRecord> history) {
       low = std::min(low, std::max(mm, kSmallestMm));
       high = std::max(high, mm);
     };
-    widen(kMm * iteration.max_update_m);
+    widen(kMmPerM * iteration.max_update_m);
     for (const NodeRecord& node : iteration.nodes) {
-      if (node.valid) widen(kMm * node.wave_m.head<2>().norm());
+      if (node.valid) widen(kMmPerM * node.wave_m.head<2>().norm());
     }
   }
   setHome({0.5, std::max(2.0, static_cast<double>(history_.size())) + 0.5},
@@ -91,7 +91,7 @@ void ConvergencePlot::drawNodes() {
     graph->setPen(QPen(colors().series(static_cast<int>(n)), id == chosen_ ? 2.6 : 1.0));
     for (std::size_t k = 0; k < history_.size(); ++k) {
       if (n >= history_[k].nodes.size() || !history_[k].nodes[n].valid) continue;
-      const double mm = kMm * history_[k].nodes[n].wave_m.head<2>().norm();
+      const double mm = kMmPerM * history_[k].nodes[n].wave_m.head<2>().norm();
       graph->addData(static_cast<double>(k + 1), std::max(mm, kSmallestMm));
     }
   }
@@ -103,19 +103,19 @@ void ConvergencePlot::drawLayoutMoves() {
   graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(colors().mark), colors().mark, 5});
   for (std::size_t k = 0; k < history_.size(); ++k) {
     graph->addData(static_cast<double>(k + 1),
-                   std::max(kMm * history_[k].max_update_m, kSmallestMm));
+                   std::max(kMmPerM * history_[k].max_update_m, kSmallestMm));
   }
 }
 
 void ConvergencePlot::fillTable() {
   std::vector<QStringList> rows;
   for (std::size_t k = 0; k < history_.size(); ++k) {
-    rows.push_back(
-        {QString::number(k + 1), QString("layout"), csv_number(kMm * history_[k].max_update_m)});
+    rows.push_back({QString::number(k + 1), QString("layout"),
+                    csv_number(kMmPerM * history_[k].max_update_m)});
     for (const NodeRecord& node : history_[k].nodes) {
       if (!node.valid) continue;
       rows.push_back({QString::number(k + 1), QString::number(node.id),
-                      csv_number(kMm * node.wave_m.head<2>().norm())});
+                      csv_number(kMmPerM * node.wave_m.head<2>().norm())});
     }
   }
   setTable({"iteration", "node", "move_mm"}, std::move(rows));

@@ -8,13 +8,13 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "base/units.h"
 #include "response/response_curves.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kMm = 1e3;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 // More dots than this only make a figure black, and slow.
 constexpr std::size_t kMostDots = 3000;
@@ -100,8 +100,8 @@ void TransitionPlot::fit() {
   double low = 0.0;
   double high = 0.0;
   for (const BoundarySample* s : scope_.samples(false, kMostDots)) {
-    low = std::min(low, kMm * static_cast<double>(s->distance_m));
-    high = std::max(high, kMm * static_cast<double>(s->distance_m));
+    low = std::min(low, kMmPerM * static_cast<double>(s->distance_m));
+    high = std::max(high, kMmPerM * static_cast<double>(s->distance_m));
   }
   QCPRange y(-0.25, 1.25);
   if (scope_.scenes.size() == 1) {
@@ -140,7 +140,7 @@ void TransitionPlot::drawSamples() {
     one.scenes = {scene};
     for (const BoundarySample* s : one.samples(false, kMostDots / scope_.scenes.size())) {
       (s->overlap ? overlap : plain)
-          ->addData(kMm * static_cast<double>(s->distance_m),
+          ->addData(kMmPerM * static_cast<double>(s->distance_m),
                     levels.scale * (static_cast<double>(s->intensity) - levels.black));
     }
   }
@@ -156,9 +156,9 @@ void TransitionPlot::drawMeans(const SceneResponse& scene, const QColor& color,
   bars->setPen(QPen(color, 1.0));
   bars->setWhiskerWidth(3.0);
   for (const TransitionBin& bin : transition_curve(scene)) {
-    means->addData(kMm * bin.distance_m, levels.scale * (bin.mean - levels.black));
+    means->addData(kMmPerM * bin.distance_m, levels.scale * (bin.mean - levels.black));
     bars->addData(std::isfinite(bin.mean_sigma) ? levels.scale * bin.mean_sigma : 0.0);
-    rows.push_back({QString::fromStdString(scene.name), csv_number(kMm * bin.distance_m),
+    rows.push_back({QString::fromStdString(scene.name), csv_number(kMmPerM * bin.distance_m),
                     csv_number(bin.mean), csv_number(bin.mean_sigma), QString::number(bin.n)});
   }
 }
@@ -175,8 +175,8 @@ void TransitionPlot::drawFit() {
     curve->addData(mm, scaled ? white : fit.mu_in + white * (fit.mu_out - fit.mu_in));
   }
   auto* middle = new QCPItemStraightLine(this);
-  middle->point1->setCoords(kMm * fit.delta_m, 0.0);
-  middle->point2->setCoords(kMm * fit.delta_m, 1.0);
+  middle->point1->setCoords(kMmPerM * fit.delta_m, 0.0);
+  middle->point2->setCoords(kMmPerM * fit.delta_m, 1.0);
   middle->setPen(QPen(colors().zero, 1, Qt::DashLine));
 }
 
@@ -185,8 +185,8 @@ void TransitionPlot::drawCaption() {
   const TransitionFit& fit = *scope_.transition;
   add_caption(*this,
               tr("δ = %1 mm\nσ = %2 mm")
-                  .arg(plus_minus(kMm * fit.delta_m, kMm * fit.delta_sigma_m, 3),
-                       plus_minus(kMm * fit.sigma_m, kMm * fit.sigma_sigma_m, 3)),
+                  .arg(plus_minus(kMmPerM * fit.delta_m, kMmPerM * fit.delta_sigma_m, 3),
+                       plus_minus(kMmPerM * fit.sigma_m, kMmPerM * fit.sigma_sigma_m, 3)),
               colors().text);
 }
 
@@ -237,7 +237,7 @@ void AnglePlot::rebuild() {
     const Eigen::Vector3d d = s->residual.cast<double>();
     dots->addData(kDegrees * d.y(), kDegrees * d.x());
     rows.push_back(
-        {csv_number(kDegrees * d.x()), csv_number(kDegrees * d.y()), csv_number(kMm * d.z())});
+        {csv_number(kDegrees * d.x()), csv_number(kDegrees * d.y()), csv_number(kMmPerM * d.z())});
   }
   if (const ResponseStatistics* s = scope_.statistics) {
     drawEllipse(s->covariance.topLeftCorner<2, 2>(), 1.0, QPen(colors().fit, 2.2));
@@ -302,7 +302,7 @@ void RangePlot::rebuild() {
   double reach = 0.0;
   double most = 0.0;
   for (const RangeBin& bin : range_histogram(scope_.scenes)) {
-    const double low = kMm * bin.low_m;
+    const double low = kMmPerM * bin.low_m;
     bars->addData(low + 1.0, bin.n);
     reach = std::max({reach, std::abs(low), std::abs(low + 2.0)});
     most = std::max(most, static_cast<double>(bin.n));
@@ -310,7 +310,7 @@ void RangePlot::rebuild() {
   }
   // A stray return far off must not squeeze the rest together; it can be panned to.
   if (scope_.statistics != nullptr)
-    reach = std::min(reach, 6.0 * kMm * scope_.statistics->std_dev().z());
+    reach = std::min(reach, 6.0 * kMmPerM * scope_.statistics->std_dev().z());
   setHome(reach > 0 ? QCPRange(-reach, reach) : QCPRange(-50, 50),
           {0.0, most > 0 ? 1.25 * most : 1.0});
   if (scope_.statistics != nullptr) {
@@ -323,16 +323,17 @@ void RangePlot::rebuild() {
 }
 
 void RangePlot::drawSigma() {
-  const double sigma = kMm * scope_.statistics->std_dev().z();
+  const double sigma = kMmPerM * scope_.statistics->std_dev().z();
   for (const double x : {-sigma, 0.0, sigma}) {
     auto* line = new QCPItemStraightLine(this);
     line->point1->setCoords(x, 0.0);
     line->point2->setCoords(x, 1.0);
     line->setPen(x == 0.0 ? QPen(colors().zero, 1, Qt::DashLine) : QPen(colors().fit, 2.0));
   }
-  add_caption(*this,
-              tr("σ range %1 mm").arg(plus_minus(sigma, kMm * scope_.statistics->std_sigma.z(), 2)),
-              colors().text);
+  add_caption(
+      *this,
+      tr("σ range %1 mm").arg(plus_minus(sigma, kMmPerM * scope_.statistics->std_sigma.z(), 2)),
+      colors().text);
 }
 
 }  // namespace lvcalib::widgets

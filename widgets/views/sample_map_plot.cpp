@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "base/units.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kMm = 1e3;
-constexpr std::size_t kMostDots = 12'000;
+constexpr std::size_t kMostMapDots = 12'000;
 
 }  // namespace
 
@@ -45,8 +45,8 @@ void SampleMapPlot::setScope(const ResponseScope& scope) {
 // The board in the middle, with equal scales along both axes.
 void SampleMapPlot::fit() {
   const BoardOutline outline = target_.outline();
-  const Eigen::Vector2d center = kMm * outline.center_m();
-  const Eigen::Vector2d half = 0.54 * kMm * outline.size_m();
+  const Eigen::Vector2d center = kMmPerM * outline.center_m();
+  const Eigen::Vector2d half = 0.54 * kMmPerM * outline.size_m();
   const QRect rect = axisRect()->rect();
   const double aspect =
       rect.height() > 10 ? static_cast<double>(rect.width()) / rect.height() : 1.0;
@@ -68,11 +68,11 @@ void SampleMapPlot::rebuild() {
     graphs[overlap]->setPen(Qt::NoPen);
     graphs[overlap]->setScatterStyle({QCPScatterStyle::ssCircle, QPen(Qt::NoPen), color, 2.2});
   }
-  for (const BoundarySample* s : scope_.samples(false, kMostDots)) {
-    const Eigen::Vector2d p = kMm * s->board_m.cast<double>();
+  for (const BoundarySample* s : scope_.samples(false, kMostMapDots)) {
+    const Eigen::Vector2d p = kMmPerM * s->board_m.cast<double>();
     graphs[s->overlap]->addData(p.x(), p.y());
     rows.push_back({csv_number(p.x()), csv_number(p.y()),
-                    csv_number(kMm * static_cast<double>(s->distance_m)),
+                    csv_number(kMmPerM * static_cast<double>(s->distance_m)),
                     csv_number(static_cast<double>(s->intensity)), s->overlap ? "1" : "0"});
   }
   if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
@@ -83,8 +83,10 @@ void SampleMapPlot::rebuild() {
 void SampleMapPlot::drawBoard() {
   const BoardOutline outline = target_.outline();
   auto* board = new QCPItemRect(this);
-  board->topLeft->setCoords(kMm * outline.lower_left_m.x(), kMm * outline.upper_right_m.y());
-  board->bottomRight->setCoords(kMm * outline.upper_right_m.x(), kMm * outline.lower_left_m.y());
+  board->topLeft->setCoords(kMmPerM * outline.lower_left_m.x(),
+                            kMmPerM * outline.upper_right_m.y());
+  board->bottomRight->setCoords(kMmPerM * outline.upper_right_m.x(),
+                                kMmPerM * outline.lower_left_m.y());
   board->setPen(QPen(colors().axis));
   const auto refused = [&](int id) {
     return std::any_of(scope_.scenes.begin(), scope_.scenes.end(), [&](const SceneResponse* scene) {
@@ -96,8 +98,10 @@ void SampleMapPlot::drawBoard() {
   for (const TargetNode& node : target_.nodes()) {
     const double r = target_.circle_radius_m;
     auto* circle = new QCPItemEllipse(this);
-    circle->topLeft->setCoords(kMm * (node.center_m.x() - r), kMm * (node.center_m.y() + r));
-    circle->bottomRight->setCoords(kMm * (node.center_m.x() + r), kMm * (node.center_m.y() - r));
+    circle->topLeft->setCoords(kMmPerM * (node.center_m.x() - r),
+                               kMmPerM * (node.center_m.y() + r));
+    circle->bottomRight->setCoords(kMmPerM * (node.center_m.x() + r),
+                                   kMmPerM * (node.center_m.y() - r));
     circle->setPen(refused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine)
                                     : QPen(colors().axis));
   }
