@@ -17,6 +17,7 @@
 
 #include "base/file_io.h"
 #include "base/roll_pitch_yaw.h"
+#include "base/units.h"
 #include "dialogs/export_pane.h"
 #include "report/exports.h"
 #include "report/result_file.h"
@@ -44,7 +45,6 @@ QStringList numbers(const Eigen::Ref<const Eigen::VectorXd>& values, int decimal
 QString pose_table(const UncertainRigid3& pose) {
   const Vector6d sigma = pose.covariance.diagonal().cwiseSqrt();
   const RollPitchYaw angles = roll_pitch_yaw(pose);
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   QString out = QStringLiteral("<table cellpadding='2'>");
   out += row(ResultsDialog::tr("Translation x y z"), numbers(1e3 * pose.transform.translation, 3),
              QStringLiteral("mm"));
@@ -52,10 +52,10 @@ QString pose_table(const UncertainRigid3& pose) {
              QStringLiteral("mm"));
   out += row(ResultsDialog::tr("Quaternion x y z w"), numbers(pose.transform.rotation.coeffs(), 7),
              QString());
-  out += row(ResultsDialog::tr("Roll, pitch, yaw"), numbers(kDegrees * angles.angles_rad, 4),
+  out += row(ResultsDialog::tr("Roll, pitch, yaw"), numbers(kDegPerRad * angles.angles_rad, 4),
              QStringLiteral("°"));
   out += row(ResultsDialog::tr("± one standard deviation"),
-             numbers(kDegrees * angles.sigmas_rad, 4), QStringLiteral("°"));
+             numbers(kDegPerRad * angles.sigmas_rad, 4), QStringLiteral("°"));
   out += row(ResultsDialog::tr("Rotation about camera x y z, ± σ"),
              numbers(1e3 * sigma.tail<3>(), 3), QStringLiteral("mrad"));
   return out + QStringLiteral("</table>");

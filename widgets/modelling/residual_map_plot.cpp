@@ -13,7 +13,7 @@
 namespace lvcalib::widgets {
 namespace {
 
-constexpr std::size_t kMostSelected = 3000;
+constexpr std::size_t kMostMarked = 3000;
 
 QCPColorGradient diverging() {
   QCPColorGradient gradient;
@@ -227,7 +227,7 @@ void ResidualMapPlot::drawSelected() {
   graph->setLineStyle(QCPGraph::lsNone);
   graph->setScatterStyle(
       {QCPScatterStyle::ssDisc, QPen(colors().emphasis), QBrush(colors().emphasis), 3.0});
-  const std::size_t stride = 1 + selected_.size() / kMostSelected;
+  const std::size_t stride = 1 + selected_.size() / kMostMarked;
   for (std::size_t k = 0; k < selected_.size(); k += stride) {
     graph->addData(static_cast<double>(x->values[selected_[k]]),
                    static_cast<double>(y->values[selected_[k]]));

@@ -12,14 +12,14 @@
 namespace lvcalib::widgets {
 namespace {
 
-constexpr int kColumns = 8;
+constexpr int kMethodColumns = 8;
 
-QString number(double value, int decimals) {
+QString cell_text(double value, int decimals) {
   return QString::number(value, 'f', decimals);
 }
 
-QString number(const std::optional<double>& value, int decimals) {
-  return value ? number(*value, decimals) : QStringLiteral("–");
+QString cell_text(const std::optional<double>& value, int decimals) {
+  return value ? cell_text(*value, decimals) : QStringLiteral("–");
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   message_ = new QLabel(this);
   message_->setObjectName("methods-message");
   message_->setWordWrap(true);
-  table_ = new QTableWidget(0, kColumns, this);
+  table_ = new QTableWidget(0, kMethodColumns, this);
   table_->setObjectName("methods");
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
@@ -85,7 +85,7 @@ void MethodsPane::retranslate() {
       tr("Rotation against the joint result")};
   table_->setAccessibleName(tr("Methods side by side"));
   table_->setHorizontalHeaderLabels(titles);
-  for (int k = 0; k < kColumns; ++k) table_->horizontalHeaderItem(k)->setToolTip(tips[k]);
+  for (int k = 0; k < kMethodColumns; ++k) table_->horizontalHeaderItem(k)->setToolTip(tips[k]);
   boxes_px_->setValueLabel(tr("corner residual (px)"), "method_residual_px");
   boxes_mm_->setValueLabel(tr("node residual (mm)"), "method_residual_mm");
   boxes_px_->setToolTip(
@@ -123,13 +123,13 @@ void MethodsPane::fillTable(const std::vector<MethodResult>& methods) {
     const MethodResult& m = methods[k];
     const bool joint = m.name == "joint_refined";
     const QStringList cells = {method_title(m.name),
-                               number(m.rms_px, 3),
-                               number(m.rms_mm, 2),
-                               number(m.transfer_px, 3),
-                               number(m.heldout_px, 3),
-                               number(m.heldout_mm, 2),
-                               joint ? QStringLiteral("–") : number(m.translation_mm, 2),
-                               joint ? QStringLiteral("–") : number(m.rotation_mrad, 3)};
+                               cell_text(m.rms_px, 3),
+                               cell_text(m.rms_mm, 2),
+                               cell_text(m.transfer_px, 3),
+                               cell_text(m.heldout_px, 3),
+                               cell_text(m.heldout_mm, 2),
+                               joint ? QStringLiteral("–") : cell_text(m.translation_mm, 2),
+                               joint ? QStringLiteral("–") : cell_text(m.rotation_mrad, 3)};
     for (int c = 0; c < cells.size(); ++c) {
       auto* item = new QTableWidgetItem(cells[c]);
       item->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);

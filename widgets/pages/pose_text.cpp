@@ -7,16 +7,12 @@
 
 #include "base/roll_pitch_yaw.h"
 #include "base/units.h"
+#include "pages/page_tr.h"
 #include "style/texts.h"
 #include "style/theme.h"
 
 namespace lvcalib::widgets {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-QString tr(const char* text) {
-  return QCoreApplication::translate("lvcalib::widgets", text);
-}
 
 QString number(double value, int decimals) {
   return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
@@ -75,9 +71,9 @@ QString rotation_table(const UncertainRigid3& pose) {
   QString out = "<table>";
   for (int k = 0; k < 3; ++k) {
     const QString sigma = std::isfinite(turn.sigmas_rad(k))
-                              ? number(kDegrees * turn.sigmas_rad(k), 4)
+                              ? number(kDegPerRad * turn.sigmas_rad(k), 4)
                               : tr("unbounded");
-    out += row({names[k], number(kDegrees * turn.angles_rad(k), 4) + "°", "± " + sigma});
+    out += row({names[k], number(kDegPerRad * turn.angles_rad(k), 4) + "°", "± " + sigma});
   }
   return out + "</table>";
 }

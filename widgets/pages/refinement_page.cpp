@@ -23,7 +23,6 @@
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kReplayStep_ms = 350;
 
 }  // namespace
@@ -356,7 +355,7 @@ void RefinementPage::fillBins(const NodeRecord* record) {
     const BinRecord& bin = record->bins[static_cast<std::size_t>(row)];
     const bool has_midpoint = bin.sigma_m > 0.0;
     const QStringList cells{
-        QString::number(kDegrees * bin.angle_rad, 'f', 1),
+        QString::number(kDegPerRad * bin.angle_rad, 'f', 1),
         has_midpoint ? QString::number(kMmPerM * bin.midpoint_m, 'f', 3) : QString("–"),
         has_midpoint ? QString::number(kMmPerM * bin.sigma_m, 'f', 3) : QString("–"),
         QString::number(bin.samples), core_text(describe(bin.state))};

@@ -7,18 +7,14 @@
 #include <numbers>
 
 #include "base/units.h"
+#include "pages/page_tr.h"
 
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kFirstNumber = 2;
 constexpr int kNumbers = 6;
-constexpr int kColumns = 10;
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("lvcalib::widgets", text);
-}
+constexpr int kResponseColumns = 10;
 
 QString plus_minus(double value, double sigma, int decimals) {
   return QString("%1 ± %2")
@@ -34,7 +30,7 @@ void put(QTableWidget& table, int row, int column, const QString& text) {
 }
 
 void put_statistics(QTableWidget& table, int row, const ResponseStatistics& s) {
-  const Eigen::Vector3d unit(kDegrees, kDegrees, kMmPerM);
+  const Eigen::Vector3d unit(kDegPerRad, kDegPerRad, kMmPerM);
   const Eigen::Vector3d mean = s.mean.cwiseProduct(unit);
   const Eigen::Vector3d mean_sigma = s.mean_sigma.cwiseProduct(unit);
   const Eigen::Vector3d std_dev = s.std_dev().cwiseProduct(unit);
@@ -50,7 +46,7 @@ void put_statistics(QTableWidget& table, int row, const ResponseStatistics& s) {
 }  // namespace
 
 QTableWidget* new_response_table(QWidget* parent) {
-  auto* table = new QTableWidget(0, kColumns, parent);
+  auto* table = new QTableWidget(0, kResponseColumns, parent);
   table->verticalHeader()->hide();
   table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
   table->horizontalHeader()->setHighlightSections(false);

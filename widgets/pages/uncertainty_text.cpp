@@ -6,15 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pages/page_tr.h"
 #include "style/texts.h"
 #include "style/theme.h"
 
 namespace lvcalib::widgets {
 namespace {
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("lvcalib::widgets", text);
-}
 
 QString words(const std::string& text) {
   return QString::fromStdString(text).toHtmlEscaped();

@@ -11,7 +11,6 @@
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kIntensityLevels = 16;
 
 // Fixed places every 90° read better than the automatic ones.
@@ -130,7 +129,7 @@ void AngleDistancePlot::drawSamples() {
     const NodeSample& s = data_.samples[i];
     const double share = std::clamp((s.intensity - scale.low) / width, 0.0, 1.0);
     const auto level = static_cast<std::size_t>(std::lround(share * (kIntensityLevels - 1)));
-    angles[level].push_back(kDegrees * s.angle_rad);
+    angles[level].push_back(kDegPerRad * s.angle_rad);
     distances[level].push_back(kMmPerM * s.distance_m);
   }
   for (std::size_t level = 0; level < kIntensityLevels; ++level) {
@@ -157,7 +156,7 @@ void AngleDistancePlot::drawWave() {
   QVector<double> angles;
   QVector<double> distances;
   for (int degree = -180; degree <= 180; degree += 3) {
-    const double psi = degree / kDegrees;
+    const double psi = degree / kDegPerRad;
     const Eigen::Vector3d basis(std::cos(psi), std::sin(psi), 1.0);
     angles.push_back(degree);
     distances.push_back(kMmPerM * basis.dot(data_.record.wave_m));
@@ -175,10 +174,10 @@ void AngleDistancePlot::drawBins() {
                               bin.state == BinState::kWeakContrast;
     if (has_midpoint) {
       (bin.state == BinState::kUsed ? used : refused)
-          ->addData(kDegrees * bin.angle_rad, kMmPerM * bin.midpoint_m);
+          ->addData(kDegPerRad * bin.angle_rad, kMmPerM * bin.midpoint_m);
     } else {
       // No midpoint: a cross on the zero line says that the bin was looked at.
-      refused->addData(kDegrees * bin.angle_rad, 0.0);
+      refused->addData(kDegPerRad * bin.angle_rad, 0.0);
     }
   }
   const double size = compact_ ? 4 : 7;
@@ -220,7 +219,7 @@ void AngleDistancePlot::fillTable() {
   std::vector<QStringList> rows;
   for (const BinRecord& bin : data_.record.bins) {
     rows.push_back({QString("bin"),
-                    csv_number(kDegrees * bin.angle_rad),
+                    csv_number(kDegPerRad * bin.angle_rad),
                     csv_number(kMmPerM * bin.midpoint_m),
                     csv_number(kMmPerM * bin.sigma_m),
                     QString::number(bin.samples),
@@ -229,7 +228,7 @@ void AngleDistancePlot::fillTable() {
   }
   for (const NodeSample& s : data_.samples) {
     rows.push_back({QString("sample"),
-                    csv_number(kDegrees * s.angle_rad),
+                    csv_number(kDegPerRad * s.angle_rad),
                     csv_number(kMmPerM * s.distance_m),
                     {},
                     {},

@@ -9,12 +9,12 @@
 #include <numbers>
 
 #include "base/roll_pitch_yaw.h"
+#include "base/units.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kSmallestSide_m = 0.01;
 
 }  // namespace
@@ -94,7 +94,7 @@ void CropForm::setBox(const CropBox& box) {
     const auto k = static_cast<Eigen::Index>(i);
     center_[i]->setValue(box.center_m(k));
     size_[i]->setValue(2.0 * box.half_size_m(k));
-    angle_[i]->setValue(kDegrees * angles(k));
+    angle_[i]->setValue(kDegPerRad * angles(k));
   }
   filling_ = false;
 }
@@ -106,7 +106,7 @@ CropBox CropForm::box() const {
     const auto k = static_cast<Eigen::Index>(i);
     box.center_m(k) = center_[i]->value();
     box.half_size_m(k) = 0.5 * size_[i]->value();
-    angles(k) = angle_[i]->value() / kDegrees;
+    angles(k) = angle_[i]->value() / kDegPerRad;
   }
   box.rotation = Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
                  Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *

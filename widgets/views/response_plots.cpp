@@ -15,7 +15,6 @@
 namespace lvcalib::widgets {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 // More dots than this only make a figure black, and slow.
 constexpr std::size_t kMostDots = 3000;
 
@@ -222,9 +221,9 @@ void AnglePlot::fit() {
   double reach = 0.0;
   for (const BoundarySample* s : scope_.samples(true, kMostDots))
     reach = std::max(reach,
-                     kDegrees * static_cast<double>(s->residual.head<2>().cwiseAbs().maxCoeff()));
+                     kDegPerRad * static_cast<double>(s->residual.head<2>().cwiseAbs().maxCoeff()));
   if (scope_.statistics != nullptr)
-    reach = std::max(reach, 2.0 * kDegrees * scope_.statistics->std_dev().head<2>().maxCoeff());
+    reach = std::max(reach, 2.0 * kDegPerRad * scope_.statistics->std_dev().head<2>().maxCoeff());
   reach = reach > 0.0 ? 1.08 * reach : 1.0;
   setHome({-reach, reach}, {-reach, reach});
 }
@@ -235,16 +234,16 @@ void AnglePlot::rebuild() {
   QCPGraph* dots = add_dots(*this, faint(colors().fill, 190), 3.2);
   for (const BoundarySample* s : scope_.samples(true, kMostDots)) {
     const Eigen::Vector3d d = s->residual.cast<double>();
-    dots->addData(kDegrees * d.y(), kDegrees * d.x());
-    rows.push_back(
-        {csv_number(kDegrees * d.x()), csv_number(kDegrees * d.y()), csv_number(kMmPerM * d.z())});
+    dots->addData(kDegPerRad * d.y(), kDegPerRad * d.x());
+    rows.push_back({csv_number(kDegPerRad * d.x()), csv_number(kDegPerRad * d.y()),
+                    csv_number(kMmPerM * d.z())});
   }
   if (const ResponseStatistics* s = scope_.statistics) {
     drawEllipse(s->covariance.topLeftCorner<2, 2>(), 1.0, QPen(colors().fit, 2.2));
     drawEllipse(s->covariance.topLeftCorner<2, 2>(), 2.0, QPen(colors().fit, 1.4));
     drawEllipse(s->paired.topLeftCorner<2, 2>(), 1.0, QPen(colors().mark, 1.2, Qt::DashLine));
-    const Eigen::Vector3d std_dev = kDegrees * s->std_dev();
-    const Eigen::Vector3d sigma = kDegrees * s->std_sigma;
+    const Eigen::Vector3d std_dev = kDegPerRad * s->std_dev();
+    const Eigen::Vector3d sigma = kDegPerRad * s->std_sigma;
     add_caption(
         *this,
         tr("σ pitch %1°\nσ yaw %2°")
@@ -269,7 +268,7 @@ void AnglePlot::drawEllipse(const Eigen::Matrix2d& covariance_rad2, double sigma
     const Eigen::Vector2d p =
         center + axes.eigenvectors() *
                      Eigen::Vector2d(radii.x() * std::cos(angle), radii.y() * std::sin(angle));
-    curve->addData(kDegrees * p.y(), kDegrees * p.x());
+    curve->addData(kDegPerRad * p.y(), kDegPerRad * p.x());
   }
 }
 
