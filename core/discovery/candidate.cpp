@@ -216,14 +216,18 @@ double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index co
                     0.0, 1.0);
 }
 
-bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
-                 const DiscoveryOptions& options) {
+bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptions& options) {
   const double searched = static_cast<double>(std::max<std::size_t>(tried, 1));
-  if (candidate.p_value * searched > options.false_alarm || !candidate.material) return false;
+  if (candidate.p_value * searched > options.false_alarm) return false;
   if (!is_gain(candidate.scene_gain)) return false;
   // The best of so many would gain this much by chance.
   if (candidate.total_gain() < std::log(searched)) return false;
-  if (!improves_scenes(candidate, options)) return false;
+  return improves_scenes(candidate, options);
+}
+
+bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
+                 const DiscoveryOptions& options) {
+  if (!candidate.material || !is_sure(candidate, tried, options)) return false;
   // An effect that acts on few rows is asked for the same fall on those.
   const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
   for (std::size_t k = 0; k < kChannels; ++k) {

@@ -55,6 +55,10 @@ Reference make_reference(const Linearization& linear, const ColumnSubset& subset
 Candidate evaluate_candidate(const Linearization& linear, const Reference& reference,
                              std::size_t columns, const MixedModelOptions& options);
 
+/// Whether it is there, however small: the test after correction for the search rejects zero and
+/// held-out scenes are predicted better.
+bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptions& options);
+
 /// Whether held-out scenes and the test after correction for the search speak for it.
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options);

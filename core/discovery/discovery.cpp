@@ -42,8 +42,7 @@ class Discoverer {
     record("", search);
     out_.channels = out_.history.front().channels;
     context_.report("structure", 0.2, "looking for structure");
-    out_.structure = notable_structure(table_, search.state(), search.in_use(),
-                                       options_.min_structure, context_);
+    out_.structure = notable_structure(table_, search.state(), search.model(), options_, context_);
     grow(search);
     if (context_.stopped()) return Error::cancelled();
     settle_shapes(search);
@@ -53,10 +52,12 @@ class Discoverer {
       f.rank = static_cast<int>(out_.effects.size()) + 1;
       out_.effects.push_back(std::move(f));
     }
-    out_.unknown = notable_structure(table_, search.state(), search.in_use(),
-                                     options_.min_structure, context_);
-    suggest_closed_forms(table_, search.state(), search.in_use(), options_.closed_forms, context_,
-                         out_.unknown);
+    const EffectSearch explained = search.with_immaterial();
+    if (context_.stopped()) return Error::cancelled();
+    out_.unknown =
+        notable_structure(table_, explained.state(), explained.model(), options_, context_);
+    suggest_closed_forms(table_, explained.state(), explained.model(), options_.closed_forms,
+                         context_, out_.unknown);
     context_.report("advice", 0.95, "looking for the next scene");
     out_.advice = options_.advise_scenes ? advise_scenes(search, out_.effects, options_, context_)
                                          : advise(out_.effects);
@@ -88,7 +89,7 @@ class Discoverer {
   void record(const std::string& added, const EffectSearch& search) {
     out_.history.push_back(
         {added,
-         summarize_channels(search.table(), search.state(), search.in_use(), search.reference()),
+         summarize_channels(search.table(), search.state(), search.model(), search.reference()),
          search.state().camera_from_lidar});
   }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/parallel.h"
+#include "model/natural_footprint.h"
 #include "model/residuals.h"
 
 namespace lvcalib {
@@ -28,9 +30,7 @@ void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
 
 EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
                            const DiscoveryOptions& options, const RunContext& context)
-    : table_(table), state_(std::move(state)), options_(options), context_(context) {
-  refit();
-}
+    : EffectSearch(table, std::move(state), {}, options, context) {}
 
 EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
                            std::vector<EffectInUse> in_use, const DiscoveryOptions& options,
@@ -39,13 +39,32 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
       state_(std::move(state)),
       options_(options),
       context_(context),
-      in_use_(std::move(in_use)) {
+      in_use_(std::move(in_use)),
+      natural_{natural_footprint(), 0.0, Eigen::VectorXd::Ones(1)} {
   refit();
+}
+
+bool EffectSearch::natural() const {
+  return !table_.boundary.empty() &&
+         std::none_of(in_use_.begin(), in_use_.end(), [](const EffectInUse& use) {
+           return describes_footprint(use.effect->info().id);
+         });
+}
+
+std::vector<EffectInUse> EffectSearch::model() const {
+  std::vector<EffectInUse> out = in_use_;
+  if (natural()) out.push_back(natural_);
+  return out;
+}
+
+const Reference& EffectSearch::compared_with(std::size_t columns) const {
+  const bool rival = describes_footprint(linear_.columns.list()[columns].effect->info().id);
+  return rival && bare_ ? *bare_ : reference_;
 }
 
 EffectColumnsList EffectSearch::own_columns() const {
   EffectColumnsList columns;
-  for (const EffectInUse& use : in_use_) columns.add(use.effect, use.shape, table_);
+  for (const EffectInUse& use : model()) columns.add(use.effect, use.shape, table_);
   return columns;
 }
 
@@ -55,7 +74,21 @@ ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
     append_columns(columns.list()[k], &in_use_[k].values, subset);
     if (in_use_[k].held) hold_last(columns.list()[k], subset);
   }
+  if (natural()) {
+    append_columns(columns.list()[in_use_.size()], &natural_.values, subset);
+    subset.prior_mean.back() += 1.0;  // about what the transitions tell
+  }
   return subset;
+}
+
+Reference EffectSearch::without_natural() const {
+  ColumnSubset subset = reference_.subset;
+  const auto at = static_cast<std::size_t>(std::find(subset.columns.begin(), subset.columns.end(),
+                                                     linear_.columns.list()[in_use_.size()].first) -
+                                           subset.columns.begin());
+  subset.prior_mean[at] = -natural_.values(0);
+  subset.prior_sigma[at] = 1e-6;
+  return make_reference(linear_, subset, variances_, {});
 }
 
 void EffectSearch::add(const EffectPtr& effect, double shape) {
@@ -82,7 +115,7 @@ void EffectSearch::refit() {
   shape_sigmas_.clear();
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     const EffectColumnsList columns = own_columns();
-    linear_ = linearize(table_, state_, in_use_, columns, context_);
+    linear_ = linearize(table_, state_, model(), columns, context_);
     if (context_.stopped()) return;
     reference_ = make_reference(linear_, own_subset(columns), variances_, {});
     variances_ = reference_.fit.variances;
@@ -99,6 +132,7 @@ void EffectSearch::refit() {
       use.values += x.segment(at, use.values.size());
       at += use.values.size();
     }
+    if (natural()) natural_.values(0) += x(at);
   }
 }
 
@@ -106,7 +140,7 @@ std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) cons
   std::vector<double> shapes = effect.shapes(table_);
   if (shapes.size() <= kFewShapes) return shapes;
   // Least squares of the range residuals on the effect alone, row by row: a periodogram.
-  const ChannelResiduals residuals = residuals_of(table_, state_, in_use_, Channel::kRange);
+  const ChannelResiduals residuals = residuals_of(table_, state_, model(), Channel::kRange);
   const auto p = effect.parameters(table_).size();
   const std::size_t stride = std::max<std::size_t>(1, residuals.values.size() / 20000);
   std::vector<double> power(shapes.size());
@@ -157,15 +191,18 @@ void EffectSearch::rank() {
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   append_candidates(columns);
-  linear_ = linearize(table_, state_, in_use_, columns, context_);
+  linear_ = linearize(table_, state_, model(), columns, context_);
   candidates_.clear();
   if (context_.stopped()) return;
   reference_ = make_reference(linear_, subset, variances_, {});
   variances_ = reference_.fit.variances;
-  candidates_.resize(columns.list().size() - own_count());
+  bare_.reset();
+  if (natural()) bare_ = without_natural();
+  const std::size_t first = own_count();
+  candidates_.resize(columns.list().size() - first);
   const auto evaluate = [&](std::size_t k, const MixedModelOptions& how) {
     if (!context_.stopped())
-      candidates_[k] = evaluate_candidate(linear_, reference_, own_count() + k, how);
+      candidates_[k] = evaluate_candidate(linear_, compared_with(first + k), first + k, how);
   };
   parallel_for(candidates_.size(), context_.thread_count(),
                [&](std::size_t k) { evaluate(k, {.rounds = 3}); });
@@ -173,11 +210,12 @@ void EffectSearch::rank() {
   std::stable_sort(
       candidates_.begin(), candidates_.end(),
       [](const Candidate& a, const Candidate& b) { return a.total_gain() > b.total_gain(); });
-  parallel_for(
-      std::min(kFinalists, candidates_.size()), context_.thread_count(), [&](std::size_t k) {
-        if (context_.stopped()) return;
-        candidates_[k] = evaluate_candidate(linear_, reference_, candidates_[k].columns, {});
-      });
+  parallel_for(std::min(kFinalists, candidates_.size()), context_.thread_count(),
+               [&](std::size_t k) {
+                 if (context_.stopped()) return;
+                 const std::size_t at = candidates_[k].columns;
+                 candidates_[k] = evaluate_candidate(linear_, compared_with(at), at, {});
+               });
   std::stable_sort(
       candidates_.begin(), candidates_.end(),
       [](const Candidate& a, const Candidate& b) { return a.total_gain() > b.total_gain(); });
@@ -217,26 +255,35 @@ std::optional<std::size_t> EffectSearch::best() const {
   return std::nullopt;
 }
 
+EffectSearch EffectSearch::with_immaterial() const {
+  EffectSearch out(*this);
+  std::set<Channel> done;
+  for (const Candidate& c : candidates_) {
+    if (c.material || !is_sure(c, candidates_.size(), options_)) continue;
+    if (!done.insert(c.main_channel()).second) continue;
+    const EffectColumns& columns = linear_.columns.list()[c.columns];
+    const bool footprint_told = describes_footprint(columns.effect->info().id) && natural();
+    if (!footprint_told) out.add(columns.effect, columns.shape);
+  }
+  return out;
+}
+
 std::optional<std::size_t> EffectSearch::superfluous() {
   // The model with all effects in use against those with one less.
   const EffectColumnsList columns = own_columns();
-  const Linearization linear = linearize(table_, state_, in_use_, columns, context_);
+  const Linearization linear = linearize(table_, state_, model(), columns, context_);
   if (context_.stopped()) return std::nullopt;
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
-    ColumnSubset others;
-    for (std::size_t j = 0; j < in_use_.size(); ++j) {
-      if (j != k) append_columns(columns.list()[j], &in_use_[j].values, others);
-    }
     // Without the effect its rows still hold the values in use: the candidate's increment undoes
     // them, so that the test of "increment equals minus the value" is that of the removal.
     const Reference with = make_reference(linear, own_subset(columns), variances_, {.rounds = 0});
-    ColumnSubset frozen = others;
+    ColumnSubset frozen = own_subset(columns);
     const EffectColumns& c = columns.list()[k];
     for (int p = 0; p < c.count(); ++p) {
-      frozen.columns.push_back(c.first + p);
-      // Held at zero effect: increment −value, known exactly.
-      frozen.prior_sigma.push_back(1e-6 * c.parameters[static_cast<std::size_t>(p)].material);
-      frozen.prior_mean.push_back(-in_use_[k].values(p));
+      // Held at zero effect: increment −value, known exactly. Columns of effects in use come first.
+      const auto at = static_cast<std::size_t>(c.first + p);
+      frozen.prior_sigma[at] = 1e-6 * c.parameters[static_cast<std::size_t>(p)].material;
+      frozen.prior_mean[at] = -in_use_[k].values(p);
     }
     const Reference without = make_reference(linear, frozen, variances_, {});
     std::vector<double> gain;

@@ -44,6 +44,9 @@ class EffectSearch {
   void rank();
   /// After rank(): index of the best accepted candidate.
   [[nodiscard]] std::optional<std::size_t> best() const;
+  /// After rank(): the model with effects that are sure but too small to matter, of each channel
+  /// the one that gains most. What it leaves is what no effect of the catalogue explains.
+  [[nodiscard]] EffectSearch with_immaterial() const;
   /// An effect in use whose removal the held-out scenes do not notice: the mean loss over scenes is
   /// within its standard error.
   [[nodiscard]] std::optional<std::size_t> superfluous();
@@ -53,7 +56,11 @@ class EffectSearch {
 
   [[nodiscard]] const MeasurementTable& table() const { return table_; }
   [[nodiscard]] const ModelState& state() const { return state_; }
+  /// Effects found or asked for, in the order added.
   [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
+  /// Those and the natural footprint, unless an effect in use describes the footprint itself: what
+  /// the model predicts with.
+  [[nodiscard]] std::vector<EffectInUse> model() const;
   [[nodiscard]] const Linearization& linear() const { return linear_; }
   [[nodiscard]] const Reference& reference() const { return reference_; }
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
@@ -66,16 +73,23 @@ class EffectSearch {
   void append_candidates(EffectColumnsList& columns) const;
   [[nodiscard]] double profile(std::size_t k, double shape) const;
   void estimate_joint_covariance();
-  [[nodiscard]] std::size_t own_count() const { return in_use_.size(); }
+  // Effects in use and the natural footprint.
+  [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (natural() ? 1 : 0); }
+  [[nodiscard]] bool natural() const;
+  // The model without the natural footprint: what an effect that describes it is compared with.
+  [[nodiscard]] Reference without_natural() const;
+  [[nodiscard]] const Reference& compared_with(std::size_t columns) const;
 
   const MeasurementTable& table_;
   ModelState state_;
   const DiscoveryOptions& options_;
   RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it
   std::vector<EffectInUse> in_use_;
+  EffectInUse natural_;
   ModelVariances variances_;
   Linearization linear_;
   Reference reference_;
+  std::optional<Reference> bare_;  ///< Without the natural footprint.
   std::vector<Candidate> candidates_;
   std::optional<Eigen::MatrixXd> joint_covariance_;
   std::vector<double> shape_sigmas_;

@@ -57,10 +57,13 @@ Result<ModelStepPtr> step_from(const EffectSearch& search, ModelStep step,
   step.state = search.state();
   step.covariance = search.reference().fit.covariance.topLeftCorner<6, 6>();
   read_back(search, step.terms);
+  const auto model = search.model();
+  step.nuisance.assign(model.begin() + static_cast<std::ptrdiff_t>(search.in_use().size()),
+                       model.end());
   step.channels =
-      summarize_channels(search.table(), search.state(), search.in_use(), search.reference());
+      summarize_channels(search.table(), search.state(), search.model(), search.reference());
   context.report("structure", 0.7, "looking for structure");
-  step.structure = scan_structure(search.table(), search.state(), search.in_use(), context);
+  step.structure = scan_structure(search.table(), search.state(), search.model(), context);
   if (context.stopped()) return Error::cancelled();
   return ModelStepPtr(std::make_shared<const ModelStep>(std::move(step)));
 }
@@ -88,27 +91,11 @@ Result<double> preferred_shape(const ModelStep& from, const EffectPtr& effect,
                                const RunContext& context) {
   const ModelBasis& basis = *from.basis;
   if (effect->shapes(basis.table).size() < 2) return effect->shapes(basis.table).front();
-  const auto in_use = from.in_use();
-  const EffectSearch search(basis.table, from.state, in_use, basis.options, context);
+  const EffectSearch search(basis.table, from.state, from.in_use(), basis.options, context);
   if (context.stopped()) return Error::cancelled();
-  EffectColumnsList columns;
-  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, basis.table);
-  for (const double shape : search.shapes_worth_trying(*effect))
-    columns.add(effect, shape, basis.table);
-  const Linearization linear = linearize(basis.table, search.state(), in_use, columns, context);
+  const double shape = search.preferred_shape(effect);
   if (context.stopped()) return Error::cancelled();
-  const Reference reference =
-      make_reference(linear, search.reference().subset, search.reference().fit.variances, {});
-  double best = 0.0;
-  double gain = -HUGE_VAL;
-  for (std::size_t k = in_use.size(); k < columns.list().size(); ++k) {
-    if (context.stopped()) return Error::cancelled();
-    const Candidate c = evaluate_candidate(linear, reference, k, {.rounds = 3});
-    if (c.total_gain() <= gain) continue;
-    gain = c.total_gain();
-    best = columns.list()[k].shape;
-  }
-  return best;
+  return shape;
 }
 
 }  // namespace
@@ -125,6 +112,12 @@ std::vector<ParameterEstimate> ModelTerm::estimates() const {
 
 std::vector<EffectInUse> ModelStep::in_use() const {
   return switched_on(terms);
+}
+
+std::vector<EffectInUse> ModelStep::predicted_with() const {
+  std::vector<EffectInUse> out = in_use();
+  out.insert(out.end(), nuisance.begin(), nuisance.end());
+  return out;
 }
 
 std::optional<std::size_t> ModelStep::find(const std::string& spec) const {

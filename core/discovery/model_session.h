@@ -40,12 +40,15 @@ struct ModelStep {
   ModelState state;
   Matrix6d covariance = Matrix6d::Zero();  ///< Of the extrinsic; left, camera frame.
   std::vector<ModelTerm> terms;
+  std::vector<EffectInUse> nuisance;  ///< Nature's share that is no effect to find.
   std::vector<ChannelSummary> channels;
   std::vector<StructureScore> structure;  ///< Every covariate's, best first.
 
   [[nodiscard]] const MeasurementTable& table() const { return basis->table; }
   /// The effects that are switched on.
   [[nodiscard]] std::vector<EffectInUse> in_use() const;
+  /// Those and the nuisance: what the measurements are compared with.
+  [[nodiscard]] std::vector<EffectInUse> predicted_with() const;
   /// Place of an effect among the terms.
   [[nodiscard]] std::optional<std::size_t> find(const std::string& spec) const;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <map>
 
 #include "base/text.h"
@@ -154,14 +153,11 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   }
   out.advice = advise(findings);
   if (!any) {
-    const auto places =
-        scan_places(basis.table, step.state, step.in_use(), step.structure, context);
-    std::merge(step.structure.begin(), step.structure.end(), places.begin(), places.end(),
-               std::back_inserter(out.unknown),
-               [](const StructureScore& a, const StructureScore& b) { return a.score > b.score; });
-    std::erase_if(out.unknown, [&](const StructureScore& s) {
-      return !(s.score >= basis.options.min_structure);
-    });
+    const EffectSearch explained = search.with_immaterial();
+    if (context.stopped()) return Error::cancelled();
+    out.unknown = notable_structure(basis.table, explained.state(), explained.model(),
+                                    basis.options, context);
+    if (context.stopped()) return Error::cancelled();
   }
   return out;
 }
@@ -175,7 +171,7 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   const auto notable = [&](const std::vector<StructureScore>& scores) {
     std::vector<StructureScore> kept;
     for (const StructureScore& s : scores) {
-      if (s.score >= base.basis->options.min_structure) kept.push_back(s);
+      if (is_notable(s, base.basis->options)) kept.push_back(s);
     }
     return kept;
   };

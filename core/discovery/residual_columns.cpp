@@ -56,7 +56,8 @@ class Adaptation {
   void solve(const ModelStep& step, const EffectInUse& effect) {
     EffectColumnsList columns;
     columns.add(effect.effect, effect.shape, step.table());
-    const Linearization linear = linearize(step.table(), step.state, step.in_use(), columns, {});
+    const Linearization linear =
+        linearize(step.table(), step.state, step.predicted_with(), columns, {});
     const auto& parameters = columns.list().front().parameters;
     ColumnSubset subset;
     append_columns(columns.list().front(), nullptr, subset);
@@ -115,7 +116,7 @@ const Covariate* ResidualColumns::find(const std::string& name) const {
 
 ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before, Channel channel) {
   const MeasurementTable& table = step.table();
-  const ChannelResiduals now = residuals_of(table, step.state, step.in_use(), channel);
+  const ChannelResiduals now = residuals_of(table, step.state, step.predicted_with(), channel);
   const double unit = display_factor(channel);
   ResidualColumns out;
   out.channel = channel;
@@ -127,7 +128,7 @@ ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before,
   out.before =
       &before == &step
           ? out.value
-          : aligned(now, residuals_of(table, before.state, before.in_use(), channel), unit);
+          : aligned(now, residuals_of(table, before.state, before.predicted_with(), channel), unit);
   out.scene = now.scene;
   out.row = now.row;
   out.component = components_of(now, channel);

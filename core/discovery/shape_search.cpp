@@ -38,7 +38,7 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   for (const double shape : shapes) columns.add(effect, shape, table_);
-  const Linearization linear = linearize(table_, state_, in_use_, columns, context_);
+  const Linearization linear = linearize(table_, state_, model(), columns, context_);
   if (context_.stopped()) return shapes.front();
   const Reference reference = make_reference(linear, subset, variances_, {});
   std::vector<double> gain(shapes.size(), -HUGE_VAL);
@@ -51,7 +51,7 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
 }
 
 double EffectSearch::profile(std::size_t k, double shape) const {
-  std::vector<EffectInUse> in_use = in_use_;
+  std::vector<EffectInUse> in_use = model();
   in_use[k].shape = shape;
   EffectColumnsList columns;
   for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, table_);
@@ -90,7 +90,7 @@ void EffectSearch::estimate_joint_covariance() {
     shaped.push_back(k);
   }
   if (shaped.empty() || context_.stopped()) return;
-  const Linearization linear = linearize(table_, state_, in_use_, columns, context_);
+  const Linearization linear = linearize(table_, state_, model(), columns, context_);
   if (context_.stopped()) return;
   const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 0});
   const auto own = fit.covariance.rows() - static_cast<Eigen::Index>(shaped.size());

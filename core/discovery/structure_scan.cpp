@@ -295,14 +295,19 @@ std::vector<StructureScore> scan_places(const MeasurementTable& table, const Mod
   return out;
 }
 
+bool is_notable(const StructureScore& score, const DiscoveryOptions& options) {
+  return score.score >= options.min_structure;
+}
+
 std::vector<StructureScore> notable_structure(const MeasurementTable& table,
                                               const ModelState& state,
-                                              const std::vector<EffectInUse>& in_use, double least,
+                                              const std::vector<EffectInUse>& in_use,
+                                              const DiscoveryOptions& options,
                                               const RunContext& context) {
   std::vector<StructureScore> out = scan_structure(table, state, in_use, context);
   const auto places = scan_places(table, state, in_use, out, context);
   out.insert(out.end(), places.begin(), places.end());
-  std::erase_if(out, [&](const StructureScore& s) { return !(s.score >= least); });
+  std::erase_if(out, [&](const StructureScore& s) { return !is_notable(s, options); });
   sort_best_first(out);
   return out;
 }

@@ -28,10 +28,14 @@ std::vector<StructureScore> scan_places(const MeasurementTable& table, const Mod
                                         const std::vector<StructureScore>& alone,
                                         const RunContext& context);
 
-/// scan_structure and scan_places together, those of at least `least`, best first.
+/// scan_structure and scan_places together, those that are notable, best first.
 std::vector<StructureScore> notable_structure(const MeasurementTable& table,
                                               const ModelState& state,
-                                              const std::vector<EffectInUse>& in_use, double least,
+                                              const std::vector<EffectInUse>& in_use,
+                                              const DiscoveryOptions& options,
                                               const RunContext& context);
+
+/// Whether a score is large enough to be mentioned.
+bool is_notable(const StructureScore& score, const DiscoveryOptions& options);
 
 }  // namespace lvcalib

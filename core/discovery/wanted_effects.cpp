@@ -63,8 +63,10 @@ class Adder {
     const auto& in_use = search_.in_use();
     const Eigen::Index count = in_use.back().values.size();
     const ModelFit& fit = search_.reference().fit;
-    if (fit.solution.size() < 6 + count) return;  // stopped
-    if (determined_share(fit, fit.solution.size() - count, count) >= kSingular) {
+    Eigen::Index first = 6;
+    for (std::size_t k = 0; k + 1 < in_use.size(); ++k) first += in_use[k].values.size();
+    if (fit.solution.size() < first + count) return;  // stopped
+    if (determined_share(fit, first, count) >= kSingular) {
       out_.added.push_back(id);
       return;
     }

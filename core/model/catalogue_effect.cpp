@@ -24,6 +24,13 @@ Eigen::Vector2d lidar_angle_of(const BoundaryRow& row) {
   return length > 0.0 ? Eigen::Vector2d(angle / length) : Eigen::Vector2d::Zero().eval();
 }
 
+double edge_curvature(const BoundaryRow& row) {
+  const double slope = std::tan(row.beam.incidence_rad);
+  const double across = slope * std::cos(row.psi_rad - row.beam.slope_rad);
+  return -row.beam.range_m * row.beam.range_m * (1.0 + slope * slope) / (1.0 + across * across) /
+         (2.0 * row.radius_m);
+}
+
 std::vector<EffectParameter> one_per_line(const MeasurementTable& table,
                                           const EffectParameter& parameter) {
   std::vector<EffectParameter> out;

@@ -66,6 +66,9 @@ struct BoundaryRow {
   double radius_m = 0.0;
   double psi_rad = 0.0;       ///< Polar angle about the node, board frame.
   double transition_m = 0.0;  ///< Width σ of the transition in the board, along ψ.
+  /// Where the mid-level lies off the printed edge because the footprint, as wide as the scene's
+  /// transitions are, meets a curve: −σ²/2R with σ the footprint's width along the edge.
+  double curvature_m = 0.0;
   /// Gradient of the outward board coordinate by (azimuth·cos elevation, elevation), m/rad: how
   /// the LiDAR's angles cross the edge.
   Eigen::Vector2d edge_normal_rad = Eigen::Vector2d::Zero();

@@ -27,6 +27,14 @@ double transition_along(const BoardRefinement& refinement, const Rigid3& lidar_f
   return std::sqrt(std::max(0.0, uv.dot(refinement.footprint_m2 * uv)));
 }
 
+// Mid-level shift at a circle's edge by the footprint that the transitions show: its variance along
+// the edge, given none across, over twice the radius.
+double curvature_along(const BoardRefinement& refinement, double transition_m, double radius_m) {
+  const double across = transition_m * transition_m;
+  if (!(across > 0.0)) return 0.0;
+  return -std::max(0.0, refinement.footprint_m2.determinant()) / across / (2.0 * radius_m);
+}
+
 // One scene's points that hit the board, before thinning.
 struct BoardHit {
   std::size_t point = 0;
@@ -282,6 +290,7 @@ class SceneBuilder {
     row.radius_m = radius;
     row.psi_rad = std::atan2(from.y(), from.x());
     row.transition_m = transition_along(refinement, geometry_.lidar_from_board(), row.psi_rad);
+    row.curvature_m = curvature_along(refinement, row.transition_m, radius);
     row.sigma_m = std::max(bin.sigma_m, 1e-5);
     if (record.inner_level > 0.0 && record.outer_level > 0.0)
       row.log_contrast = std::log(record.outer_level / record.inner_level);

@@ -14,12 +14,13 @@ class BoundaryRangePull final : public CatalogueEffect {
              .group = "LiDAR range",
              .title = "Range pull at edges",
              .physics = "Where a beam is cut by an edge, its energy comes from one side of the "
-                        "footprint, which on a slanted board lies nearer or farther.",
+                        "footprint, which on a slanted board lies nearer or farther; 1 is "
+                        "what the power alone does in every scan.",
              .formula = "dr = sin θ cos(ψ-α) (σ/cos θ)² I'(d)/I(d)",
              .source = "derived; compare Laconte 2019",
              .breaker = "a board turned beyond 40 degrees",
              .needs = {.circles = true, .intensity = true}},
-            {{"a", "1", 1.0, 0.2, 3.0}}) {}
+            {{"a", "1", 1.0, 2.0, 3.0}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

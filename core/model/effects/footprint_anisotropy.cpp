@@ -13,7 +13,7 @@ class FootprintAnisotropy final : public CatalogueEffect {
                          .group = "beam",
                          .title = "Elliptic footprint",
                          .physics = "The footprint is wider along one axis of the LiDAR.",
-                         .formula = "dd = -r² (γh² cos²ψ' + γv² sin²ψ') / 2R",
+                         .formula = "dd = -r² (γh² sin²ψ' + γv² cos²ψ') / 2R",
                          .source = "Livox Avia manual",
                          .breaker = "circles far away",
                          .needs = {.circles = true, .intensity = true}},
@@ -22,9 +22,11 @@ class FootprintAnisotropy final : public CatalogueEffect {
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {
     const Eigen::Vector2d n = lidar_angle_of(row);
-    const double scale = -row.beam.range_m * row.beam.range_m / (2.0 * row.radius_m);
-    by[0] = scale * n.x() * n.x();
-    by[1] = scale * n.y() * n.y();
+    const double scale = edge_curvature(row);
+    // It is the spread along the edge that meets the curve: where the edge runs upright, the
+    // vertical one.
+    by[0] = scale * n.y() * n.y();
+    by[1] = scale * n.x() * n.x();
   }
 };
 

@@ -197,9 +197,10 @@ std::vector<HandCase> edge_cases() {
   return {
       {"Bias", "boundary_bias", Hook::kEdge, {along_x(1.0)}},
       {"InkGain", "ink_gain", Hook::kEdge, {along_x(1.0)}},
-      // 16 m² · (1 + tan² 45°) / (2 · 0.05 m), inwards.
-      {"Divergence", "beam_divergence", Hook::kEdge, {along_x(-320.0)}},
-      {"Anisotropy", "footprint_anisotropy", Hook::kEdge, {along_x(-57.6), along_x(-102.4)}},
+      // 16 m² / (2 · 0.05 m), inwards; the edge runs across the slope of 45°, where the footprint
+      // is as wide as facing the board.
+      {"Divergence", "beam_divergence", Hook::kEdge, {along_x(-160.0)}},
+      {"Anisotropy", "footprint_anisotropy", Hook::kEdge, {along_x(-102.4), along_x(-57.6)}},
       {"FootprintOffset", "footprint_offset", Hook::kEdge, {along_x(2.4), along_x(3.2)}},
       {"Blooming", "blooming", Hook::kEdge, {along_x(-0.02)}},
       // Contrast 7.389: (7.389 - 4.1945 ln 4.1945) 0.01 m √2π / 6.389; toward white for g > 0.

@@ -85,8 +85,8 @@ TEST(CloudScene, CameraColoursAreThoseOfThePixels) {
   CloudSceneInput input;
   auto cloud = make_cloud(20'000);
   input.full = cloud;
-  input.camera = test::test_camera();
-  input.camera_from_lidar = test::test_extrinsic();
+  input.camera = lvcalib::test::test_camera();
+  input.camera_from_lidar = lvcalib::test::test_extrinsic();
   input.color = CloudColor::kCameraColor;
   input.image = QImage(input.camera.width_px, input.camera.height_px, QImage::Format_RGB32);
   input.image.fill(qRgb(200, 10, 10));
