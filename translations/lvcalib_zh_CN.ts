@@ -1142,10 +1142,6 @@ were saved. Take them up again?</source>
         <translation>弱回波更晚（或更早）越过检测阈值，使深色印刷区的测距与白色不同。</translation>
     </message>
     <message>
-        <source>Where a beam is cut by an edge, its energy comes from one side of the footprint, which on a slanted board lies nearer or farther.</source>
-        <translation>光束被边缘切割时，其能量来自光斑的一侧，在倾斜的标定板上该侧更近或更远。</translation>
-    </message>
-    <message>
         <source>Zero of the angles</source>
         <translation>角度零位</translation>
     </message>
@@ -1280,6 +1276,10 @@ were saved. Take them up again?</source>
     <message>
         <source>scans that cross the board in several directions</source>
         <translation>沿多个方向扫过标定板的扫描</translation>
+    </message>
+    <message>
+        <source>Where a beam is cut by an edge, its energy comes from one side of the footprint, which on a slanted board lies nearer or farther; 1 is what the power alone does in every scan.</source>
+        <translation>光束被边缘切断时，能量只来自光斑的一侧，在倾斜的标定板上这一侧或近或远；1 是每次扫描中单由功率造成的大小。</translation>
     </message>
 </context>
 <context>
@@ -2997,6 +2997,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Add the chosen effect to the model</source>
         <translation>把所选效应添加到模型</translation>
+    </message>
+    <message>
+        <source>%1 and %2</source>
+        <translation>%1 和 %2</translation>
     </message>
 </context>
 <context>
