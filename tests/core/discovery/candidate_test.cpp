@@ -152,5 +152,40 @@ TEST_F(Candidates, TiesAreThoseThatScenesDoNotTellApart) {
   EXPECT_FALSE(indistinguishable(a, b));
 }
 
+TEST_F(Candidates, ScenesThatSayNothingAreNotAsked) {
+  Candidate c;
+  c.p_value = 1e-9;
+  c.heldout_gain = {0.0, 0.02, 0.0, 0.0};
+  // A glint shows where a board faces the beam.
+  c.scene_gain = {40.0, 45.0, 0.1, -0.2, 0.0, 38.0};
+  EXPECT_TRUE(is_accepted(c, 60, 6, options_));
+  // One scene is no witness of an effect.
+  c.scene_gain = {90.0, 0.1, 0.1, 0.2, 0.1, 0.1};
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  // Those that speak against it count.
+  c.scene_gain = {40.0, 45.0, -0.6, -0.8, 0.0, 38.0};
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+}
+
+TEST_F(Candidates, AnEffectOnFewRowsIsAskedForItsFallOnThose) {
+  Candidate c;
+  c.p_value = 1e-9;
+  c.scene_gain = {4.0, 5.0, 3.0, 4.5, 3.5, 4.0};
+  c.heldout_gain = {0.0, 0.001, 0.0, 0.0};
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c.acting_share = {0.0, 0.05, 0.0, 0.0};
+  EXPECT_TRUE(is_accepted(c, 60, 6, options_));
+  c.acting_share = {0.0, 0.2, 0.0, 0.0};
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+}
+
+TEST_F(Candidates, TheMainChannelIsWhereMostNoiseUnitsFall) {
+  Candidate c;
+  c.set_heldout({90.0, 9000.0, 50.0, 0.0}, {100.0, 10000.0, 50.0, 0.0});
+  EXPECT_EQ(c.main_channel(), Channel::kRange);
+  EXPECT_NEAR(c.heldout_gain[0], 0.1, 1e-12);
+  EXPECT_EQ(c.heldout_gain[3], 0.0);
+}
+
 }  // namespace
 }  // namespace lvcalib

@@ -104,5 +104,68 @@ TEST_F(SearchState, StopsWhenAsked) {
   EXPECT_FALSE(search.superfluous().has_value());
 }
 
+// Rows whose transitions tell a footprint of the given size (isotropic, facing).
+test::SyntheticTable with_footprint(double gamma2, double told, double ink_m) {
+  test::Disturbance wrong;
+  wrong.edge_m = [=](const BoundaryRow& row) {
+    return ink_m - gamma2 * row.beam.range_m * row.beam.range_m / (2.0 * row.radius_m);
+  };
+  auto made = test::synthetic_table({}, wrong);
+  for (BoundaryRow& row : made.table.boundary)
+    row.curvature_m = -told * row.beam.range_m * row.beam.range_m / (2.0 * row.radius_m);
+  return made;
+}
+
+TEST_F(SearchState, TheFootprintThatTransitionsTellIsNoInk) {
+  const auto made = with_footprint(1.5e-6, 1.4e-6, 0.0);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  ASSERT_EQ(search.model().size(), 1U);
+  const double sigma = std::sqrt(search.reference().fit.covariance(6, 6));
+  EXPECT_NEAR(search.model()[0].values(0), 1.5 / 1.4, 3.0 * sigma);
+  EXPECT_LT(sigma, 0.2);
+  EXPECT_TRUE(search.in_use().empty());
+  search.rank();
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(SearchState, InkOnTopOfTheFootprintHasItsOwnSize) {
+  const auto made = with_footprint(1.5e-6, 1.4e-6, 0.0008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.add(find_effect("ink_gain"), 0.0);
+  const double sigma = std::sqrt(search.reference().fit.covariance(6, 6));
+  EXPECT_NEAR(search.in_use()[0].values(0), 0.0008, 3.0 * sigma);
+  EXPECT_LT(sigma, 0.0002);
+}
+
+TEST_F(SearchState, AFootprintThatMattersIsFoundAndTakesTheNaturalOnesPlace) {
+  const auto made = with_footprint(9e-6, 8e-6, 0.0);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  const std::string id = id_of(search, search.candidates()[*best]);
+  EXPECT_TRUE(id == "beam_divergence" || id == "footprint_anisotropy") << id;
+  search.add(find_effect("beam_divergence"), 0.0);
+  EXPECT_EQ(search.model().size(), 1U);
+  EXPECT_NEAR(search.in_use()[0].values(0), 9e-6, 3e-6);
+}
+
+TEST_F(SearchState, WhatIsSureButTooSmallExplainsStructure) {
+  test::Disturbance wrong;
+  wrong.log_intensity = [](const IntensityRow& row) {
+    return 0.25 * std::log(std::cos(row.beam.incidence_rad));
+  };
+  test::TableRecipe recipe;
+  recipe.intensity_sigma = 0.02;
+  const auto made = test::synthetic_table(recipe, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  EXPECT_FALSE(search.best().has_value());
+  const EffectSearch explained = search.with_immaterial();
+  ASSERT_FALSE(explained.in_use().empty());
+  EXPECT_EQ(explained.in_use()[0].effect->info().id, "intensity_geometry");
+  EXPECT_TRUE(search.in_use().empty());
+}
+
 }  // namespace
 }  // namespace lvcalib

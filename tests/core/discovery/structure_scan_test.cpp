@@ -61,5 +61,50 @@ TEST(StructureScan, WhatHoldsInOneSceneOnlyIsNoStructure) {
   }
 }
 
+TEST(StructureScan, AFineRippleNeedsFineSplines) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.006 * std::sin(90.0 * beam.azimuth_rad); };
+  test::TableRecipe recipe;
+  recipe.range_rows = 6000;
+  const auto made = test::synthetic_table(recipe, wrong);
+  const auto scores = scan_structure(made.table, made.truth, {}, {});
+  ASSERT_FALSE(scores.empty());
+  EXPECT_EQ(scores.front().channel, Channel::kRange);
+  EXPECT_EQ(scores.front().covariate, "azimuth");
+  // 18 mm² of 82 mm².
+  EXPECT_GT(scores.front().score, 0.15);
+}
+
+TEST(StructurePlaces, ABumpOnTheBoardIsSeenOverBothAxesTogether) {
+  test::Disturbance wrong;
+  test::TableRecipe recipe;
+  recipe.range_rows = 6000;
+  const Eigen::Vector2d bump =
+      test::synthetic_table({}).table.target.outline().center_m() + Eigen::Vector2d(0.1, -0.08);
+  wrong.range_m = [bump](const BeamPoint& beam) {
+    return -0.012 * std::exp(-0.5 * (beam.board_m - bump).squaredNorm() / (0.05 * 0.05));
+  };
+  const auto made = test::synthetic_table(recipe, wrong);
+  const auto alone = scan_structure(made.table, made.truth, {}, {});
+  const auto places = scan_places(made.table, made.truth, {}, alone, {});
+  ASSERT_FALSE(places.empty());
+  EXPECT_EQ(places.front().channel, Channel::kRange);
+  EXPECT_EQ(places.front().covariates(), "board x and board y");
+  DiscoveryOptions options;
+  options.min_structure = 0.01;
+  const auto notable = notable_structure(made.table, made.truth, {}, options, {});
+  ASSERT_FALSE(notable.empty());
+  EXPECT_EQ(notable.front().covariates(), "board x and board y");
+}
+
+TEST(StructurePlaces, ARippleOverOneCovariateIsNoSurface) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.008 * std::sin(40.0 * beam.azimuth_rad); };
+  const auto made = test::synthetic_table({}, wrong);
+  const auto alone = scan_structure(made.table, made.truth, {}, {});
+  for (const StructureScore& s : scan_places(made.table, made.truth, {}, alone, {}))
+    EXPECT_NE(s.covariate, "azimuth");
+}
+
 }  // namespace
 }  // namespace lvcalib

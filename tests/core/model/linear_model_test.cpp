@@ -124,5 +124,24 @@ TEST(Linearize, CountsRowsAndDoesNotDependOnThreads) {
   }
 }
 
+TEST(Linearize, TellsOnHowManyRowsAnEffectActs) {
+  test::TableRecipe recipe;
+  recipe.scenes = 2;
+  recipe.range_rows = 4000;
+  auto made = test::synthetic_table(recipe);
+  // One range row in twenty lies at an edge.
+  for (std::size_t k = 0; k < made.table.range.size(); k += 20)
+    made.table.range[k].beam.edge = NearEdge{0.001, 0.3, 0.01};
+  EffectColumnsList columns;
+  columns.add(find_effect("range_offset"), 0.0, made.table);
+  columns.add(find_effect("boundary_range_pull"), 0.0, made.table);
+  const Linearization linear = linearize(made.table, made.truth, {}, columns, {});
+  EXPECT_DOUBLE_EQ(linear.acting_share(Channel::kRange, 0), 1.0);
+  const double pull = linear.acting_share(Channel::kRange, 1);
+  EXPECT_GT(pull, 0.02);
+  EXPECT_LT(pull, 0.15);  // three times 1/20 for equal values
+  EXPECT_EQ(linear.acting_share(Channel::kCorner, 0), 0.0);
+}
+
 }  // namespace
 }  // namespace lvcalib
