@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "discovery/effect_search.h"
 #include "discovery/findings.h"
+#include "discovery/sensitivity_budget.h"
 #include "discovery/structure_scan.h"
 
 namespace lvcalib {
@@ -152,6 +153,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
     any = any || p.suggested;
   }
   out.advice = advise(findings);
+  out.budget = sensitivity_budget(search);
   if (!any) {
     const EffectSearch explained = search.with_immaterial();
     if (context.stopped()) return Error::cancelled();
@@ -186,6 +188,7 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
     for (const EffectProposal& p : ranking->proposals) out.effects.push_back(p.finding);
     out.unknown = ranking->unknown;
     out.advice = ranking->advice;
+    out.budget = ranking->budget;
   }
   for (std::size_t k = 0; k < out.effects.size(); ++k)
     out.effects[k].rank = static_cast<int>(k) + 1;
@@ -196,6 +199,7 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   }
   out.state = last.state;
   out.covariance = last.covariance;
+  out.covariance_with_budget = covariance_with_budget(out.covariance, out.budget);
   return out;
 }
 

@@ -28,6 +28,8 @@ struct ModelRanking {
   /// Structure that is left although nothing is suggested: no known effect explains it.
   std::vector<StructureScore> unknown;
   std::vector<std::string> advice;  ///< Scenes worth taking.
+  /// What effects that are not in the model could still do to the extrinsic, largest first.
+  std::vector<BudgetItem> budget;
 
   [[nodiscard]] bool nothing_missing() const;
 };

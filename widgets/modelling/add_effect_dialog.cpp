@@ -42,11 +42,27 @@ EffectInUse material_size(const EffectPtr& effect, const ModelStep& step) {
   return use;
 }
 
-void add_channels(QComboBox& box, const ModelStep& step) {
+// The channels in the present language; the choice stays, at first the range.
+void fill_channels(QComboBox& box, const ModelStep& step) {
+  const QSignalBlocker quiet(box);
+  const QVariant before = box.currentData();
+  box.clear();
   for (const ChannelSummary& c : step.channels)
     box.addItem(channel_name(c.channel), static_cast<int>(c.channel));
-  const int range = box.findData(static_cast<int>(Channel::kRange));
-  if (range >= 0) box.setCurrentIndex(range);
+  const QVariant wanted = before.isValid() ? before : QVariant(static_cast<int>(Channel::kRange));
+  box.setCurrentIndex(std::max(0, box.findData(wanted)));
+}
+
+void add_row(QFormLayout& form, QWidget& field) {
+  auto* label = new QLabel(field.parentWidget());
+  label->setBuddy(&field);
+  form.addRow(label, &field);
+}
+
+void set_row_label(QWidget& field, const QString& text) {
+  const auto* form = qobject_cast<const QFormLayout*>(field.parentWidget()->layout());
+  auto* label = form == nullptr ? nullptr : qobject_cast<QLabel*>(form->labelForField(&field));
+  if (label != nullptr) label->setText(text);
 }
 
 Channel channel_of(const QComboBox& box) {
@@ -61,15 +77,14 @@ AddEffectDialog::AddEffectDialog(const ModelStepPtr& step, QWidget* parent)
       source_(std::make_unique<FigureSource>()),
       tabs_(new QTabWidget(this)),
       problem_(new QLabel(this)),
-      add_(new QPushButton(tr("A&dd"), this)) {
+      add_(new QPushButton(this)) {
   setObjectName(QStringLiteral("add_effect_dialog"));
   setAttribute(Qt::WA_DeleteOnClose);
-  setWindowTitle(tr("Add an effect"));
   resize(760, 560);
   source_->setSteps(step, step);
-  tabs_->addTab(createCatalogue(), tr("Catalogue"));
-  tabs_->addTab(createFormula(), tr("Formula"));
-  tabs_->addTab(createCurve(), tr("Curve"));
+  tabs_->addTab(createCatalogue(), {});
+  tabs_->addTab(createFormula(), {});
+  tabs_->addTab(createCurve(), {});
   problem_->setObjectName(QStringLiteral("add_problem"));
   problem_->setWordWrap(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
@@ -92,8 +107,7 @@ AddEffectDialog::AddEffectDialog(const ModelStepPtr& step, QWidget* parent)
           [this](const std::shared_ptr<const ResidualFigure>& figure) {
             pattern_->setFigure(figure, tr("leaves no pattern in these scenes"));
           });
-  filter({});
-  fillCovariates();
+  follow_language(this, [this] { retranslate(); });
 }
 
 AddEffectDialog::~AddEffectDialog() {
@@ -108,7 +122,6 @@ QWidget* AddEffectDialog::createCatalogue() {
   auto* layout = new QVBoxLayout(page);
   search_ = new QLineEdit(page);
   search_->setObjectName(QStringLiteral("effect_search"));
-  search_->setPlaceholderText(tr("Search by name, physics or formula"));
   search_->setClearButtonEnabled(true);
   auto* splitter = new QSplitter(Qt::Horizontal, page);
   splitter->setChildrenCollapsible(false);
@@ -135,23 +148,18 @@ QWidget* AddEffectDialog::createFormula() {
   auto* form = new QFormLayout(page);
   formula_channel_ = new QComboBox(page);
   formula_channel_->setObjectName(QStringLiteral("formula_channel"));
-  add_channels(*formula_channel_, *step_);
   formula_ = new QLineEdit(page);
   formula_->setObjectName(QStringLiteral("formula"));
   formula_->setPlaceholderText(QStringLiteral("a*darkness + b*range^2"));
   formula_words_ = new QLabel(page);
   formula_words_->setWordWrap(true);
   formula_words_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  auto* help =
-      new QLabel(tr("What is added to the measurement, in m (range, boundary), px (corner) or the "
-                    "logarithm of the intensity. Covariates are in m, rad and px. Other names are "
-                    "coefficients, which are fitted; the formula must be linear in them."),
-                 page);
-  help->setWordWrap(true);
-  form->addRow(tr("Channel"), formula_channel_);
-  form->addRow(tr("Formula"), formula_);
-  form->addRow(tr("Covariates"), formula_words_);
-  form->addRow(help);
+  formula_help_ = new QLabel(page);
+  formula_help_->setWordWrap(true);
+  add_row(*form, *formula_channel_);
+  add_row(*form, *formula_);
+  add_row(*form, *formula_words_);
+  form->addRow(formula_help_);
   connect(formula_channel_, &QComboBox::currentIndexChanged, this,
           &AddEffectDialog::fillCovariates);
   connect(formula_, &QLineEdit::textChanged, this, &AddEffectDialog::check);
@@ -163,19 +171,15 @@ QWidget* AddEffectDialog::createCurve() {
   auto* form = new QFormLayout(page);
   curve_channel_ = new QComboBox(page);
   curve_channel_->setObjectName(QStringLiteral("curve_channel"));
-  add_channels(*curve_channel_, *step_);
   curve_first_ = new QComboBox(page);
   curve_first_->setObjectName(QStringLiteral("curve_first"));
   curve_second_ = new QComboBox(page);
-  auto* help = new QLabel(
-      tr("A smooth curve stands in for a cause that nobody knows yet. Of two covariates it is a "
-         "surface."),
-      page);
-  help->setWordWrap(true);
-  form->addRow(tr("Channel"), curve_channel_);
-  form->addRow(tr("Along"), curve_first_);
-  form->addRow(tr("and"), curve_second_);
-  form->addRow(help);
+  curve_help_ = new QLabel(page);
+  curve_help_->setWordWrap(true);
+  add_row(*form, *curve_channel_);
+  add_row(*form, *curve_first_);
+  add_row(*form, *curve_second_);
+  form->addRow(curve_help_);
   connect(curve_channel_, &QComboBox::currentIndexChanged, this, &AddEffectDialog::fillCovariates);
   connect(curve_first_, &QComboBox::currentIndexChanged, this, &AddEffectDialog::check);
   connect(curve_second_, &QComboBox::currentIndexChanged, this, &AddEffectDialog::check);
@@ -187,6 +191,36 @@ void AddEffectDialog::suggestCurve(Channel channel, const QString& covariate,
   tabs_->setCurrentIndex(kCurve);
   curve_channel_->setCurrentIndex(std::max(0, curve_channel_->findData(static_cast<int>(channel))));
   curve_first_->setCurrentIndex(std::max(0, curve_first_->findData(covariate)));
+  curve_second_->setCurrentIndex(std::max(0, curve_second_->findData(second)));
+}
+
+void AddEffectDialog::retranslate() {
+  setWindowTitle(tr("Add an effect"));
+  add_->setText(tr("A&dd"));
+  tabs_->setTabText(kCatalogue, tr("Catalogue"));
+  tabs_->setTabText(kFormula, tr("Formula"));
+  tabs_->setTabText(kCurve, tr("Curve"));
+  search_->setPlaceholderText(tr("Search by name, physics or formula"));
+  formula_help_->setText(
+      tr("What is added to the measurement, in m (range, boundary), px (corner) or the "
+         "logarithm of the intensity. Covariates are in m, rad and px. Other names are "
+         "coefficients, which are fitted; the formula must be linear in them."));
+  curve_help_->setText(
+      tr("A smooth curve stands in for a cause that nobody knows yet. Of two covariates it is a "
+         "surface."));
+  set_row_label(*formula_channel_, tr("Channel"));
+  set_row_label(*formula_, tr("Formula"));
+  set_row_label(*formula_words_, tr("Covariates"));
+  set_row_label(*curve_channel_, tr("Channel"));
+  set_row_label(*curve_first_, tr("Along"));
+  set_row_label(*curve_second_, tr("and"));
+  fill_channels(*formula_channel_, *step_);
+  fill_channels(*curve_channel_, *step_);
+  const QVariant second = curve_second_->currentData();
+  const int row = list_->currentRow();
+  filter(search_->text());
+  if (row >= 0) list_->setCurrentRow(row);
+  fillCovariates();
   curve_second_->setCurrentIndex(std::max(0, curve_second_->findData(second)));
 }
 

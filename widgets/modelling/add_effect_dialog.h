@@ -39,6 +39,7 @@ class AddEffectDialog : public QDialog {
   QWidget* createCatalogue();
   QWidget* createFormula();
   QWidget* createCurve();
+  void retranslate();
   void filter(const QString& words);
   void describe();
   void fillCovariates();
@@ -55,9 +56,11 @@ class AddEffectDialog : public QDialog {
   QComboBox* formula_channel_ = nullptr;
   QLineEdit* formula_ = nullptr;
   QLabel* formula_words_ = nullptr;
+  QLabel* formula_help_ = nullptr;
   QComboBox* curve_channel_ = nullptr;
   QComboBox* curve_first_ = nullptr;
   QComboBox* curve_second_ = nullptr;
+  QLabel* curve_help_ = nullptr;
   QLabel* problem_;
   QPushButton* add_;
 };

@@ -259,19 +259,17 @@ void MissingPane::addUnknown(int index) {
 void MissingPane::fillBudget() {
   budget_->clear();
   if (!ranking_) return;
-  std::vector<const EffectProposal*> unseen;
-  for (const EffectProposal& p : ranking_->proposals) {
-    if (p.finding.verdict == EffectVerdict::kNotTestable && !p.finding.parameters.empty())
-      unseen.push_back(&p);
-  }
-  std::stable_sort(unseen.begin(), unseen.end(), [](const auto* a, const auto* b) {
-    return a->finding.extrinsic_move_mm > b->finding.extrinsic_move_mm;
-  });
-  for (const EffectProposal* p : unseen) {
+  for (const BudgetItem& limit : ranking_->budget) {
+    const QString size = QStringLiteral("%1 = %2 %3")
+                             .arg(QString::fromStdString(limit.parameter))
+                             .arg(limit.size, 0, 'g', 2)
+                             .arg(QString::fromStdString(limit.unit));
     auto* item = new QTreeWidgetItem(
-        budget_, {effect_title(p->finding.id),
-                  move_text(p->finding.extrinsic_move_mm, p->finding.extrinsic_move_mrad),
-                  percent_text(p->finding.kept)});
+        budget_,
+        {effect_title(limit.id), move_text(limit.translation_mm, limit.rotation_mrad), size});
+    const auto p = std::find_if(ranking_->proposals.begin(), ranking_->proposals.end(),
+                                [&](const EffectProposal& q) { return q.finding.id == limit.id; });
+    if (p == ranking_->proposals.end()) continue;
     for (int column = 0; column < 3; ++column)
       item->setToolTip(column, QString::fromStdString(p->finding.explanation));
   }
@@ -354,8 +352,9 @@ void MissingPane::retranslate() {
                              "spoil the extrinsic at the size that matters"));
   list_->setHeaderLabels({tr("Effect"), tr("Verdict"), tr("Error")});
   list_->setAccessibleName(tr("What is missing"));
-  budget_->setHeaderLabels({tr("Effect"), tr("Could move by"), tr("Left")});
-  budget_->headerItem()->setToolTip(2, tr("Share of its squared effect that the poses leave"));
+  budget_->setHeaderLabels({tr("Effect"), tr("Could move by"), tr("If as large as")});
+  budget_->headerItem()->setToolTip(
+      2, tr("Upper 95 % limit of its largest parameter; beyond it these scenes would show it"));
   budget_->setAccessibleName(tr("What cannot be seen"));
   all_->setText(tr("&Find all"));
   all_->setToolTip(tr("Add what scenes held out speak for, one after the other"));

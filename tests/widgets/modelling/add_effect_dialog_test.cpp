@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modelling/add_effect_dialog.h"
 
+#include <QApplication>
 #include <QComboBox>
+#include <QEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -63,6 +65,24 @@ TEST_F(Dialog, ACurveIsSuggestedWhereStructureIs) {
   EXPECT_EQ(part<QComboBox>("curve_first")->currentData().toString(), "azimuth");
   part<QPushButton>("add_chosen")->click();
   EXPECT_EQ(added_, "curve:range:azimuth");
+}
+
+TEST_F(Dialog, ASurfaceIsSuggestedWhereItTakesTwoCovariates) {
+  dialog_->suggestCurve(Channel::kRange, "board x", "board y");
+  part<QPushButton>("add_chosen")->click();
+  EXPECT_EQ(added_, "curve:range:board x,board y");
+}
+
+// A change of language fills every list anew; what was chosen stays.
+TEST_F(Dialog, ANewLanguageKeepsTheChoice) {
+  dialog_->suggestCurve(Channel::kRange, "azimuth", "elevation");
+  part<QLineEdit>("formula")->setText("a*darkness");
+  QEvent change(QEvent::LanguageChange);
+  QApplication::sendEvent(dialog_, &change);
+  EXPECT_FALSE(dialog_->windowTitle().isEmpty());
+  EXPECT_EQ(part<QLineEdit>("formula")->text(), "a*darkness");
+  part<QPushButton>("add_chosen")->click();
+  EXPECT_EQ(added_, "curve:range:azimuth,elevation");
 }
 
 }  // namespace

@@ -65,11 +65,11 @@ TEST(MissingPaneTest, WhatCannotBeSeenIsListedByWhatItCouldDo) {
   MissingPane pane;
   pane.setRanking(test::model_example().missing, true, false);
   const auto* budget = pane.findChild<QTreeWidget*>("sensitivity");
-  std::size_t unseen = 0;
-  for (const EffectProposal& p : test::model_example().missing->proposals) {
-    if (p.finding.verdict == EffectVerdict::kNotTestable && !p.finding.parameters.empty()) ++unseen;
-  }
-  ASSERT_EQ(budget->topLevelItemCount(), static_cast<int>(unseen));
+  const auto& limits = test::model_example().missing->budget;
+  ASSERT_FALSE(limits.empty());
+  ASSERT_EQ(budget->topLevelItemCount(), static_cast<int>(limits.size()));
+  EXPECT_TRUE(
+      budget->topLevelItem(0)->text(2).contains(QString::fromStdString(limits.front().parameter)));
   double last = HUGE_VAL;
   for (int k = 0; k < budget->topLevelItemCount(); ++k) {
     const double mm = budget->topLevelItem(k)->text(1).section(' ', 0, 0).toDouble();
