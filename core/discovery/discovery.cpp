@@ -8,6 +8,7 @@
 #include "discovery/closed_form.h"
 #include "discovery/effect_search.h"
 #include "discovery/findings.h"
+#include "discovery/model_growth.h"
 #include "discovery/scene_advice.h"
 #include "discovery/sensitivity_budget.h"
 #include "discovery/structure_scan.h"
@@ -43,7 +44,8 @@ class Discoverer {
     out_.channels = out_.history.front().channels;
     context_.report("structure", 0.2, "looking for structure");
     out_.structure = notable_structure(table_, search.state(), search.model(), options_, context_);
-    grow(search);
+    grow_model(search, selections_, fixed_, options_, context_,
+               [&] { record(selections_.back().id, search); });
     if (context_.stopped()) return Error::cancelled();
     settle_shapes(search);
     context_.report("verdicts", 0.9, "judging effects");
@@ -93,59 +95,6 @@ class Discoverer {
          search.state().camera_from_lidar});
   }
 
-  void grow(EffectSearch& search) {
-    for (int step = 0;; ++step) {
-      context_.report("rank", 0.3 + 0.55 * step / (options_.max_effects + 1.0),
-                      "ranking effects, " + std::to_string(selections_.size()) + " in the model");
-      search.rank();
-      // Steps are counted as well: what is dropped may come back.
-      if (context_.stopped() || static_cast<int>(selections_.size()) >= options_.max_effects ||
-          step >= 2 * options_.max_effects)
-        return;
-      const auto best = search.best();
-      if (!best) return;
-      const Candidate& c = search.candidates()[*best];
-      const EffectColumns columns = search.linear().columns.list()[c.columns];
-      Selection s{columns.effect->info().id, aliases_of(search, *best, options_),
-                  c.best_heldout_gain(), c.total_gain(), c.p_value};
-      search.add(columns.effect, columns.shape);
-      selections_.push_back(s);
-      try_swaps(search);
-      drop_superfluous(search);
-      record(selections_.back().id, search);
-      if (context_.stopped()) return;
-    }
-  }
-
-  // Whether an alias in an effect's place predicts held-out scenes better, by more than one
-  // standard error over scenes, after a full refit.
-  void try_swaps(EffectSearch& search) {
-    int left = options_.swaps;
-    for (std::size_t k = fixed_; k < selections_.size(); ++k) {
-      const std::vector<std::string> aliases = selections_[k].aliases;
-      for (const std::string& id : aliases) {
-        if (left-- <= 0 || context_.stopped()) return;
-        const EffectPtr effect = find_effect(id);
-        const bool used = std::any_of(selections_.begin(), selections_.end(),
-                                      [&](const Selection& other) { return other.id == id; });
-        if (effect == nullptr || used) continue;
-        EffectSearch trial(search);
-        trial.remove(k);
-        trial.add(effect, trial.preferred_shape(effect));
-        if (context_.stopped()) return;
-        std::vector<double> gain;
-        for (std::size_t s = 0; s < trial.reference().density.size(); ++s)
-          gain.push_back(trial.reference().density[s] - search.reference().density[s]);
-        if (!is_gain(gain)) continue;
-        const EffectInUse swapped = trial.in_use().back();
-        search.replace(k, swapped.effect, swapped.shape);
-        std::replace(selections_[k].aliases.begin(), selections_[k].aliases.end(), id,
-                     selections_[k].id);
-        selections_[k].id = id;
-      }
-    }
-  }
-
   // The verdicts come from candidates about the model with its final shape numbers.
   void settle_shapes(EffectSearch& search) {
     const bool shaped =
@@ -155,16 +104,6 @@ class Discoverer {
     context_.report("shapes", 0.85, "refining shape numbers");
     search.refine_shapes();
     search.rank();
-  }
-
-  // What a later effect explains better goes again (never what the user asked for).
-  void drop_superfluous(EffectSearch& search) {
-    while (!context_.stopped() && selections_.size() > fixed_ + 1) {
-      const auto k = search.superfluous();
-      if (!k || *k < fixed_ || *k + 1 == selections_.size()) return;
-      search.remove(*k);
-      selections_.erase(selections_.begin() + static_cast<std::ptrdiff_t>(*k));
-    }
   }
 
   const MeasurementTable& table_;

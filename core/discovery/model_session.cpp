@@ -7,6 +7,7 @@
 #include "base/yaml_file.h"
 #include "discovery/channel_summary.h"
 #include "discovery/effect_search.h"
+#include "discovery/model_growth.h"
 #include "discovery/structure_scan.h"
 #include "model/user_effect.h"
 
@@ -96,6 +97,28 @@ Result<double> preferred_shape(const ModelStep& from, const EffectPtr& effect,
   const double shape = search.preferred_shape(effect);
   if (context.stopped()) return Error::cancelled();
   return shape;
+}
+
+// The terms of the search's model, in its order, then those that are switched off. One that was off
+// comes back with the shape found.
+std::vector<ModelTerm> terms_of(const EffectSearch& search, const std::vector<ModelTerm>& before) {
+  std::vector<ModelTerm> out;
+  const auto same = [](const ModelTerm& term, const EffectInUse& use) {
+    return term.use.effect->info().id == use.effect->info().id;
+  };
+  for (const EffectInUse& use : search.in_use()) {
+    const auto at = std::find_if(before.begin(), before.end(),
+                                 [&](const ModelTerm& term) { return term.on && same(term, use); });
+    out.push_back(at != before.end()
+                      ? *at
+                      : new_term(use.effect->info().id, use.effect, use.shape, search.table()));
+  }
+  for (const ModelTerm& term : before) {
+    const bool back = std::any_of(search.in_use().begin(), search.in_use().end(),
+                                  [&](const EffectInUse& use) { return same(term, use); });
+    if (!term.on && !back) out.push_back(term);
+  }
+  return out;
 }
 
 }  // namespace
@@ -242,37 +265,25 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
   ModelStepPtr step = from;
   const ModelBasis& basis = *from->basis;
   EffectSearch search(basis.table, from->state, from->in_use(), basis.options, context);
-  const std::size_t protected_terms = search.in_use().size();
-  // Steps are counted as well: what is dropped may come back.
-  for (int k = 0; k < 2 * basis.options.max_effects; ++k) {
-    const std::size_t added = search.in_use().size() - protected_terms;
-    if (static_cast<int>(added) >= basis.options.max_effects) break;
-    context.report("rank", k / (2.0 * basis.options.max_effects), "ranking effects");
-    search.rank();
-    if (context.stopped()) return Error::cancelled();
-    const auto best = search.best();
-    if (!best) break;
-    const EffectColumns columns =
-        search.linear().columns.list()[search.candidates()[*best].columns];
-    const std::string id = columns.effect->info().id;
-    search.add(columns.effect, columns.shape);
-    ModelStep next = changed(step, ModelChange::kAdd, id);
-    // An effect that was switched off comes back with the shape found.
-    std::erase_if(next.terms, [&](const ModelTerm& term) { return term.spec == id; });
-    next.terms.push_back(new_term(id, columns.effect, columns.shape, basis.table));
-    while (!context.stopped()) {
-      const auto drop = search.superfluous();
-      if (!drop || *drop < protected_terms || *drop + 1 == search.in_use().size()) break;
-      const std::string dropped = search.in_use()[*drop].effect->info().id;
-      search.remove(*drop);
-      std::erase_if(next.terms,
-                    [&](const ModelTerm& t) { return t.on && t.use.effect->info().id == dropped; });
-    }
+  std::vector<Selection> selections;
+  for (const EffectInUse& use : search.in_use())
+    selections.push_back({use.effect->info().id, {}, 0.0, 0.0, 1.0});
+  const std::size_t protected_terms = selections.size();
+  std::optional<Error> failed;
+  grow_model(search, selections, protected_terms, basis.options, context, [&] {
+    if (failed || context.stopped()) return;
+    ModelStep next = changed(step, ModelChange::kAdd, selections.back().id);
+    next.terms = terms_of(search, step->terms);
     auto made = step_from(search, std::move(next), context);
-    if (!made) return made.error();
+    if (!made) {
+      failed = made.error();
+      return;
+    }
     step = *made;
     if (on_step) on_step(step);
-  }
+  });
+  if (context.stopped()) return Error::cancelled();
+  if (failed) return *failed;
   return step;
 }
 

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/model_growth.h"
+
+#include <algorithm>
+
+namespace lvcalib {
+namespace {
+
+class Growth {
+ public:
+  Growth(EffectSearch& search, std::vector<Selection>& selections, std::size_t fixed,
+         const DiscoveryOptions& options, const RunContext& context,
+         const std::function<void()>& on_added)
+      : search_(search),
+        selections_(selections),
+        fixed_(fixed),
+        options_(options),
+        context_(context),
+        on_added_(on_added) {}
+
+  void run() {
+    for (int step = 0;; ++step) {
+      context_.report("rank", 0.3 + 0.55 * step / (options_.max_effects + 1.0),
+                      "ranking effects, " + std::to_string(selections_.size()) + " in the model");
+      search_.rank();
+      // Steps are counted as well: what is dropped may come back.
+      if (context_.stopped() ||
+          static_cast<int>(selections_.size() - fixed_) >= options_.max_effects ||
+          step >= 2 * options_.max_effects)
+        return;
+      const auto best = search_.best();
+      if (!best) return;
+      const Candidate& c = search_.candidates()[*best];
+      const EffectColumns columns = search_.linear().columns.list()[c.columns];
+      Selection s{columns.effect->info().id, aliases_of(search_, *best, options_),
+                  c.best_heldout_gain(), c.total_gain(), c.p_value};
+      search_.add(columns.effect, columns.shape);
+      selections_.push_back(s);
+      try_swaps();
+      drop_superfluous();
+      on_added_();
+      if (context_.stopped()) return;
+    }
+  }
+
+ private:
+  // Whether an alias in an effect's place predicts held-out scenes better, by more than one
+  // standard error over scenes, after a full refit.
+  void try_swaps() {
+    int left = options_.swaps;
+    for (std::size_t k = fixed_; k < selections_.size(); ++k) {
+      const std::vector<std::string> aliases = selections_[k].aliases;
+      for (const std::string& id : aliases) {
+        if (left-- <= 0 || context_.stopped()) return;
+        const EffectPtr effect = find_effect(id);
+        const bool used = std::any_of(selections_.begin(), selections_.end(),
+                                      [&](const Selection& other) { return other.id == id; });
+        if (effect == nullptr || used) continue;
+        EffectSearch trial(search_);
+        trial.remove(k);
+        trial.add(effect, trial.preferred_shape(effect));
+        if (context_.stopped()) return;
+        std::vector<double> gain;
+        for (std::size_t s = 0; s < trial.reference().density.size(); ++s)
+          gain.push_back(trial.reference().density[s] - search_.reference().density[s]);
+        if (!is_gain(gain)) continue;
+        const EffectInUse swapped = trial.in_use().back();
+        search_.replace(k, swapped.effect, swapped.shape);
+        std::replace(selections_[k].aliases.begin(), selections_[k].aliases.end(), id,
+                     selections_[k].id);
+        selections_[k].id = id;
+      }
+    }
+  }
+
+  // What a later effect explains better goes again (never what the user asked for).
+  void drop_superfluous() {
+    while (!context_.stopped() && selections_.size() > fixed_ + 1) {
+      const auto k = search_.superfluous();
+      if (!k || *k < fixed_ || *k + 1 == selections_.size()) return;
+      search_.remove(*k);
+      selections_.erase(selections_.begin() + static_cast<std::ptrdiff_t>(*k));
+    }
+  }
+
+  EffectSearch& search_;
+  std::vector<Selection>& selections_;
+  std::size_t fixed_;
+  const DiscoveryOptions& options_;
+  const RunContext& context_;
+  const std::function<void()>& on_added_;
+};
+
+}  // namespace
+
+void grow_model(EffectSearch& search, std::vector<Selection>& selections, std::size_t fixed,
+                const DiscoveryOptions& options, const RunContext& context,
+                const std::function<void()>& on_added) {
+  Growth(search, selections, fixed, options, context, on_added).run();
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "discovery/model_growth.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+class Growing : public ::testing::Test {
+ protected:
+  Growing() {
+    test::Disturbance wrong;
+    wrong.range_m = [](const BeamPoint& beam) { return 0.008 * beam.darkness; };
+    wrong.corner_px = [](const CornerRow& row) {
+      return Eigen::Vector2d(0.15 * row.from_tag_px.normalized());
+    };
+    made_ = test::synthetic_table({}, wrong);
+  }
+  [[nodiscard]] std::vector<std::string> ids(const EffectSearch& search) const {
+    std::vector<std::string> out;
+    for (const EffectInUse& use : search.in_use()) out.push_back(use.effect->info().id);
+    return out;
+  }
+  [[nodiscard]] std::vector<std::string> ids() const {
+    std::vector<std::string> out;
+    for (const Selection& s : selections_) out.push_back(s.id);
+    return out;
+  }
+  test::SyntheticTable made_;
+  DiscoveryOptions options_;
+  RunContext context_;
+  std::vector<Selection> selections_;
+};
+
+TEST_F(Growing, AddsWhatIsThereAndKeepsTheListsInStep) {
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  std::size_t rounds = 0;
+  grow_model(search, selections_, 0, options_, context_, [&] {
+    ++rounds;
+    EXPECT_EQ(ids(), ids(search));
+  });
+  EXPECT_EQ(rounds, 2U);
+  EXPECT_THAT(ids(), ::testing::UnorderedElementsAre("range_walk", "corner_bias"));
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(Growing, TheUsersOwnStayHoweverUseless) {
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  search.add(find_effect("range_cyclic"), 0.3);
+  selections_.push_back({"range_cyclic", {}, 0.0, 0.0, 1.0});
+  options_.max_effects = 1;  // beside the user's
+  grow_model(search, selections_, 1, options_, context_, [] {});
+  ASSERT_EQ(selections_.size(), 2U);
+  EXPECT_EQ(selections_[0].id, "range_cyclic");
+  EXPECT_EQ(ids(), ids(search));
+}
+
+TEST_F(Growing, AStoppedSearchAddsNothing) {
+  std::stop_source stop;
+  context_.stop = stop.get_token();
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  stop.request_stop();
+  grow_model(search, selections_, 0, options_, context_, [] { FAIL(); });
+  EXPECT_TRUE(selections_.empty());
+}
+
+}  // namespace
+}  // namespace lvcalib
