@@ -2979,14 +2979,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>可能移动</translation>
     </message>
     <message>
-        <source>Left</source>
-        <translation>残留</translation>
-    </message>
-    <message>
-        <source>Share of its squared effect that the poses leave</source>
-        <translation>位姿吸收后剩下的平方效应份额</translation>
-    </message>
-    <message>
         <source>&amp;Find all</source>
         <translation>全部查找(&amp;F)</translation>
     </message>
@@ -3001,6 +2993,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>%1 and %2</source>
         <translation>%1 和 %2</translation>
+    </message>
+    <message>
+        <source>If as large as</source>
+        <translation>若大到</translation>
+    </message>
+    <message>
+        <source>Upper 95 % limit of its largest parameter; beyond it these scenes would show it</source>
+        <translation>其最大参数的 95 % 上限；超过它这些场景就会显示出来</translation>
     </message>
 </context>
 <context>
