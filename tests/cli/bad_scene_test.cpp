@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 using Spoil = std::function<void(const fs::path&)>;
-constexpr const char* kImage = "scenes/B/image.png";
-constexpr const char* kCloud = "scenes/B/cloud.pcd";
+constexpr const char* kSceneImage = "scenes/B/image.png";
+constexpr const char* kSceneCloud = "scenes/B/cloud.pcd";
 
 Spoil write(const char* name, const std::string& content) {
   return [=](const fs::path& dataset) { write_file(dataset / name, content); };
@@ -65,10 +65,10 @@ std::string damaged(std::string bytes) {
 
 Spoil resize_image(double factor) {
   return [=](const fs::path& dataset) {
-    cv::Mat image = cv::imread((dataset / kImage).string(), cv::IMREAD_UNCHANGED);
+    cv::Mat image = cv::imread((dataset / kSceneImage).string(), cv::IMREAD_UNCHANGED);
     cv::resize(image, image, {}, factor, factor);
-    fs::remove(dataset / kImage);
-    cv::imwrite((dataset / kImage).string(), image);
+    fs::remove(dataset / kSceneImage);
+    cv::imwrite((dataset / kSceneImage).string(), image);
   };
 }
 
@@ -78,16 +78,16 @@ std::vector<BadInput> images() {
        resize_image(0.5),
        3,
        {"B/image.png: ", "512 × 384", "1024 × 768", "intrinsics"}},
-      {"EmptyImage", write(kImage, ""), 3, {"B/image.png: "}},
-      {"TextAsImage", write(kImage, "this is no image\n"), 3, {"B/image.png: ", "expected"}},
-      {"TruncatedImage", change(kImage, first_half), 3, {"B/image.png: "}},
-      {"DamagedImage", change(kImage, damaged), 3, {"B/image.png: "}},
+      {"EmptyImage", write(kSceneImage, ""), 3, {"B/image.png: "}},
+      {"TextAsImage", write(kSceneImage, "this is no image\n"), 3, {"B/image.png: ", "expected"}},
+      {"TruncatedImage", change(kSceneImage, first_half), 3, {"B/image.png: "}},
+      {"DamagedImage", change(kSceneImage, damaged), 3, {"B/image.png: "}},
       {"HeaderOnlyImage",
-       change(kImage, [](const std::string& png) { return png.substr(0, 33); }),
+       change(kSceneImage, [](const std::string& png) { return png.substr(0, 33); }),
        3,
        {"B/image.png: "}},
       {"HugeImage",
-       change(kImage, claiming_huge_size),
+       change(kSceneImage, claiming_huge_size),
        3,
        {"B/image.png: ", "claims 2147483647 × 2147483647 pixels; expected"}},
   };
@@ -111,11 +111,11 @@ std::string binary_floats(std::size_t count, float value) {
 }
 
 void drop_intensity(const fs::path& dataset) {
-  auto cloud = read_cloud(dataset / kCloud);
+  auto cloud = read_cloud(dataset / kSceneCloud);
   ASSERT_TRUE(cloud.ok());
   cloud->intensity.clear();
-  fs::remove(dataset / kCloud);
-  ASSERT_TRUE(write_pcd(dataset / kCloud, *cloud).ok());
+  fs::remove(dataset / kSceneCloud);
+  ASSERT_TRUE(write_pcd(dataset / kSceneCloud, *cloud).ok());
 }
 
 std::string with_other_data(std::string bytes) {
@@ -128,42 +128,48 @@ std::vector<BadInput> clouds() {
   const std::string where = "B/cloud.pcd: ";
   return {
       {"NoIntensity", drop_intensity, 3, {where, "no intensity"}},
-      {"EmptyCloud", write(kCloud, ""), 3, {where}},
-      {"NoPoints", write(kCloud, pcd_header("x y z intensity", 0, "binary")), 3, {where, "points"}},
+      {"EmptyCloud", write(kSceneCloud, ""), 3, {where}},
+      {"NoPoints",
+       write(kSceneCloud, pcd_header("x y z intensity", 0, "binary")),
+       3,
+       {where, "points"}},
       {"AllNan",
-       write(kCloud, pcd_header("x y z intensity", 1000, "binary") + binary_floats(4000, kNan)),
+       write(kSceneCloud,
+             pcd_header("x y z intensity", 1000, "binary") + binary_floats(4000, kNan)),
        3,
        {where, "1000", "finite"}},
       {"AllInfinite",
-       write(kCloud,
+       write(kSceneCloud,
              pcd_header("x y z intensity", 1000, "binary") + binary_floats(4000, HUGE_VALF)),
        3,
        {where, "1000", "finite"}},
-      {"TruncatedCloud", change(kCloud, first_half), 3, {where, "truncated", "points"}},
+      {"TruncatedCloud", change(kSceneCloud, first_half), 3, {where, "truncated", "points"}},
       {"ManyClaimedPoints",
-       write(kCloud, pcd_header("x y z intensity", 100'000'000, "binary") + binary_floats(400, 1)),
+       write(kSceneCloud,
+             pcd_header("x y z intensity", 100'000'000, "binary") + binary_floats(400, 1)),
        3,
        {where, "100000000", "100"}},
       {"ManyClaimedTextPoints",
-       write(kCloud, pcd_header("x y z intensity", 100'000'000, "ascii") + "1 2 3 4\n5 6 7 8\n"),
+       write(kSceneCloud,
+             pcd_header("x y z intensity", 100'000'000, "ascii") + "1 2 3 4\n5 6 7 8\n"),
        3,
        {where, "100000000", "2"}},
       {"ManyClaimedPackedPoints",
-       write(kCloud, pcd_header("x y z intensity", 100'000'000, "binary_compressed") +
-                         std::string("\x08\x00\x00\x00\x00\x10\x5e\x5f", 8) + "12345678"),
+       write(kSceneCloud, pcd_header("x y z intensity", 100'000'000, "binary_compressed") +
+                              std::string("\x08\x00\x00\x00\x00\x10\x5e\x5f", 8) + "12345678"),
        3,
        {where, "100000000"}},
       {"WrongDataKeyword",
-       change(kCloud, with_other_data),
+       change(kSceneCloud, with_other_data),
        3,
        {where, "DATA 'binray' is not known, expected ascii, binary or binary_compressed"}},
-      {"TextAsCloud", write(kCloud, "Dear diary,\ntoday no cloud was seen.\n"), 3, {where}},
+      {"TextAsCloud", write(kSceneCloud, "Dear diary,\ntoday no cloud was seen.\n"), 3, {where}},
       {"WordsAsNumbers",
-       write(kCloud, pcd_header("x y z intensity", 2, "ascii") + "1 2 3 4\n1 two 3 4\n"),
+       write(kSceneCloud, pcd_header("x y z intensity", 2, "ascii") + "1 2 3 4\n1 two 3 4\n"),
        3,
        {where, "two"}},
       {"NoCoordinates",
-       write(kCloud, pcd_header("a b c intensity", 2, "ascii") + "1 2 3 4\n1 2 3 4\n"),
+       write(kSceneCloud, pcd_header("a b c intensity", 2, "ascii") + "1 2 3 4\n1 2 3 4\n"),
        3,
        {where, "x"}},
   };
@@ -188,14 +194,14 @@ INSTANTIATE_TEST_SUITE_P(Dataset, BadScene, ::testing::ValuesIn(failing()),
 std::vector<BadInput> costing_a_scene() {
   return {
       {"FewPoints",
-       write(kCloud, pcd_header("x y z intensity", 2, "ascii") + "1 2 3 4\n1 2 2 4\n"),
+       write(kSceneCloud, pcd_header("x y z intensity", 2, "ascii") + "1 2 3 4\n1 2 2 4\n"),
        0,
        {"scene B is not used", "not found in the cloud"}},
       {"GreyImage",
        [](const fs::path& dataset) {
          const cv::Mat grey(768, 1024, CV_8U, cv::Scalar(128));
-         fs::remove(dataset / kImage);
-         cv::imwrite((dataset / kImage).string(), grey);
+         fs::remove(dataset / kSceneImage);
+         cv::imwrite((dataset / kSceneImage).string(), grey);
        },
        0,
        {"scene B is not used", "B/image.png: no tags in the image"}},
