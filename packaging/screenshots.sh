@@ -28,7 +28,8 @@ QT_SCALE_FACTOR=$scale LIBGL_ALWAYS_SOFTWARE=1 \
 # Few colours and less size: a guide's picture has 150 kB at most.
 if [[ -n $guide ]]; then
   for name in welcome running scene-light crop-light refinement-light extrinsic-light \
-    extrinsic-2-light response-light exports-light scene-dark; do
+    extrinsic-2-light response-light exports-light scene-dark \
+    model-missing-light model-added-light model-unseen-light; do
     small="$guide/workbench-${name%-light}.png"
     convert "$folder/$name.png" -resize '1100x>' +dither -colors 96 -strip \
       -define png:compression-level=9 "PNG8:$small"
