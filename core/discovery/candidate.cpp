@@ -107,6 +107,10 @@ double Candidate::total_gain() const {
   return std::accumulate(scene_gain.begin(), scene_gain.end(), 0.0);
 }
 
+double Candidate::total_density() const {
+  return std::accumulate(scene_density.begin(), scene_density.end(), 0.0);
+}
+
 double Candidate::best_heldout_gain() const {
   return *std::max_element(heldout_gain.begin(), heldout_gain.end());
 }
@@ -166,7 +170,8 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   std::array<double, kChannels> without{};
   const auto heldout = heldout_squares(linear, out.fit);
   for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
-    out.scene_gain.push_back(predictive_log_density(out.fit, s) - reference.density[s]);
+    out.scene_density.push_back(predictive_log_density(out.fit, s));
+    out.scene_gain.push_back(out.scene_density[s] - reference.density[s]);
     out.scene_squares_fall.push_back(total(reference.heldout[s]) - total(heldout[s]));
     for (std::size_t k = 0; k < kChannels; ++k) {
       with[k] += heldout[s][k];
@@ -257,8 +262,8 @@ double correlation_of(const Linearization& linear, const Reference& reference, s
 
 bool indistinguishable(const Candidate& a, const Candidate& b) {
   std::vector<double> difference;
-  for (std::size_t s = 0; s < a.scene_gain.size(); ++s)
-    difference.push_back(a.scene_gain[s] - b.scene_gain[s]);
+  for (std::size_t s = 0; s < a.scene_density.size(); ++s)
+    difference.push_back(a.scene_density[s] - b.scene_density[s]);
   const MeanAndError d = mean_of(difference);
   return std::abs(d.mean) < d.error;
 }

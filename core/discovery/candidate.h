@@ -13,6 +13,8 @@ struct Candidate {
   std::size_t columns = 0;  ///< Index into the linearisation's list.
   ModelFit fit;
   std::vector<double> scene_gain;  ///< Predictive log-density over that without it, per scene.
+  /// The density itself: candidates that are compared with different models are ranked by it.
+  std::vector<double> scene_density;
   std::vector<double> scene_squares_fall;        ///< Held-out squares over all channels, per scene.
   std::array<double, kChannels> heldout_gain{};  ///< Relative fall of squares, per channel.
   std::array<double, kChannels> heldout_fall{};  ///< Fall of squares, units of the noise.
@@ -24,6 +26,7 @@ struct Candidate {
   /// what all of them do together to the measurements (see is_material in the source).
   bool material = true;
   [[nodiscard]] double total_gain() const;
+  [[nodiscard]] double total_density() const;
   [[nodiscard]] double best_heldout_gain() const;
   /// The channel whose held-out squares fall most, counted in units of the noise.
   [[nodiscard]] Channel main_channel() const;

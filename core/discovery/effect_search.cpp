@@ -26,6 +26,12 @@ void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
   }
 }
 
+void sort_best_first(std::vector<Candidate>& candidates) {
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.total_density() > b.total_density(); });
+}
+
 }  // namespace
 
 EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
@@ -83,9 +89,7 @@ ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
 
 Reference EffectSearch::without_natural() const {
   ColumnSubset subset = reference_.subset;
-  const auto at = static_cast<std::size_t>(std::find(subset.columns.begin(), subset.columns.end(),
-                                                     linear_.columns.list()[in_use_.size()].first) -
-                                           subset.columns.begin());
+  const std::size_t at = subset.columns.size() - 1;  // the natural footprint's comes last
   subset.prior_mean[at] = -natural_.values(0);
   subset.prior_sigma[at] = 1e-6;
   return make_reference(linear_, subset, variances_, {});
@@ -207,18 +211,14 @@ void EffectSearch::rank() {
   parallel_for(candidates_.size(), context_.thread_count(),
                [&](std::size_t k) { evaluate(k, {.rounds = 3}); });
   if (context_.stopped()) return;
-  std::stable_sort(
-      candidates_.begin(), candidates_.end(),
-      [](const Candidate& a, const Candidate& b) { return a.total_gain() > b.total_gain(); });
+  sort_best_first(candidates_);
   parallel_for(std::min(kFinalists, candidates_.size()), context_.thread_count(),
                [&](std::size_t k) {
                  if (context_.stopped()) return;
                  const std::size_t at = candidates_[k].columns;
                  candidates_[k] = evaluate_candidate(linear_, compared_with(at), at, {});
                });
-  std::stable_sort(
-      candidates_.begin(), candidates_.end(),
-      [](const Candidate& a, const Candidate& b) { return a.total_gain() > b.total_gain(); });
+  sort_best_first(candidates_);
   refit_promising();
 }
 
@@ -232,16 +232,18 @@ void EffectSearch::refit_promising() {
         c.material && c.p_value * static_cast<double>(tried) <= options_.false_alarm;
     if (!promising) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
+    const Reference& without_it = compared_with(c.columns);
     EffectSearch trial(*this);
     trial.add(columns.effect, columns.shape);
     if (context_.stopped()) return;
     std::array<double, kChannels> with{};
     std::array<double, kChannels> without{};
     for (std::size_t s = 0; s < table_.scenes.size(); ++s) {
-      c.scene_gain[s] = trial.reference_.density[s] - reference_.density[s];
+      c.scene_density[s] = trial.reference_.density[s];
+      c.scene_gain[s] = c.scene_density[s] - without_it.density[s];
       for (std::size_t channel = 0; channel < kChannels; ++channel) {
         with[channel] += trial.reference_.heldout[s][channel];
-        without[channel] += reference_.heldout[s][channel];
+        without[channel] += without_it.heldout[s][channel];
       }
     }
     c.set_heldout(with, without);

@@ -259,6 +259,19 @@ Result<ModelStepPtr> apply_decision(const ModelStepPtr& from, const ModelDecisio
   }
 }
 
+std::vector<ModelDecision> decisions_between(const ModelStep& before, const ModelStep& after) {
+  std::vector<ModelDecision> out;
+  for (const ModelTerm& term : before.terms) {
+    if (!after.find(term.spec)) out.push_back({ModelChange::kRemove, term.spec, {}});
+  }
+  for (const ModelTerm& term : after.terms) {
+    const auto at = before.find(term.spec);
+    const bool was_on = at && before.terms[*at].on;
+    if (term.on && !was_on) out.push_back({ModelChange::kAdd, term.spec, {}});
+  }
+  return out;
+}
+
 Result<ModelStepPtr> find_all(const ModelStepPtr& from,
                               const std::function<void(const ModelStepPtr&)>& on_step,
                               const RunContext& context) {

@@ -93,6 +93,10 @@ struct ModelDecision {
 Result<ModelStepPtr> apply_decision(const ModelStepPtr& from, const ModelDecision& decision,
                                     const RunContext& context);
 
+/// Decisions that turn one step of a search into the next: what it dropped or swapped out, then
+/// what it added or took back in.
+std::vector<ModelDecision> decisions_between(const ModelStep& before, const ModelStep& after);
+
 /// The search's own loop from here: adds the best accepted effect and drops what it makes
 /// superfluous (nothing that was there before), until no effect is accepted. `on_step` sees every
 /// step. Errors: kCancelled.

@@ -21,15 +21,6 @@ std::string key_of(const std::vector<ModelDecision>& decisions) {
   return key;
 }
 
-// Decisions that turn one step into the next one of a search: what it added and what it dropped.
-std::vector<ModelDecision> decisions_between(const ModelStep& before, const ModelStep& after) {
-  std::vector<ModelDecision> out{{ModelChange::kAdd, after.changed, {}}};
-  for (const ModelTerm& term : before.terms) {
-    if (!after.find(term.spec)) out.push_back({ModelChange::kRemove, term.spec, {}});
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<ModelDecision> ModelWork::Place::in_force() const {

@@ -145,10 +145,10 @@ TEST_F(Candidates, EqualPatternsCorrelateAndUnlikeOnesDoNot) {
 TEST_F(Candidates, TiesAreThoseThatScenesDoNotTellApart) {
   Candidate a;
   Candidate b;
-  a.scene_gain = {5.0, 6.0, 7.0, 5.5};
-  b.scene_gain = {5.2, 5.7, 7.3, 5.4};
+  a.scene_density = {5.0, 6.0, 7.0, 5.5};
+  b.scene_density = {5.2, 5.7, 7.3, 5.4};
   EXPECT_TRUE(indistinguishable(a, b));
-  b.scene_gain = {3.0, 4.1, 5.0, 3.4};
+  b.scene_density = {3.0, 4.1, 5.0, 3.4};
   EXPECT_FALSE(indistinguishable(a, b));
 }
 

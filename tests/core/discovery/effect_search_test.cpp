@@ -137,6 +137,18 @@ TEST_F(SearchState, InkOnTopOfTheFootprintHasItsOwnSize) {
   EXPECT_LT(sigma, 0.0002);
 }
 
+// An effect that describes the footprint is compared with a poorer model; that alone must not put
+// it before others.
+TEST_F(SearchState, InkIsNotTakenForAWideFootprint) {
+  const auto made = with_footprint(1.5e-6, 1.4e-6, -0.0012);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  const std::string id = id_of(search, search.candidates()[*best]);
+  EXPECT_TRUE(id == "ink_gain" || id == "boundary_bias" || id == "blooming") << id;
+}
+
 TEST_F(SearchState, AFootprintThatMattersIsFoundAndTakesTheNaturalOnesPlace) {
   const auto made = with_footprint(9e-6, 8e-6, 0.0);
   EffectSearch search(made.table, made.truth, options_, context_);

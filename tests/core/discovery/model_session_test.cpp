@@ -152,6 +152,28 @@ TEST_F(Session, FindAllAddsWhatIsHiddenStepByStep) {
   EXPECT_EQ(seen[1], *found);
 }
 
+// A search may swap an earlier effect for its alias while it adds another one.
+TEST(DecisionsBetween, TellDropsSwapsAndWhatComesBack) {
+  const auto step = [](std::initializer_list<std::pair<const char*, bool>> terms) {
+    ModelStep out;
+    for (const auto& [spec, on] : terms) {
+      out.terms.emplace_back();
+      out.terms.back().spec = spec;
+      out.terms.back().on = on;
+    }
+    return out;
+  };
+  const ModelStep before = step({{"ink_gain", true}, {"range_walk", true}, {"board_bow", false}});
+  const ModelStep after = step(
+      {{"boundary_bias", true}, {"range_walk", true}, {"board_bow", true}, {"blooming", true}});
+  const std::vector<ModelDecision> expected{{ModelChange::kRemove, "ink_gain", {}},
+                                            {ModelChange::kAdd, "boundary_bias", {}},
+                                            {ModelChange::kAdd, "board_bow", {}},
+                                            {ModelChange::kAdd, "blooming", {}}};
+  EXPECT_EQ(decisions_between(before, after), expected);
+  EXPECT_TRUE(decisions_between(after, after).empty());
+}
+
 TEST_F(Session, FindAllLeavesACleanModelAlone) {
   const ModelStepPtr base = start({});
   const auto found = find_all(base, {}, context_);
