@@ -2,7 +2,6 @@
 #include "discovery/proposals.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "base/text.h"

@@ -2,7 +2,6 @@
 #include "pipeline/calibration.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 

@@ -12,7 +12,6 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/file_io.h"

@@ -133,11 +133,6 @@ QString values_text(const std::vector<ParameterEstimate>& parameters, bool held)
   return out;
 }
 
-QString percent_text(double share) {
-  const double percent = 100.0 * share;
-  return QStringLiteral("%1 %").arg(percent, 0, 'f', percent < 0.095 ? 2 : percent < 9.5 ? 1 : 0);
-}
-
 QString move_text(double mm, double mrad) {
   return QStringLiteral("%1 mm, %2 mrad").arg(mm, 0, 'f', 1).arg(mrad, 0, 'f', 2);
 }

@@ -24,8 +24,6 @@ QString effect_title(const std::string& spec);
 QString value_text(const ParameterEstimate& parameter, bool held);
 /// "a = 8.1 ± 0.1 mm, b = …", the first few.
 QString values_text(const std::vector<ParameterEstimate>& parameters, bool held);
-/// A share as "0.3 %" or "42 %".
-QString percent_text(double share);
 /// "1.3 mm, 0.2 mrad".
 QString move_text(double mm, double mrad);
 

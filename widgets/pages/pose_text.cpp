@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pages/pose_text.h"
 
-#include <QCoreApplication>
 #include <cmath>
-#include <numbers>
 
 #include "base/roll_pitch_yaw.h"
 #include "base/units.h"

@@ -10,7 +10,6 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <numbers>
 
 #include "base/units.h"
 #include "refinement/node_fit.h"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pages/response_table.h"
 
-#include <QCoreApplication>
 #include <QHeaderView>
 #include <QTableWidget>
-#include <numbers>
 
 #include "base/units.h"
 #include "pages/page_tr.h"

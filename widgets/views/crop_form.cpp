@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <algorithm>
-#include <numbers>
 
 #include "base/roll_pitch_yaw.h"
 #include "base/units.h"
