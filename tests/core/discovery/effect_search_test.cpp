@@ -140,7 +140,7 @@ TEST_F(SearchState, InkOnTopOfTheFootprintHasItsOwnSize) {
 // An effect that describes the footprint is compared with a poorer model; that alone must not put
 // it before others.
 TEST_F(SearchState, InkIsNotTakenForAWideFootprint) {
-  const auto made = with_footprint(1.5e-6, 1.4e-6, -0.0012);
+  const auto made = with_footprint(8e-6, 8e-6, -0.0004);
   EffectSearch search(made.table, made.truth, options_, context_);
   search.rank();
   const auto best = search.best();
