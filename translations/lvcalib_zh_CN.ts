@@ -266,6 +266,10 @@ were saved. Take them up again?</source>
         <translation>在点云中找不到标定板（%1）；激光雷达的视线穿过了图像中标定板所在的位置：图像与点云属于同一场景吗？</translation>
     </message>
     <message>
+        <source>the board is not found in the cloud (%1); something nearer stands where the image has it: does the image belong to this cloud, or is the board hidden from the LiDAR?</source>
+        <translation>在点云中找不到标定板（%1）；图像中标定板所在的位置之前有更近的物体：图像与点云属于同一场景吗？还是标定板被遮挡而激光雷达看不到？</translation>
+    </message>
+    <message>
         <source>the board is not found in the cloud (%1)</source>
         <translation>在点云中找不到标定板（%1）</translation>
     </message>

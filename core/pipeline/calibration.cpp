@@ -114,16 +114,9 @@ class Calibration {
       scene.chosen = result_.consensus.chosen[s];
       if (!scene.reason.empty() || scene.chosen) continue;
       const bool elsewhere = scene.search && !scene.search->candidates.empty();
-      scene.contradicts = elsewhere || scene.looks_through;
-      if (elsewhere) {
-        scene.reason = "the board found in the cloud does not agree with the other scenes";
-      } else {
-        scene.reason = "the board is not found in the cloud (" + search_summary(scene) + ")";
-        if (scene.looks_through)
-          scene.reason +=
-              "; the LiDAR sees past the place where the image has it: does the image "
-              "belong to this cloud?";
-      }
+      scene.contradicts = elsewhere || scene.place != BoardPlace::kOpen;
+      scene.reason = elsewhere ? "the board found in the cloud does not agree with the other scenes"
+                               : missing_board(scene);
     }
     return Done{};
   }
@@ -165,6 +158,23 @@ class Calibration {
     if (scene.search->best_correlation > 0) {
       text += ", best pattern correlation " +
               std::to_string(scene.search->best_correlation).substr(0, 4);
+    }
+    return text;
+  }
+
+  static std::string missing_board(const SceneResult& scene) {
+    std::string text = "the board is not found in the cloud (" + search_summary(scene) + ")";
+    switch (scene.place) {
+      case BoardPlace::kPast:
+        return text +
+               "; the LiDAR sees past the place where the image has it: does the image belong to "
+               "this cloud?";
+      case BoardPlace::kHidden:
+        return text +
+               "; something nearer stands where the image has it: does the image belong to this "
+               "cloud, or is the board hidden from the LiDAR?";
+      case BoardPlace::kOpen:
+        break;
     }
     return text;
   }

@@ -32,9 +32,9 @@ struct StageTimes {
 struct SceneResult {
   std::string name;
   bool used = false;
-  std::string reason;          ///< Why it is not used, in words.
-  bool looks_through = false;  ///< The LiDAR sees past the place where the others put its board.
-  bool contradicts = false;    ///< Left out because it disagrees with the other scenes.
+  std::string reason;                    ///< Why it is not used, in words.
+  bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
+  BoardPlace place = BoardPlace::kOpen;  ///< What is where the other scenes put its board.
   std::optional<BoardView> view;
   std::optional<BoardSearchResult> search;
   std::optional<std::size_t> chosen;  ///< Candidate that all scenes agree on.

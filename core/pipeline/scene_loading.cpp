@@ -217,12 +217,17 @@ Status search_scene_again(const SceneFiles& files, const CalibrationRequest& req
                           const PatternPyramid& pyramid, CalibrationResult& result,
                           std::size_t index, StageCache* cache) {
   SceneResult& scene = result.scenes[index];
+  // A board that the first look found is still somewhere if the second does not see it here.
+  const auto take = [&scene](const SecondLook& look) {
+    scene.place = look.place;
+    if (!scene.search || !look.search.candidates.empty()) scene.search = look.search;
+  };
   std::string key;
   if (cache != nullptr) {
     // The first look came before, so its key stands for files and options.
     key = second_look_key(cache->scene(files.name).search.key, region);
     if (const auto* kept = cache->scene(files.name).second_look.find(key)) {
-      scene.search = *kept;
+      take(*kept);
       return Done{};
     }
   }
@@ -230,28 +235,30 @@ Status search_scene_again(const SceneFiles& files, const CalibrationRequest& req
   if (!cloud) return cloud.error();
   BoardSearchOptions options = request.options.localization;
   options.search_walls = true;
-  auto search =
+  SecondLook look;
+  look.search =
       search_board(*cloud, result.target, pyramid, board_distance(*scene.view, result.target),
                    region.radius_m > 0 ? std::optional(region) : std::nullopt, options, context);
   if (context.stopped()) return Error::cancelled();
-  if (cache != nullptr) cache->scene(files.name).second_look.keep(key, search);
-  scene.search = std::move(search);
-  scene.looks_through =
-      region.radius_m > 0 && looks_through(*cloud, region.center_m, result.target);
+  if (region.radius_m > 0) look.place = look_at_place(*cloud, region.center_m, result.target);
+  take(look);
+  if (cache != nullptr) cache->scene(files.name).second_look.keep(key, std::move(look));
   return Done{};
 }
 
-bool looks_through(const Cloud& cloud, const Eigen::Vector3d& center_m, const Target& target) {
+BoardPlace look_at_place(const Cloud& cloud, const Eigen::Vector3d& center_m,
+                         const Target& target) {
   constexpr int kFewest = 20;      // Rays that a conclusion needs.
-  constexpr double kShare = 0.8;   // Of them, how many go on.
+  constexpr double kShare = 0.8;   // Of them, how many end elsewhere.
   constexpr double kMiddle = 0.3;  // Of the board's side: certainly inside, however it is turned.
   constexpr double kMargin_m = 0.1;
   const double radius = kMiddle * target.outline().size_m().minCoeff();
   const double range = center_m.norm();
-  if (!(range > radius)) return false;
+  if (!(range > radius)) return BoardPlace::kOpen;
   const Eigen::Vector3d sight = center_m / range;
   const double cosine = std::cos(std::asin(radius / range));
-  int through = 0;
+  int past = 0;
+  int before = 0;
   int all = 0;
   for (const Eigen::Vector3f& point : cloud.points_m) {
     const Eigen::Vector3d p = point.cast<double>();
@@ -259,9 +266,11 @@ bool looks_through(const Cloud& cloud, const Eigen::Vector3d& center_m, const Ta
     if (p.dot(sight) < cosine * distance) continue;
     ++all;
     // On a turned board ranges differ by no more than the radius at any believable angle.
-    through += distance > range + radius + kMargin_m ? 1 : 0;
+    past += distance > range + radius + kMargin_m ? 1 : 0;
+    before += distance < range - radius - kMargin_m ? 1 : 0;
   }
-  return through >= kFewest && through > kShare * all;
+  if (past + before < kFewest || past + before <= kShare * all) return BoardPlace::kOpen;
+  return past >= before ? BoardPlace::kPast : BoardPlace::kHidden;
 }
 
 }  // namespace lvcalib

@@ -20,14 +20,14 @@ Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
                    StageCache* cache = nullptr);
 
 /// Reads one scene's cloud (or crop) and searches the board in it once more, in a region.
-/// The result has taken the place of scenes[index].search.
+/// What is found has taken the place of scenes[index].search; if nothing is, that stays as it was.
 Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,
                           const BoardSearchRegion& region, const RunContext& context,
                           const PatternPyramid& pyramid, CalibrationResult& result,
                           std::size_t index, StageCache* cache = nullptr);
 
-/// Whether the LiDAR's rays go on where the board should stand with its middle at `center_m`
-/// (LiDAR frame): it is not there, and nothing hides it.
-bool looks_through(const Cloud& cloud, const Eigen::Vector3d& center_m, const Target& target);
+/// What the LiDAR measures where the board should stand with its middle at `center_m` (LiDAR
+/// frame): the rays end behind the place, before it, or on it (or too few of them tell).
+BoardPlace look_at_place(const Cloud& cloud, const Eigen::Vector3d& center_m, const Target& target);
 
 }  // namespace lvcalib

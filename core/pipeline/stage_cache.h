@@ -39,11 +39,24 @@ struct SeenBoard {
   std::string reason;
 };
 
+/// What a LiDAR that does not find the board measures at the place where the image has it.
+enum class BoardPlace {
+  kOpen,    ///< Nothing that speaks against the board, or too little.
+  kPast,    ///< The rays go on behind the place.
+  kHidden,  ///< Something nearer stands in their way.
+};
+
+/// What the search in a region found.
+struct SecondLook {
+  BoardSearchResult search;
+  BoardPlace place = BoardPlace::kOpen;
+};
+
 /// Everything kept of one scene. Board points are kept (in the searches' patches), full clouds not.
 struct SceneStages {
   Kept<SeenBoard> seen;
-  Kept<BoardSearchResult> search;       ///< First look.
-  Kept<BoardSearchResult> second_look;  ///< Where the other scenes put the board.
+  Kept<BoardSearchResult> search;  ///< First look.
+  Kept<SecondLook> second_look;    ///< Where the other scenes put the board.
   Kept<BoardRefinement> refinement;
 };
 

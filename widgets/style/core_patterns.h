@@ -79,6 +79,10 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "the board is not found in the cloud (%1); the LiDAR sees past the place "
                       "where the image has it: does the image belong to this cloud?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the board is not found in the cloud (%1); something nearer stands where the "
+                      "image has it: does the image belong to this cloud, or is the board hidden "
+                      "from the LiDAR?"),
     QT_TRANSLATE_NOOP("Core", "the board is not found in the cloud (%1)"),
     QT_TRANSLATE_NOOP("Core", "not searched"),
     QT_TRANSLATE_NOOP("Core", "%1 flat patches of its size, best pattern correlation %2"),

@@ -109,7 +109,31 @@ TEST(SearchSceneAgain, LooksInTheRegion) {
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
 }
 
-TEST(LooksThrough, OnlyWhereRaysGoOnBehindThePlace) {
+// An image of another scene sends the second look to a wrong place; the board that the first look
+// found is still the cloud's.
+TEST(SearchSceneAgain, KeepsWhatTheFirstLookFoundElsewhere) {
+  const test::SimulatedDataset data(test::dataset_options(15, 1));
+  const Dataset dataset = data.open();
+  CalibrationResult result = prepared(dataset);
+  StageCache cache;
+  cache.prepare(dataset);
+  ASSERT_TRUE(load_scenes(dataset, {}, {}, result, &cache).ok());
+  const std::size_t found = result.scenes[0].search->candidates.size();
+  ASSERT_GT(found, 0U);
+  const PatternPyramid pyramid(dataset.target);
+  BoardSearchRegion region;
+  region.center_m = 0.3 * (data.rig().scenes[0].lidar_from_board * Eigen::Vector3d::Zero());
+  region.radius_m = 0.2;
+  for (int time = 0; time < 2; ++time) {  // Searched, then kept.
+    result.scenes[0].place = BoardPlace::kOpen;
+    ASSERT_TRUE(
+        search_scene_again(dataset.scenes[0], {}, region, {}, pyramid, result, 0, &cache).ok());
+    EXPECT_EQ(result.scenes[0].search->candidates.size(), found);
+    EXPECT_EQ(result.scenes[0].place, BoardPlace::kPast);
+  }
+}
+
+TEST(LookAtPlace, TellsWhereRaysEnd) {
   const Target target;
   const Eigen::Vector3d center(3.0, 0.5, 0.2);
   const auto wall_at = [&](double range_m) {
@@ -123,11 +147,11 @@ TEST(LooksThrough, OnlyWhereRaysGoOnBehindThePlace) {
     }
     return cloud;
   };
-  EXPECT_TRUE(looks_through(wall_at(5.0), center, target));
-  EXPECT_FALSE(looks_through(wall_at(center.norm()), center, target));  // Something stands there,
-  EXPECT_FALSE(looks_through(wall_at(1.5), center, target));            // hides it,
-  EXPECT_FALSE(looks_through({}, center, target));                      // or is not in view.
-  EXPECT_FALSE(looks_through(wall_at(5.0), -center, target));
+  EXPECT_EQ(look_at_place(wall_at(5.0), center, target), BoardPlace::kPast);
+  EXPECT_EQ(look_at_place(wall_at(1.5), center, target), BoardPlace::kHidden);
+  EXPECT_EQ(look_at_place(wall_at(center.norm()), center, target), BoardPlace::kOpen);
+  EXPECT_EQ(look_at_place({}, center, target), BoardPlace::kOpen);
+  EXPECT_EQ(look_at_place(wall_at(5.0), -center, target), BoardPlace::kOpen);
 }
 
 }  // namespace
