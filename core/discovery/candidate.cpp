@@ -77,6 +77,33 @@ bool is_material(const EffectColumns& columns, const ModelFit& fit) {
   return alone && size + kUpper95 >= smallest;
 }
 
+// Whether the estimate agrees with parameters at or above their lowest values: the squared distance
+// to the nearest of these, in standard deviations, by coordinate descent (the problem is convex and
+// has few parameters).
+bool is_possible(const EffectColumns& columns, const ModelFit& fit) {
+  constexpr int kRounds = 50;
+  constexpr double kTwoSigma = 4.0;
+  const Eigen::Index p = columns.count();
+  const auto lowest = [&](Eigen::Index k) {
+    return columns.parameters[static_cast<std::size_t>(k)].lowest;
+  };
+  const Eigen::VectorXd theta = fit.solution.tail(p);
+  bool below = false;
+  for (Eigen::Index k = 0; k < p; ++k) below = below || theta(k) < lowest(k);
+  if (!below) return true;
+  const Eigen::MatrixXd s = information_of_last(fit, p);
+  Eigen::VectorXd off(p);  // from the estimate to the point tried
+  for (Eigen::Index k = 0; k < p; ++k) off(k) = std::max(theta(k), lowest(k)) - theta(k);
+  for (int round = 0; round < kRounds; ++round) {
+    for (Eigen::Index k = 0; k < p; ++k) {
+      if (!(s(k, k) > 0.0)) continue;
+      const double best = off(k) - s.row(k).dot(off) / s(k, k);
+      off(k) = std::max(best, lowest(k) - theta(k));
+    }
+  }
+  return off.dot(s * off) < kTwoSigma;
+}
+
 // Whether enough scenes are predicted better, of those that say something: an effect that shows
 // only where a board faces the beam leaves the others as they were. The density also judges the
 // variances, which one effect in many scenes shrinks for all: a scene whose squares fall is
@@ -166,6 +193,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   out.fit = fit_model(linear, subset, reference.fit.variances, options);
   out.p_value = f_test(out.fit, c.count());
   out.material = is_material(c, out.fit);
+  out.possible = is_possible(c, out.fit);
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};
   const auto heldout = heldout_squares(linear, out.fit);
@@ -232,7 +260,9 @@ bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptio
 
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options) {
-  if (!candidate.material || !is_sure(candidate, tried, options)) return false;
+  if (!candidate.material || !candidate.possible || candidate.contradicted ||
+      !is_sure(candidate, tried, options))
+    return false;
   // An effect that acts on few rows is asked for the same fall on those.
   const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
   for (std::size_t k = 0; k < kChannels; ++k) {
@@ -240,6 +270,51 @@ bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scen
     if (share > 0.0 && candidate.heldout_gain[k] >= least * share) return true;
   }
   return candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
+}
+
+bool prints_disagree(const MeasurementTable& table, const ModelState& state,
+                     const std::vector<EffectInUse>& model, const EffectColumnsList& columns,
+                     const ColumnSubset& subset, const ModelVariances& variances,
+                     const EffectColumns& candidate, const DiscoveryOptions& options,
+                     const RunContext& context) {
+  EffectColumnsList with = columns;
+  const std::size_t at = columns.list().size();
+  with.add(candidate.effect, candidate.shape, table);
+  with.add_print_contrast(candidate.effect, candidate.shape, table);
+  with.add(find_effect("range_walk"), 0.0, table);
+  const Linearization linear = linearize(table, state, model, with, context);
+  if (context.stopped()) return false;
+  const EffectColumns& effect = with.list()[at];
+  const EffectColumns& contrast = with.list()[at + 1];
+  const Eigen::Index p = contrast.count();
+  const auto fitted = [&](bool beside_walk) {
+    ColumnSubset all = subset;
+    if (beside_walk) append_columns(with.list()[at + 2], nullptr, all);
+    append_columns(effect, nullptr, all);
+    append_columns(contrast, nullptr, all);
+    return fit_model(linear, all, variances, {.rounds = 3});
+  };
+  const auto is_determined = [&](const ModelFit& fit) {
+    constexpr double kDetermined = 1e-3;
+    return determined_share(fit, fit.solution.size() - p, p) > kDetermined;
+  };
+  const bool walks = std::any_of(model.begin(), model.end(), [](const EffectInUse& use) {
+    return use.effect->info().id == "range_walk";
+  });
+  ModelFit fit = fitted(!walks && candidate.effect->info().id != "range_walk");
+  // A constant between the prints is the contrast of an offset itself: who is it? The walk comes
+  // first, and the offset is asked again beside it.
+  if (!walks && !is_determined(fit)) fit = fitted(false);
+  if (!is_determined(fit) || f_test(fit, p) > options.false_alarm) return false;
+  // RMS over the ranges: both columns have the same squares.
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(p, p);
+  for (const SceneProducts& s : linear.scenes) {
+    const int first = s.layout.size() + 6 + contrast.first;
+    squares += s.products[static_cast<std::size_t>(Channel::kRange)].block(first, first, p, p);
+  }
+  const Eigen::VectorXd by_contrast = fit.solution.tail(p);
+  const Eigen::VectorXd by_effect = fit.solution.segment(fit.solution.size() - 2 * p, p);
+  return by_contrast.dot(squares * by_contrast) >= 0.25 * by_effect.dot(squares * by_effect);
 }
 
 double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,

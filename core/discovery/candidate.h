@@ -25,6 +25,10 @@ struct Candidate {
   /// It may be as large as matters: some parameter's upper 95 % limit is, and so is the limit of
   /// what all of them do together to the measurements (see is_material in the source).
   bool material = true;
+  /// Values that a device can have are within two standard deviations of the estimate.
+  bool possible = true;
+  /// White and black print tell different stories about it (see prints_disagree).
+  bool contradicted = false;
   [[nodiscard]] double total_gain() const;
   [[nodiscard]] double total_density() const;
   [[nodiscard]] double best_heldout_gain() const;
@@ -65,6 +69,17 @@ bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptio
 /// Whether held-out scenes and the test after correction for the search speak for it.
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options);
+
+/// Whether the ranges of white and of black print, each by themselves, contradict each other about
+/// a candidate: beside it and a constant difference between the prints, its print contrast is there
+/// and at least half as large as the effect itself (one print shows less than a third of the
+/// other's). What depends on the print is then something else.
+/// `columns` are the model's own (the reference's subset).
+bool prints_disagree(const MeasurementTable& table, const ModelState& state,
+                     const std::vector<EffectInUse>& model, const EffectColumnsList& columns,
+                     const ColumnSubset& subset, const ModelVariances& variances,
+                     const EffectColumns& candidate, const DiscoveryOptions& options,
+                     const RunContext& context);
 
 /// True if the mean over scenes exceeds its standard error.
 bool is_gain(const std::vector<double>& per_scene);

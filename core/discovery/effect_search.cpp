@@ -220,6 +220,27 @@ void EffectSearch::rank() {
                });
   sort_best_first(candidates_);
   refit_promising();
+  ask_both_prints();
+}
+
+void EffectSearch::ask_both_prints() {
+  const bool told = find_effect("range_walk") != nullptr &&
+                    why_not_testable(*find_effect("range_walk"), table_).empty();
+  if (!told) return;
+  const EffectColumnsList own = own_columns();
+  const ColumnSubset subset = own_subset(own);
+  while (!context_.stopped()) {
+    const auto chosen = best();
+    if (!chosen || candidates_[*chosen].main_channel() != Channel::kRange) return;
+    const EffectColumns& columns = linear_.columns.list()[candidates_[*chosen].columns];
+    if (!prints_disagree(table_, state_, model(), own, subset, variances_, columns, options_,
+                         context_))
+      return;
+    for (Candidate& c : candidates_) {
+      const EffectPtr& effect = linear_.columns.list()[c.columns].effect;
+      c.contradicted = c.contradicted || effect->info().id == columns.effect->info().id;
+    }
+  }
 }
 
 // A strong effect has moved poses so far that the linearisation about them misjudges single scenes.

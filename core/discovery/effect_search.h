@@ -68,6 +68,8 @@ class EffectSearch {
  private:
   // Judges promising candidates again after a full refit, until one is accepted.
   void refit_promising();
+  // Takes accepted candidates off the list that white and black print contradict.
+  void ask_both_prints();
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;

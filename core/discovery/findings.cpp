@@ -27,6 +27,15 @@ std::string value_text(const ParameterEstimate& p) {
          formatted("%.3g ± %.2g ", p.value / p.unit_in_si, p.sigma / p.unit_in_si) + p.unit;
 }
 
+std::string lowest_text(const EffectColumns& columns) {
+  std::vector<std::string> parts;
+  for (const EffectParameter& p : columns.parameters) {
+    if (std::isfinite(p.lowest))
+      parts.push_back(p.name + " = " + formatted("%.3g ", p.lowest / p.unit_in_si) + p.unit);
+  }
+  return joined(parts, ", ");
+}
+
 std::string values_text(const EffectFinding& finding) {
   constexpr std::size_t kShown = 4;
   std::vector<std::string> parts;
@@ -251,7 +260,14 @@ class Judge {
       return;
     }
     f.verdict = EffectVerdict::kNotTestable;
-    if (!visible) {
+    if (c.contradicted) {
+      f.explanation = "White and black print contradict each other about it: " + values_text(f) +
+                      " of both together; something that depends on the print is at work.";
+    } else if (!c.possible) {
+      f.explanation = "What fits best is impossible: " + values_text(f) +
+                      ", while no device has less than " + lowest_text(columns) +
+                      "; something else is at work.";
+    } else if (!visible) {
       f.explanation = "These scenes could not show it: " + values_text(f) +
                       formatted("; they keep %.1f %% of its effect after the poses adapt, and it",
                                 100.0 * f.kept) +
@@ -305,7 +321,9 @@ std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chos
     if (id == own) continue;
     const bool alike = correlation_of(search.linear(), search.reference(), best.columns,
                                       other.columns) > options.alias_correlation;
-    const bool tie = is_accepted(other, candidates.size(), search.table().scenes.size(), options) &&
+    // Effects of different channels may both be there; that they gain alike is chance.
+    const bool tie = other.main_channel() == best.main_channel() &&
+                     is_accepted(other, candidates.size(), search.table().scenes.size(), options) &&
                      indistinguishable(best, other);
     // Where a candidate with more parameters contains the other's pattern, only a tie in prediction
     // makes them aliases.

@@ -215,9 +215,10 @@ void sort_best_first(std::vector<StructureScore>& scores) {
       [](const StructureScore& a, const StructureScore& b) { return a.score > b.score; });
 }
 
-// Places in two dimensions where something local may sit: on the board, in the field of view.
-constexpr std::array<std::pair<const char*, const char*>, 2> kPlaces{
-    {{"board x", "board y"}, {"azimuth", "elevation"}}};
+// Places in two dimensions where something local may sit, on the board or in the field of view; and
+// what comes near or at a slant on one print only, as of a receiver that saturates.
+constexpr std::array<std::pair<const char*, const char*>, 4> kPlaces{
+    {{"board x", "board y"}, {"azimuth", "elevation"}, {"print", "range"}, {"print", "incidence"}}};
 
 // Surfaces that predict held-out scenes better than either of their covariates alone.
 std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
@@ -227,11 +228,12 @@ std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
   for (const auto& [first, second] : kPlaces) {
     const Covariate* x = find_in(covariates, first);
     const Covariate* y = find_in(covariates, second);
-    if (x == nullptr || y == nullptr || x->values.size() < kRowsPerSpline * kSurface * kSurface)
-      continue;
+    if (x == nullptr || y == nullptr) continue;
+    const Surface surface(*x, *y);
+    if (x->values.size() < kRowsPerSpline * static_cast<std::size_t>(surface.size())) continue;
     StructureScore s{residuals.channel, x->name, 0.0, 0.0};
     s.second_covariate = y->name;
-    score(Surface(*x, *y), residuals, scenes, s);
+    score(surface, residuals, scenes, s);
     const auto worse = [&](const StructureScore& one) {
       return (one.covariate != first && one.covariate != second) || one.score < s.score;
     };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,6 +20,7 @@ struct EffectParameter {
   double unit_in_si = 1.0;   ///< One unit in SI.
   double material = 0.0;     ///< Size (SI) that matters to users; smaller is as good as absent.
   double prior_sigma = 0.0;  ///< Standard deviation (SI) of what is believable.
+  double lowest = -std::numeric_limits<double>::infinity();  ///< No device has less (SI).
 };
 
 /// What an effect needs besides the channels it acts on.

@@ -38,8 +38,10 @@ class EffectRows {
       c.effect->range(r, table_, c.shape, further);
       c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
                       std::span(board_).first(n));
+      const double sign = c.print_contrast && r.print != Print::kWhite ? -1.0 : 1.0;
       for (std::size_t k = 0; k < n; ++k) {
-        scalars_[k] = row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]) + further[k];
+        scalars_[k] =
+            sign * (row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]) + further[k]);
       }
       sink(c, std::span(scalars_).first(n));
     }
@@ -50,6 +52,7 @@ class EffectRows {
             const Eigen::Matrix3d& lidar_from_board, Sink&& sink) {
     std::vector<double> outward;
     for (const EffectColumns& c : columns_) {
+      if (c.print_contrast) continue;
       const std::size_t n = c.parameters.size();
       reset(n);
       outward.assign(n, 0.0);
@@ -87,6 +90,7 @@ class EffectRows {
   void corner(const CornerRow& r, const Eigen::Vector2d& normalized,
               const Eigen::Matrix<double, 2, 3>& by_board_move, Sink&& sink) {
     for (const EffectColumns& c : columns_) {
+      if (c.print_contrast) continue;
       const std::size_t n = c.parameters.size();
       reset(n);
       c.effect->board({r.board_m, r.from_tag_m}, table_.target, c.shape,
@@ -100,6 +104,7 @@ class EffectRows {
   template <class Sink>
   void intensity(const IntensityRow& r, Sink&& sink) {
     for (const EffectColumns& c : columns_) {
+      if (c.print_contrast) continue;
       const std::size_t n = c.parameters.size();
       std::fill_n(scalars_.begin(), n, 0.0);
       c.effect->intensity(r, table_, c.shape, std::span(scalars_).first(n));

@@ -255,6 +255,12 @@ void EffectColumnsList::add(const EffectPtr& effect, double shape, const Measure
   list_.push_back(std::move(c));
 }
 
+void EffectColumnsList::add_print_contrast(const EffectPtr& effect, double shape,
+                                           const MeasurementTable& table) {
+  add(effect, shape, table);
+  list_.back().print_contrast = true;
+}
+
 std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
   switch (group) {
     case VarianceGroup::kRangeLow:

@@ -17,6 +17,9 @@ struct EffectColumns {
   double shape = 0.0;
   std::vector<EffectParameter> parameters;
   int first = 0;
+  /// What the effect does to ranges of white print, and its negative on black print and circles;
+  /// nothing elsewhere: an effect that knows no print has none of it.
+  bool print_contrast = false;
   [[nodiscard]] int count() const { return static_cast<int>(parameters.size()); }
 };
 
@@ -25,6 +28,8 @@ class EffectColumnsList {
  public:
   /// Appends an effect (skipping nothing: callers ask why_not_testable first).
   void add(const EffectPtr& effect, double shape, const MeasurementTable& table);
+  /// Appends the effect's print contrast (see EffectColumns).
+  void add_print_contrast(const EffectPtr& effect, double shape, const MeasurementTable& table);
   [[nodiscard]] const std::vector<EffectColumns>& list() const { return list_; }
   [[nodiscard]] int columns() const { return columns_; }
 

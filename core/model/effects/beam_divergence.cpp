@@ -18,7 +18,7 @@ class BeamDivergence final : public CatalogueEffect {
                          .source = "Livox Avia manual; Laconte 2019",
                          .breaker = "circles at near and far distance",
                          .needs = {.circles = true, .intensity = true}},
-                        {{"γ²", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
+                        {{"γ²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}}) {}
 
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {

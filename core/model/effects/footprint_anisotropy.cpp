@@ -9,15 +9,16 @@ namespace {
 class FootprintAnisotropy final : public CatalogueEffect {
  public:
   FootprintAnisotropy()
-      : CatalogueEffect({.id = "footprint_anisotropy",
-                         .group = "beam",
-                         .title = "Elliptic footprint",
-                         .physics = "The footprint is wider along one axis of the LiDAR.",
-                         .formula = "dd = -r² (γh² sin²ψ' + γv² cos²ψ') / 2R",
-                         .source = "Livox Avia manual",
-                         .breaker = "circles far away",
-                         .needs = {.circles = true, .intensity = true}},
-                        {{"γh²", "mrad²", 1e-6, 4e-6, 1e-4}, {"γv²", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
+      : CatalogueEffect(
+            {.id = "footprint_anisotropy",
+             .group = "beam",
+             .title = "Elliptic footprint",
+             .physics = "The footprint is wider along one axis of the LiDAR.",
+             .formula = "dd = -r² (γh² sin²ψ' + γv² cos²ψ') / 2R",
+             .source = "Livox Avia manual",
+             .breaker = "circles far away",
+             .needs = {.circles = true, .intensity = true}},
+            {{"γh²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}, {"γv²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}}) {}
 
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {

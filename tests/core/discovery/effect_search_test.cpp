@@ -162,6 +162,69 @@ TEST_F(SearchState, AFootprintThatMattersIsFoundAndTakesTheNaturalOnesPlace) {
   EXPECT_NEAR(search.in_use()[0].values(0), 9e-6, 3e-6);
 }
 
+// Near boards read wrong on one print only, as where a receiver saturates, or on both.
+test::SyntheticTable near_boards_off(double white_m, double black_m) {
+  test::Disturbance wrong;
+  wrong.range_m = [=](const BeamPoint& beam) {
+    const double near = std::exp(-(beam.range_m - 1.5) / 0.8);
+    return near * (beam.darkness < 0.5 ? white_m : black_m);
+  };
+  return test::synthetic_table({}, wrong);
+}
+
+TEST_F(SearchState, WhatOnlyWhitePrintShowsIsNoEffectThatKnowsNoPrint) {
+  const auto made = near_boards_off(-0.02, 0.0);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto& candidates = search.candidates();
+  const auto near = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+    return id_of(search, c) == "range_near";
+  });
+  ASSERT_NE(near, candidates.end());
+  EXPECT_TRUE(near->contradicted);
+  const auto best = search.best();
+  EXPECT_TRUE(!best || id_of(search, candidates[*best]) == "range_walk")
+      << id_of(search, candidates[*best]);
+}
+
+TEST_F(SearchState, WhatBothPrintsShowIsNotContradicted) {
+  const auto made = near_boards_off(-0.02, -0.02);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  EXPECT_EQ(id_of(search, search.candidates()[*best]), "range_near");
+  for (const Candidate& c : search.candidates()) EXPECT_FALSE(c.contradicted) << id_of(search, c);
+}
+
+// A near effect beside a walk between the prints: their sum contradicts neither.
+TEST_F(SearchState, AConstantDifferenceBetweenPrintsIsNoContradiction) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    return -0.02 * std::exp(-(beam.range_m - 1.5) / 0.8) + 0.01 * beam.darkness;
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  for (const Candidate& c : search.candidates()) EXPECT_FALSE(c.contradicted) << id_of(search, c);
+}
+
+// Edges that lie farther out the farther the board: a footprint's variance would be negative.
+TEST_F(SearchState, AFootprintOfNegativeVarianceIsNotAccepted) {
+  const auto made = with_footprint(-9e-6, 0.0, 0.0);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  bool seen = false;
+  for (const Candidate& c : search.candidates()) {
+    const std::string id = id_of(search, c);
+    if (id != "beam_divergence" && id != "footprint_anisotropy") continue;
+    seen = true;
+    EXPECT_FALSE(c.possible) << id;
+    EXPECT_FALSE(is_accepted(c, search.candidates().size(), made.table.scenes.size(), options_));
+  }
+  EXPECT_TRUE(seen);
+}
+
 TEST_F(SearchState, WhatIsSureButTooSmallExplainsStructure) {
   test::Disturbance wrong;
   wrong.log_intensity = [](const IntensityRow& row) {

@@ -97,6 +97,18 @@ TEST(StructurePlaces, ABumpOnTheBoardIsSeenOverBothAxesTogether) {
   EXPECT_EQ(notable.front().covariates(), "board x and board y");
 }
 
+TEST(StructurePlaces, WhatComesNearOnOnePrintOnlyIsSeenOverPrintAndRange) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    return beam.darkness < 0.5 && beam.range_m < 2.8 ? -0.01 * (2.8 - beam.range_m) : 0.0;
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  const auto found = notable_structure(made.table, made.truth, {}, {}, {});
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const StructureScore& s) {
+    return s.channel == Channel::kRange && s.covariate == "print" && s.second_covariate == "range";
+  }));
+}
+
 TEST(StructurePlaces, ARippleOverOneCovariateIsNoSurface) {
   test::Disturbance wrong;
   wrong.range_m = [](const BeamPoint& beam) { return 0.008 * std::sin(40.0 * beam.azimuth_rad); };

@@ -101,6 +101,32 @@ TEST(Linearize, PoseColumnsAreTheDerivativesOfTheResiduals) {
   }
 }
 
+// On white print the contrast does what the effect does, elsewhere the opposite, and only to
+// ranges: both columns together are twice the effect on white and nothing on black.
+TEST(Linearize, PrintContrastTurnsItsSignBetweenPrints) {
+  auto made = test::synthetic_table({});
+  const EffectPtr effect = find_effect("range_scale");
+  for (const Print kept : {Print::kWhite, Print::kBlack}) {
+    MeasurementTable table = made.table;
+    std::erase_if(table.range, [&](const RangeRow& row) {
+      return (row.print == Print::kWhite) != (kept == Print::kWhite);
+    });
+    ASSERT_FALSE(table.range.empty());
+    EffectColumnsList columns;
+    columns.add(effect, 0.0, table);
+    columns.add_print_contrast(effect, 0.0, table);
+    const Linearization linear = linearize(table, made.truth, {}, columns, {});
+    for (const SceneProducts& s : linear.scenes) {
+      const int at = s.layout.size() + 6;
+      const Eigen::MatrixXd& range = s.products[static_cast<std::size_t>(Channel::kRange)];
+      EXPECT_GT(range(at, at), 0.0);
+      EXPECT_DOUBLE_EQ(range(at + 1, at + 1), range(at, at));
+      EXPECT_DOUBLE_EQ(range(at, at + 1), kept == Print::kWhite ? range(at, at) : -range(at, at));
+      EXPECT_EQ(s.products[static_cast<std::size_t>(Channel::kBoundary)](at + 1, at + 1), 0.0);
+    }
+  }
+}
+
 TEST(Linearize, CountsRowsAndDoesNotDependOnThreads) {
   test::TableRecipe recipe;
   recipe.scenes = 3;
