@@ -172,7 +172,7 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   const auto notable = [&](const std::vector<StructureScore>& scores) {
     std::vector<StructureScore> kept;
     for (const StructureScore& s : scores) {
-      if (is_notable(s, base.basis->options)) kept.push_back(s);
+      if (is_notable(s, scores.size(), base.basis->options)) kept.push_back(s);
     }
     return kept;
   };

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
 #include "base/parallel.h"
+#include "discovery/candidate.h"
 
 namespace lvcalib {
 namespace {
@@ -185,6 +187,7 @@ void score(const Shape& shape, const ChannelResiduals& residuals, int scenes, St
   }
   // Shrinks what few rows support: one row's weight as a prior about zero.
   const double ridge = weight / std::max<double>(1.0, static_cast<double>(residuals.values.size()));
+  out.scene_gain.clear();
   double before = 0.0;
   double after = 0.0;
   double fitted = 0.0;
@@ -195,6 +198,7 @@ void score(const Shape& shape, const ChannelResiduals& residuals, int scenes, St
     before += s.squares;
     const double drop = 2.0 * c.dot(s.curve_residual) - c.dot(s.curve * c);
     after += s.squares - drop;
+    out.scene_gain.push_back(0.5 * drop);
     fitted += c.dot(s.curve * c);
   }
   if (!(before > 0.0) || !std::isfinite(after)) return;
@@ -296,8 +300,24 @@ std::vector<StructureScore> scan_places(const MeasurementTable& table, const Mod
   return out;
 }
 
-bool is_notable(const StructureScore& score, const DiscoveryOptions& options) {
-  return score.score >= options.min_structure;
+// Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
+// alone, as of a warped board, is no gain in most.
+bool is_sure(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
+  const double total = std::accumulate(score.scene_gain.begin(), score.scene_gain.end(), 0.0);
+  if (!(total > std::log(static_cast<double>(tried) / options.false_alarm))) return false;
+  const auto speaking =
+      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                    [&](double gain) { return std::abs(gain) >= options.speaking_nats; });
+  const auto improved =
+      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                    [&](double gain) { return gain >= options.speaking_nats; });
+  return is_gain(score.scene_gain) &&
+         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
+}
+
+bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
+  return score.score >= options.min_structure ||
+         (score.score >= options.min_sure_structure && is_sure(score, tried, options));
 }
 
 std::vector<StructureScore> notable_structure(const MeasurementTable& table,
@@ -308,7 +328,8 @@ std::vector<StructureScore> notable_structure(const MeasurementTable& table,
   std::vector<StructureScore> out = scan_structure(table, state, in_use, context);
   const auto places = scan_places(table, state, in_use, out, context);
   out.insert(out.end(), places.begin(), places.end());
-  std::erase_if(out, [&](const StructureScore& s) { return !is_notable(s, options); });
+  const std::size_t tried = out.size();
+  std::erase_if(out, [&](const StructureScore& s) { return !is_notable(s, tried, options); });
   sort_best_first(out);
   return out;
 }

@@ -35,7 +35,7 @@ std::vector<StructureScore> notable_structure(const MeasurementTable& table,
                                               const DiscoveryOptions& options,
                                               const RunContext& context);
 
-/// Whether a score is large enough to be mentioned.
-bool is_notable(const StructureScore& score, const DiscoveryOptions& options);
+/// Whether a score, one of so many tried, is large enough to be mentioned.
+bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options);
 
 }  // namespace lvcalib
