@@ -1285,6 +1285,222 @@ were saved. Take them up again?</source>
         <source>Where a beam is cut by an edge, its energy comes from one side of the footprint, which on a slanted board lies nearer or farther; 1 is what the power alone does in every scan.</source>
         <translation>光束被边缘切断时，能量只来自光斑的一侧，在倾斜的标定板上这一侧或近或远；1 是每次扫描中单由功率造成的大小。</translation>
     </message>
+    <message>
+        <source>%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and the extrinsic moves by %5 mm and %6 mrad. These scenes cannot tell it from %7; to tell: %8.</source>
+        <translation>%1 结果：%2。加入后，留出场景在%4通道的平方误差减少 %3 %，外参移动 %5 mm 和 %6 mrad。这些场景无法将它与 %7 区分；要区分需要：%8。</translation>
+    </message>
+    <message>
+        <source>%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and the extrinsic moves by %5 mm and %6 mrad.</source>
+        <translation>%1 结果：%2。加入后，留出场景在%4通道的平方误差减少 %3 %，外参移动 %5 mm 和 %6 mrad。</translation>
+    </message>
+    <message>
+        <source>%1 In the model, held: %2.</source>
+        <translation>%1 已在模型中，数值固定：%2。</translation>
+    </message>
+    <message>
+        <source>%1 In the model: %2.</source>
+        <translation>%1 已在模型中：%2。</translation>
+    </message>
+    <message>
+        <source>Explains the same as %1, which is in the model: these scenes cannot tell the two apart. To tell: %2.</source>
+        <translation>与模型中的 %1 解释同样的现象：这些场景无法区分二者。要区分需要：%2。</translation>
+    </message>
+    <message>
+        <source>Not there: %1, below the size that matters.</source>
+        <translation>不存在：%1，低于有影响的大小。</translation>
+    </message>
+    <message>
+        <source>White and black print contradict each other about it: %1 of both together; something that depends on the print is at work.</source>
+        <translation>白色与黑色印刷对它的结论相互矛盾：合在一起为 %1；起作用的是与印刷颜色有关的其他因素。</translation>
+    </message>
+    <message>
+        <source>What fits best is impossible: %1, while no device has less than %2; something else is at work.</source>
+        <translation>拟合最好的数值不可能出现：%1，而任何设备都不会小于 %2；起作用的是其他因素。</translation>
+    </message>
+    <message>
+        <source>These scenes could not show it: %1; they keep %2 % of its effect after the poses adapt, and it would move the extrinsic by %3 mm and %4 mrad. To see it: %5.</source>
+        <translation>这些场景无法显示它：%1；位姿适应之后只保留其影响的 %2 %，而它会使外参移动 %3 mm 和 %4 mrad。要看到它需要：%5。</translation>
+    </message>
+    <message>
+        <source>Undecided: %1 is neither excluded nor confirmed by scenes held out; at its limit it would move the extrinsic by %2 mm and %3 mrad. To decide: %4.</source>
+        <translation>尚无定论：%1 既未被留出场景排除，也未被证实；在其上限处，它会使外参移动 %2 mm 和 %3 mrad。要判定需要：%4。</translation>
+    </message>
+    <message>
+        <source>Not testable: %1.</source>
+        <translation>无法检验：%1。</translation>
+    </message>
+    <message>
+        <source>no time in these clouds</source>
+        <translation>这些点云没有时间</translation>
+    </message>
+    <message>
+        <source>no laser lines in these clouds</source>
+        <translation>这些点云没有激光线号</translation>
+    </message>
+    <message>
+        <source>no intensity in these clouds (or the same on all points)</source>
+        <translation>这些点云没有强度（或所有点的强度相同）</translation>
+    </message>
+    <message>
+        <source>no circles on this board</source>
+        <translation>该标定板上没有圆</translation>
+    </message>
+    <message>
+        <source>no tags on this board</source>
+        <translation>该标定板上没有标签</translation>
+    </message>
+    <message>
+        <source>not defined: the same as a turn of the LiDAR frame, which is part of the extrinsic</source>
+        <translation>没有定义：与激光雷达坐标系的转动相同，而后者属于外参</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; cannot be used: %2</source>
+        <translation>无法使用效应“%1”：%2</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; is in the model already</source>
+        <translation>效应“%1”已在模型中</translation>
+    </message>
+    <message>
+        <source>there is no effect &apos;%1&apos;; did you mean &apos;%2&apos;?</source>
+        <translation>没有效应“%1”；您是指“%2”吗？</translation>
+    </message>
+    <message>
+        <source>there is no effect &apos;%1&apos;</source>
+        <translation>没有效应“%1”</translation>
+    </message>
+    <message>
+        <source>not enough scenes to look for effects: %1, three or more are needed to hold one out</source>
+        <translation>场景不足，无法寻找效应：%1 个，需要三个或更多才能留出一个</translation>
+    </message>
+    <message>
+        <source>take scenes at other distances and with the board turned differently</source>
+        <translation>请在其他距离、以不同的标定板朝向采集场景</translation>
+    </message>
+    <message>
+        <source>in &apos;%1&apos;: there is no channel &apos;%2&apos;; did you mean &apos;%3&apos;? (expected corner, range, boundary or intensity)</source>
+        <translation>“%1”中：没有通道“%2”；您是指“%3”吗？（应为 corner、range、boundary 或 intensity）</translation>
+    </message>
+    <message>
+        <source>in &apos;%1&apos;: there is no channel &apos;%2&apos; (expected corner, range, boundary or intensity)</source>
+        <translation>“%1”中：没有通道“%2”（应为 corner、range、boundary 或 intensity）</translation>
+    </message>
+    <message>
+        <source>in &apos;%1&apos;: there is no covariate &apos;%2&apos;; did you mean &apos;%3&apos;?</source>
+        <translation>“%1”中：没有协变量“%2”；您是指“%3”吗？</translation>
+    </message>
+    <message>
+        <source>in &apos;%1&apos;: there is no covariate &apos;%2&apos;</source>
+        <translation>“%1”中：没有协变量“%2”</translation>
+    </message>
+    <message>
+        <source>in &apos;%1&apos;: expected &apos;[low..high]&apos; or &apos;[1|2|3]&apos; after %2, found &apos;%3&apos;</source>
+        <translation>“%1”中：%2 之后应为“[low..high]”或“[1|2|3]”，实为“%3”</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; has %2 covariates, expected one or two</source>
+        <translation>“%1”有 %2 个协变量，应为一个或两个</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; names the same covariate twice</source>
+        <translation>“%1”两次使用同一个协变量</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos;: %2 is a label; a curve over two covariates needs two scales</source>
+        <translation>“%1”：%2 是标签；两个协变量的曲面需要两个连续量</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not complete, expected &apos;%2&apos;, such as &apos;%3&apos;</source>
+        <translation>“%1”不完整，应为“%2”，例如“%3”</translation>
+    </message>
+    <message>
+        <source>in the formula &apos;%1&apos; at character %2: &apos;=&apos; assigns; expected an expression (write == to compare)</source>
+        <translation>公式“%1”第 %2 个字符处：“=”是赋值；应为表达式（比较请写 ==）</translation>
+    </message>
+    <message>
+        <source>in the formula &apos;%1&apos; at character %2: %3</source>
+        <translation>公式“%1”第 %2 个字符处：%3</translation>
+    </message>
+    <message>
+        <source>in the formula &apos;%1&apos;: there is no covariate &apos;%2&apos;; did you mean &apos;%3&apos;?</source>
+        <translation>公式“%1”中：没有协变量“%2”；您是指“%3”吗？</translation>
+    </message>
+    <message>
+        <source>in the formula &apos;%1&apos;: there is no covariate &apos;%2&apos;</source>
+        <translation>公式“%1”中：没有协变量“%2”</translation>
+    </message>
+    <message>
+        <source>in the formula &apos;%1&apos;: %2</source>
+        <translation>公式“%1”中：%2</translation>
+    </message>
+    <message>
+        <source>coefficients are single letters; this channel has %1</source>
+        <translation>系数是单个字母；该通道有 %1</translation>
+    </message>
+    <message>
+        <source>the formula &apos;%1&apos; has no free coefficient; expected one or more, such as a in &apos;a*range&apos;</source>
+        <translation>公式“%1”没有自由系数；应有一个或多个，例如“a*range”中的 a</translation>
+    </message>
+    <message>
+        <source>the formula &apos;%1&apos; has %2 values separated by commas, expected one</source>
+        <translation>公式“%1”有 %2 个以逗号分隔的值，应为一个</translation>
+    </message>
+    <message>
+        <source>the formula has %1 characters, expected at most %2</source>
+        <translation>公式有 %1 个字符，最多为 %2 个</translation>
+    </message>
+    <message>
+        <source>fitting the model</source>
+        <translation>正在拟合模型</translation>
+    </message>
+    <message>
+        <source>fitting the base model</source>
+        <translation>正在拟合基础模型</translation>
+    </message>
+    <message>
+        <source>looking for structure</source>
+        <translation>正在寻找结构</translation>
+    </message>
+    <message>
+        <source>ranking effects, %1 in the model</source>
+        <translation>正在对效应排序，模型中有 %1 个</translation>
+    </message>
+    <message>
+        <source>ranking effects</source>
+        <translation>正在对效应排序</translation>
+    </message>
+    <message>
+        <source>judging effects</source>
+        <translation>正在判断效应</translation>
+    </message>
+    <message>
+        <source>refining shape numbers</source>
+        <translation>正在细化形状参数</translation>
+    </message>
+    <message>
+        <source>collecting measurements</source>
+        <translation>正在收集测量值</translation>
+    </message>
+    <message>
+        <source>looking for the next scene</source>
+        <translation>正在寻找下一个场景</translation>
+    </message>
+    <message>
+        <source>corner</source>
+        <translation>角点</translation>
+    </message>
+    <message>
+        <source>range</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>boundary</source>
+        <translation>边界</translation>
+    </message>
+    <message>
+        <source>intensity</source>
+        <translation>强度</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

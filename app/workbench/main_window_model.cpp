@@ -2,6 +2,7 @@
 // The window's side of the Model page and of the demo's tour.
 #include "docks/log_dock.h"
 #include "modelling/model_page.h"
+#include "style/texts.h"
 #include "workbench/demo_tour.h"
 #include "workbench/main_actions.h"
 #include "workbench/main_window.h"
@@ -24,8 +25,8 @@ void MainWindow::connect_model() {
   connect(work, &ModelWork::failed, this, [this](const Error& error) {
     // Too few scenes is no accident: the page says so.
     if (error.kind == ErrorKind::kUntrusted && model_work_->steps().empty()) {
-      pages_->model_page()->setReason(QString::fromStdString(error.text()));
-      status_->show_idle(QString::fromStdString(error.message));
+      pages_->model_page()->setReason(core_text(error));
+      status_->show_idle(core_text(error.message));
     } else {
       show_error(error);
     }

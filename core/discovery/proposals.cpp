@@ -81,7 +81,7 @@ class Proposer {
     if (!proposal.finding.aliases.empty()) {
       std::string others;
       for (const std::string& id : proposal.finding.aliases)
-        others += (others.empty() ? "" : " or ") + id;
+        others += (others.empty() ? "" : ", ") + id;
       out += " These scenes cannot tell it from " + others + "; to tell: " + info.breaker + ".";
     }
     return out;

@@ -326,13 +326,13 @@ void AddEffectDialog::check() {
   bool usable = !text.empty();
   if (usable && is_user_effect(text)) {
     if (const auto parsed = parse_user_effect(text); !parsed) {
-      problem = QString::fromStdString(parsed.error().text());
+      problem = core_text(parsed.error());
       usable = false;
     }
   } else if (usable) {
     const EffectPtr effect = find_effect(text);
     const std::string why = effect ? why_not_testable(*effect, step_->table()) : "unknown";
-    if (!why.empty()) problem = tr("Cannot be used here: %1").arg(QString::fromStdString(why));
+    if (!why.empty()) problem = tr("Cannot be used here: %1").arg(core_text(why));
     usable = why.empty();
   }
   problem_->setText(problem);

@@ -20,6 +20,7 @@
 
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
+#include "style/texts.h"
 #include "style/theme.h"
 
 namespace lvcalib::widgets {
@@ -271,7 +272,7 @@ void MissingPane::fillBudget() {
                                 [&](const EffectProposal& q) { return q.finding.id == limit.id; });
     if (p == ranking_->proposals.end()) continue;
     for (int column = 0; column < 3; ++column)
-      item->setToolTip(column, QString::fromStdString(p->finding.explanation));
+      item->setToolTip(column, core_text(p->finding.explanation));
   }
   for (int column = 1; column < 3; ++column) budget_->resizeColumnToContents(column);
 }
@@ -308,8 +309,8 @@ void MissingPane::describe() {
   if (shown == described_ && shown != nullptr) return;
   described_ = shown;
   if (p != nullptr) {
-    QString html = QStringLiteral("<p>%1</p>")
-                       .arg(QString::fromStdString(p->finding.explanation).toHtmlEscaped());
+    QString html =
+        QStringLiteral("<p>%1</p>").arg(core_text(p->finding.explanation).toHtmlEscaped());
     if (!p->finding.parameters.empty()) {
       html += QStringLiteral("<p><b>%1</b><br>%2</p>")
                   .arg(values_text(p->finding.parameters, false).toHtmlEscaped(),

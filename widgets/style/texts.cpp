@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "style/core_patterns.h"
+#include "style/model_patterns.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -57,6 +58,7 @@ Pattern compiled(const char* source) {
 const std::vector<Pattern>& patterns() {
   static const std::vector<Pattern> all = [] {
     std::vector<Pattern> out;
+    for (const char* source : kModelPatterns) out.push_back(compiled(source));
     for (const char* source : kCorePatterns) out.push_back(compiled(source));
     return out;
   }();
@@ -76,10 +78,13 @@ QString filled(const QString& translation, const Pattern& pattern,
       out += translation[i];
       continue;
     }
+    // What stands in quotation marks is what somebody typed or has to type.
+    const bool verbatim = !out.isEmpty() && out.back() == QChar(0x201c);
     const int number = translation[++i].digitValue();
     for (std::size_t k = 0; k < pattern.places.size(); ++k) {
-      if (pattern.places[k] == number)
-        out += translated(match.captured(static_cast<int>(k) + 1), depth + 1);
+      if (pattern.places[k] != number) continue;
+      const QString captured = match.captured(static_cast<int>(k) + 1);
+      out += verbatim ? captured : translated(captured, depth + 1);
     }
   }
   return out;
@@ -126,6 +131,12 @@ QString core_text(const QString& text) {
 
 QString core_text(const std::string& text) {
   return core_text(QString::fromStdString(text));
+}
+
+QString core_text(const Error& error) {
+  QString text = error.where.empty() ? QString() : QString::fromStdString(error.where) + ": ";
+  text += core_text(error.message);
+  return error.hint.empty() ? text : text + QStringLiteral(" (%1)").arg(core_text(error.hint));
 }
 
 }  // namespace lvcalib::widgets

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "base/error.h"
+
 class QDockWidget;
 class QWidget;
 
@@ -22,5 +24,7 @@ void follow_language_in_title(QDockWidget& dock);
 /// alike. What no pattern fits stays as it is.
 QString core_text(const std::string& text);
 QString core_text(const QString& text);
+/// What an error says, with where it happened and what to do.
+QString core_text(const Error& error);
 
 }  // namespace lvcalib::widgets

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "style/core_patterns.h"
+#include "style/model_patterns.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -76,7 +77,9 @@ TEST(CoreText, EveryPatternIsSomethingThatTheCoreSays) {
   sources.replace("%%", "%");
   static const QRegularExpression places(
       "%[0-9]|[:;,.()]|\\b(larger|smaller|farther|nearer)\\b|\\b(paper|circle)'s");
-  for (const char* pattern : kCorePatterns) {
+  std::vector<const char*> patterns(std::begin(kCorePatterns), std::end(kCorePatterns));
+  patterns.insert(patterns.end(), std::begin(kModelPatterns), std::end(kModelPatterns));
+  for (const char* pattern : patterns) {
     QString longest;
     for (const QString& part : QString::fromUtf8(pattern).split(places)) {
       // A sentence made by "…" + number + "…" is in pieces: its longest words must be there.

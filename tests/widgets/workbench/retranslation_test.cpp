@@ -11,8 +11,11 @@
 #include <gtest/gtest.h>
 
 #include "dialogs/error_dialog.h"
+#include "model/user_effect.h"
 #include "runner/demo.h"
+#include "style/texts.h"
 #include "views/color_bar.h"
+#include "widgets/modelling/model_example.h"
 #include "widgets/support/driver.h"
 #include "widgets/support/visible_texts.h"
 #include "workbench/language.h"
@@ -152,6 +155,40 @@ TEST_F(RetranslationTest, BackToEnglishNoChineseIsLeft) {
     EXPECT_FALSE(text.text.contains(han))
         << text.where.toStdString() << " says: " << text.text.toStdString();
   }
+}
+
+// What the Model page says of effects: suggestions, verdicts, the model itself.
+TEST(ModelSentences, AreChineseInChinese) {
+  const test::ModelExample& example = test::model_example();
+  std::vector<std::string> said;
+  for (const EffectProposal& p : example.missing->proposals) said.push_back(p.finding.explanation);
+  const auto after = rank_effects(*example.mended, {});
+  ASSERT_TRUE(after.ok());
+  for (const EffectProposal& p : after->proposals) said.push_back(p.finding.explanation);
+  const Discovery found = as_discovery({example.base, example.mended}, &*after);
+  for (const EffectFinding& f : found.effects) said.push_back(f.explanation);
+  for (const char* spec : {"range_walk", "no_effect", "channel_range_offset"}) {
+    const auto error = add_effect(example.mended, spec, 0.0, {});
+    if (!error) said.push_back(error.error().message);
+  }
+  for (const char* text :
+       {"formula:range:a=range", "formula:range:a*rnge", "formula:range:range",
+        "curve:range:azimut", "curve:rang:azimuth", "curve:range:print,azimuth", "curve:range"}) {
+    const auto parsed = parse_user_effect(text);
+    if (!parsed) said.push_back(parsed.error().message);
+  }
+  EXPECT_GT(said.size(), 60U);
+  widgets::use_language("zh_CN");
+  // What the user typed or may type, and the names of parameters and units.
+  static const QRegularExpression quoted(
+      "“[^”]*”|：print |corner、range、boundary 或 intensity|ppm|nats|[\\w²′ψ]+ = ");
+  for (const std::string& english : said) {
+    const QString chinese = widgets::core_text(english);
+    EXPECT_TRUE(chinese.contains(QRegularExpression("\\p{Han}"))) << english;
+    EXPECT_THAT(english_words(QString(chinese).remove(quoted)), ::testing::IsEmpty())
+        << english << "\n  is said as: " << chinese.toStdString();
+  }
+  widgets::use_language("en");
 }
 
 TEST(EnglishWords, AreFoundBesideNamesAndNumbers) {

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QtGlobal>
+
+namespace lvcalib::widgets {
+
+/// Like kCorePatterns: the core library's sentences about effects and the model.
+inline constexpr const char* kModelPatterns[] = {
+    // Why the page suggests an effect, or what it knows of one.
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 Found: %2. With it, scenes held out have %3 % less squared error in the "
+                      "%4 channel and the extrinsic moves by %5 mm and %6 mrad. These scenes "
+                      "cannot tell it from %7; to tell: %8."),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 Found: %2. With it, scenes held out have %3 % less squared error in the "
+                      "%4 channel and the extrinsic moves by %5 mm and %6 mrad."),
+    QT_TRANSLATE_NOOP("Core", "%1 In the model, held: %2."),
+    QT_TRANSLATE_NOOP("Core", "%1 In the model: %2."),
+    QT_TRANSLATE_NOOP("Core",
+                      "Explains the same as %1, which is in the model: these scenes cannot tell "
+                      "the two apart. To tell: %2."),
+    QT_TRANSLATE_NOOP("Core", "Not there: %1, below the size that matters."),
+    QT_TRANSLATE_NOOP("Core",
+                      "White and black print contradict each other about it: %1 of both together; "
+                      "something that depends on the print is at work."),
+    QT_TRANSLATE_NOOP("Core",
+                      "What fits best is impossible: %1, while no device has less than %2; "
+                      "something else is at work."),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "These scenes could not show it: %1; they keep %2 % of its effect after the poses adapt, "
+        "and it would move the extrinsic by %3 mm and %4 mrad. To see it: %5."),
+    QT_TRANSLATE_NOOP("Core",
+                      "Undecided: %1 is neither excluded nor confirmed by scenes held out; at its "
+                      "limit it would move the extrinsic by %2 mm and %3 mrad. To decide: %4."),
+    QT_TRANSLATE_NOOP("Core", "Not testable: %1."),
+    // Why an effect cannot be tested or used.
+    QT_TRANSLATE_NOOP("Core", "no time in these clouds"),
+    QT_TRANSLATE_NOOP("Core", "no laser lines in these clouds"),
+    QT_TRANSLATE_NOOP("Core", "no intensity in these clouds (or the same on all points)"),
+    QT_TRANSLATE_NOOP("Core", "no circles on this board"),
+    QT_TRANSLATE_NOOP("Core", "no tags on this board"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "not defined: the same as a turn of the LiDAR frame, which is part of the extrinsic"),
+    QT_TRANSLATE_NOOP("Core", "the effect '%1' cannot be used: %2"),
+    QT_TRANSLATE_NOOP("Core", "the effect '%1' is in the model already"),
+    QT_TRANSLATE_NOOP("Core", "there is no effect '%1'; did you mean '%2'?"),
+    QT_TRANSLATE_NOOP("Core", "there is no effect '%1'"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "not enough scenes to look for effects: %1, three or more are needed to hold one out"),
+    QT_TRANSLATE_NOOP("Core",
+                      "take scenes at other distances and with the board turned differently"),
+    // Formulas and curves.
+    QT_TRANSLATE_NOOP("Core",
+                      "in '%1': there is no channel '%2'; did you mean '%3'? (expected corner, "
+                      "range, boundary or intensity)"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "in '%1': there is no channel '%2' (expected corner, range, boundary or intensity)"),
+    QT_TRANSLATE_NOOP("Core", "in '%1': there is no covariate '%2'; did you mean '%3'?"),
+    QT_TRANSLATE_NOOP("Core", "in '%1': there is no covariate '%2'"),
+    QT_TRANSLATE_NOOP("Core", "in '%1': expected '[low..high]' or '[1|2|3]' after %2, found '%3'"),
+    QT_TRANSLATE_NOOP("Core", "'%1' has %2 covariates, expected one or two"),
+    QT_TRANSLATE_NOOP("Core", "'%1' names the same covariate twice"),
+    QT_TRANSLATE_NOOP("Core", "'%1': %2 is a label; a curve over two covariates needs two scales"),
+    QT_TRANSLATE_NOOP("Core", "'%1' is not complete, expected '%2', such as '%3'"),
+    QT_TRANSLATE_NOOP("Core",
+                      "in the formula '%1' at character %2: '=' assigns; expected an expression "
+                      "(write == to compare)"),
+    QT_TRANSLATE_NOOP("Core", "in the formula '%1' at character %2: %3"),
+    QT_TRANSLATE_NOOP("Core",
+                      "in the formula '%1': there is no covariate '%2'; did you mean '%3'?"),
+    QT_TRANSLATE_NOOP("Core", "in the formula '%1': there is no covariate '%2'"),
+    QT_TRANSLATE_NOOP("Core", "in the formula '%1': %2"),
+    QT_TRANSLATE_NOOP("Core", "coefficients are single letters; this channel has %1"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "the formula '%1' has no free coefficient; expected one or more, such as a in 'a*range'"),
+    QT_TRANSLATE_NOOP("Core", "the formula '%1' has %2 values separated by commas, expected one"),
+    QT_TRANSLATE_NOOP("Core", "the formula has %1 characters, expected at most %2"),
+    // Progress of the search.
+    QT_TRANSLATE_NOOP("Core", "fitting the model"),
+    QT_TRANSLATE_NOOP("Core", "fitting the base model"),
+    QT_TRANSLATE_NOOP("Core", "looking for structure"),
+    QT_TRANSLATE_NOOP("Core", "ranking effects, %1 in the model"),
+    QT_TRANSLATE_NOOP("Core", "ranking effects"),
+    QT_TRANSLATE_NOOP("Core", "judging effects"),
+    QT_TRANSLATE_NOOP("Core", "refining shape numbers"),
+    QT_TRANSLATE_NOOP("Core", "collecting measurements"),
+    QT_TRANSLATE_NOOP("Core", "looking for the next scene"),
+    // Channels.
+    QT_TRANSLATE_NOOP("Core", "corner"),
+    QT_TRANSLATE_NOOP("Core", "range"),
+    QT_TRANSLATE_NOOP("Core", "boundary"),
+    QT_TRANSLATE_NOOP("Core", "intensity"),
+};
+
+}  // namespace lvcalib::widgets
