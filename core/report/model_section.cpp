@@ -88,30 +88,30 @@ std::string verdicts(const json& effects) {
 }
 
 // What could be there unseen, and what it would do to the extrinsic.
-std::string sensitivity(const json& effects) {
-  std::vector<const json*> unseen;
-  for (const json& e : effects) {
-    const bool has_size = e.contains("extrinsic_move_mm") && e["extrinsic_move_mm"].is_number() &&
-                          !e.at("parameters").empty();
-    if (e.at("verdict") == "not_testable" && has_size) unseen.push_back(&e);
+std::string sensitivity(const json& discovery) {
+  const json budget = discovery.value("sensitivity_budget", json::array());
+  if (budget.empty()) return "";
+  const auto kept = [&](const json& item) -> std::string {
+    for (const json& e : discovery.at("effects")) {
+      if (e.at("id") != item.at("id")) continue;
+      const auto share = e.find("kept_share");
+      if (share != e.end() && share->is_number())
+        return shown(100.0 * share->get<double>(), 2) + " %";
+    }
+    return "–";
+  };
+  Rows rows = {{"effect", "may be as large as", "would move the extrinsic by [mm]",
+                "and turn it by [mrad]", "share of it left in the residuals"}};
+  for (const json& item : budget) {
+    rows.push_back(
+        {text_of(item, "id"),
+         text_of(item, "parameter") + " = " + number_at(item, "size") + " " + text_of(item, "unit"),
+         number_at(item, "translation_mm"), number_at(item, "rotation_mrad"), kept(item)});
   }
-  if (unseen.empty()) return "";
-  std::stable_sort(unseen.begin(), unseen.end(), [](const json* a, const json* b) {
-    return a->at("extrinsic_move_mm").get<double>() > b->at("extrinsic_move_mm").get<double>();
-  });
-  Rows rows = {{"effect", "would move the extrinsic by [mm]", "and turn it by [mrad]",
-                "share of it left in the residuals"}};
-  for (const json* e : unseen) {
-    const auto kept = e->find("kept_share");
-    rows.push_back({text_of(*e, "id"), number_at(*e, "extrinsic_move_mm"),
-                    number_at(*e, "extrinsic_move_mrad"),
-                    kept != e->end() && kept->is_number()
-                        ? shown(100.0 * kept->get<double>(), 2) + " %"
-                        : "–"});
-  }
-  return "<h3>What these scenes cannot show</h3>\n<p class=\"note\">At the size that matters, or "
-         "at its upper limit if that is larger. Poses take over most of such an effect: it hardly "
-         "shows in the residuals and spoils the extrinsic.</p>\n" +
+  return "<h3>What could be there unseen</h3>\n<p class=\"note\">Effects that are not in the "
+         "model, "
+         "at the upper 95 % limits of their sizes. Poses take over most of some of them: those "
+         "hardly show in the residuals and spoil the extrinsic.</p>\n" +
          html_table(rows);
 }
 
@@ -121,8 +121,7 @@ std::string model_section(const json& result, const json& discovery) {
   std::string out = "<h2>Model</h2>\n" + effects_in_use(result.at("model").at("effects"));
   if (!discovery.is_object())
     return out + "<p class=\"note\">Missing effects were not looked for.</p>\n";
-  out +=
-      budget(discovery) + verdicts(discovery.at("effects")) + sensitivity(discovery.at("effects"));
+  out += budget(discovery) + verdicts(discovery.at("effects")) + sensitivity(discovery);
   const json advice = discovery.value("advice", json::array());
   std::string items;
   for (const json& line : advice) items += "<li>" + html_escaped(line.get<std::string>()) + "</li>";

@@ -89,6 +89,14 @@ Discovery example_discovery() {
   unseen.explanation = "These scenes could not show it.";
   d.effects = {found, unseen};
   d.selected = {"range_walk"};
+  BudgetItem limit;
+  limit.id = "range_offset";
+  limit.parameter = "a";
+  limit.unit = "mm";
+  limit.size = 6.58;
+  limit.translation_mm = 8.765;
+  limit.rotation_mrad = 0.125;
+  d.budget = {limit};
   d.advice = {"Take one more scene at 60 degrees."};
   return d;
 }
@@ -103,9 +111,9 @@ TEST_F(HtmlReportTest, TellsTheModelAndWhatItStillMisses) {
   const auto stored = html_report(out_.path(), {});
   ASSERT_TRUE(stored.ok()) << stored.error().text();
   EXPECT_EQ(nesting_error(stored->html), "");
-  for (const char* part :
-       {"Error before and after", "8.31", "0.625", "Added: range_walk", "42 %", "far &amp; wide",
-        "What these scenes cannot show", "8.77", "0.6 %", "Take one more scene at 60 degrees."}) {
+  for (const char* part : {"Error before and after", "8.31", "0.625", "Added: range_walk", "42 %",
+                           "far &amp; wide", "What could be there unseen", "a = 6.58 mm", "8.77",
+                           "0.125", "0.6 %", "Take one more scene at 60 degrees."}) {
     EXPECT_THAT(stored->html, HasSubstr(part));
   }
   CalibrationResult modelled = *result_;
