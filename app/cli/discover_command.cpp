@@ -20,7 +20,10 @@ struct Options {
 std::string summary_of(const Discovery& discovery, const std::string& output) {
   std::string effects;
   for (const std::string& id : discovery.selected) effects += (effects.empty() ? "" : ", ") + id;
-  std::string text = effects.empty() ? "nothing is missing in the model" : "missing: " + effects;
+  std::string text = !effects.empty() ? "missing: " + effects
+                     : discovery.unknown.empty()
+                         ? "nothing is missing in the model"
+                         : "missing: something that no known effect explains";
   for (const ChannelSummary& before : discovery.channels) {
     for (const ChannelSummary& after : discovery.history.back().channels) {
       if (before.channel != after.channel) continue;

@@ -72,9 +72,9 @@ bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scen
 
 /// Whether the ranges of white and of black print, each by themselves, contradict each other about
 /// a candidate: beside it and a constant difference between the prints, its print contrast is there
-/// and at least half as large as the effect itself (one print shows less than a third of the
-/// other's). What depends on the print is then something else.
-/// `columns` are the model's own (the reference's subset).
+/// and so large that one print shows nothing, less than a fifth of what the other does, or the
+/// opposite. What depends on the print is then something else. `columns` are the model's own (the
+/// reference's subset).
 bool prints_disagree(const MeasurementTable& table, const ModelState& state,
                      const std::vector<EffectInUse>& model, const EffectColumnsList& columns,
                      const ColumnSubset& subset, const ModelVariances& variances,

@@ -173,7 +173,11 @@ std::string discovery_summary(const Discovery& d) {
   const std::string head = "  channel           RMS  noise floor  unexplained     held out\n";
   std::string out = "Base model\n" + head + channel_lines(d.channels) + "\n";
   if (d.selected.empty()) {
-    out += "Nothing is missing: no effect of the catalogue predicts held-out scenes better.\n";
+    out +=
+        d.unknown.empty()
+            ? "Nothing is missing: no effect of the catalogue predicts held-out scenes better.\n"
+            : "No effect of the catalogue predicts held-out scenes better, but structure is left "
+              "(below).\n";
   }
   for (const std::string& id : d.selected) {
     for (const EffectFinding& f : d.effects) {

@@ -19,7 +19,7 @@ class Blooming final : public CatalogueEffect {
              .source = "VLS-128 manual",
              .breaker = "prints of two contrasts, or distances with different footprints",
              .needs = {.circles = true, .intensity = true}},
-            {{"κ", "1", 1.0, 0.05, 1.0}}) {}
+            {{"κ", "1", 1.0, 0.05, 1.0, 0.0}}) {}
 
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {
