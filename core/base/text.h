@@ -8,4 +8,8 @@ namespace lvcalib {
 /// Up to two numbers in a printf format ("%.1f mm and %.2f mrad"). At most 255 bytes.
 std::string formatted(const char* format, double a, double b = 0.0);
 
+/// A value with its standard deviation, both to the decimal where the latter has two digits:
+/// "4885 ± 1297", "15.80 ± 0.41". Three digits of the value where there is no standard deviation.
+std::string with_sigma(double value, double sigma);
+
 }  // namespace lvcalib

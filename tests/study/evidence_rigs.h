@@ -21,7 +21,9 @@ Result<CalibrationResult> calibrate_rig(const simulation::SimulatedRig& rig,
                                         const std::filesystem::path& folder);
 
 /// Each prints a markdown table.
-void study_methods(int rigs, std::uint64_t first_seed, const std::filesystem::path& folder);
+/// `condition`: jitter, footprint, camera or dense; all of them if empty.
+void study_methods(int rigs, std::uint64_t first_seed, const std::filesystem::path& folder,
+                   const std::string& condition);
 void study_bad_scenes(int rigs, std::uint64_t first_seed, const std::filesystem::path& folder);
 void study_downstream(int seeds, std::uint64_t first_seed);
 

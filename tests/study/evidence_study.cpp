@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Evidence for the statements about methods, bad scenes and boundary weights, as markdown tables.
 //
-//   evidence_study methods|bad-scenes|downstream [COUNT] [FIRST_SEED] [FOLDER]
+//   evidence_study methods|bad-scenes|downstream [COUNT] [FIRST_SEED] [FOLDER] [CONDITION]
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   const std::uint64_t first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
   const std::filesystem::path folder = argc > 4 ? argv[4] : std::filesystem::temp_directory_path();
   if (what == "methods") {
-    study_methods(count, first, folder);
+    study_methods(count, first, folder, argc > 5 ? argv[5] : "");
   } else if (what == "bad-scenes") {
     study_bad_scenes(count, first, folder);
   } else if (what == "downstream") {
@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   } else {
     std::fprintf(stderr,
                  "usage: evidence_study methods|bad-scenes|downstream [COUNT] [FIRST_SEED] "
-                 "[FOLDER]\n");
+                 "[FOLDER] [CONDITION]\n");
     return 2;
   }
   return 0;

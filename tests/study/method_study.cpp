@@ -16,15 +16,20 @@ enum class Condition {
   kJitter,     // A needle beam that jitters by 0.15°: every sample is black or white.
   kFootprint,  // A steady beam whose footprint has 0.15°: edges are soft.
   kCamera,     // The same with a dim, noisy and blurred image: corners scatter by 0.3 px.
+  kDense,  // All of it with a million points a scene: some ten thousand samples at edges, as the
+           // paper's scenes have.
 };
 
 struct NamedCondition {
   Condition condition;
   const char* name;
+  const char* title;
 };
-constexpr NamedCondition kConditions[] = {{Condition::kJitter, "jitter"},
-                                          {Condition::kFootprint, "footprint"},
-                                          {Condition::kCamera, "footprint and a noisy camera"}};
+constexpr NamedCondition kConditions[] = {
+    {Condition::kJitter, "jitter", "jitter"},
+    {Condition::kFootprint, "footprint", "footprint"},
+    {Condition::kCamera, "camera", "footprint and a noisy camera"},
+    {Condition::kDense, "dense", "jitter, a noisy camera, a million points"}};
 
 simulation::SimulationOptions paper_rig(std::uint64_t seed, Condition condition) {
   constexpr double kAngle_deg = 0.15;
@@ -32,11 +37,13 @@ simulation::SimulationOptions paper_rig(std::uint64_t seed, Condition condition)
   options.seed = seed;
   options.lidar.range_sigma_m = 0.009;
   options.lidar.range_dark_exponent = 0.0;
-  const bool jitter = condition == Condition::kJitter;
+  const bool dense = condition == Condition::kDense;
+  const bool jitter = dense || condition == Condition::kJitter;
+  if (dense) options.lidar.points = 1'000'000;
   if (jitter) options.lidar.angle_sigma_deg = kAngle_deg;
   const double footprint_mrad = jitter ? 0.0 : 1e3 * kAngle_deg * std::numbers::pi / 180.0;
   options.lidar.beam_horizontal_mrad = options.lidar.beam_vertical_mrad = footprint_mrad;
-  if (condition == Condition::kCamera) {
+  if (dense || condition == Condition::kCamera) {
     options.image.blur_px = 2.0;
     options.image.full_well_e = 20.0;
     options.image.read_noise = 20.0;
@@ -130,7 +137,7 @@ void study_condition(const NamedCondition& what, int rigs, std::uint64_t first_s
     }
     add(tally, *result, rig->camera_from_lidar);
   }
-  std::printf("\n%s\n\n", what.name);
+  std::printf("\n%s\n\n", what.title);
   std::printf(
       "| method | corners [px] | nodes [mm] | transfer [px] | off truth [mm] | off truth "
       "[mrad] |\n| --- | --- | --- | --- | --- | --- |\n");
@@ -157,9 +164,12 @@ void study_condition(const NamedCondition& what, int rigs, std::uint64_t first_s
 
 }  // namespace
 
-void study_methods(int rigs, std::uint64_t first_seed, const std::filesystem::path& folder) {
-  for (const NamedCondition& condition : kConditions)
-    study_condition(condition, rigs, first_seed, folder);
+void study_methods(int rigs, std::uint64_t first_seed, const std::filesystem::path& folder,
+                   const std::string& condition) {
+  for (const NamedCondition& known : kConditions) {
+    if (condition.empty() || condition == known.name)
+      study_condition(known, rigs, first_seed, folder);
+  }
 }
 
 }  // namespace lvcalib::study

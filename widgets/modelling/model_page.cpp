@@ -56,6 +56,9 @@ void ModelPage::createLayout() {
   rows->setChildrenCollapsible(false);
   budget_->setMinimumHeight(90);
   legend_->setObjectName(QStringLiteral("model_legend"));
+  // Many steps take more lines, not more width from the docks.
+  legend_->setWordWrap(true);
+  legend_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Minimum);
   auto* top = new QWidget(this);
   auto* history = new QVBoxLayout(top);
   history->setContentsMargins(0, 0, 0, 0);

@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <map>
 
+#include "base/text.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
@@ -117,8 +118,7 @@ QString value_text(const ParameterEstimate& p, bool held) {
   if (held)
     return translated(QT_TRANSLATE_NOOP("ModelText", "%1%2 (held)"))
         .arg(QString::number(value, 'g', 4), unit);
-  return QStringLiteral("%1 ± %2%3")
-      .arg(QString::number(value, 'g', 3), QString::number(sigma, 'g', 2), unit);
+  return QString::fromStdString(with_sigma(value, sigma)) + unit;
 }
 
 QString values_text(const std::vector<ParameterEstimate>& parameters, bool held) {

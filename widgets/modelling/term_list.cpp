@@ -36,7 +36,8 @@ TermList::TermList(QWidget* parent)
   tree_->setRootIsDecorated(true);
   tree_->setUniformRowHeights(true);
   tree_->header()->setStretchLastSection(false);
-  tree_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
+  // Both in full: what does not fit can be scrolled to.
+  tree_->header()->setSectionResizeMode(kName, QHeaderView::ResizeToContents);
   tree_->header()->setSectionResizeMode(kValue, QHeaderView::ResizeToContents);
   tree_->header()->setSectionResizeMode(kHeld, QHeaderView::ResizeToContents);
   tree_->setIndentation(14);

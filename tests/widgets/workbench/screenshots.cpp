@@ -162,6 +162,12 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
   camera.take(name("brush-scene"));
   test::find<QTabWidget>(window, "pages")->setCurrentIndex(4);
   test::find<QToolButton>(window, "brush")->click();
+  // All that the search finds, from the base model.
+  window.model_work().go_to(0);
+  if (!wait_for_model(window)) return;
+  channel->setCurrentIndex(channel->findData(static_cast<int>(Channel::kRange)));
+  test::find<QPushButton>(window, "find_all")->click();
+  if (wait_for_model(window)) camera.take(name("all"));
 }
 
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset) {
