@@ -23,8 +23,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 }
 
 std::string value_text(const ParameterEstimate& p) {
-  return p.name + " = " +
-         with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + " " + p.unit;
+  return p.name + " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + " " + p.unit;
 }
 
 std::string lowest_text(const EffectColumns& columns) {

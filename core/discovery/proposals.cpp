@@ -19,8 +19,8 @@ std::string values_text(const std::vector<ParameterEstimate>& parameters) {
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (k == kShown) return out + ", …";
     const ParameterEstimate& p = parameters[k];
-    out += (out.empty() ? "" : ", ") + p.name +
-           " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + " " + p.unit;
+    out += (out.empty() ? "" : ", ") + p.name + " = " +
+           with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + " " + p.unit;
   }
   return out;
 }

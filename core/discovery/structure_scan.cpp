@@ -308,9 +308,8 @@ bool is_sure(const StructureScore& score, std::size_t tried, const DiscoveryOpti
   const auto speaking =
       std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
                     [&](double gain) { return std::abs(gain) >= options.speaking_nats; });
-  const auto improved =
-      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
-                    [&](double gain) { return gain >= options.speaking_nats; });
+  const auto improved = std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                                      [&](double gain) { return gain >= options.speaking_nats; });
   return is_gain(score.scene_gain) &&
          static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole calibration from warm files, its stages, and solving again after a rejection.
-// Three simulated scenes with 1920 × 1200 images; the argument is the number of points a scene, so
-// that the time per point shows whether the cost is linear.
+// The whole calibration from warm files, its stages, solving again after a rejection, the joint
+// solve with every scene left out once, and the boundary response. Three simulated scenes (or as
+// many as the second argument says) with 1920 × 1200 images; the first argument is the number of
+// points a scene, so that the time per point shows whether the cost is linear.
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -13,6 +14,7 @@
 #include "pipeline/calibration.h"
 #include "simulation/dataset_writer.h"
 #include "simulation/simulator.h"
+#include "support/synthetic_observations.h"
 
 namespace {
 
@@ -21,7 +23,7 @@ using namespace lvcalib;
 
 constexpr int kScenes = 3;
 
-// Datasets of one run, by points a scene; written once.
+// Datasets of one run, by points a scene and scenes; written once.
 class Datasets {
  public:
   Datasets()
@@ -30,17 +32,18 @@ class Datasets {
   Datasets& operator=(const Datasets&) = delete;
   ~Datasets() { fs::remove_all(folder_); }
 
-  const fs::path& get(std::int64_t points) {
-    const auto [entry, fresh] = paths_.try_emplace(points, folder_ / std::to_string(points));
-    if (fresh) write(entry->second, points);
+  const fs::path& get(std::int64_t points, std::int64_t scenes = kScenes) {
+    const auto [entry, fresh] = paths_.try_emplace(
+        {points, scenes}, folder_ / (std::to_string(points) + "x" + std::to_string(scenes)));
+    if (fresh) write(entry->second, points, scenes);
     return entry->second;
   }
 
  private:
-  static void write(const fs::path& path, std::int64_t points);
+  static void write(const fs::path& path, std::int64_t points, std::int64_t scenes);
 
   fs::path folder_;
-  std::map<std::int64_t, fs::path> paths_;
+  std::map<std::pair<std::int64_t, std::int64_t>, fs::path> paths_;
 };
 
 Datasets& datasets() {
@@ -53,9 +56,9 @@ void give_up(const Error& error) {
   std::exit(1);
 }
 
-void Datasets::write(const fs::path& path, std::int64_t points) {
+void Datasets::write(const fs::path& path, std::int64_t points, std::int64_t scenes) {
   simulation::SimulationOptions options;
-  options.scenes = kScenes;
+  options.scenes = static_cast<int>(scenes);
   options.lidar.points = static_cast<int>(points);
   options.image.width_px = 1920;
   options.image.height_px = 1200;
@@ -95,13 +98,40 @@ void whole_calibration(benchmark::State& state) {
 
 // What a user waits for after unticking a scene.
 void solve_again(benchmark::State& state) {
-  const CalibrationResult result = calibrated(datasets().get(state.range(0)));
+  const CalibrationResult result = calibrated(datasets().get(state.range(0), state.range(1)));
   std::vector<bool> use(result.scenes.size(), true);
   for (auto _ : state) {
     use[0] = !use[0];
     auto again = resolve_calibration(result, use, {});
     if (!again) give_up(again.error());
     benchmark::DoNotOptimize(again->extrinsic.rms_px);
+  }
+}
+
+// The joint solve and as many again, each without one of the scenes.
+void leave_one_out(benchmark::State& state) {
+  const Target target;
+  const Camera camera = test::test_camera();
+  const auto scenes = test::observed_scenes(static_cast<int>(state.range(0)), target, camera,
+                                            test::test_extrinsic(), {}, 1);
+  for (auto _ : state) {
+    auto solution = solve_extrinsic(scenes, camera, target, {});
+    if (!solution) give_up(solution.error());
+    if (solution->leave_one_out.size() != scenes.size())
+      give_up(Error::untrusted("not every scene was left out"));
+  }
+}
+
+void boundary_response(benchmark::State& state) {
+  const CalibrationResult result = calibrated(datasets().get(state.range(0)));
+  std::vector<ResponseInput> inputs;
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.refinement) inputs.push_back({scene.name, &scene.board_points, &*scene.refinement});
+  }
+  for (auto _ : state) {
+    auto response = calibrate_boundary_response(inputs, result.target, {}, {});
+    if (!response) give_up(response.error());
+    benchmark::DoNotOptimize(response->scenes.size());
   }
 }
 
@@ -115,6 +145,12 @@ BENCHMARK(whole_calibration)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
-BENCHMARK(solve_again)->Arg(125'000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(solve_again)
+    ->Args({125'000, 3})
+    ->Args({125'000, 10})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(leave_one_out)->Arg(10)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(boundary_response)->Arg(500'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 BENCHMARK_MAIN();
