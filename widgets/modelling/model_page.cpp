@@ -51,7 +51,7 @@ void ModelPage::createLayout() {
   columns->setStretchFactor(0, 0);
   columns->setStretchFactor(1, 1);
   columns->setStretchFactor(2, 0);
-  columns->setSizes({250, 460, 330});
+  columns->setSizes({290, 400, 370});
   auto* rows = new QSplitter(Qt::Vertical, this);
   rows->setChildrenCollapsible(false);
   budget_->setMinimumHeight(90);
