@@ -23,4 +23,8 @@ std::string with_sigma(double value, double sigma) {
   return formatted((number + " ± " + number).c_str(), value, sigma);
 }
 
+std::string behind_number(const std::string& unit) {
+  return unit == "1" ? "" : " " + unit;
+}
+
 }  // namespace lvcalib

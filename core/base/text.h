@@ -12,4 +12,7 @@ std::string formatted(const char* format, double a, double b = 0.0);
 /// "4885 ± 1297", "15.80 ± 0.41". Three digits of the value where there is no standard deviation.
 std::string with_sigma(double value, double sigma);
 
+/// " mm" behind a number; nothing for the unit "1".
+std::string behind_number(const std::string& unit);
+
 }  // namespace lvcalib

@@ -23,14 +23,16 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 }
 
 std::string value_text(const ParameterEstimate& p) {
-  return p.name + " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + " " + p.unit;
+  return p.name + " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) +
+         behind_number(p.unit);
 }
 
 std::string lowest_text(const EffectColumns& columns) {
   std::vector<std::string> parts;
   for (const EffectParameter& p : columns.parameters) {
     if (std::isfinite(p.lowest))
-      parts.push_back(p.name + " = " + formatted("%.3g ", p.lowest / p.unit_in_si) + p.unit);
+      parts.push_back(p.name + " = " + formatted("%.3g", p.lowest / p.unit_in_si) +
+                      behind_number(p.unit));
   }
   return joined(parts, ", ");
 }

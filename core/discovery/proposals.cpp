@@ -20,7 +20,7 @@ std::string values_text(const std::vector<ParameterEstimate>& parameters) {
     if (k == kShown) return out + ", …";
     const ParameterEstimate& p = parameters[k];
     out += (out.empty() ? "" : ", ") + p.name + " = " +
-           with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + " " + p.unit;
+           with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + behind_number(p.unit);
   }
   return out;
 }

@@ -24,6 +24,11 @@ TEST(Text, AValueIsGivenToTheDigitsThatItsSigmaBears) {
   EXPECT_EQ(with_sigma(1.0, NAN), "1 ± nan");
 }
 
+TEST(Text, NumbersWithoutAUnitHaveNone) {
+  EXPECT_EQ(behind_number("mm"), " mm");
+  EXPECT_EQ(behind_number("1"), "");
+}
+
 TEST(Text, TooLongATextIsCut) {
   EXPECT_EQ(formatted("%400.0f", 1.0).size(), 255U);
 }
