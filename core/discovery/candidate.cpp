@@ -200,6 +200,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   out.p_value = f_test(out.fit, c.count());
   out.material = is_material(c, out.fit);
   out.possible = is_possible(c, out.fit);
+  if (c.effect->info().group == "radiometry") out.must_show = Channel::kIntensity;
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};
   const auto heldout = heldout_squares(linear, out.fit);
@@ -272,10 +273,11 @@ bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scen
   // An effect that acts on few rows is asked for the same fall on those.
   const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
   for (std::size_t k = 0; k < kChannels; ++k) {
+    if (candidate.must_show && static_cast<std::size_t>(*candidate.must_show) != k) continue;
     const double share = candidate.acting_share[k];
     if (share > 0.0 && candidate.heldout_gain[k] >= least * share) return true;
   }
-  return candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
+  return !candidate.must_show && candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
 }
 
 bool prints_disagree(const MeasurementTable& table, const ModelState& state,

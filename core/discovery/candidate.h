@@ -25,6 +25,9 @@ struct Candidate {
   /// It may be as large as matters: some parameter's upper 95 % limit is, and so is the limit of
   /// what all of them do together to the measurements (see is_material in the source).
   bool material = true;
+  /// The channel that has to show it: of an effect of the intensities these. Edges alone cannot
+  /// tell it from what else moves edges.
+  std::optional<Channel> must_show;
   /// Values that a device can have are within two standard deviations of the estimate.
   bool possible = true;
   /// White and black print tell different stories about it (see prints_disagree).

@@ -129,6 +129,18 @@ TEST_F(Candidates, EveryConditionCounts) {
   c = good;
   c.material = false;  // excluded at the size that matters
   EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c = good;
+  c.possible = false;  // of a size that no device has
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c = good;
+  c.contradicted = true;  // one print alone shows it
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c = good;
+  c.must_show = Channel::kIntensity;  // an effect of the intensities that only ranges show
+  c.extrinsic_move_sigmas = 2.0;
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c.heldout_gain = {0.0, 0.0, 0.0, 0.02};
+  EXPECT_TRUE(is_accepted(c, 60, 6, options_));
   // With three scenes three times the fall is asked for.
   c = good;
   c.scene_gain = {4.0, 5.0, 4.5};
