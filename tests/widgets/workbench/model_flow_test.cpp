@@ -5,9 +5,7 @@
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTemporaryDir>
-#include <QToolButton>
 #include <QTreeWidget>
-#include <iostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -178,64 +176,6 @@ TEST_F(Flow, WhereNothingIsHiddenThePageSaysSo) {
   }
   RecordProperty("slowest_switch_ms", slowest);
   RecordProperty("largest_gap_ms", static_cast<int>(watchdog.take_largest_ms()));
-}
-
-// Six scenes of a quarter of a million points: no stage, switch or brush may hold the window.
-TEST_F(Flow, StaysFluidOnSixBigScenes) {
-  auto options = demo_options();
-  options.scenes = 6;
-  options.effects = {{"range_walk", 10.0}, {"board_bow", 4.0}};
-  options.lidar.points = 250'000;
-  test::Watchdog watchdog;
-  const auto report = [&](const char* what) {
-    const auto gap = watchdog.take_largest_ms();
-    std::cout << "largest gap while " << what << ": " << gap << " ms\n";
-    RecordProperty(std::string("gap_ms_") + what, static_cast<int>(gap));
-    EXPECT_LT(gap, 1000) << what;
-  };
-  ASSERT_TRUE(open_and_run(options, false));
-  watchdog.take_largest_ms();
-  QTest::mouseClick(test::find<QPushButton>(window_, "look_missing"), Qt::LeftButton);
-  QTest::qWait(100);
-  ASSERT_TRUE(wait_idle());
-  report("ranking");
-  QTest::mouseClick(test::find<QPushButton>(window_, "find_all"), Qt::LeftButton);
-  QTest::qWait(100);
-  ASSERT_TRUE(wait_idle());
-  EXPECT_GE(work().current(), 2U);
-  report("finding");
-  auto* plot = test::find<ResidualPlot>(window_, "residual_plot");
-  auto* channel = test::find<QComboBox>(window_, "channel");
-  channel->setCurrentIndex(channel->findData(static_cast<int>(Channel::kRange)));
-  auto* covariates = test::find<QComboBox>(window_, "covariate");
-  qint64 slowest = 0;
-  for (int k = 0; k < covariates->count(); ++k) {
-    QElapsedTimer clock;
-    clock.start();
-    covariates->setCurrentIndex(k);
-    const std::string wanted = covariates->currentData().toString().toStdString();
-    ASSERT_TRUE(
-        test::wait_until([&] { return plot->figure() && plot->figure()->along().name == wanted; }));
-    if (k > 0) slowest = std::max(slowest, clock.elapsed());
-  }
-  std::cout << "slowest covariate: " << slowest << " ms\n";
-  RecordProperty("slowest_switch_ms", static_cast<int>(slowest));
-  report("switching");
-  covariates->setCurrentIndex(covariates->findData(QStringLiteral("range")));
-  ASSERT_TRUE(
-      test::wait_until([&] { return plot->figure() && plot->figure()->along().name == "range"; }));
-  test::find<QToolButton>(window_, "brush")->click();
-  watchdog.take_largest_ms();
-  QElapsedTimer clock;
-  clock.start();
-  constexpr int kMoves = 40;
-  for (int k = 1; k <= kMoves; ++k) {
-    Q_EMIT plot->brushed(QRectF(QPointF(0.0, -100.0), QPointF(2.0 + 0.05 * k, 100.0)));
-    QCoreApplication::processEvents();
-  }
-  std::cout << "brushing: " << clock.elapsed() / kMoves << " ms a move\n";
-  RecordProperty("milliseconds_per_move", static_cast<int>(clock.elapsed() / kMoves));
-  report("brushing");
 }
 
 }  // namespace
