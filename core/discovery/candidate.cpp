@@ -43,24 +43,6 @@ Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p) {
          h.bottomLeftCorner(p, q) * h.topLeftCorner(q, q).ldlt().solve(h.topRightCorner(q, p));
 }
 
-// P value of the squared length, in standard deviations, of p unknowns that may be zero.
-// Between-scene effects have no more degrees of freedom than the scenes leave: three of each
-// scene's board pose minus the extrinsic.
-double f_test(double squares, Eigen::Index p, std::size_t scenes) {
-  const double f = squares / static_cast<double>(p);
-  const double freedom = std::max(1.0, 3.0 * static_cast<double>(scenes) - 6.0);
-  if (!(f > 0.0) || !std::isfinite(f)) return 1.0;
-  return boost::math::cdf(
-      boost::math::complement(boost::math::fisher_f(static_cast<double>(p), freedom), f));
-}
-
-// Wald F test that the last p unknowns are zero.
-double f_test(const ModelFit& fit, Eigen::Index p) {
-  const Eigen::VectorXd theta = fit.solution.tail(p);
-  const Eigen::MatrixXd s = information_of_last(fit, p);
-  return f_test(theta.dot(s * theta), p, fit.scenes.size());
-}
-
 // What is excluded at the size that matters is not worth a place in the model, however sure.
 // First each parameter by itself. Then all together, since parameters that act alike are each
 // undetermined although what they do is known: in units of its standard deviation the effect of the
@@ -229,6 +211,20 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   return out;
 }
 
+double f_test(double squares, Eigen::Index p, std::size_t scenes) {
+  const double f = squares / static_cast<double>(p);
+  const double freedom = std::max(1.0, 3.0 * static_cast<double>(scenes) - 6.0);
+  if (!(f > 0.0) || !std::isfinite(f)) return 1.0;
+  return boost::math::cdf(
+      boost::math::complement(boost::math::fisher_f(static_cast<double>(p), freedom), f));
+}
+
+double f_test(const ModelFit& fit, Eigen::Index p) {
+  const Eigen::VectorXd theta = fit.solution.tail(p);
+  const Eigen::MatrixXd s = information_of_last(fit, p);
+  return f_test(theta.dot(s * theta), p, fit.scenes.size());
+}
+
 bool is_gain(const std::vector<double>& per_scene) {
   const MeanAndError gain = mean_of(per_scene);
   return gain.mean > gain.error;
@@ -278,67 +274,6 @@ bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scen
     if (share > 0.0 && candidate.heldout_gain[k] >= least * share) return true;
   }
   return !candidate.must_show && candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
-}
-
-bool prints_disagree(const MeasurementTable& table, const ModelState& state,
-                     const std::vector<EffectInUse>& model, const EffectColumnsList& columns,
-                     const ColumnSubset& subset, const ModelVariances& variances,
-                     const EffectColumns& candidate, const DiscoveryOptions& options,
-                     const RunContext& context) {
-  if (candidate.effect->info().id == "range_walk") return false;  // It is about prints.
-  EffectColumnsList with = columns;
-  const std::size_t at = columns.list().size();
-  with.add(candidate.effect, candidate.shape, table);
-  with.add_print_contrast(candidate.effect, candidate.shape, table);
-  with.add(find_effect("range_walk"), 0.0, table);
-  const Linearization linear = linearize(table, state, model, with, context);
-  if (context.stopped()) return false;
-  const EffectColumns& effect = with.list()[at];
-  const EffectColumns& contrast = with.list()[at + 1];
-  const Eigen::Index p = contrast.count();
-  const auto fitted = [&](bool beside_walk) {
-    ColumnSubset all = subset;
-    if (beside_walk) append_columns(with.list()[at + 2], nullptr, all);
-    append_columns(effect, nullptr, all);
-    append_columns(contrast, nullptr, all);
-    return fit_model(linear, all, variances, {.rounds = 3});
-  };
-  const auto is_determined = [&](const ModelFit& fit) {
-    constexpr double kDetermined = 1e-3;
-    return determined_share(fit, fit.solution.size() - p, p) > kDetermined;
-  };
-  const bool walks = std::any_of(model.begin(), model.end(), [](const EffectInUse& use) {
-    return use.effect->info().id == "range_walk";
-  });
-  ModelFit fit = fitted(!walks);
-  // A constant between the prints is the contrast of an offset itself: who is it? The walk comes
-  // first, and the offset is asked again beside it.
-  if (!walks && !is_determined(fit)) fit = fitted(false);
-  if (!is_determined(fit) || f_test(fit, p) > options.false_alarm) return false;
-  // RMS over the ranges: both columns have the same squares.
-  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(p, p);
-  for (const SceneProducts& s : linear.scenes) {
-    const int first = s.layout.size() + 6 + contrast.first;
-    squares += s.products[static_cast<std::size_t>(Channel::kRange)].block(first, first, p, p);
-  }
-  const Eigen::VectorXd by_effect = fit.solution.segment(fit.solution.size() - 2 * p, p);
-  const Eigen::VectorXd by_contrast = fit.solution.tail(p);
-  const Eigen::MatrixXd c = fit.covariance.bottomRightCorner(2 * p, 2 * p);
-  const Eigen::MatrixXd both = c.topLeftCorner(p, p) + c.bottomRightCorner(p, p);
-  const Eigen::MatrixXd cross = c.topRightCorner(p, p) + c.bottomLeftCorner(p, p);
-  const Eigen::VectorXd white = by_effect + by_contrast;
-  const Eigen::VectorXd black = by_effect - by_contrast;
-  const auto is_nothing = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance) {
-    const double length = theta.dot(covariance.ldlt().solve(theta));
-    return f_test(length, p, linear.scenes.size()) > options.false_alarm;
-  };
-  // a + b on one print and a - b on the other: a fifth at most, or the opposite.
-  constexpr double kFifth = 0.2;
-  const double least = (1.0 - kFifth) / (1.0 + kFifth);
-  if (by_contrast.dot(squares * by_contrast) >= least * least * by_effect.dot(squares * by_effect))
-    return true;
-  return white.dot(squares * white) < black.dot(squares * black) ? is_nothing(white, both + cross)
-                                                                 : is_nothing(black, both - cross);
 }
 
 double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,

@@ -30,7 +30,7 @@ struct Candidate {
   std::optional<Channel> must_show;
   /// Values that a device can have are within two standard deviations of the estimate.
   bool possible = true;
-  /// White and black print tell different stories about it (see prints_disagree).
+  /// White and black print tell different stories about it (see print_contrast.h).
   bool contradicted = false;
   [[nodiscard]] double total_gain() const;
   [[nodiscard]] double total_density() const;
@@ -73,16 +73,13 @@ bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptio
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options);
 
-/// Whether the ranges of white and of black print, each by themselves, contradict each other about
-/// a candidate: beside it and a constant difference between the prints, its print contrast is there
-/// and so large that one print shows nothing, less than a fifth of what the other does, or the
-/// opposite. What depends on the print is then something else. `columns` are the model's own (the
-/// reference's subset).
-bool prints_disagree(const MeasurementTable& table, const ModelState& state,
-                     const std::vector<EffectInUse>& model, const EffectColumnsList& columns,
-                     const ColumnSubset& subset, const ModelVariances& variances,
-                     const EffectColumns& candidate, const DiscoveryOptions& options,
-                     const RunContext& context);
+/// P value of the squared length, in standard deviations, of p unknowns that may be zero.
+/// Between-scene effects have no more degrees of freedom than the scenes leave: three of each
+/// scene's board pose minus the extrinsic.
+double f_test(double squares, Eigen::Index p, std::size_t scenes);
+
+/// Wald F test that the last p unknowns of a fit are zero, from the data alone.
+double f_test(const ModelFit& fit, Eigen::Index p);
 
 /// True if the mean over scenes exceeds its standard error.
 bool is_gain(const std::vector<double>& per_scene);

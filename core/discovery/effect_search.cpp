@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "discovery/print_contrast.h"
 #include "model/natural_footprint.h"
 #include "model/residuals.h"
 
@@ -227,13 +228,14 @@ void EffectSearch::ask_both_prints() {
   const bool told = find_effect("range_walk") != nullptr &&
                     why_not_testable(*find_effect("range_walk"), table_).empty();
   if (!told) return;
+  const std::vector<EffectInUse> effects = model();
   const EffectColumnsList own = own_columns();
   const ColumnSubset subset = own_subset(own);
   while (!context_.stopped()) {
     const auto chosen = best();
     if (!chosen || candidates_[*chosen].main_channel() != Channel::kRange) return;
     const EffectColumns& columns = linear_.columns.list()[candidates_[*chosen].columns];
-    if (!prints_disagree(table_, state_, model(), own, subset, variances_, columns, options_,
+    if (!prints_disagree({table_, state_, effects, own, subset, variances_}, columns, options_,
                          context_))
       return;
     for (Candidate& c : candidates_) {

@@ -246,6 +246,20 @@ std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
   return out;
 }
 
+// Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
+// alone, as of a warped board, is no gain in most.
+bool scenes_agree(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
+  const double total = std::accumulate(score.scene_gain.begin(), score.scene_gain.end(), 0.0);
+  if (!(total > std::log(static_cast<double>(tried) / options.false_alarm))) return false;
+  const auto speaking =
+      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                    [&](double gain) { return std::abs(gain) >= options.speaking_nats; });
+  const auto improved = std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                                      [&](double gain) { return gain >= options.speaking_nats; });
+  return is_gain(score.scene_gain) &&
+         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
+}
+
 }  // namespace
 
 StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
@@ -300,23 +314,9 @@ std::vector<StructureScore> scan_places(const MeasurementTable& table, const Mod
   return out;
 }
 
-// Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
-// alone, as of a warped board, is no gain in most.
-bool is_sure(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
-  const double total = std::accumulate(score.scene_gain.begin(), score.scene_gain.end(), 0.0);
-  if (!(total > std::log(static_cast<double>(tried) / options.false_alarm))) return false;
-  const auto speaking =
-      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
-                    [&](double gain) { return std::abs(gain) >= options.speaking_nats; });
-  const auto improved = std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
-                                      [&](double gain) { return gain >= options.speaking_nats; });
-  return is_gain(score.scene_gain) &&
-         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
-}
-
 bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
   return score.score >= options.min_structure ||
-         (score.score >= options.min_sure_structure && is_sure(score, tried, options));
+         (score.score >= options.min_sure_structure && scenes_agree(score, tried, options));
 }
 
 std::vector<StructureScore> notable_structure(const MeasurementTable& table,

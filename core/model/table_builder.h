@@ -24,18 +24,11 @@ struct TableOptions {
   double footprint_rad = 0.001;
 };
 
-/// Builds the table at a state. The corners' noise is measured (see corner_noise in the source);
+/// Builds the table at a state. The corners' noise is measured (see corner_noise);
 /// `sigma_px` stands in where there are too few corners for that.
 /// Every scene's board pose is in `state` in the same order.
 MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const Target& target,
                              const Camera& camera, const ModelState& state, double sigma_px,
                              const TableOptions& options);
-
-/// Standard deviation of the range noise from pairs of neighbours on the board (same line and
-/// print, a few millimetres apart), which no smooth effect can widen: √(median d²/2/0.455).
-/// Zero if there are fewer than `min_pairs`.
-double replicate_sigma(const std::vector<Eigen::Vector2d>& board_m,
-                       const std::vector<double>& values, const std::vector<int>& strata,
-                       double distance_m, int min_pairs);
 
 }  // namespace lvcalib

@@ -300,18 +300,6 @@ class Calibration {
 
 }  // namespace
 
-std::string name_of(Quality quality) {
-  switch (quality) {
-    case Quality::kGood:
-      return "good";
-    case Quality::kDoubtful:
-      return "doubtful";
-    case Quality::kFailed:
-      break;
-  }
-  return "failed";
-}
-
 Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
                                     const RunContext& context) {
   return Calibration(dataset, request, context, nullptr, CalibrationObserver()).run();
@@ -321,100 +309,6 @@ Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationReq
                                     const RunContext& context, StageCache& cache,
                                     const CalibrationObserver& observer) {
   return Calibration(dataset, request, context, &cache, observer).run();
-}
-
-bool can_be_used(const SceneResult& scene, const Target& target) {
-  return scene.view && scene.refinement &&
-         (!target.has_circles() || scene.refinement->valid_nodes() >= 3);
-}
-
-namespace {
-
-// What the joint solve needs of every scene that got so far; `index` says which scene it is.
-std::vector<SceneObservations> observations_of(const CalibrationResult& result,
-                                               const std::vector<bool>& use,
-                                               std::vector<std::size_t>& index) {
-  std::vector<SceneObservations> observations;
-  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
-    const SceneResult& scene = result.scenes[s];
-    if (!scene.view || !scene.refinement) continue;
-    SceneObservations o;
-    o.name = scene.name;
-    o.use = s < use.size() && use[s];
-    o.corners = scene.view->corners;
-    o.camera_from_board = scene.view->camera_from_board.transform;
-    // Of an ambiguous camera pose take the reading that the LiDAR supports.
-    if (scene.view->alternative_pose) {
-      const Rigid3 predicted =
-          result.consensus.camera_from_lidar.transform * scene.refinement->lidar_from_board;
-      if (rotation_distance_rad(*scene.view->alternative_pose, predicted) <
-          rotation_distance_rad(o.camera_from_board, predicted)) {
-        o.camera_from_board = *scene.view->alternative_pose;
-      }
-    }
-    o.plane = scene.refinement->plane;
-    o.lidar_from_board = scene.refinement->lidar_from_board;
-    o.nodes = scene.refinement->nodes;
-    observations.push_back(std::move(o));
-    index.push_back(s);
-  }
-  return observations;
-}
-
-// The boundary response of the scenes in use.
-Status respond(CalibrationResult& result, const CalibrationOptions& options,
-               const RunContext& context) {
-  const auto start = Clock::now();
-  std::vector<ResponseInput> inputs;
-  for (const SceneResult& scene : result.scenes) {
-    if (scene.used && scene.refinement)
-      inputs.push_back({scene.name, &scene.board_points, &*scene.refinement});
-  }
-  auto response = calibrate_boundary_response(inputs, result.target, options.response, context);
-  if (!response) return response.error();
-  result.response = std::move(*response);
-  result.times.response_ms = ms_since(start);
-  return Done{};
-}
-
-}  // namespace
-
-Result<CalibrationResult> resolve_calibration(CalibrationResult result,
-                                              const std::vector<bool>& use,
-                                              const CalibrationOptions& options,
-                                              const RunContext& context) {
-  std::vector<std::size_t> index;
-  const auto observations = observations_of(result, use, index);
-  auto solution = solve_extrinsic(observations, result.camera, result.target, options.extrinsic);
-  if (!solution) {
-    Error error = solution.error();
-    error.where = result.dataset;
-    for (const SceneResult& scene : result.scenes) {
-      if (!scene.reason.empty()) {
-        error.message += "; scene " + scene.name + ": " + scene.reason;
-        break;
-      }
-    }
-    return error;
-  }
-  result.extrinsic = std::move(*solution);
-  for (std::size_t k = 0; k < index.size(); ++k) {
-    SceneResult& scene = result.scenes[index[k]];
-    const bool wanted = observations[k].use;
-    scene.used = result.extrinsic.scenes[k].used;
-    if (!wanted) continue;
-    scene.reason = result.extrinsic.scenes[k].reason;
-    scene.contradicts = !scene.used && !scene.reason.empty();
-  }
-  if (context.stopped()) return Error::cancelled();
-  result.methods = compare_methods(observations, result.camera, result.target, result.extrinsic,
-                                   options.extrinsic);
-  if (context.stopped()) return Error::cancelled();
-  result.uncertainty = assess_uncertainty(observations, result.camera, result.target,
-                                          result.extrinsic, options.extrinsic);
-  if (Status status = respond(result, options, context); !status) return status.error();
-  judge_quality(result, options.quality);
-  return result;
 }
 
 }  // namespace lvcalib

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -13,16 +12,11 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "base/text.h"
 #include "pipeline/scene_loading.h"
 
 namespace lvcalib {
 namespace {
-
-std::string formatted(const char* format, double a, double b = 0.0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
 
 // Collects warnings and keeps the worst verdict with its first reason.
 class Verdict {
@@ -176,6 +170,18 @@ Target scaled(Target t, double s) {
 }
 
 }  // namespace
+
+std::string name_of(Quality quality) {
+  switch (quality) {
+    case Quality::kGood:
+      return "good";
+    case Quality::kDoubtful:
+      return "doubtful";
+    case Quality::kFailed:
+      break;
+  }
+  return "failed";
+}
 
 MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult& scene) {
   std::vector<double> scales;

@@ -10,27 +10,6 @@
 namespace lvcalib {
 namespace {
 
-TEST(ReplicateSigma, IsTheNoiseOfNeighboursWhateverSmoothLiesBelow) {
-  Random random(5);
-  std::vector<Eigen::Vector2d> at;
-  std::vector<double> values;
-  std::vector<int> strata;
-  for (int k = 0; k < 20'000; ++k) {
-    at.push_back({random.uniform(0.0, 0.7), random.uniform(0.0, 0.7)});
-    strata.push_back(k % 2);
-    // A wave of 20 mm, and a step between the strata.
-    values.push_back(0.02 * std::sin(10.0 * at.back().x()) + 0.05 * (k % 2) +
-                     0.006 * random.normal());
-  }
-  EXPECT_NEAR(replicate_sigma(at, values, strata, 0.003, 60), 0.006, 0.0004);
-}
-
-TEST(ReplicateSigma, IsZeroWithoutEnoughPairs) {
-  const std::vector<Eigen::Vector2d> at = {{0.0, 0.0}, {0.001, 0.0}, {0.5, 0.5}};
-  EXPECT_EQ(replicate_sigma(at, {1.0, 2.0, 3.0}, {0, 0, 0}, 0.003, 60), 0.0);
-  EXPECT_EQ(replicate_sigma({}, {}, {}, 0.003, 1), 0.0);
-}
-
 // Scenes whose points lie on the board with noise, refined without error.
 class Board : public ::testing::Test {
  protected:

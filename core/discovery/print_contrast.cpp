@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/print_contrast.h"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+namespace lvcalib {
+namespace {
+
+constexpr const char* kWalk = "range_walk";  // It is about prints itself.
+
+// A candidate, its print contrast and a constant difference between the prints beside the model.
+class PrintContrast {
+ public:
+  PrintContrast(const ModelInUse& model, const EffectColumns& candidate,
+                const DiscoveryOptions& options, const RunContext& context)
+      : model_(model), options_(options), with_(model.columns), at_(model.columns.list().size()) {
+    with_.add(candidate.effect, candidate.shape, model.table);
+    with_.add_print_contrast(candidate.effect, candidate.shape, model.table);
+    with_.add(find_effect(kWalk), 0.0, model.table);
+    linear_ = linearize(model.table, model.state, model.effects, with_, context);
+  }
+
+  [[nodiscard]] bool disagrees() const {
+    const bool walks =
+        std::any_of(model_.effects.begin(), model_.effects.end(),
+                    [](const EffectInUse& use) { return use.effect->info().id == kWalk; });
+    ModelFit fit = fitted(!walks);
+    // A constant between the prints is the contrast of an offset itself: who is it? The walk comes
+    // first, and the offset is asked again beside it.
+    if (!walks && !is_determined(fit)) fit = fitted(false);
+    if (!is_determined(fit) || f_test(fit, count()) > options_.false_alarm) return false;
+    return one_shows_nothing(fit);
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index count() const { return with_.list()[at_].count(); }
+
+  [[nodiscard]] ModelFit fitted(bool beside_walk) const {
+    ColumnSubset all = model_.subset;
+    if (beside_walk) append_columns(with_.list()[at_ + 2], nullptr, all);
+    append_columns(with_.list()[at_], nullptr, all);
+    append_columns(with_.list()[at_ + 1], nullptr, all);
+    return fit_model(linear_, all, model_.variances, {.rounds = 3});
+  }
+
+  [[nodiscard]] bool is_determined(const ModelFit& fit) const {
+    constexpr double kDetermined = 1e-3;
+    return determined_share(fit, fit.solution.size() - count(), count()) > kDetermined;
+  }
+
+  // Sums over the ranges of products of the contrast's columns; the effect has the same ones.
+  [[nodiscard]] Eigen::MatrixXd range_squares() const {
+    const Eigen::Index p = count();
+    Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(p, p);
+    for (const SceneProducts& s : linear_.scenes) {
+      const int first = s.layout.size() + LocalLayout::kPose + with_.list()[at_ + 1].first;
+      squares += s.products[static_cast<std::size_t>(Channel::kRange)].block(first, first, p, p);
+    }
+    return squares;
+  }
+
+  // The effect is the sum on white print and the difference on black.
+  [[nodiscard]] bool one_shows_nothing(const ModelFit& fit) const {
+    const Eigen::Index p = count();
+    const Eigen::MatrixXd squares = range_squares();
+    const auto size = [&](const Eigen::VectorXd& theta) { return theta.dot(squares * theta); };
+    const Eigen::VectorXd by_effect = fit.solution.segment(fit.solution.size() - 2 * p, p);
+    const Eigen::VectorXd by_contrast = fit.solution.tail(p);
+    constexpr double kFifth = 0.2;
+    const double least = (1.0 - kFifth) / (1.0 + kFifth);
+    if (size(by_contrast) >= least * least * size(by_effect)) return true;
+    const Eigen::MatrixXd c = fit.covariance.bottomRightCorner(2 * p, 2 * p);
+    const Eigen::MatrixXd both = c.topLeftCorner(p, p) + c.bottomRightCorner(p, p);
+    const Eigen::MatrixXd cross = c.topRightCorner(p, p) + c.bottomLeftCorner(p, p);
+    const auto is_nothing = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance) {
+      const double length = theta.dot(covariance.ldlt().solve(theta));
+      return f_test(length, p, linear_.scenes.size()) > options_.false_alarm;
+    };
+    const Eigen::VectorXd white = by_effect + by_contrast;
+    const Eigen::VectorXd black = by_effect - by_contrast;
+    return size(white) < size(black) ? is_nothing(white, both + cross)
+                                     : is_nothing(black, both - cross);
+  }
+
+  const ModelInUse& model_;
+  const DiscoveryOptions& options_;
+  EffectColumnsList with_;
+  std::size_t at_;  // of the candidate among the columns; its contrast and the walk follow
+  Linearization linear_;
+};
+
+}  // namespace
+
+bool prints_disagree(const ModelInUse& model, const EffectColumns& candidate,
+                     const DiscoveryOptions& options, const RunContext& context) {
+  if (candidate.effect->info().id == kWalk) return false;
+  const PrintContrast contrast(model, candidate, options, context);
+  return !context.stopped() && contrast.disagrees();
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/board_hits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/statistics.h"
+#include "model/noise_floor.h"
+#include "model/scan_velocity.h"
+#include "model/transition_width.h"
+
+namespace lvcalib {
+
+BoardHits::BoardHits(const SceneMeasurements& input, int scene, const SceneGeometry& geometry,
+                     const Target& target, const TableOptions& options)
+    : input_(input),
+      scene_(scene),
+      geometry_(geometry),
+      target_(target),
+      options_(options),
+      nodes_(target.nodes()) {
+  collect();
+}
+
+void BoardHits::collect() {
+  const Cloud& cloud = *input_.board_points;
+  const std::vector<Eigen::Vector2d> velocities = scan_velocities(cloud);
+  const BoardOutline outline = target_.outline();
+  const double shrink = 0.02 * outline.size_m().minCoeff();
+  const Eigen::Vector2d low = outline.lower_left_m.array() + shrink;
+  const Eigen::Vector2d high = outline.upper_right_m.array() - shrink;
+  const auto& sigmas = input_.refinement->plane.group_sigma_m;
+  const double gate =
+      options_.gate * std::max({sigmas[0], sigmas[1], input_.refinement->plane.sigma_range_m});
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
+    const double measured = p.norm();
+    BoardHit hit;
+    hit.point = i;
+    hit.beam.scene = scene_;
+    if (!geometry_.describe(p / measured, hit.beam)) continue;
+    const Eigen::Vector2d& xy = hit.beam.board_m;
+    if ((xy.array() < low.array()).any() || (xy.array() > high.array()).any()) continue;
+    hit.residual_m = measured - hit.beam.range_m;
+    if (std::abs(hit.residual_m) > gate) continue;
+    hit.print = print_at(xy);
+    hit.pure = is_pure(hit.beam, hit.print);
+    if (cloud.has_time()) hit.beam.time_s = cloud.time_s[i];
+    if (cloud.has_line()) hit.beam.line = cloud.line[i];
+    hit.beam.scan_rad_s = velocities.empty() ? Eigen::Vector2d::Zero() : velocities[i];
+    set_near_edge(hit.beam);
+    hits_.push_back(hit);
+  }
+}
+
+Print BoardHits::print_at(const Eigen::Vector2d& board_m) const {
+  if (target_.albedo(board_m).value_or(1.0) >= 0.5) return Print::kWhite;
+  for (const TargetNode& node : nodes_) {
+    if ((board_m - node.center_m).norm() <= target_.circle_radius_m) return Print::kCircle;
+  }
+  return Print::kBlack;
+}
+
+// All prints within two σ of the footprint are alike.
+bool BoardHits::is_pure(const BeamPoint& beam, Print print) const {
+  const double across = options_.footprint_rad * beam.range_m;
+  for (int k = 0; k < 4; ++k) {
+    const double psi = 0.5 * k * std::numbers::pi;
+    double sigma = transition_along(*input_.refinement, geometry_.lidar_from_board(), psi);
+    if (sigma <= 0.0) sigma = across;
+    const Eigen::Vector2d q =
+        beam.board_m + 2.0 * sigma * Eigen::Vector2d(std::cos(psi), std::sin(psi));
+    if (print_at(q) != print) return false;
+  }
+  return true;
+}
+
+void BoardHits::set_near_edge(BeamPoint& beam) const {
+  const double radius = target_.circle_radius_m;
+  for (const TargetNode& node : nodes_) {
+    const Eigen::Vector2d from = beam.board_m - node.center_m;
+    const double distance = from.norm() - radius;
+    if (std::abs(distance) > radius) continue;
+    const double psi = std::atan2(from.y(), from.x());
+    const double sigma = transition_along(*input_.refinement, geometry_.lidar_from_board(), psi);
+    if (sigma > 0.0 && std::abs(distance) < 4.0 * sigma) beam.edge = NearEdge{distance, psi, sigma};
+    return;
+  }
+}
+
+std::array<double, kPrints> BoardHits::levels() const {
+  std::array<double, kPrints> out{};
+  const Cloud& cloud = *input_.board_points;
+  if (!cloud.has_intensity()) return out;
+  std::array<std::vector<double>, kPrints> values;
+  for (const BoardHit& hit : hits_) {
+    if (hit.pure) values[static_cast<std::size_t>(hit.print)].push_back(cloud.intensity[hit.point]);
+  }
+  const double white = values[0].empty() ? 0.0 : median(values[0]);
+  for (std::size_t k = 0; k < kPrints; ++k) {
+    // Black that returns next to nothing has no logarithm: a hundredth of white stands for it.
+    if (values[k].size() >= 10) out[k] = std::max(median(std::move(values[k])), 0.01 * white);
+  }
+  return out;
+}
+
+PrintNoise BoardHits::noise() const {
+  constexpr int kPairs = 60;
+  constexpr double kNearest = 0.003;
+  constexpr double kFarthest = 0.05;
+  const Cloud& cloud = *input_.board_points;
+  const FittedPlane& plane = input_.refinement->plane;
+  PrintNoise out;
+  for (std::size_t k = 0; k < kPrints; ++k) {
+    std::vector<Eigen::Vector2d> at;
+    std::vector<double> range;
+    std::vector<double> log_intensity;
+    std::vector<int> strata;
+    for (const BoardHit& hit : hits_) {
+      if (hit.print != static_cast<Print>(k) || !hit.pure) continue;
+      at.push_back(hit.beam.board_m);
+      range.push_back(hit.residual_m);
+      strata.push_back(hit.beam.line);
+      const double raw = cloud.has_intensity() ? cloud.intensity[hit.point] : 0.0;
+      log_intensity.push_back(std::log(std::max(raw, 1e-3)));
+    }
+    const auto from_pairs = [&](const std::vector<double>& values) {
+      double sigma = 0.0;
+      for (double distance = kNearest; distance < kFarthest && sigma == 0.0; distance *= 2.0)
+        sigma = replicate_sigma(at, values, strata, distance, kPairs);
+      return sigma;
+    };
+    out.range_m[k] = from_pairs(range);
+    if (out.range_m[k] == 0.0) {
+      const double of_print = plane.group_sigma_m[std::min<std::size_t>(k, 1)];
+      out.range_m[k] = of_print > 0.0 ? of_print : plane.sigma_range_m;
+    }
+    out.range_m[k] = std::max(out.range_m[k], 1e-5);
+    out.log_intensity[k] = from_pairs(log_intensity);
+    if (out.log_intensity[k] <= 0.0) out.log_intensity[k] = 0.1;
+  }
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/noise_floor.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+TEST(ReplicateSigma, IsTheNoiseOfNeighboursWhateverSmoothLiesBelow) {
+  Random random(5);
+  std::vector<Eigen::Vector2d> at;
+  std::vector<double> values;
+  std::vector<int> strata;
+  for (int k = 0; k < 20'000; ++k) {
+    at.push_back({random.uniform(0.0, 0.7), random.uniform(0.0, 0.7)});
+    strata.push_back(k % 2);
+    // A wave of 20 mm, and a step between the strata.
+    values.push_back(0.02 * std::sin(10.0 * at.back().x()) + 0.05 * (k % 2) +
+                     0.006 * random.normal());
+  }
+  EXPECT_NEAR(replicate_sigma(at, values, strata, 0.003, 60), 0.006, 0.0004);
+}
+
+TEST(ReplicateSigma, IsZeroWithoutEnoughPairs) {
+  const std::vector<Eigen::Vector2d> at = {{0.0, 0.0}, {0.001, 0.0}, {0.5, 0.5}};
+  EXPECT_EQ(replicate_sigma(at, {1.0, 2.0, 3.0}, {0, 0, 0}, 0.003, 60), 0.0);
+  EXPECT_EQ(replicate_sigma({}, {}, {}, 0.003, 1), 0.0);
+}
+
+TEST(CornerNoise, IsThatOfSingleCornersWhateverMovesTagsAsAWhole) {
+  test::TableRecipe recipe;
+  recipe.corner_sigma_px = 0.08;
+  test::Disturbance wrong;
+  wrong.corner_px = [](const CornerRow& row) -> Eigen::Vector2d {
+    // Every tag its own shift, and corners pushed away from their tag's centre.
+    const Eigen::Vector2d shift(std::sin(3.0 * row.feature), std::cos(5.0 * row.feature));
+    return 0.5 * shift + 0.3 * row.from_tag_px.normalized();
+  };
+  const auto made = test::synthetic_table(recipe, wrong);
+  EXPECT_NEAR(corner_noise(made.table, made.truth, 1.0), 0.08, 0.01);
+}
+
+TEST(CornerNoise, IsTheOneGivenWhereTooFewCornersTell) {
+  auto made = test::synthetic_table({}, {});
+  made.table.corner.resize(8);
+  EXPECT_EQ(corner_noise(made.table, made.truth, 0.07), 0.07);
+}
+
+}  // namespace
+}  // namespace lvcalib
