@@ -998,8 +998,8 @@ were saved. Take them up again?</source>
         <translation>强度滞后</translation>
     </message>
     <message>
-        <source>Less light returns from far and slanted surfaces than the sensor corrects for.</source>
-        <translation>从远处和倾斜表面返回的光比传感器所补偿的更少。</translation>
+        <source>Less light returns from far and slanted surfaces than the sensor corrects for, and every line has a gain of its own.</source>
+        <translation>从远处和倾斜表面返回的光比传感器所补偿的更少，且每条线有各自的增益。</translation>
     </message>
     <message>
         <source>Motion during the scan</source>
@@ -1126,8 +1126,8 @@ were saved. Take them up again?</source>
         <translation>电子器件预热期间距离漂移。</translation>
     </message>
     <message>
-        <source>The receiver compresses strong echoes: black and white do not change by the same factor.</source>
-        <translation>接收器压缩强回波：黑与白的变化倍数不同。</translation>
+        <source>The receiver compresses strong echoes, so that the middle between black and white is reached off the edge.</source>
+        <translation>接收器压缩强回波，因此黑白之间的中间强度出现在偏离边缘处。</translation>
     </message>
     <message>
         <source>The scale disc of the encoder is not centred on the axis.</source>
@@ -1264,6 +1264,10 @@ were saved. Take them up again?</source>
     <message>
         <source>none: not defined apart from the extrinsic</source>
         <translation>无：无法与外参分开定义</translation>
+    </message>
+    <message>
+        <source>prints of several greys, or a reflectance chart</source>
+        <translation>多种灰度的打印件，或反射率色卡</translation>
     </message>
     <message>
         <source>prints of two contrasts, or distances with different footprints</source>

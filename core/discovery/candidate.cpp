@@ -32,17 +32,6 @@ MeanAndError mean_of(const std::vector<double>& values) {
   return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : HUGE_VAL};
 }
 
-// Information about the last `p` global unknowns once all others are integrated out, from the data
-// alone (without their priors).
-Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p) {
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
-  const Eigen::Index q = h.rows() - p;
-  return h.bottomRightCorner(p, p) -
-         h.bottomLeftCorner(p, q) * h.topLeftCorner(q, q).ldlt().solve(h.topRightCorner(q, p));
-}
-
 // What is excluded at the size that matters is not worth a place in the model, however sure.
 // First each parameter by itself. Then all together, since parameters that act alike are each
 // undetermined although what they do is known: in units of its standard deviation the effect of the
@@ -130,17 +119,37 @@ double Candidate::best_heldout_gain() const {
   return *std::max_element(heldout_gain.begin(), heldout_gain.end());
 }
 
+bool Candidate::acts_on_edges_alone() const {
+  for (const Channel channel : kAllChannels) {
+    const bool acts = acting_share[static_cast<std::size_t>(channel)] > 0.0;
+    if (acts != (channel == Channel::kBoundary)) return false;
+  }
+  return true;
+}
+
 Channel Candidate::main_channel() const {
   const auto best = std::max_element(heldout_fall.begin(), heldout_fall.end());
   return static_cast<Channel>(best - heldout_fall.begin());
 }
 
 void Candidate::set_heldout(const std::array<double, kChannels>& with,
-                            const std::array<double, kChannels>& without) {
+                            const std::array<double, kChannels>& without,
+                            const std::array<double, kChannels>& rows) {
   for (std::size_t k = 0; k < kChannels; ++k) {
     heldout_gain[k] = without[k] > 0.0 ? 1.0 - with[k] / without[k] : 0.0;
     heldout_fall[k] = without[k] - with[k];
   }
+  const auto main = static_cast<std::size_t>(main_channel());
+  const double unexplained = without[main] - rows[main];
+  explained_share = unexplained > rows[main] ? heldout_fall[main] / unexplained : 1.0;
+}
+
+std::array<double, kChannels> row_counts(const Linearization& linear) {
+  std::array<double, kChannels> out{};
+  for (const SceneProducts& scene : linear.scenes) {
+    for (std::size_t k = 0; k < kChannels; ++k) out[k] += scene.rows[k];
+  }
+  return out;
 }
 
 void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
@@ -182,7 +191,6 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   out.p_value = f_test(out.fit, c.count());
   out.material = is_material(c, out.fit);
   out.possible = is_possible(c, out.fit);
-  if (c.effect->info().group == "radiometry") out.must_show = Channel::kIntensity;
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};
   const auto heldout = heldout_squares(linear, out.fit);
@@ -195,13 +203,15 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
       without[k] += reference.heldout[s][k];
     }
   }
-  out.set_heldout(with, without);
+  out.set_heldout(with, without, row_counts(linear));
   for (const Channel channel : kAllChannels) {
     double& share = out.acting_share[static_cast<std::size_t>(channel)];
     share = 0.0;
     for (int k = 0; k < c.count(); ++k)
       share = std::max(share, linear.acting_share(channel, c.first + k));
   }
+  if (out.acting_share[static_cast<std::size_t>(Channel::kIntensity)] > 0.0)
+    out.must_show = Channel::kIntensity;
   const Vector6d move = out.fit.solution.head<6>() - reference.fit.solution.head<6>();
   const Matrix6d covariance = reference.fit.covariance.topLeftCorner<6, 6>();
   for (int k = 0; k < 6; ++k) {
@@ -209,6 +219,15 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
         std::max(out.extrinsic_move_sigmas, std::abs(move(k)) / std::sqrt(covariance(k, k)));
   }
   return out;
+}
+
+Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p) {
+  Eigen::MatrixXd h = fit.prior.information;
+  h.bottomRightCorner(p, p).setZero();
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  const Eigen::Index q = h.rows() - p;
+  return h.bottomRightCorner(p, p) -
+         h.bottomLeftCorner(p, q) * h.topLeftCorner(q, q).ldlt().solve(h.topRightCorner(q, p));
 }
 
 double f_test(double squares, Eigen::Index p, std::size_t scenes) {
@@ -263,9 +282,11 @@ bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptio
 
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options) {
-  if (!candidate.material || !candidate.possible || candidate.contradicted ||
-      !is_sure(candidate, tried, options))
+  if (!candidate.material || !candidate.possible ||
+      candidate.contradiction != Contradiction::kNone || !is_sure(candidate, tried, options))
     return false;
+  // Where much is wrong, what explains a little of it stands in for something else.
+  if (candidate.explained_share < options.min_explained) return false;
   // An effect that acts on few rows is asked for the same fall on those.
   const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
   for (std::size_t k = 0; k < kChannels; ++k) {

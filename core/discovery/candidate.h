@@ -8,6 +8,13 @@
 
 namespace lvcalib {
 
+/// What speaks against a candidate although scenes held out are predicted better with it.
+enum class Contradiction {
+  kNone,
+  kPrints,  ///< White and black print tell different stories about it (see print_contrast.h).
+  kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
+};
+
 /// One effect at one shape number, tried in addition to the model.
 struct Candidate {
   std::size_t columns = 0;  ///< Index into the linearisation's list.
@@ -25,21 +32,26 @@ struct Candidate {
   /// It may be as large as matters: some parameter's upper 95 % limit is, and so is the limit of
   /// what all of them do together to the measurements (see is_material in the source).
   bool material = true;
-  /// The channel that has to show it: of an effect of the intensities these. Edges alone cannot
-  /// tell it from what else moves edges.
+  /// The channel that has to show it: of an effect that changes intensities these. Edges alone
+  /// cannot tell it from what else moves edges.
   std::optional<Channel> must_show;
   /// Values that a device can have are within two standard deviations of the estimate.
   bool possible = true;
-  /// White and black print tell different stories about it (see print_contrast.h).
-  bool contradicted = false;
+  /// Share of what is unexplained in its main channel that it takes away, where the channel misses
+  /// by more than its noise; 1 elsewhere.
+  double explained_share = 1.0;
+  Contradiction contradiction = Contradiction::kNone;
   [[nodiscard]] double total_gain() const;
   [[nodiscard]] double total_density() const;
   [[nodiscard]] double best_heldout_gain() const;
+  [[nodiscard]] bool acts_on_edges_alone() const;
   /// The channel whose held-out squares fall most, counted in units of the noise.
   [[nodiscard]] Channel main_channel() const;
-  /// Takes the falls of squares from the sums over scenes with and without it.
+  /// Takes the falls of squares from the sums over scenes with and without it; `rows` is what pure
+  /// noise would give.
   void set_heldout(const std::array<double, kChannels>& with,
-                   const std::array<double, kChannels>& without);
+                   const std::array<double, kChannels>& without,
+                   const std::array<double, kChannels>& rows);
 };
 
 /// The model that candidates are compared with.
@@ -53,6 +65,9 @@ struct Reference {
 /// Columns of an effect with priors about values in use (zero if none).
 void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
                     ColumnSubset& subset);
+
+/// Rows of every channel over all scenes.
+std::array<double, kChannels> row_counts(const Linearization& linear);
 
 /// Held-out squares of every scene from the solution without it.
 std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& linear,
@@ -77,6 +92,10 @@ bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scen
 /// Between-scene effects have no more degrees of freedom than the scenes leave: three of each
 /// scene's board pose minus the extrinsic.
 double f_test(double squares, Eigen::Index p, std::size_t scenes);
+
+/// Information about the last p unknowns of a fit once all others are integrated out, from the data
+/// alone (without their priors).
+Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p);
 
 /// Wald F test that the last p unknowns of a fit are zero, from the data alone.
 double f_test(const ModelFit& fit, Eigen::Index p);

@@ -16,8 +16,9 @@ std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
   std::size_t parameters = 0;
   for (const EffectInUse& use : in_use) parameters += static_cast<std::size_t>(use.values.size());
   for (const Channel channel : kAllChannels) {
-    const ChannelResiduals r = residuals_of(table, state, in_use, channel);
+    ChannelResiduals r = residuals_of(table, state, in_use, channel);
     if (r.values.empty()) continue;
+    remove_levels(table, r);
     double squares = 0.0;
     double noise = 0.0;
     double whitened = 0.0;

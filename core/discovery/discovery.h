@@ -29,10 +29,12 @@ struct DiscoveryOptions {
   double min_extrinsic_move = 0.5;    ///< Or so many σ that the extrinsic moves.
   double scenes_improved = 0.75;      ///< Share of scenes that must be predicted better, …
   double speaking_nats = 0.5;         ///< … of those whose log-density changes by so much.
+  double min_explained = 0.2;         ///< Of what a channel misses by, if that exceeds its noise.
   double alias_correlation = 0.95;    ///< Candidates correlated higher cannot be told apart.
   double testable = 3.0;              ///< A material size must stand so many σ above zero.
   double min_structure = 0.02;        ///< Held-out share of variance worth a mention, or …
   double min_sure_structure = 0.01;   ///< … where the scenes agree that it is no chance.
+  double min_height = 0.3;            ///< Least height (in σ of one range) of something local.
   int swaps = 4;                      ///< Aliases tried in place of effects after an addition.
   std::size_t closed_forms = 3;       ///< Covariates with unknown structure that get a formula.
   TableOptions table;
@@ -111,6 +113,8 @@ struct StructureScore {
   /// A closed form that predicts scenes held out as well, as a formula to ask for; empty if none.
   std::string formula = {};
   double formula_score = 0.0;  ///< Share of held-out variance that it explains.
+  /// Of surfaces: largest deviation from the median, in standard deviations of one row.
+  double height = 0.0;
   /// Gain of every scene held out, in units of log-density (half the fall of whitened squares).
   std::vector<double> scene_gain = {};
   /// Of a surface over two covariates; empty of a curve.

@@ -231,17 +231,45 @@ void EffectSearch::ask_both_prints() {
   const std::vector<EffectInUse> effects = model();
   const EffectColumnsList own = own_columns();
   const ColumnSubset subset = own_subset(own);
+  const auto disagree = [&](const Candidate& c) {
+    return prints_disagree({table_, state_, effects, own, subset, variances_},
+                           linear_.columns.list()[c.columns], c.main_channel(), options_, context_);
+  };
+  doubt_levels(disagree);
   while (!context_.stopped()) {
     const auto chosen = best();
     if (!chosen || candidates_[*chosen].main_channel() != Channel::kRange) return;
-    const EffectColumns& columns = linear_.columns.list()[candidates_[*chosen].columns];
-    if (!prints_disagree({table_, state_, effects, own, subset, variances_}, columns, options_,
-                         context_))
-      return;
-    for (Candidate& c : candidates_) {
-      const EffectPtr& effect = linear_.columns.list()[c.columns].effect;
-      c.contradicted = c.contradicted || effect->info().id == columns.effect->info().id;
-    }
+    if (!disagree(candidates_[*chosen])) return;
+    contradict(candidates_[*chosen]);
+  }
+}
+
+// Edges are found in intensities. Where the two prints tell different stories about what these do,
+// as where a receiver saturates, edges are not to be trusted either.
+void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& disagree) {
+  bool doubted = false;
+  for (const Candidate& c : std::vector<Candidate>(candidates_)) {
+    if (context_.stopped()) return;
+    const bool asked = c.must_show && c.main_channel() == Channel::kIntensity &&
+                       c.contradiction == Contradiction::kNone &&
+                       is_accepted(c, candidates_.size(), table_.scenes.size(), options_);
+    if (!asked || !disagree(c)) continue;
+    contradict(c);
+    doubted = true;
+  }
+  if (!doubted) return;
+  for (Candidate& c : candidates_) {
+    if (c.acts_on_edges_alone()) c.contradiction = Contradiction::kLevels;
+  }
+}
+
+void EffectSearch::contradict(const Candidate& candidate) {
+  const auto id_of = [&](const Candidate& c) {
+    return linear_.columns.list()[c.columns].effect->info().id;
+  };
+  const std::string id = id_of(candidate);
+  for (Candidate& c : candidates_) {
+    if (id_of(c) == id) c.contradiction = Contradiction::kPrints;
   }
 }
 
@@ -269,7 +297,7 @@ void EffectSearch::refit_promising() {
         without[channel] += without_it.heldout[s][channel];
       }
     }
-    c.set_heldout(with, without);
+    c.set_heldout(with, without, row_counts(linear_));
   }
 }
 

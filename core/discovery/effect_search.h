@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -70,6 +71,8 @@ class EffectSearch {
   void refit_promising();
   // Takes accepted candidates off the list that white and black print contradict.
   void ask_both_prints();
+  void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
+  void contradict(const Candidate& candidate);  // at all its shape numbers
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;

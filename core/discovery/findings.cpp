@@ -261,13 +261,24 @@ class Judge {
       return;
     }
     f.verdict = EffectVerdict::kNotTestable;
-    if (c.contradicted) {
+    if (c.contradiction == Contradiction::kLevels) {
+      f.explanation =
+          "White and black return unlike shares of light as range and incidence "
+          "change, which no effect explains; edges are found in these intensities and "
+          "cannot tell: " +
+          values_text(f) + ".";
+    } else if (c.contradiction == Contradiction::kPrints) {
       f.explanation = "White and black print contradict each other about it: " + values_text(f) +
                       " of both together; something that depends on the print is at work.";
     } else if (!c.possible) {
       f.explanation = "What fits best is impossible: " + values_text(f) +
                       ", while no device has less than " + lowest_text(columns) +
                       "; something else is at work.";
+    } else if (c.explained_share < options_.min_explained && c.material) {
+      f.explanation = formatted("It explains %.0f %% of what is wrong in the ",
+                                100.0 * std::max(0.0, c.explained_share)) +
+                      std::string(name_of(c.main_channel())) + " channel: " + values_text(f) +
+                      "; something else is at work there.";
     } else if (!visible) {
       f.explanation = "These scenes could not show it: " + values_text(f) +
                       formatted("; they keep %.1f %% of its effect after the poses adapt, and it",

@@ -44,8 +44,8 @@ class Growth {
   }
 
  private:
-  // Whether an alias in an effect's place predicts held-out scenes better, by more than one
-  // standard error over scenes, after a full refit.
+  // Puts an alias in an effect's place if it predicts held-out scenes better by more than one
+  // standard error over scenes, after a full refit; or as well, with fewer effects in the model.
   void try_swaps() {
     int left = options_.swaps;
     for (std::size_t k = fixed_; k < selections_.size(); ++k) {
@@ -57,20 +57,57 @@ class Growth {
                                       [&](const Selection& other) { return other.id == id; });
         if (effect == nullptr || used) continue;
         EffectSearch trial(search_);
-        trial.remove(k);
-        trial.add(effect, trial.preferred_shape(effect));
+        trial.replace(k, effect, trial.preferred_shape(effect));
         if (context_.stopped()) return;
-        std::vector<double> gain;
-        for (std::size_t s = 0; s < trial.reference().density.size(); ++s)
-          gain.push_back(trial.reference().density[s] - search_.reference().density[s]);
-        if (!is_gain(gain)) continue;
-        const EffectInUse swapped = trial.in_use().back();
-        search_.replace(k, swapped.effect, swapped.shape);
-        std::replace(selections_[k].aliases.begin(), selections_[k].aliases.end(), id,
-                     selections_[k].id);
-        selections_[k].id = id;
+        const double shape = trial.in_use()[k].shape;
+        if (is_gain(difference(trial, search_))) {
+          swap(k, effect, shape);
+          continue;
+        }
+        const auto dropped = dispensable(trial, k);
+        if (context_.stopped()) return;
+        if (dropped.empty() || is_gain(difference(search_, trial))) continue;
+        swap(k, effect, shape);
+        for (const std::string& gone : dropped) drop(gone);
+        return;  // Places have moved; what is left is tried after the next addition.
       }
     }
+  }
+
+  // Held-out log-density of one model over that of another, per scene.
+  static std::vector<double> difference(const EffectSearch& a, const EffectSearch& b) {
+    std::vector<double> out;
+    for (std::size_t s = 0; s < a.reference().density.size(); ++s)
+      out.push_back(a.reference().density[s] - b.reference().density[s]);
+    return out;
+  }
+
+  // Takes out of a trial what it does not need; never the user's own or effect number k.
+  [[nodiscard]] std::vector<std::string> dispensable(EffectSearch& trial, std::size_t k) const {
+    const std::string kept = trial.in_use()[k].effect->info().id;
+    std::vector<std::string> out;
+    while (!context_.stopped()) {
+      const auto j = trial.superfluous();
+      if (!j || *j < fixed_ || trial.in_use()[*j].effect->info().id == kept) break;
+      out.push_back(trial.in_use()[*j].effect->info().id);
+      trial.remove(*j);
+    }
+    return out;
+  }
+
+  void swap(std::size_t k, const EffectPtr& effect, double shape) {
+    const std::string id = effect->info().id;
+    search_.replace(k, effect, shape);
+    std::replace(selections_[k].aliases.begin(), selections_[k].aliases.end(), id,
+                 selections_[k].id);
+    selections_[k].id = id;
+  }
+
+  void drop(const std::string& id) {
+    const auto at = std::find_if(selections_.begin(), selections_.end(),
+                                 [&](const Selection& s) { return s.id == id; });
+    search_.remove(static_cast<std::size_t>(at - selections_.begin()));
+    selections_.erase(at);
   }
 
   // What a later effect explains better goes again (never what the user asked for).

@@ -13,9 +13,13 @@ constexpr const char* kWalk = "range_walk";  // It is about prints itself.
 // A candidate, its print contrast and a constant difference between the prints beside the model.
 class PrintContrast {
  public:
-  PrintContrast(const ModelInUse& model, const EffectColumns& candidate,
+  PrintContrast(const ModelInUse& model, const EffectColumns& candidate, Channel channel,
                 const DiscoveryOptions& options, const RunContext& context)
-      : model_(model), options_(options), with_(model.columns), at_(model.columns.list().size()) {
+      : model_(model),
+        channel_(channel),
+        options_(options),
+        with_(model.columns),
+        at_(model.columns.list().size()) {
     with_.add(candidate.effect, candidate.shape, model.table);
     with_.add_print_contrast(candidate.effect, candidate.shape, model.table);
     with_.add(find_effect(kWalk), 0.0, model.table);
@@ -26,7 +30,7 @@ class PrintContrast {
     const bool walks =
         std::any_of(model_.effects.begin(), model_.effects.end(),
                     [](const EffectInUse& use) { return use.effect->info().id == kWalk; });
-    ModelFit fit = fitted(!walks);
+    ModelFit fit = fitted(!walks && channel_ == Channel::kRange);
     // A constant between the prints is the contrast of an offset itself: who is it? The walk comes
     // first, and the offset is asked again beside it.
     if (!walks && !is_determined(fit)) fit = fitted(false);
@@ -50,22 +54,13 @@ class PrintContrast {
     return determined_share(fit, fit.solution.size() - count(), count()) > kDetermined;
   }
 
-  // Sums over the ranges of products of the contrast's columns; the effect has the same ones.
-  [[nodiscard]] Eigen::MatrixXd range_squares() const {
-    const Eigen::Index p = count();
-    Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(p, p);
-    for (const SceneProducts& s : linear_.scenes) {
-      const int first = s.layout.size() + LocalLayout::kPose + with_.list()[at_ + 1].first;
-      squares += s.products[static_cast<std::size_t>(Channel::kRange)].block(first, first, p, p);
-    }
-    return squares;
-  }
-
   // The effect is the sum on white print and the difference on black.
   [[nodiscard]] bool one_shows_nothing(const ModelFit& fit) const {
     const Eigen::Index p = count();
-    const Eigen::MatrixXd squares = range_squares();
-    const auto size = [&](const Eigen::VectorXd& theta) { return theta.dot(squares * theta); };
+    // What the data tell of the contrast once everything else has adapted, measures sizes: what
+    // pose and levels take over is no story of a print.
+    const Eigen::MatrixXd told = information_of_last(fit, p);
+    const auto size = [&](const Eigen::VectorXd& theta) { return theta.dot(told * theta); };
     const Eigen::VectorXd by_effect = fit.solution.segment(fit.solution.size() - 2 * p, p);
     const Eigen::VectorXd by_contrast = fit.solution.tail(p);
     constexpr double kFifth = 0.2;
@@ -85,6 +80,7 @@ class PrintContrast {
   }
 
   const ModelInUse& model_;
+  Channel channel_;
   const DiscoveryOptions& options_;
   EffectColumnsList with_;
   std::size_t at_;  // of the candidate among the columns; its contrast and the walk follow
@@ -93,10 +89,10 @@ class PrintContrast {
 
 }  // namespace
 
-bool prints_disagree(const ModelInUse& model, const EffectColumns& candidate,
+bool prints_disagree(const ModelInUse& model, const EffectColumns& candidate, Channel channel,
                      const DiscoveryOptions& options, const RunContext& context) {
   if (candidate.effect->info().id == kWalk) return false;
-  const PrintContrast contrast(model, candidate, options, context);
+  const PrintContrast contrast(model, candidate, channel, options, context);
   return !context.stopped() && contrast.disagrees();
 }
 

@@ -116,7 +116,12 @@ const Covariate* ResidualColumns::find(const std::string& name) const {
 
 ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before, Channel channel) {
   const MeasurementTable& table = step.table();
-  const ChannelResiduals now = residuals_of(table, step.state, step.predicted_with(), channel);
+  const auto residuals_at = [&](const ModelStep& at) {
+    ChannelResiduals r = residuals_of(table, at.state, at.predicted_with(), channel);
+    remove_levels(table, r);
+    return r;
+  };
+  const ChannelResiduals now = residuals_at(step);
   const double unit = display_factor(channel);
   ResidualColumns out;
   out.channel = channel;
@@ -125,10 +130,7 @@ ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before,
     out.value.push_back(static_cast<float>(unit * now.values[k]));
     out.sigma.push_back(static_cast<float>(unit * now.sigma[k]));
   }
-  out.before =
-      &before == &step
-          ? out.value
-          : aligned(now, residuals_of(table, before.state, before.predicted_with(), channel), unit);
+  out.before = &before == &step ? out.value : aligned(now, residuals_at(before), unit);
   out.scene = now.scene;
   out.row = now.row;
   out.component = components_of(now, channel);

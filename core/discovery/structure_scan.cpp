@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "discovery/candidate.h"
 
 namespace lvcalib {
@@ -83,6 +84,7 @@ class Basis {
 // A curve over one covariate, evaluated at row k.
 class Curve {
  public:
+  static constexpr bool kLocal = false;
   Curve(const Covariate& covariate, int splines) : of_(covariate), basis_(covariate, splines) {}
   [[nodiscard]] int size() const { return basis_.size(); }
   void evaluate(std::size_t k, BasisRow& out) const { basis_.evaluate(of_.values[k], out); }
@@ -95,6 +97,7 @@ class Curve {
 // Products of splines over two covariates.
 class Surface {
  public:
+  static constexpr bool kLocal = true;
   Surface(const Covariate& x, const Covariate& y)
       : x_(x), y_(y), basis_x_(x, kSurface), basis_y_(y, kSurface) {}
   [[nodiscard]] int size() const { return basis_x_.size() * basis_y_.size(); }
@@ -173,6 +176,31 @@ void project(SceneSums& s) {
   s.squares -= s.nuisance_residual.dot(y);
 }
 
+// Largest deviation (all but half a percent of the rows) of the fitted shape from its median, in
+// standard deviations of one row.
+template <class Shape>
+double height_of(const Shape& shape, const ChannelResiduals& residuals, Eigen::MatrixXd curve,
+                 const Eigen::VectorXd& gradient, double ridge) {
+  constexpr double kAlmostAll = 0.995;
+  if (!shape.kLocal) return 0.0;
+  curve.diagonal().array() += ridge;
+  const Eigen::VectorXd c = curve.ldlt().solve(gradient);
+  std::vector<double> values(residuals.values.size());
+  BasisRow b;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    shape.evaluate(k, b);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i)
+      values[k] += b.value[i] * c(b.column[i]);
+  }
+  const double middle = median(values);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = std::abs(values[k] - middle) / residuals.sigma[k];
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(kAlmostAll * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 template <class Shape>
 void score(const Shape& shape, const ChannelResiduals& residuals, int scenes, StructureScore& out) {
   std::vector<SceneSums> sums = accumulate(shape, residuals, scenes);
@@ -203,6 +231,7 @@ void score(const Shape& shape, const ChannelResiduals& residuals, int scenes, St
   }
   if (!(before > 0.0) || !std::isfinite(after)) return;
   out.score = 1.0 - after / before;
+  out.height = height_of(shape, residuals, curve, gradient, ridge);
   out.amplitude =
       weight > 0.0 ? display_factor(out.channel) * std::sqrt(std::max(0.0, fitted) / weight) : 0.0;
 }
@@ -315,8 +344,11 @@ std::vector<StructureScore> scan_places(const MeasurementTable& table, const Mod
 }
 
 bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
-  return score.score >= options.min_structure ||
-         (score.score >= options.min_sure_structure && scenes_agree(score, tried, options));
+  if (score.score >= options.min_structure) return true;
+  // What is local has a small share of the variance by nature: a bump is judged by its height.
+  const bool local = score.channel == Channel::kRange && score.height >= options.min_height;
+  return (score.score >= options.min_sure_structure || local) &&
+         scenes_agree(score, tried, options);
 }
 
 std::vector<StructureScore> notable_structure(const MeasurementTable& table,

@@ -11,6 +11,34 @@
 #include "model/transition_width.h"
 
 namespace lvcalib {
+namespace {
+
+// Values of one print; pairs of neighbours on the same line tell their noise.
+class Replicates {
+ public:
+  void add(const BoardHit& hit, double value) {
+    at_.push_back(hit.beam.board_m);
+    values_.push_back(value);
+    strata_.push_back(hit.beam.line);
+  }
+  // Zero if there are too few pairs even of farther neighbours.
+  [[nodiscard]] double sigma() const {
+    constexpr int kPairs = 60;
+    constexpr double kNearest = 0.003;
+    constexpr double kFarthest = 0.05;
+    double sigma = 0.0;
+    for (double distance = kNearest; distance < kFarthest && sigma == 0.0; distance *= 2.0)
+      sigma = replicate_sigma(at_, values_, strata_, distance, kPairs);
+    return sigma;
+  }
+
+ private:
+  std::vector<Eigen::Vector2d> at_;
+  std::vector<double> values_;
+  std::vector<int> strata_;
+};
+
+}  // namespace
 
 BoardHits::BoardHits(const SceneMeasurements& input, int scene, const SceneGeometry& geometry,
                      const Target& target, const TableOptions& options)
@@ -45,7 +73,8 @@ void BoardHits::collect() {
     hit.residual_m = measured - hit.beam.range_m;
     if (std::abs(hit.residual_m) > gate) continue;
     hit.print = print_at(xy);
-    hit.pure = is_pure(hit.beam, hit.print);
+    hit.pure = sees_only(hit.print, hit.beam, 2.0, 4);
+    hit.plain = hit.pure && sees_only(hit.print, hit.beam, 3.0, 8);
     if (cloud.has_time()) hit.beam.time_s = cloud.time_s[i];
     if (cloud.has_line()) hit.beam.line = cloud.line[i];
     hit.beam.scan_rad_s = velocities.empty() ? Eigen::Vector2d::Zero() : velocities[i];
@@ -62,15 +91,15 @@ Print BoardHits::print_at(const Eigen::Vector2d& board_m) const {
   return Print::kBlack;
 }
 
-// All prints within two σ of the footprint are alike.
-bool BoardHits::is_pure(const BeamPoint& beam, Print print) const {
+// All prints so many σ of the footprint away are alike.
+bool BoardHits::sees_only(Print print, const BeamPoint& beam, double sigmas, int directions) const {
   const double across = options_.footprint_rad * beam.range_m;
-  for (int k = 0; k < 4; ++k) {
-    const double psi = 0.5 * k * std::numbers::pi;
+  for (int k = 0; k < directions; ++k) {
+    const double psi = 2.0 * std::numbers::pi * k / directions;
     double sigma = transition_along(*input_.refinement, geometry_.lidar_from_board(), psi);
     if (sigma <= 0.0) sigma = across;
     const Eigen::Vector2d q =
-        beam.board_m + 2.0 * sigma * Eigen::Vector2d(std::cos(psi), std::sin(psi));
+        beam.board_m + sigmas * sigma * Eigen::Vector2d(std::cos(psi), std::sin(psi));
     if (print_at(q) != print) return false;
   }
   return true;
@@ -95,7 +124,8 @@ std::array<double, kPrints> BoardHits::levels() const {
   if (!cloud.has_intensity()) return out;
   std::array<std::vector<double>, kPrints> values;
   for (const BoardHit& hit : hits_) {
-    if (hit.pure) values[static_cast<std::size_t>(hit.print)].push_back(cloud.intensity[hit.point]);
+    if (hit.plain)
+      values[static_cast<std::size_t>(hit.print)].push_back(cloud.intensity[hit.point]);
   }
   const double white = values[0].empty() ? 0.0 : median(values[0]);
   for (std::size_t k = 0; k < kPrints; ++k) {
@@ -106,38 +136,25 @@ std::array<double, kPrints> BoardHits::levels() const {
 }
 
 PrintNoise BoardHits::noise() const {
-  constexpr int kPairs = 60;
-  constexpr double kNearest = 0.003;
-  constexpr double kFarthest = 0.05;
   const Cloud& cloud = *input_.board_points;
   const FittedPlane& plane = input_.refinement->plane;
   PrintNoise out;
   for (std::size_t k = 0; k < kPrints; ++k) {
-    std::vector<Eigen::Vector2d> at;
-    std::vector<double> range;
-    std::vector<double> log_intensity;
-    std::vector<int> strata;
+    Replicates ranges;
+    Replicates logs;
     for (const BoardHit& hit : hits_) {
       if (hit.print != static_cast<Print>(k) || !hit.pure) continue;
-      at.push_back(hit.beam.board_m);
-      range.push_back(hit.residual_m);
-      strata.push_back(hit.beam.line);
+      ranges.add(hit, hit.residual_m);
       const double raw = cloud.has_intensity() ? cloud.intensity[hit.point] : 0.0;
-      log_intensity.push_back(std::log(std::max(raw, 1e-3)));
+      if (hit.plain) logs.add(hit, std::log(std::max(raw, 1e-3)));
     }
-    const auto from_pairs = [&](const std::vector<double>& values) {
-      double sigma = 0.0;
-      for (double distance = kNearest; distance < kFarthest && sigma == 0.0; distance *= 2.0)
-        sigma = replicate_sigma(at, values, strata, distance, kPairs);
-      return sigma;
-    };
-    out.range_m[k] = from_pairs(range);
+    out.range_m[k] = ranges.sigma();
     if (out.range_m[k] == 0.0) {
       const double of_print = plane.group_sigma_m[std::min<std::size_t>(k, 1)];
       out.range_m[k] = of_print > 0.0 ? of_print : plane.sigma_range_m;
     }
     out.range_m[k] = std::max(out.range_m[k], 1e-5);
-    out.log_intensity[k] = from_pairs(log_intensity);
+    out.log_intensity[k] = logs.sigma();
     if (out.log_intensity[k] <= 0.0) out.log_intensity[k] = 0.1;
   }
   return out;

@@ -14,7 +14,8 @@ struct BoardHit {
   std::size_t point = 0;  ///< In the scene's board points.
   BeamPoint beam;
   Print print = Print::kWhite;
-  bool pure = false;        ///< Sees one print only.
+  bool pure = false;        ///< Sees one print only, as ranges go: two σ of the footprint.
+  bool plain = false;       ///< As intensities go: a percent of white is much beside black.
   double residual_m = 0.0;  ///< Measured − predicted range.
 };
 
@@ -39,7 +40,8 @@ class BoardHits {
  private:
   void collect();
   [[nodiscard]] Print print_at(const Eigen::Vector2d& board_m) const;
-  [[nodiscard]] bool is_pure(const BeamPoint& beam, Print print) const;
+  [[nodiscard]] bool sees_only(Print print, const BeamPoint& beam, double sigmas,
+                               int directions) const;
   void set_near_edge(BeamPoint& beam) const;
 
   const SceneMeasurements& input_;

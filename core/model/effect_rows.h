@@ -56,9 +56,7 @@ class EffectRows {
       const std::size_t n = c.parameters.size();
       reset(n);
       outward.assign(n, 0.0);
-      c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
-      c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
-                      std::span(board_).first(n));
+      move_edge(c, r, n);
       c.effect->edge(r, table_, c.shape, outward);
       for (std::size_t k = 0; k < n; ++k) {
         scalars_[k] = row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]) + outward[k];
@@ -70,15 +68,13 @@ class EffectRows {
   /// Displacement (LiDAR frame) of the measured edge point and of the print under it by effects
   /// with values; value(c, k) gives that of parameter k of the columns c.
   template <class Value>
-  Eigen::Vector3d displacement(const BeamPoint& beam, const Eigen::Matrix3d& lidar_from_board,
+  Eigen::Vector3d displacement(const BoundaryRow& r, const Eigen::Matrix3d& lidar_from_board,
                                Value&& value) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const EffectColumns& c : columns_) {
       const std::size_t n = c.parameters.size();
       reset(n);
-      c.effect->lidar(beam, table_, c.shape, std::span(moves_).first(n));
-      c.effect->board({beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
-                      std::span(board_).first(n));
+      move_edge(c, r, n);
       for (std::size_t k = 0; k < n; ++k)
         sum += value(c, k) * (moves_[k] + lidar_from_board * board_[k]);
     }
@@ -104,15 +100,37 @@ class EffectRows {
   template <class Sink>
   void intensity(const IntensityRow& r, Sink&& sink) {
     for (const EffectColumns& c : columns_) {
-      if (c.print_contrast) continue;
       const std::size_t n = c.parameters.size();
       std::fill_n(scalars_.begin(), n, 0.0);
       c.effect->intensity(r, table_, c.shape, std::span(scalars_).first(n));
+      if (c.print_contrast && r.print != Print::kWhite) {
+        for (std::size_t k = 0; k < n; ++k) scalars_[k] = -scalars_[k];
+      }
       sink(c, std::span(scalars_).first(n));
     }
   }
 
  private:
+  // What an effect does to the points that an edge was measured with, and to the board there.
+  void move_edge(const EffectColumns& c, const BoundaryRow& r, std::size_t n) {
+    const auto moves = std::span(moves_).first(n);
+    c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
+                    std::span(board_).first(n));
+    if (!c.effect->info().needs.line || r.lines.empty()) {
+      c.effect->lidar(r.beam, table_, c.shape, moves);
+      return;
+    }
+    // Several lines make one edge: it moves by their mean.
+    std::vector<Eigen::Vector3d> one(n);
+    BeamPoint beam = r.beam;
+    for (const LineShare& of : r.lines) {
+      std::fill(one.begin(), one.end(), Eigen::Vector3d::Zero());
+      beam.line = of.line;
+      c.effect->lidar(beam, table_, c.shape, one);
+      for (std::size_t k = 0; k < n; ++k) moves[k] += of.share * one[k];
+    }
+  }
+
   void reset(std::size_t n) {
     for (std::size_t k = 0; k < n; ++k) {
       moves_[k].setZero();

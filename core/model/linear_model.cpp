@@ -162,7 +162,7 @@ class SceneAccumulator {
 
   void boundary(const BoundaryRow& r) {
     const Eigen::Vector3d moved =
-        used_rows_.displacement(r.beam, rotation_, [&](const EffectColumns& c, std::size_t j) {
+        used_rows_.displacement(r, rotation_, [&](const EffectColumns& c, std::size_t j) {
           const auto at = static_cast<std::size_t>(&c - in_use_columns_.list().data());
           return in_use_[at].values(static_cast<Eigen::Index>(j));
         });

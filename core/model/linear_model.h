@@ -17,8 +17,8 @@ struct EffectColumns {
   double shape = 0.0;
   std::vector<EffectParameter> parameters;
   int first = 0;
-  /// What the effect does to ranges of white print, and its negative on black print and circles;
-  /// nothing elsewhere: an effect that knows no print has none of it.
+  /// What the effect does to ranges and intensities of white print, and its negative on black print
+  /// and circles; nothing elsewhere: an effect that knows no print has none of it.
   bool print_contrast = false;
   [[nodiscard]] int count() const { return static_cast<int>(parameters.size()); }
 };

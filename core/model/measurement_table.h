@@ -58,9 +58,16 @@ struct RangeRow {
   double sigma_m = 0.0;
 };
 
+/// How much of an edge a laser line saw.
+struct LineShare {
+  int line = 0;
+  double share = 0.0;
+};
+
 /// The mid-level crossing of one angular bin of one node.
 struct BoundaryRow {
-  BeamPoint beam;
+  BeamPoint beam;                ///< Its line is the one that saw most of the edge.
+  std::vector<LineShare> lines;  ///< Shares add up to one; empty: the beam's line alone.
   int node = 0;
   Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  ///< The node, board frame.
   double radius_m = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/residuals.h"
 
+#include <array>
 #include <cmath>
 
 #include "model/effect_rows.h"
@@ -97,7 +98,7 @@ class Collector {
     const SceneGeometry& g = geometry_[static_cast<std::size_t>(r.beam.scene)];
     const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
     const Eigen::Vector3d moved =
-        rows_.displacement(r.beam, rotation, [&](const EffectColumns& c, std::size_t j) {
+        rows_.displacement(r, rotation, [&](const EffectColumns& c, std::size_t j) {
           const auto at = static_cast<std::size_t>(&c - columns_.list().data());
           return in_use_[at].values(static_cast<Eigen::Index>(j));
         });
@@ -137,6 +138,26 @@ class Collector {
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
                               const std::vector<EffectInUse>& in_use, Channel channel) {
   return Collector(table, state, in_use).run(channel);
+}
+
+void remove_levels(const MeasurementTable& table, ChannelResiduals& residuals) {
+  if (residuals.channel != Channel::kIntensity) return;
+  struct Level {
+    double sum = 0.0;
+    double weight = 0.0;
+  };
+  std::vector<std::array<Level, kPrints>> levels(table.scenes.size());
+  const auto level_of = [&](std::size_t k) -> Level& {
+    const auto print = static_cast<std::size_t>(table.intensity[residuals.row[k]].print);
+    return levels[static_cast<std::size_t>(residuals.scene[k])][print];
+  };
+  for (std::size_t k = 0; k < residuals.values.size(); ++k) {
+    const double weight = 1.0 / (residuals.sigma[k] * residuals.sigma[k]);
+    level_of(k).sum += weight * residuals.values[k];
+    level_of(k).weight += weight;
+  }
+  for (std::size_t k = 0; k < residuals.values.size(); ++k)
+    residuals.values[k] -= level_of(k).sum / level_of(k).weight;
 }
 
 }  // namespace lvcalib

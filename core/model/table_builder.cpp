@@ -127,7 +127,7 @@ class SceneBuilder {
     row.sigma_m = noise.range_m[print];
     if (cloud.has_intensity()) row.intensity = cloud.intensity[hit.point];
     table_.range.push_back(row);
-    if (!hit.pure || !(row.intensity > 0.0) || !(levels_[print] > 0.0)) return;
+    if (!hit.plain || !(row.intensity > 0.0) || !(levels_[print] > 0.0)) return;
     table_.intensity.push_back(
         {hit.beam, hit.print, std::log(row.intensity), noise.log_intensity[print]});
   }
@@ -152,7 +152,7 @@ class SceneBuilder {
     if (record.inner_level > 0.0 && record.outer_level > 0.0)
       row.log_contrast = std::log(record.outer_level / record.inner_level);
     set_edge_normal(row);
-    set_local_scan(row.beam);
+    set_local_scan(row);
     table_.boundary.push_back(row);
     return true;
   }
@@ -171,8 +171,10 @@ class SceneBuilder {
                                            a.dot(Eigen::Vector3d(-se * ca, -se * sa, ce)));
   }
 
-  // Mean scan velocity and time of the points about an edge point.
-  void set_local_scan(BeamPoint& beam) {
+  // Mean scan velocity and time of the points about an edge point, and the lines they are of.
+  void set_local_scan(BoundaryRow& row) {
+    BeamPoint& beam = row.beam;
+    std::map<int, int> lines;
     constexpr double kReach = 0.02;
     const std::vector<BoardHit>& hits = hits_.list();
     if (hash_.empty()) {
@@ -189,13 +191,20 @@ class SceneBuilder {
           if ((hits[h].beam.board_m - beam.board_m).norm() > kReach) continue;
           beam.scan_rad_s += hits[h].beam.scan_rad_s;
           beam.time_s += hits[h].beam.time_s;
+          ++lines[hits[h].beam.line];
           count += 1.0;
         }
       }
     }
-    if (count > 0.0) {
-      beam.scan_rad_s /= count;
-      beam.time_s /= count;
+    if (!(count > 0.0)) return;
+    beam.scan_rad_s /= count;
+    beam.time_s /= count;
+    int most = 0;
+    for (const auto& [line, points] : lines) {
+      row.lines.push_back({line, points / count});
+      if (points <= most) continue;
+      most = points;
+      beam.line = line;
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <opencv2/imgproc.hpp>
 
@@ -56,8 +57,9 @@ bool PrintedBoard::is_white(double x_m, double y_m) const {
   return as_drawn ? drawn_white(x_m, y_m) : is_white_beyond(0.0, {x_m, y_m});
 }
 
-// Black grows by a disc: a point is black if anything black lies within the radius. Eight points of
-// the rim tell, as everything printed is wider than the disc.
+// Black grows by a disc: a point is black if anything black lies within the radius. Of tags eight
+// points of the rim tell, as all their edges run along the axes and everything is wider than the
+// disc; circles grow exactly.
 bool PrintedBoard::is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m) const {
   constexpr double kDiagonal = 0.70710678118654752;
   constexpr std::array<std::array<double, 2>, 8> kRim{{{1, 0},
@@ -73,6 +75,8 @@ bool PrintedBoard::is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m)
   const bool white = drawn_white(point_m.x(), point_m.y());
   // Growing black can only darken white, shrinking black only whiten black.
   if (growth == 0.0 || white != (growth > 0.0)) return white;
+  const auto beyond = from_circle_m(point_m.x(), point_m.y());
+  if (beyond && *beyond <= std::max(growth, 0.0)) return *beyond > growth;
   for (const auto& [dx, dy] : kRim) {
     if (drawn_white(point_m.x() + growth * dx, point_m.y() + growth * dy) != white) return !white;
   }
@@ -93,14 +97,19 @@ bool PrintedBoard::drawn_white(double x_m, double y_m) const {
       return tag_bits_[static_cast<std::size_t>((tag * bits_ + j) * bits_ + i)] != 0;
     }
   }
-  if (!target_.has_circles()) return true;
+  const auto beyond = from_circle_m(x_m, y_m);
+  return !beyond || *beyond > 0.0;
+}
+
+std::optional<double> PrintedBoard::from_circle_m(double x_m, double y_m) const {
+  if (!target_.has_circles()) return std::nullopt;
   const double first = target_.tag_size_m * (1.0 + 0.5 * target_.tag_spacing);
   const int i = whole_below((x_m - first) / pitch_m_ + 0.5);
   const int j = whole_below((y_m - first) / pitch_m_ + 0.5);
-  if (i < 0 || j < 0 || i > target_.tag_columns - 2 || j > target_.tag_rows - 2) return true;
-  const double dx = x_m - first - i * pitch_m_;
-  const double dy = y_m - first - j * pitch_m_;
-  return dx * dx + dy * dy > target_.circle_radius_m * target_.circle_radius_m;
+  if (i < 0 || j < 0 || i > target_.tag_columns - 2 || j > target_.tag_rows - 2)
+    return std::nullopt;
+  return std::hypot(x_m - first - i * pitch_m_, y_m - first - j * pitch_m_) -
+         target_.circle_radius_m;
 }
 
 void PrintedBoard::map_edges() {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -48,6 +49,8 @@ class PrintedBoard {
  private:
   [[nodiscard]] bool drawn_white(double x_m, double y_m) const;
   [[nodiscard]] bool is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m) const;
+  // Distance from the edge of the nearest circle as drawn, outside positive.
+  [[nodiscard]] std::optional<double> from_circle_m(double x_m, double y_m) const;
   [[nodiscard]] bool checkerboard_is_white(double x_m, double y_m) const;
   void map_edges();
 

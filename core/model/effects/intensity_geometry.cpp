@@ -6,6 +6,9 @@
 namespace lvcalib {
 namespace {
 
+// Of more lines than this the gains would drown the two exponents in the test of all together.
+constexpr std::size_t kMostLines = 16;
+
 class IntensityGeometry final : public CatalogueEffect {
  public:
   IntensityGeometry()
@@ -13,18 +16,30 @@ class IntensityGeometry final : public CatalogueEffect {
             {.id = "intensity_geometry",
              .group = "radiometry",
              .title = "Intensity with range and incidence",
-             .physics =
-                 "Less light returns from far and slanted surfaces than the sensor corrects for.",
-             .formula = "ln I = n ln cos θ - p ln r",
+             .physics = "Less light returns from far and slanted surfaces than the sensor corrects "
+                        "for, and every line has a gain of its own.",
+             .formula = "ln I = n ln cos θ - p ln r + g(line)",
              .source = "Laconte 2019; Livox manuals",
              .breaker = "boards at several distances and angles",
              .needs = {.intensity = true}},
             {{"n", "1", 1.0, 0.3, 3.0}, {"p", "1", 1.0, 0.3, 4.0}}) {}
 
-  void intensity(const IntensityRow& row, const MeasurementTable& /*table*/, double /*shape*/,
+  // Gains are those relative to the first line: what all have in common is the scenes' levels.
+  [[nodiscard]] std::vector<EffectParameter> parameters(
+      const MeasurementTable& table) const override {
+    std::vector<EffectParameter> out = CatalogueEffect::parameters(table);
+    const auto gains = one_per_line(table, {"g", "1", 1.0, 0.1, 1.0});
+    if (gains.size() > 1 && gains.size() <= kMostLines)
+      out.insert(out.end(), gains.begin() + 1, gains.end());
+    return out;
+  }
+
+  void intensity(const IntensityRow& row, const MeasurementTable& table, double /*shape*/,
                  std::span<double> by) const override {
     by[0] = std::log(std::cos(row.beam.incidence_rad));
     by[1] = -std::log(row.beam.range_m);
+    const auto k = line_index(table, row.beam.line);
+    if (k > 0 && k + 1 < by.size()) by[k + 1] = 1.0;
   }
 };
 

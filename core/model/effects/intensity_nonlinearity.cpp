@@ -18,24 +18,18 @@ class IntensityNonlinearity final : public CatalogueEffect {
             {.id = "intensity_nonlinearity",
              .group = "radiometry",
              .title = "Non-linear intensity",
-             .physics = "The receiver compresses strong echoes: black and white do not change by "
-                        "the same factor.",
-             .formula = "ln I = (1+g) ln(true I): contrast changes with the geometry, and the "
-                        "mid-level crossing of edges moves",
+             .physics =
+                 "The receiver compresses strong echoes, so that the middle between black and "
+                 "white is reached off the edge.",
+             .formula = "I = (true I)^(1+g): the mid-level crossing of edges moves",
              .source = "Mitka and Klapa 2025",
-             .breaker = "boards at several distances",
-             .needs = {.intensity = true}},
+             .breaker = "prints of several greys, or a reflectance chart",
+             .needs = {.circles = true, .intensity = true}},
             {{"g", "1", 1.0, kMaterial, 2.0}}) {}
 
-  void intensity(const IntensityRow& row, const MeasurementTable& /*table*/, double /*shape*/,
-                 std::span<double> by) const override {
-    const double weaker =
-        std::log(std::cos(row.beam.incidence_rad)) - 2.0 * std::log(row.beam.range_m);
-    by[0] = row.print == Print::kWhite ? 0.0 : weaker;
-  }
-
-  // The middle between two transformed levels is not the transformed middle. With the dark level as
-  // unit: I = m where m = (1+c)/2, dI/dg = (c ln c)/2 - m ln m, and dd = dI (σ √2π)/(c-1).
+  // Levels of plain print tell nothing: every scene has its own, and a power of them is a level
+  // too. The middle between two transformed levels is not the transformed middle. With the dark
+  // level as unit: I = m where m = (1+c)/2, dI/dg = (c ln c)/2 - m ln m, and dd = dI (σ √2π)/(c-1).
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {
     const double contrast = std::exp(row.log_contrast);

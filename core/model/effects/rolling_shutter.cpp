@@ -26,8 +26,12 @@ class RollingShutter final : public CatalogueEffect {
     const double share = row.pixel.y() / camera.height_px;
     const double x = normalized.x();
     const double y = normalized.y();
-    by[0] = share * Eigen::Vector2d(1.0 + x * x, x * y);
-    by[1] = share * Eigen::Vector2d(x * y, 1.0 + y * y);
+    Eigen::Matrix<double, 2, 3> by_point;  // The lens bends what the turn moves.
+    if (!camera.project({x, y, 1.0}, &by_point)) return;
+    const Eigen::Vector2d v(1.0 + x * x, x * y);
+    const Eigen::Vector2d w(x * y, 1.0 + y * y);
+    by[0] = share / camera.fx * by_point.leftCols<2>() * v;
+    by[1] = share / camera.fy * by_point.leftCols<2>() * w;
   }
 };
 

@@ -133,7 +133,10 @@ TEST_F(Candidates, EveryConditionCounts) {
   c.possible = false;  // of a size that no device has
   EXPECT_FALSE(is_accepted(c, 60, 6, options_));
   c = good;
-  c.contradicted = true;  // one print alone shows it
+  c.contradiction = Contradiction::kPrints;  // one print alone shows it
+  EXPECT_FALSE(is_accepted(c, 60, 6, options_));
+  c = good;
+  c.explained_share = 0.1;  // of much that is wrong
   EXPECT_FALSE(is_accepted(c, 60, 6, options_));
   c = good;
   c.must_show = Channel::kIntensity;  // an effect of the intensities that only ranges show
@@ -193,7 +196,7 @@ TEST_F(Candidates, AnEffectOnFewRowsIsAskedForItsFallOnThose) {
 
 TEST_F(Candidates, TheMainChannelIsWhereMostNoiseUnitsFall) {
   Candidate c;
-  c.set_heldout({90.0, 9000.0, 50.0, 0.0}, {100.0, 10000.0, 50.0, 0.0});
+  c.set_heldout({90.0, 9000.0, 50.0, 0.0}, {100.0, 10000.0, 50.0, 0.0}, {80.0, 9000.0, 50.0, 0.0});
   EXPECT_EQ(c.main_channel(), Channel::kRange);
   EXPECT_NEAR(c.heldout_gain[0], 0.1, 1e-12);
   EXPECT_EQ(c.heldout_gain[3], 0.0);

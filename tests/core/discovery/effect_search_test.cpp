@@ -181,7 +181,7 @@ TEST_F(SearchState, WhatOnlyWhitePrintShowsIsNoEffectThatKnowsNoPrint) {
     return id_of(search, c) == "range_near";
   });
   ASSERT_NE(near, candidates.end());
-  EXPECT_TRUE(near->contradicted);
+  EXPECT_EQ(near->contradiction, Contradiction::kPrints);
   const auto best = search.best();
   EXPECT_TRUE(!best || id_of(search, candidates[*best]) == "range_walk")
       << id_of(search, candidates[*best]);
@@ -194,7 +194,8 @@ TEST_F(SearchState, WhatBothPrintsShowIsNotContradicted) {
   const auto best = search.best();
   ASSERT_TRUE(best.has_value());
   EXPECT_EQ(id_of(search, search.candidates()[*best]), "range_near");
-  for (const Candidate& c : search.candidates()) EXPECT_FALSE(c.contradicted) << id_of(search, c);
+  for (const Candidate& c : search.candidates())
+    EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
 }
 
 // A near effect beside a walk between the prints: their sum contradicts neither.
@@ -206,7 +207,8 @@ TEST_F(SearchState, AConstantDifferenceBetweenPrintsIsNoContradiction) {
   const auto made = test::synthetic_table({}, wrong);
   EffectSearch search(made.table, made.truth, options_, context_);
   search.rank();
-  for (const Candidate& c : search.candidates()) EXPECT_FALSE(c.contradicted) << id_of(search, c);
+  for (const Candidate& c : search.candidates())
+    EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
 }
 
 // Edges that lie farther out the farther the board: a footprint's variance would be negative.
@@ -240,6 +242,60 @@ TEST_F(SearchState, WhatIsSureButTooSmallExplainsStructure) {
   ASSERT_FALSE(explained.in_use().empty());
   EXPECT_EQ(explained.in_use()[0].effect->info().id, "intensity_geometry");
   EXPECT_TRUE(search.in_use().empty());
+}
+
+// Near white is clipped, as where a receiver saturates: the intensities of the two prints tell
+// different stories, and edges, which are found in them, move near by.
+TEST_F(SearchState, EdgesFoundInDoubtfulIntensitiesTellNothing) {
+  const auto clipped = [](const BeamPoint& beam) { return std::max(0.0, 3.0 - beam.range_m); };
+  test::Disturbance wrong;
+  wrong.log_intensity = [=](const IntensityRow& row) {
+    return row.print == Print::kWhite ? -0.6 * clipped(row.beam) : 0.0;
+  };
+  wrong.edge_m = [=](const BoundaryRow& row) { return -0.0015 * (0.2 + clipped(row.beam)); };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  bool seen = false;
+  for (const Candidate& c : search.candidates()) {
+    if (id_of(search, c) == "intensity_geometry") {
+      EXPECT_EQ(c.contradiction, Contradiction::kPrints);
+    }
+    if (id_of(search, c) != "ink_gain") continue;
+    seen = true;
+    EXPECT_EQ(c.contradiction, Contradiction::kLevels);
+  }
+  EXPECT_TRUE(seen);
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(SearchState, WhatBothPrintsLoseIsNoContradiction) {
+  test::Disturbance wrong;
+  wrong.log_intensity = [](const IntensityRow& row) { return -0.8 * std::log(row.beam.range_m); };
+  wrong.edge_m = [](const BoundaryRow&) { return 0.0015; };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  for (const Candidate& c : search.candidates())
+    EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
+  EXPECT_TRUE(search.best().has_value());
+}
+
+// Where a channel misses by many times its noise, what explains a little of it is no explanation.
+TEST_F(SearchState, ALensFlawIsNoDistortion) {
+  test::Disturbance wrong;
+  wrong.corner_px = [](const CornerRow& row) -> Eigen::Vector2d {
+    const double from = (row.pixel - Eigen::Vector2d(640.0, 400.0)).squaredNorm();
+    return std::exp(-0.5 * from / (90.0 * 90.0)) * Eigen::Vector2d(2.0, 1.0);
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  if (best) {
+    EXPECT_NE(search.candidates()[*best].main_channel(), Channel::kCorner)
+        << id_of(search, search.candidates()[*best]);
+  }
 }
 
 }  // namespace

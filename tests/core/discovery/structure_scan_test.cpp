@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/synthetic_table.h"
@@ -161,6 +162,29 @@ TEST(StructurePlaces, ARippleOverOneCovariateIsNoSurface) {
   const auto alone = scan_structure(made.table, made.truth, {}, {});
   for (const StructureScore& s : scan_places(made.table, made.truth, {}, alone, {}))
     EXPECT_NE(s.covariate, "azimuth");
+}
+
+// A bump is a small share of the variance by nature: its height counts, if all scenes show it.
+TEST(NotableStructure, SomethingLocalIsJudgedByItsHeight) {
+  test::TableRecipe recipe;
+  recipe.range_rows = 15000;
+  const Eigen::Vector2d bump =
+      test::synthetic_table({}).table.target.outline().center_m() + Eigen::Vector2d(0.1, -0.08);
+  const auto share_and_notable = [&](double height_m) {
+    test::Disturbance wrong;
+    wrong.range_m = [=](const BeamPoint& beam) {
+      return -height_m * std::exp(-0.5 * (beam.board_m - bump).squaredNorm() / (0.05 * 0.05));
+    };
+    const auto made = test::synthetic_table(recipe, wrong);
+    std::vector<std::string> named;
+    for (const StructureScore& s : notable_structure(made.table, made.truth, {}, {}, {})) {
+      EXPECT_LT(s.score, 0.01);
+      named.push_back(s.covariates());
+    }
+    return named;
+  };
+  EXPECT_THAT(share_and_notable(0.004), ::testing::Contains("board x and board y"));
+  EXPECT_THAT(share_and_notable(0.0), ::testing::IsEmpty());
 }
 
 }  // namespace

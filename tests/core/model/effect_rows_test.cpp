@@ -175,5 +175,43 @@ TEST(ColumnsInUse, KeepOrderAndShape) {
   EXPECT_EQ(list.columns(), 4);
 }
 
+// An edge is seen by several lines at once: it moves by the mean of what each of them does.
+TEST(EdgeRows, AnEdgeOfSeveralLinesMovesByTheirMean) {
+  auto made = exact_table();
+  const EffectPtr effect = find_effect("channel_angle_offset");
+  EffectColumnsList columns;
+  columns.add(effect, 0.0, made.table);
+  EffectRows rows(made.table, columns.list());
+  BoundaryRow& row = made.table.boundary.front();
+  const SceneGeometry g(made.truth.camera_from_lidar, made.truth.camera_from_board[0]);
+  const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
+  const Eigen::Vector3d outward = outward_of(row, row.beam.board_m, rotation);
+  const Eigen::Vector3d by_move = g.edge_row(row.beam.direction, outward);
+  const auto columns_at = [&] {
+    std::vector<double> out;
+    rows.edge(row, by_move, rotation, [&](const EffectColumns&, std::span<const double> by) {
+      out.assign(by.begin(), by.end());
+    });
+    return out;
+  };
+  row.lines.clear();
+  row.beam.line = made.table.lines[1];
+  const std::vector<double> alone = columns_at();
+  row.beam.line = made.table.lines[4];
+  const std::vector<double> other = columns_at();
+  row.lines = {{made.table.lines[1], 0.75}, {made.table.lines[4], 0.25}};
+  const std::vector<double> both = columns_at();
+  ASSERT_EQ(both.size(), alone.size());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < both.size(); ++k) {
+    EXPECT_NEAR(both[k], 0.75 * alone[k] + 0.25 * other[k], 1e-12);
+    largest = std::max(largest, std::abs(both[k]));
+  }
+  EXPECT_GT(largest, 0.1);
+  const auto moved =
+      rows.displacement(row, rotation, [](const EffectColumns&, std::size_t) { return 1e-3; });
+  EXPECT_GT(moved.norm(), 1e-4);
+}
+
 }  // namespace
 }  // namespace lvcalib

@@ -215,12 +215,11 @@ std::vector<HandCase> edge_cases() {
 std::vector<HandCase> intensity_cases() {
   const auto white = [](Place& p) { p.intensity.print = Print::kWhite; };
   return {
-      {"Geometry", "intensity_geometry", Hook::kIntensity, {along_x(std::log(0.5)), along_x(-1.0)}},
-      {"NonlinearBlack",
-       "intensity_nonlinearity",
+      // Gains of the second and third line relative to the first; the point is of the second.
+      {"Geometry",
+       "intensity_geometry",
        Hook::kIntensity,
-       {along_x(std::log(0.5) - 2.0)}},
-      {"NonlinearWhite", "intensity_nonlinearity", Hook::kIntensity, {along_x(0.0)}, 0.0, white},
+       {along_x(std::log(0.5)), along_x(-1.0), along_x(1.0), along_x(0.0)}},
       {"LobeBlack", "specular_lobe", Hook::kIntensity, {along_x(3.0 * std::exp(-0.5))}, M_PI / 3.0},
       {"LobeWhite",
        "specular_lobe",
@@ -232,6 +231,12 @@ std::vector<HandCase> intensity_cases() {
 }
 
 std::vector<HandCase> print_and_camera_cases() {
+  const auto straight_lens = [](double k1) {
+    return [k1](Place& p) {
+      p.table.camera.distortion.setZero();
+      p.table.camera.distortion(0) = k1;
+    };
+  };
   const auto beside_center = [](Place& p) {
     p.print.board_m = p.table.target.outline().center_m() + Eigen::Vector2d(0.1, 0.2);
   };
@@ -249,7 +254,19 @@ std::vector<HandCase> print_and_camera_cases() {
        Hook::kCamera,
        {{75, 100, 0}, {240, 570, 0}, {430, 240, 0}}},
       {"CornerBias", "corner_bias", Hook::kCamera, {{0.6, 0.8, 0}}},
-      {"Shutter", "rolling_shutter", Hook::kCamera, {{0.8175, 0.09, 0}, {0.09, 0.87, 0}}},
+      {"Shutter",
+       "rolling_shutter",
+       Hook::kCamera,
+       {{0.8175, 0.09, 0}, {0.09, 0.87, 0}},
+       0.0,
+       straight_lens(0.0)},
+      // k1 = -0.1 at r² = 0.25: the lens shrinks by 0.975 and by 2 k1 x xᵀ along the radius.
+      {"ShutterBehindABentLens",
+       "rolling_shutter",
+       Hook::kCamera,
+       {{0.7801875, 0.06525, 0}, {0.06525, 0.81825, 0}},
+       0.0,
+       straight_lens(-0.1)},
   };
 }
 

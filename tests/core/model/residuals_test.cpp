@@ -2,6 +2,7 @@
 #include "model/residuals.h"
 
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -94,6 +95,32 @@ TEST(Residuals, IntensityRefersToTheLevelOfItsPrint) {
     EXPECT_EQ(r.nuisance[k].sum(), 1.0);
     EXPECT_EQ(r.nuisance[k](LocalLayout::kPose + static_cast<int>(row.print)), 1.0);
   }
+}
+
+// What a scene's white and black reflect is unknown: an effect that changes both alike leaves the
+// residuals about their levels where they were.
+TEST(RemoveLevels, LeavesIntensitiesAboutTheirSceneAndPrint) {
+  test::Disturbance wrong;
+  wrong.log_intensity = [](const IntensityRow& row) {
+    return 0.7 * row.beam.scene + (row.print == Print::kWhite ? 0.0 : 0.4 * row.beam.scene);
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  auto r = residuals_of(made.table, made.truth, {}, Channel::kIntensity);
+  EXPECT_GT(rms(r.values), 1.0);
+  remove_levels(made.table, r);
+  EXPECT_NEAR(rms(r.values), 0.2, 0.02);
+  std::map<std::pair<int, Print>, double> sums;
+  for (std::size_t k = 0; k < r.values.size(); ++k)
+    sums[{r.scene[k], made.table.intensity[r.row[k]].print}] += r.values[k];
+  for (const auto& [where, sum] : sums) EXPECT_NEAR(sum, 0.0, 1e-9);
+}
+
+TEST(RemoveLevels, LeavesOtherChannelsAlone) {
+  const auto made = test::synthetic_table({});
+  auto r = residuals_of(made.table, made.truth, {}, Channel::kRange);
+  const std::vector<double> before = r.values;
+  remove_levels(made.table, r);
+  EXPECT_EQ(r.values, before);
 }
 
 }  // namespace
