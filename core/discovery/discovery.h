@@ -34,7 +34,7 @@ struct DiscoveryOptions {
   double testable = 3.0;              ///< A material size must stand so many σ above zero.
   double min_structure = 0.02;        ///< Held-out share of variance worth a mention, or …
   double min_sure_structure = 0.01;   ///< … where the scenes agree that it is no chance.
-  double min_height = 0.3;            ///< Least height (in σ of one range) of something local.
+  double min_height = 0.1;            ///< Least height (in σ of one range) of something local.
   int swaps = 4;                      ///< Aliases tried in place of effects after an addition.
   std::size_t closed_forms = 3;       ///< Covariates with unknown structure that get a formula.
   TableOptions table;

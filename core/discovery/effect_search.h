@@ -26,6 +26,9 @@ class EffectSearch {
   void replace(std::size_t k, const EffectPtr& effect, double shape);
   /// Among an effect's shape numbers the one whose model predicts held-out scenes best.
   [[nodiscard]] double preferred_shape(const EffectPtr& effect) const;
+  /// Moves effect k's shape number from the grid of the search to where the restricted likelihood
+  /// is largest and refits: what a coarse shape leaves over looks like other effects.
+  void refine_shape(std::size_t k);
   /// Moves the shape numbers in use from the grid of the search to where the restricted likelihood
   /// is largest (between their neighbours on the grid), refits, and estimates the covariance of all
   /// unknowns with the shape numbers among them.
@@ -76,6 +79,7 @@ class EffectSearch {
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;
+  bool move_shape(std::size_t k);
   [[nodiscard]] double profile(std::size_t k, double shape) const;
   void estimate_joint_covariance();
   // Effects in use and the natural footprint.

@@ -35,6 +35,7 @@ class Growth {
       Selection s{columns.effect->info().id, aliases_of(search_, *best, options_),
                   c.best_heldout_gain(), c.total_gain(), c.p_value};
       search_.add(columns.effect, columns.shape);
+      search_.refine_shape(search_.in_use().size() - 1);
       selections_.push_back(s);
       try_swaps();
       drop_superfluous();

@@ -60,20 +60,26 @@ double EffectSearch::profile(std::size_t k, double shape) const {
   return fit_model(linear, own_subset(columns), variances_, {.rounds = 0}).log_likelihood;
 }
 
+bool EffectSearch::move_shape(std::size_t k) {
+  const std::vector<double> shapes = in_use_[k].effect->shapes(table_);
+  if (!in_use_[k].effect->has_smooth_shape() || shapes.size() < 2) return false;
+  const auto [low, high] = bracket(shapes, in_use_[k].shape);
+  std::uintmax_t most = kMostEvaluations;
+  const auto [shape, value] = boost::math::tools::brent_find_minima(
+      [&](double s) { return context_.stopped() ? 0.0 : -profile(k, s); }, low, high, kBits, most);
+  if (context_.stopped() || -value < profile(k, in_use_[k].shape)) return false;
+  in_use_[k].shape = shape;
+  return true;
+}
+
+void EffectSearch::refine_shape(std::size_t k) {
+  if (move_shape(k)) refit();
+}
+
 void EffectSearch::refine_shapes() {
   bool moved = false;
-  for (std::size_t k = 0; k < in_use_.size() && !context_.stopped(); ++k) {
-    const std::vector<double> shapes = in_use_[k].effect->shapes(table_);
-    if (!in_use_[k].effect->has_smooth_shape() || shapes.size() < 2) continue;
-    const auto [low, high] = bracket(shapes, in_use_[k].shape);
-    std::uintmax_t most = kMostEvaluations;
-    const auto [shape, value] = boost::math::tools::brent_find_minima(
-        [&](double s) { return context_.stopped() ? 0.0 : -profile(k, s); }, low, high, kBits,
-        most);
-    if (context_.stopped() || -value < profile(k, in_use_[k].shape)) continue;
-    in_use_[k].shape = shape;
-    moved = true;
-  }
+  for (std::size_t k = 0; k < in_use_.size() && !context_.stopped(); ++k)
+    moved = move_shape(k) || moved;
   if (moved) refit();
   estimate_joint_covariance();
 }

@@ -18,6 +18,7 @@ namespace {
 constexpr int kCoarse = 8;   // splines of a covariate
 constexpr int kFine = 32;    // where rows are many: ripples of several periods over the board
 constexpr int kSurface = 8;  // in either direction
+constexpr int kImage = 10;   // the same over the image: corners are few and precise
 constexpr std::size_t kRowsPerSpline = 50;
 constexpr int kNuisance = LocalLayout::kFixed;
 
@@ -85,6 +86,7 @@ class Basis {
 class Curve {
  public:
   static constexpr bool kLocal = false;
+  static constexpr std::array kPriorRows{1.0};
   Curve(const Covariate& covariate, int splines) : of_(covariate), basis_(covariate, splines) {}
   [[nodiscard]] int size() const { return basis_.size(); }
   void evaluate(std::size_t k, BasisRow& out) const { basis_.evaluate(of_.values[k], out); }
@@ -98,8 +100,9 @@ class Curve {
 class Surface {
  public:
   static constexpr bool kLocal = true;
-  Surface(const Covariate& x, const Covariate& y)
-      : x_(x), y_(y), basis_x_(x, kSurface), basis_y_(y, kSurface) {}
+  static constexpr std::array kPriorRows{1.0, 10.0, 100.0, 1000.0};
+  Surface(const Covariate& x, const Covariate& y, int splines = kSurface)
+      : x_(x), y_(y), basis_x_(x, splines), basis_y_(y, splines) {}
   [[nodiscard]] int size() const { return basis_x_.size() * basis_y_.size(); }
   void evaluate(std::size_t k, BasisRow& out) const {
     BasisRow bx;
@@ -121,6 +124,26 @@ class Surface {
   const Covariate& y_;
   Basis basis_x_;
   Basis basis_y_;
+};
+
+// A displacement over the image: a surface for u and one for v.
+class ImageSurface {
+ public:
+  static constexpr bool kLocal = true;
+  static constexpr std::array kPriorRows = Surface::kPriorRows;
+  ImageSurface(const Covariate& x, const Covariate& y, const std::vector<std::size_t>& rows)
+      : surface_(x, y, kImage), rows_(rows) {}
+  [[nodiscard]] int size() const { return 2 * surface_.size(); }
+  void evaluate(std::size_t k, BasisRow& out) const {
+    surface_.evaluate(k, out);
+    const bool is_v = k > 0 && rows_[k] == rows_[k - 1];
+    if (!is_v) return;
+    for (int i = 0; i < out.count; ++i) out.column[static_cast<std::size_t>(i)] += surface_.size();
+  }
+
+ private:
+  Surface surface_;
+  const std::vector<std::size_t>& rows_;  // of the table, by residual
 };
 
 // Whitened cross products of one scene: curve, nuisance, residual.
@@ -176,15 +199,62 @@ void project(SceneSums& s) {
   s.squares -= s.nuisance_residual.dot(y);
 }
 
+// Sums of all scenes, their own nuisance taken out.
+struct AllSums {
+  std::vector<SceneSums> scenes;
+  Eigen::MatrixXd curve;
+  Eigen::VectorXd gradient;
+  double weight = 0.0;
+};
+
+template <class Shape>
+AllSums all_sums(const Shape& shape, const ChannelResiduals& residuals, int scenes) {
+  AllSums out;
+  out.scenes = accumulate(shape, residuals, scenes);
+  out.curve.setZero(shape.size(), shape.size());
+  out.gradient.setZero(shape.size());
+  for (SceneSums& s : out.scenes) {
+    out.weight += s.weight;
+    project(s);
+    out.curve += s.curve;
+    out.gradient += s.curve_residual;
+  }
+  return out;
+}
+
+// What the shape fitted to the other scenes predicts of each, with coefficients shrunk by a ridge.
+void predict_scenes(const AllSums& sums, double ridge, StructureScore& out) {
+  out.scene_gain.clear();
+  double before = 0.0;
+  double after = 0.0;
+  double fitted = 0.0;
+  for (const SceneSums& s : sums.scenes) {
+    Eigen::MatrixXd others = sums.curve - s.curve;
+    others.diagonal().array() += ridge;
+    const Eigen::VectorXd c = others.ldlt().solve(sums.gradient - s.curve_residual);
+    before += s.squares;
+    const double drop = 2.0 * c.dot(s.curve_residual) - c.dot(s.curve * c);
+    after += s.squares - drop;
+    out.scene_gain.push_back(0.5 * drop);
+    fitted += c.dot(s.curve * c);
+  }
+  if (!(before > 0.0) || !std::isfinite(after)) return;
+  out.score = 1.0 - after / before;
+  out.amplitude = sums.weight > 0.0
+                      ? display_factor(out.channel) * std::sqrt(std::max(0.0, fitted) / sums.weight)
+                      : 0.0;
+}
+
 // Largest deviation (all but half a percent of the rows) of the fitted shape from its median, in
 // standard deviations of one row.
 template <class Shape>
-double height_of(const Shape& shape, const ChannelResiduals& residuals, Eigen::MatrixXd curve,
-                 const Eigen::VectorXd& gradient, double ridge) {
+double height_of(const Shape& shape, const ChannelResiduals& residuals, const AllSums& sums,
+                 double ridge) {
   constexpr double kAlmostAll = 0.995;
   if (!shape.kLocal) return 0.0;
+  Eigen::MatrixXd curve = sums.curve;
   curve.diagonal().array() += ridge;
-  const Eigen::VectorXd c = curve.ldlt().solve(gradient);
+  const Eigen::VectorXd c = curve.ldlt().solve(sums.gradient);
   std::vector<double> values(residuals.values.size());
   BasisRow b;
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -203,37 +273,19 @@ double height_of(const Shape& shape, const ChannelResiduals& residuals, Eigen::M
 
 template <class Shape>
 void score(const Shape& shape, const ChannelResiduals& residuals, int scenes, StructureScore& out) {
-  std::vector<SceneSums> sums = accumulate(shape, residuals, scenes);
-  Eigen::MatrixXd curve = Eigen::MatrixXd::Zero(shape.size(), shape.size());
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(shape.size());
-  double weight = 0.0;
-  for (SceneSums& s : sums) {
-    weight += s.weight;
-    project(s);
-    curve += s.curve;
-    gradient += s.curve_residual;
+  const AllSums sums = all_sums(shape, residuals, scenes);
+  // Shrinks what few rows support: one row's weight as a prior about zero. Something local leaves
+  // most of a surface flat: there stronger priors are tried as well, and scenes held out choose.
+  const double one_row =
+      sums.weight / std::max<double>(1.0, static_cast<double>(residuals.values.size()));
+  const StructureScore start = out;
+  for (const double rows : Shape::kPriorRows) {
+    StructureScore tried = start;
+    predict_scenes(sums, rows * one_row, tried);
+    if (rows > 1.0 && tried.score <= out.score) continue;
+    out = tried;
+    out.height = height_of(shape, residuals, sums, rows * one_row);
   }
-  // Shrinks what few rows support: one row's weight as a prior about zero.
-  const double ridge = weight / std::max<double>(1.0, static_cast<double>(residuals.values.size()));
-  out.scene_gain.clear();
-  double before = 0.0;
-  double after = 0.0;
-  double fitted = 0.0;
-  for (const SceneSums& s : sums) {
-    Eigen::MatrixXd others = curve - s.curve;
-    others.diagonal().array() += ridge;
-    const Eigen::VectorXd c = others.ldlt().solve(gradient - s.curve_residual);
-    before += s.squares;
-    const double drop = 2.0 * c.dot(s.curve_residual) - c.dot(s.curve * c);
-    after += s.squares - drop;
-    out.scene_gain.push_back(0.5 * drop);
-    fitted += c.dot(s.curve * c);
-  }
-  if (!(before > 0.0) || !std::isfinite(after)) return;
-  out.score = 1.0 - after / before;
-  out.height = height_of(shape, residuals, curve, gradient, ridge);
-  out.amplitude =
-      weight > 0.0 ? display_factor(out.channel) * std::sqrt(std::max(0.0, fitted) / weight) : 0.0;
 }
 
 const Covariate* find_in(const std::vector<Covariate>& covariates, const std::string& name) {
@@ -253,6 +305,16 @@ void sort_best_first(std::vector<StructureScore>& scores) {
 constexpr std::array<std::pair<const char*, const char*>, 4> kPlaces{
     {{"board x", "board y"}, {"azimuth", "elevation"}, {"print", "range"}, {"print", "incidence"}}};
 
+// By more than one standard error over scenes: two covariates are not named where one will do.
+bool is_better(const StructureScore& surface, const StructureScore& curve) {
+  if (surface.score <= curve.score) return false;
+  if (surface.scene_gain.size() != curve.scene_gain.size()) return true;
+  std::vector<double> more;
+  for (std::size_t s = 0; s < surface.scene_gain.size(); ++s)
+    more.push_back(surface.scene_gain[s] - curve.scene_gain[s]);
+  return is_gain(more);
+}
+
 // Surfaces that predict held-out scenes better than either of their covariates alone.
 std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
                                      const std::vector<StructureScore>& alone,
@@ -268,11 +330,28 @@ std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
     s.second_covariate = y->name;
     score(surface, residuals, scenes, s);
     const auto worse = [&](const StructureScore& one) {
-      return (one.covariate != first && one.covariate != second) || one.score < s.score;
+      return (one.covariate != first && one.covariate != second) || is_better(s, one);
     };
     if (std::all_of(alone.begin(), alone.end(), worse)) out.push_back(s);
   }
   return out;
+}
+
+// Something local in the lens displaces corners in both directions of the image.
+std::vector<StructureScore> image_surface(const std::vector<Covariate>& covariates,
+                                          const std::vector<StructureScore>& alone,
+                                          const ChannelResiduals& residuals, int scenes) {
+  const Covariate* x = find_in(covariates, "image x");
+  const Covariate* y = find_in(covariates, "image y");
+  if (x == nullptr || y == nullptr) return {};
+  const ImageSurface surface(*x, *y, residuals.row);
+  if (x->values.size() < static_cast<std::size_t>(surface.size())) return {};
+  StructureScore s{residuals.channel, x->name, 0.0, 0.0};
+  s.second_covariate = y->name;
+  score(surface, residuals, scenes, s);
+  const bool better = std::all_of(alone.begin(), alone.end(),
+                                  [&](const StructureScore& one) { return is_better(s, one); });
+  return better ? std::vector{s} : std::vector<StructureScore>{};
 }
 
 // Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
@@ -328,14 +407,16 @@ std::vector<StructureScore> scan_places(const MeasurementTable& table, const Mod
   std::vector<std::vector<StructureScore>> found(kAllChannels.size());
   parallel_for(kAllChannels.size(), context.thread_count(), [&](std::size_t k) {
     const Channel channel = kAllChannels[k];
-    // Corners have two axes, which no single surface over the board or the image describes.
-    if (channel == Channel::kCorner || table.size(channel) == 0 || context.stopped()) return;
+    if (table.size(channel) == 0 || context.stopped()) return;
     const ChannelResiduals residuals = residuals_of(table, state, in_use, channel);
     std::vector<StructureScore> same;
     for (const StructureScore& s : alone) {
       if (s.channel == channel) same.push_back(s);
     }
-    found[k] = surfaces(covariates_of(table, channel, residuals), same, residuals, scenes);
+    // Corners have two axes, which no single surface over the board describes.
+    const auto covariates = covariates_of(table, channel, residuals);
+    found[k] = channel == Channel::kCorner ? image_surface(covariates, same, residuals, scenes)
+                                           : surfaces(covariates, same, residuals, scenes);
   });
   std::vector<StructureScore> out;
   for (const auto& one : found) out.insert(out.end(), one.begin(), one.end());

@@ -139,6 +139,8 @@ simulation::SimulationOptions effect_rig_options(const EffectTask& task) {
   return options;
 }
 
+// Of effects whose size means the same to nature and to the estimator. Blooming does not: its κ
+// counts the footprint here and the whole transition there.
 std::map<std::string, double> true_parameters(const std::string& id,
                                               const simulation::SimulatedRig& rig) {
   const auto at = rig.options.effects.find(id);
@@ -154,7 +156,6 @@ std::map<std::string, double> true_parameters(const std::string& id,
                                                           {"encoder_lag", "τ"},
                                                           {"boundary_bias", "δ0"},
                                                           {"footprint_offset", "βh"},
-                                                          {"blooming", "κ"},
                                                           {"detector_lag", "τ"},
                                                           {"print_scale", "scale"},
                                                           {"ink_gain", "g"},

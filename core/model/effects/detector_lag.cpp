@@ -14,7 +14,7 @@ class DetectorLag final : public CatalogueEffect {
              .group = "beam",
              .title = "Lag of the intensity",
              .physics = "The detector needs time to recover, so that edges move along the scan.",
-             .formula = "dd = v τ cos(scan direction - ψ)",
+             .formula = "dd = v τ cos(scan direction - ψ), in the board: over cos θ up the slope",
              .source = "derived",
              .breaker = "scans that cross edges in both directions",
              .needs = {.time = true, .circles = true, .intensity = true}},
@@ -22,7 +22,7 @@ class DetectorLag final : public CatalogueEffect {
 
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {
-    by[0] = row.beam.range_m * row.beam.scan_rad_s.dot(lidar_angle_of(row));
+    by[0] = row.beam.scan_rad_s.dot(row.edge_normal_rad);
   }
 };
 

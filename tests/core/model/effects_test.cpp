@@ -202,6 +202,13 @@ std::vector<HandCase> edge_cases() {
       {"Divergence", "beam_divergence", Hook::kEdge, {along_x(-160.0)}},
       {"Anisotropy", "footprint_anisotropy", Hook::kEdge, {along_x(-102.4), along_x(-57.6)}},
       {"FootprintOffset", "footprint_offset", Hook::kEdge, {along_x(2.4), along_x(3.2)}},
+      // On a slanted board an angle reaches farther.
+      {"FootprintOffsetOnASlant",
+       "footprint_offset",
+       Hook::kEdge,
+       {along_x(4.8), along_x(6.4)},
+       0.0,
+       [](Place& p) { p.edge.edge_normal_rad *= 2.0; }},
       {"Blooming", "blooming", Hook::kEdge, {along_x(-0.02)}},
       // Contrast 7.389: (7.389 - 4.1945 ln 4.1945) 0.01 m √2π / 6.389; toward white for g > 0.
       {"Nonlinearity",
