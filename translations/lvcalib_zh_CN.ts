@@ -550,6 +550,58 @@ were saved. Take them up again?</source>
         <translation>标定板对应必须胜出的证据量。</translation>
     </message>
     <message>
+        <source>The search for missing effects adds no more than this.</source>
+        <translation>搜索缺失效应时最多添加这么多个。</translation>
+    </message>
+    <message>
+        <source>Chance that an effect which is not there is taken for one, over all candidates.</source>
+        <translation>在所有候选中，把不存在的效应当作存在的概率。</translation>
+    </message>
+    <message>
+        <source>Least fall of a channel&apos;s held-out squares that earns an effect its place.</source>
+        <translation>效应入选所需的通道留出平方和的最小降幅。</translation>
+    </message>
+    <message>
+        <source>The same with three scenes or fewer.</source>
+        <translation>场景不超过三个时的同一数值。</translation>
+    </message>
+    <message>
+        <source>Or the extrinsic moves by so many standard deviations.</source>
+        <translation>或外参移动这么多个标准差。</translation>
+    </message>
+    <message>
+        <source>Share of scenes that must be predicted better.</source>
+        <translation>必须预测得更好的场景所占比例。</translation>
+    </message>
+    <message>
+        <source>Scenes whose log-density changes by less say nothing.</source>
+        <translation>对数密度变化小于此值的场景不作数。</translation>
+    </message>
+    <message>
+        <source>Share of what a channel misses by, beyond its noise, that an effect must explain.</source>
+        <translation>通道误差超出噪声时，效应必须解释的比例。</translation>
+    </message>
+    <message>
+        <source>Effects correlated higher cannot be told apart.</source>
+        <translation>相关性更高的效应无法区分。</translation>
+    </message>
+    <message>
+        <source>A size that matters must stand so many standard deviations above zero.</source>
+        <translation>有意义的大小必须高出零这么多个标准差。</translation>
+    </message>
+    <message>
+        <source>Share of the held-out variance from which structure is named.</source>
+        <translation>结构被指出所需占留出方差的比例。</translation>
+    </message>
+    <message>
+        <source>The same where the scenes agree that it is no chance.</source>
+        <translation>各场景一致表明并非偶然时的同一数值。</translation>
+    </message>
+    <message>
+        <source>Height of something local, in standard deviations of one range, from which it is named.</source>
+        <translation>局部结构被指出所需的高度，以单次测距的标准差为单位。</translation>
+    </message>
+    <message>
         <source>Fewer overlap samples give no statistics.</source>
         <translation>重叠区样本更少时不作统计。</translation>
     </message>
@@ -1316,6 +1368,18 @@ were saved. Take them up again?</source>
     <message>
         <source>White and black print contradict each other about it: %1 of both together; something that depends on the print is at work.</source>
         <translation>白色与黑色印刷对它的结论相互矛盾：合在一起为 %1；起作用的是与印刷颜色有关的其他因素。</translation>
+    </message>
+    <message>
+        <source>White and black return unlike shares of light as range and incidence change, which no effect explains; edges are found in these intensities and cannot tell: %1.</source>
+        <translation>距离和入射角变化时，白色与黑色返回光的比例变化不同，且没有任何效应能解释；边缘是从这些强度中找到的，因此无法判断：%1。</translation>
+    </message>
+    <message>
+        <source>Something that is there, but too small to matter, explains more and leaves nothing to it: %1.</source>
+        <translation>另有一个存在但小到无关紧要的效应解释得更多，没有给它留下任何内容：%1。</translation>
+    </message>
+    <message>
+        <source>It explains %1 % of what is wrong in the %2 channel: %3; something else is at work there.</source>
+        <translation>它只解释了%2通道中误差的 %1 %：%3；那里另有原因。</translation>
     </message>
     <message>
         <source>What fits best is impossible: %1, while no device has less than %2; something else is at work.</source>
@@ -3373,6 +3437,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Boundary response</source>
         <translation>边界响应</translation>
+    </message>
+    <message>
+        <source>Missing effects</source>
+        <translation>缺失的效应</translation>
     </message>
 </context>
 <context>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "base/file_io.h"
 #include "calibration_arguments.h"
@@ -14,7 +15,8 @@ namespace {
 
 struct Options {
   CalibrationArguments calibration;
-  DiscoveryOptions discovery;
+  std::optional<int> max_effects;
+  std::vector<std::string> with;
 };
 
 std::string summary_of(const Discovery& discovery, const std::string& output) {
@@ -44,10 +46,13 @@ std::string summary_of(const Discovery& discovery, const std::string& output) {
 
 Result<std::string> run(const Options& options, Session& session) {
   const std::string& output = options.calibration.output;
-  if (Status s = check_wanted(options.discovery.with); !s) return s.error();
+  if (Status s = check_wanted(options.with); !s) return s.error();
   auto result = run_calibration(options.calibration, session);
   if (!result) return result.error();
-  auto discovery = discover(*result, options.discovery, session.context);
+  DiscoveryOptions how = result->options.discovery;
+  how.max_effects = options.max_effects.value_or(how.max_effects);
+  how.with = options.with;
+  auto discovery = discover(*result, how, session.context);
   if (!discovery) {
     Error error = discovery.error();
     if (error.where.empty()) error.where = options.calibration.dataset;
@@ -75,11 +80,10 @@ Command add_discover_command(CLI::App& app) {
       app.add_subcommand("discover", "Find which physical effects the model of a dataset misses");
   add_calibration_arguments(*command, options->calibration,
                             "folder for discovery.json, discovery.txt and result.*");
-  command
-      ->add_option("--max-effects", options->discovery.max_effects, "add no more effects than this")
+  command->add_option("--max-effects", options->max_effects, "add no more effects than this")
       ->check(CLI::Range(0, 50));
   command->add_option(
-      "--with", options->discovery.with,
+      "--with", options->with,
       "an effect to have in the model from the start (repeatable): an id of the "
       "catalogue, formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE[,COVARIATE]");
   return {command, [options](Session& session) { return run(*options, session); }};

@@ -139,9 +139,19 @@ void Candidate::set_heldout(const std::array<double, kChannels>& with,
     heldout_gain[k] = without[k] > 0.0 ? 1.0 - with[k] / without[k] : 0.0;
     heldout_fall[k] = without[k] - with[k];
   }
-  const auto main = static_cast<std::size_t>(main_channel());
-  const double unexplained = without[main] - rows[main];
-  explained_share = unexplained > rows[main] ? heldout_fall[main] / unexplained : 1.0;
+  // Of the channels in which it acts the one that tells most, and the one where most falls.
+  const auto share_of = [&](std::size_t k) -> std::optional<double> {
+    const double unexplained = without[k] - rows[k];
+    if (!(unexplained > rows[k])) return std::nullopt;
+    return heldout_fall[k] / unexplained;
+  };
+  std::optional<double> acting;
+  for (std::size_t k = 0; k < kChannels; ++k) {
+    if (const auto share = share_of(k); share && acting_share[k] > 0.0)
+      acting = std::max(*share, acting.value_or(*share));
+  }
+  explained_share = std::min(acting.value_or(1.0),
+                             share_of(static_cast<std::size_t>(main_channel())).value_or(1.0));
 }
 
 std::array<double, kChannels> row_counts(const Linearization& linear) {
@@ -154,6 +164,11 @@ std::array<double, kChannels> row_counts(const Linearization& linear) {
 
 void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
                     ColumnSubset& subset) {
+  std::size_t run = subset.columns.size();
+  for (const std::size_t count : columns.zero_sums) {
+    subset.zero_sums.emplace_back(run, count);
+    run += count;
+  }
   for (int k = 0; k < columns.count(); ++k) {
     subset.columns.push_back(columns.first + k);
     subset.prior_sigma.push_back(columns.parameters[static_cast<std::size_t>(k)].prior_sigma);
@@ -203,7 +218,6 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
       without[k] += reference.heldout[s][k];
     }
   }
-  out.set_heldout(with, without, row_counts(linear));
   for (const Channel channel : kAllChannels) {
     double& share = out.acting_share[static_cast<std::size_t>(channel)];
     share = 0.0;
@@ -212,6 +226,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   }
   if (out.acting_share[static_cast<std::size_t>(Channel::kIntensity)] > 0.0)
     out.must_show = Channel::kIntensity;
+  out.set_heldout(with, without, row_counts(linear));
   const Vector6d move = out.fit.solution.head<6>() - reference.fit.solution.head<6>();
   const Matrix6d covariance = reference.fit.covariance.topLeftCorner<6, 6>();
   for (int k = 0; k < 6; ++k) {

@@ -12,6 +12,7 @@ namespace lvcalib {
 enum class Contradiction {
   kNone,
   kPrints,  ///< White and black print tell different stories about it (see print_contrast.h).
+  kSmall,   ///< Something sure, too small to matter, explains more and leaves it nothing.
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
 };
 
@@ -37,8 +38,8 @@ struct Candidate {
   std::optional<Channel> must_show;
   /// Values that a device can have are within two standard deviations of the estimate.
   bool possible = true;
-  /// Share of what is unexplained in its main channel that it takes away, where the channel misses
-  /// by more than its noise; 1 elsewhere.
+  /// Share of what is unexplained that it takes away in its main channel and in the channels in
+  /// which it acts, where these miss by more than their noise; 1 elsewhere.
   double explained_share = 1.0;
   Contradiction contradiction = Contradiction::kNone;
   [[nodiscard]] double total_gain() const;

@@ -21,6 +21,7 @@ constexpr std::size_t kRefitted = 3;  // candidates that get a full refit when t
 // Keeps the columns just appended where they are: their increments are known to be zero.
 void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
   const std::size_t first = subset.columns.size() - columns.parameters.size();
+  std::erase_if(subset.zero_sums, [&](const auto& run) { return run.first >= first; });
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
     subset.prior_sigma[first + k] = 1e-6 * columns.parameters[k].material;
     subset.prior_mean[first + k] = 0.0;
@@ -222,6 +223,40 @@ void EffectSearch::rank() {
   sort_best_first(candidates_);
   refit_promising();
   ask_both_prints();
+  ask_what_is_small();
+}
+
+// Of two effects that act alike the smaller one may be there, too small to matter, and the other
+// accepted in its place.
+void EffectSearch::ask_what_is_small() {
+  const std::size_t tried = candidates_.size();
+  while (!context_.stopped()) {
+    const auto chosen = best();
+    if (!chosen) return;
+    const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(*chosen);
+    const auto small = std::find_if(candidates_.begin(), end, [&](const Candidate& c) {
+      return !c.material && c.possible && c.contradiction == Contradiction::kNone &&
+             is_sure(c, tried, options_);
+    });
+    if (small == end) return;
+    const auto& list = linear_.columns.list();
+    EffectSearch with_it(*this);
+    with_it.add(list[small->columns].effect, list[small->columns].shape);
+    const EffectColumns& asked = list[candidates_[*chosen].columns];
+    if (context_.stopped() || with_it.accepts(asked.effect, asked.shape, tried)) return;
+    contradict(candidates_[*chosen], Contradiction::kSmall);
+  }
+}
+
+bool EffectSearch::accepts(const EffectPtr& effect, double shape, std::size_t tried) const {
+  EffectColumnsList columns = own_columns();
+  const ColumnSubset subset = own_subset(columns);
+  columns.add(effect, shape, table_);
+  const Linearization linear = linearize(table_, state_, model(), columns, context_);
+  if (context_.stopped()) return false;
+  const Reference reference = make_reference(linear, subset, variances_, {});
+  const Candidate candidate = evaluate_candidate(linear, reference, own_count(), {});
+  return is_accepted(candidate, tried, table_.scenes.size(), options_);
 }
 
 void EffectSearch::ask_both_prints() {
@@ -240,7 +275,7 @@ void EffectSearch::ask_both_prints() {
     const auto chosen = best();
     if (!chosen || candidates_[*chosen].main_channel() != Channel::kRange) return;
     if (!disagree(candidates_[*chosen])) return;
-    contradict(candidates_[*chosen]);
+    contradict(candidates_[*chosen], Contradiction::kPrints);
   }
 }
 
@@ -254,7 +289,7 @@ void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& dis
                        c.contradiction == Contradiction::kNone &&
                        is_accepted(c, candidates_.size(), table_.scenes.size(), options_);
     if (!asked || !disagree(c)) continue;
-    contradict(c);
+    contradict(c, Contradiction::kPrints);
     doubted = true;
   }
   if (!doubted) return;
@@ -263,13 +298,13 @@ void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& dis
   }
 }
 
-void EffectSearch::contradict(const Candidate& candidate) {
+void EffectSearch::contradict(const Candidate& candidate, Contradiction by) {
   const auto id_of = [&](const Candidate& c) {
     return linear_.columns.list()[c.columns].effect->info().id;
   };
   const std::string id = id_of(candidate);
   for (Candidate& c : candidates_) {
-    if (id_of(c) == id) c.contradiction = Contradiction::kPrints;
+    if (id_of(c) == id) c.contradiction = by;
   }
 }
 

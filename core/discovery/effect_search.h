@@ -75,7 +75,11 @@ class EffectSearch {
   // Takes accepted candidates off the list that white and black print contradict.
   void ask_both_prints();
   void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
-  void contradict(const Candidate& candidate);  // at all its shape numbers
+  void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
+  // Takes accepted candidates off the list that something too small to matter leaves nothing.
+  void ask_what_is_small();
+  // Whether it would be accepted in addition to this model.
+  [[nodiscard]] bool accepts(const EffectPtr& effect, double shape, std::size_t tried) const;
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;

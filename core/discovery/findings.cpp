@@ -267,6 +267,11 @@ class Judge {
           "change, which no effect explains; edges are found in these intensities and "
           "cannot tell: " +
           values_text(f) + ".";
+    } else if (c.contradiction == Contradiction::kSmall) {
+      f.explanation =
+          "Something that is there, but too small to matter, explains more and leaves "
+          "nothing to it: " +
+          values_text(f) + ".";
     } else if (c.contradiction == Contradiction::kPrints) {
       f.explanation = "White and black print contradict each other about it: " + values_text(f) +
                       " of both together; something that depends on the print is at work.";

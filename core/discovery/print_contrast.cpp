@@ -34,11 +34,15 @@ class PrintContrast {
     // A constant between the prints is the contrast of an offset itself: who is it? The walk comes
     // first, and the offset is asked again beside it.
     if (!walks && !is_determined(fit)) fit = fitted(false);
-    if (!is_determined(fit) || f_test(fit, count()) > options_.false_alarm) return false;
+    if (!is_determined(fit) || f_test(fit, count()) > alarm()) return false;
     return one_shows_nothing(fit);
   }
 
  private:
+  // Every effect of the catalogue may be asked.
+  [[nodiscard]] double alarm() const {
+    return options_.false_alarm / static_cast<double>(effect_catalogue().size());
+  }
   [[nodiscard]] Eigen::Index count() const { return with_.list()[at_].count(); }
 
   [[nodiscard]] ModelFit fitted(bool beside_walk) const {
@@ -63,8 +67,8 @@ class PrintContrast {
     const auto size = [&](const Eigen::VectorXd& theta) { return theta.dot(told * theta); };
     const Eigen::VectorXd by_effect = fit.solution.segment(fit.solution.size() - 2 * p, p);
     const Eigen::VectorXd by_contrast = fit.solution.tail(p);
-    constexpr double kFifth = 0.2;
-    const double least = (1.0 - kFifth) / (1.0 + kFifth);
+    constexpr double kThird = 1.0 / 3.0;
+    const double least = (1.0 - kThird) / (1.0 + kThird);
     if (size(by_contrast) >= least * least * size(by_effect)) return true;
     const Eigen::MatrixXd c = fit.covariance.bottomRightCorner(2 * p, 2 * p);
     const Eigen::MatrixXd both = c.topLeftCorner(p, p) + c.bottomRightCorner(p, p);

@@ -19,7 +19,7 @@ struct ModelInUse {
 
 /// Whether white and black print, each by themselves, contradict each other about a candidate in a
 /// channel (ranges or intensities): beside it and a constant difference between the prints, its
-/// print contrast is there and so large that one print shows nothing, less than a fifth of what the
+/// print contrast is there and so large that one print shows nothing, less than a third of what the
 /// other does, or the opposite. What depends on the print is then something else.
 bool prints_disagree(const ModelInUse& model, const EffectColumns& candidate, Channel channel,
                      const DiscoveryOptions& options, const RunContext& context);

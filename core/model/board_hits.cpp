@@ -32,6 +32,13 @@ class Replicates {
     return sigma;
   }
 
+  // Of all values about their median; zero if there are hardly any.
+  [[nodiscard]] double spread() const {
+    constexpr std::size_t kFewest = 10;
+    constexpr double kLeast = 0.01;  // Levels may be whole numbers, and all the same.
+    return values_.size() < kFewest ? 0.0 : std::max(kLeast, mad_sigma(values_));
+  }
+
  private:
   std::vector<Eigen::Vector2d> at_;
   std::vector<double> values_;
@@ -155,7 +162,8 @@ PrintNoise BoardHits::noise() const {
     }
     out.range_m[k] = std::max(out.range_m[k], 1e-5);
     out.log_intensity[k] = logs.sigma();
-    if (out.log_intensity[k] <= 0.0) out.log_intensity[k] = 0.1;
+    // Structure widens the spread of all: weights that are too small do no harm.
+    if (out.log_intensity[k] <= 0.0) out.log_intensity[k] = logs.spread();
   }
   return out;
 }

@@ -19,7 +19,7 @@ struct BoardHit {
   double residual_m = 0.0;  ///< Measured − predicted range.
 };
 
-/// Standard deviations by print.
+/// Standard deviations by print; zero where too few points tell.
 struct PrintNoise {
   std::array<double, kPrints> range_m{};
   std::array<double, kPrints> log_intensity{};

@@ -68,6 +68,11 @@ class Effect {
   /// Its parameters on this table (some have one per laser line).
   [[nodiscard]] virtual std::vector<EffectParameter> parameters(
       const MeasurementTable& table) const = 0;
+  /// How many parameters there are in each run of them, from the first on, whose sum is zero; what
+  /// all of a run have in common is another effect, or nothing that any data can tell.
+  [[nodiscard]] virtual std::vector<std::size_t> zero_sums(const MeasurementTable&) const {
+    return {};
+  }
   /// Values of the shape number to try; one zero if the effect has none.
   [[nodiscard]] virtual std::vector<double> shapes(const MeasurementTable&) const { return {0.0}; }
   /// Name and unit of the shape number; empty if none.

@@ -250,7 +250,7 @@ class SceneAccumulator {
 }  // namespace
 
 void EffectColumnsList::add(const EffectPtr& effect, double shape, const MeasurementTable& table) {
-  EffectColumns c{effect, shape, effect->parameters(table), columns_};
+  EffectColumns c{effect, shape, effect->parameters(table), columns_, effect->zero_sums(table)};
   columns_ += c.count();
   list_.push_back(std::move(c));
 }

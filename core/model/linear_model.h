@@ -17,6 +17,7 @@ struct EffectColumns {
   double shape = 0.0;
   std::vector<EffectParameter> parameters;
   int first = 0;
+  std::vector<std::size_t> zero_sums = {};  ///< See Effect::zero_sums().
   /// What the effect does to ranges and intensities of white print, and its negative on black print
   /// and circles; nothing elsewhere: an effect that knows no print has none of it.
   bool print_contrast = false;

@@ -95,6 +95,7 @@ class Fitter {
       fit_.prior.constant +=
           0.5 * std::log(weight) - 0.5 * weight * subset.prior_mean[k] * subset.prior_mean[k];
     }
+    for (const auto& [first, count] : subset.zero_sums) hold_sum(first, count);
   }
 
   ModelFit run() {
@@ -108,6 +109,20 @@ class Fitter {
   }
 
  private:
+  // A measurement of the sum, a thousand times as precise as what is believable of one of them.
+  void hold_sum(std::size_t first, std::size_t count) {
+    constexpr double kPrecise = 1e-3;
+    const ColumnSubset& subset = fit_.subset;
+    const double weight = std::pow(kPrecise * subset.prior_sigma[first], -2.0);
+    const auto at = static_cast<Eigen::Index>(6 + first);
+    const auto n = static_cast<Eigen::Index>(count);
+    double mean = 0.0;
+    for (std::size_t k = 0; k < count; ++k) mean += subset.prior_mean[first + k];
+    fit_.prior.information.block(at, at, n, n).array() += weight;
+    fit_.prior.gradient.segment(at, n).array() += weight * mean;
+    fit_.prior.constant += 0.5 * std::log(weight) - 0.5 * weight * mean * mean;
+  }
+
   void solve() {
     fit_.scenes.clear();
     factors_.clear();

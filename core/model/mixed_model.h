@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -31,6 +32,8 @@ struct ColumnSubset {
   std::vector<int> columns;
   std::vector<double> prior_sigma;
   std::vector<double> prior_mean;  ///< Of the increment: −(value in use).
+  /// Neighbours (the first's place among the columns, and how many) whose sum is zero.
+  std::vector<std::pair<std::size_t, std::size_t>> zero_sums;
 };
 
 /// A fitted mixed model. Global unknowns: extrinsic (6), then the subset's columns.

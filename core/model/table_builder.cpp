@@ -127,9 +127,14 @@ class SceneBuilder {
     row.sigma_m = noise.range_m[print];
     if (cloud.has_intensity()) row.intensity = cloud.intensity[hit.point];
     table_.range.push_back(row);
-    if (!hit.plain || !(row.intensity > 0.0) || !(levels_[print] > 0.0)) return;
+    // The logarithm of what is mostly noise says nothing; of less its mean lies half the variance
+    // below that of the level.
+    constexpr double kMostlyNoise = 0.5;
+    const double sigma = noise.log_intensity[print];
+    const bool told = sigma > 0.0 && sigma <= kMostlyNoise && levels_[print] > 0.0;
+    if (!hit.plain || !(row.intensity > 0.0) || !told) return;
     table_.intensity.push_back(
-        {hit.beam, hit.print, std::log(row.intensity), noise.log_intensity[print]});
+        {hit.beam, hit.print, std::log(row.intensity) + 0.5 * sigma * sigma, sigma});
   }
 
   bool add_bin(const TargetNode& node, const NodeRecord& record, const BinRecord& bin) {

@@ -60,6 +60,7 @@ class Calibration {
     result_.target = dataset_.target;
     result_.camera = dataset_.camera;
     result_.warnings = dataset_.warnings;
+    result_.options = request_.options;
     looked_twice_.assign(dataset_.scenes.size(), 0);
     for (const SceneFiles& files : dataset_.scenes) {
       SceneResult scene;

@@ -57,6 +57,7 @@ struct ModelEffect {
 /// A finished calibration.
 struct CalibrationResult {
   std::string dataset;
+  CalibrationOptions options;  ///< What it was made with; what follows goes on with them.
   Target target;
   Camera camera;
   std::vector<SceneResult> scenes;

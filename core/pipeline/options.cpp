@@ -40,6 +40,7 @@ std::vector<OptionDeclaration> make_declarations() {
   using E = ExtrinsicOptions;
   using P = ResponseOptions;
   using Q = QualityOptions;
+  using M = DiscoveryOptions;
   return {
       declare("detection.quad_decimate", "1", 1, 8, "detect",
               "Image reduction for the first tag search.", &O::detection, &D::quad_decimate),
@@ -156,6 +157,44 @@ std::vector<OptionDeclaration> make_declarations() {
               &Q::max_sigma_rotation_rad),
       declare("quality.min_margin", "nat", 0, 1e9, "optimize",
               "Evidence by which the board assignment must win.", &O::quality, &Q::min_margin),
+      declare("discovery.max_effects", "1", 0, 50, "discover",
+              "The search for missing effects adds no more than this.", &O::discovery,
+              &M::max_effects),
+      declare("discovery.false_alarm", "1", 1e-9, 0.5, "discover",
+              "Chance that an effect which is not there is taken for one, over all candidates.",
+              &O::discovery, &M::false_alarm),
+      declare("discovery.min_gain", "1", 0, 1, "discover",
+              "Least fall of a channel's held-out squares that earns an effect its place.",
+              &O::discovery, &M::min_gain),
+      declare("discovery.min_gain_few_scenes", "1", 0, 1, "discover",
+              "The same with three scenes or fewer.", &O::discovery, &M::min_gain_few_scenes),
+      declare("discovery.min_extrinsic_move", "1", 0, 1000, "discover",
+              "Or the extrinsic moves by so many standard deviations.", &O::discovery,
+              &M::min_extrinsic_move),
+      declare("discovery.scenes_improved", "1", 0, 1, "discover",
+              "Share of scenes that must be predicted better.", &O::discovery, &M::scenes_improved),
+      declare("discovery.speaking_nats", "nat", 0, 1000, "discover",
+              "Scenes whose log-density changes by less say nothing.", &O::discovery,
+              &M::speaking_nats),
+      declare("discovery.min_explained", "1", 0, 1, "discover",
+              "Share of what a channel misses by, beyond its noise, that an effect must explain.",
+              &O::discovery, &M::min_explained),
+      declare("discovery.alias_correlation", "1", 0, 1, "discover",
+              "Effects correlated higher cannot be told apart.", &O::discovery,
+              &M::alias_correlation),
+      declare("discovery.testable", "1", 0.1, 1000, "discover",
+              "A size that matters must stand so many standard deviations above zero.",
+              &O::discovery, &M::testable),
+      declare("discovery.min_structure", "1", 0, 1, "discover",
+              "Share of the held-out variance from which structure is named.", &O::discovery,
+              &M::min_structure),
+      declare("discovery.min_sure_structure", "1", 0, 1, "discover",
+              "The same where the scenes agree that it is no chance.", &O::discovery,
+              &M::min_sure_structure),
+      declare("discovery.min_height", "1", 0, 1000, "discover",
+              "Height of something local, in standard deviations of one range, from which it is "
+              "named.",
+              &O::discovery, &M::min_height),
   };
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "detection/board_view.h"
+#include "discovery/discovery.h"
 #include "extrinsic/extrinsic_solver.h"
 #include "localization/board_search.h"
 #include "localization/scene_consensus.h"
@@ -39,6 +40,7 @@ struct CalibrationOptions {
   ExtrinsicOptions extrinsic;
   ResponseOptions response;
   QualityOptions quality;
+  DiscoveryOptions discovery;
 };
 
 /// One option as forms, command line and files see it. All options are numbers; switches are

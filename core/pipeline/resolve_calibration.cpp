@@ -67,6 +67,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
                                               const std::vector<bool>& use,
                                               const CalibrationOptions& options,
                                               const RunContext& context) {
+  result.options = options;
   std::vector<std::size_t> index;
   const auto observations = observations_of(result, use, index);
   auto solution = solve_extrinsic(observations, result.camera, result.target, options.extrinsic);

@@ -75,6 +75,18 @@ TEST_F(DiscoverCommand, OneSceneAndTwoAreTooFewButCalibrated) {
   EXPECT_THAT(one.err, HasSubstr("1 scene, three or more are needed"));
 }
 
+TEST_F(DiscoverCommand, ThresholdsAreOptions) {
+  const auto structure_with = [&](const std::vector<std::string>& more) {
+    const Outcome outcome = discover(good_dataset(), more);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return json("discovery.json")["structure"].size();
+  };
+  const std::size_t usual = structure_with({});
+  const fs::path config = folder_.path() / "options.yaml";
+  write_file(config, "discovery:\n  min_structure: 0\n");
+  EXPECT_GT(structure_with({"--config", config}), usual + 5);
+}
+
 TEST_F(DiscoverCommand, GoesOnWithoutWhatTheDataCannotBear) {
   const Outcome outcome = discover(
       good_dataset(), {"--with", "formula:range:a/(board_x-board_x)", "--with", "range_walk",

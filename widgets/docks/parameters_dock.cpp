@@ -207,7 +207,7 @@ void ParametersDock::retranslate() {
       {"detection", tr("Detection")}, {"localization", tr("Localisation")},
       {"consensus", tr("Consensus")}, {"refinement", tr("Refinement")},
       {"extrinsic", tr("Extrinsic")}, {"response", tr("Boundary response")},
-      {"quality", tr("Quality")}};
+      {"quality", tr("Quality")},     {"discovery", tr("Missing effects")}};
   for (auto& [section, heading] : headings_) {
     heading->setText(QString::fromStdString(section));
     for (const auto& [key, text] : names) {

@@ -25,6 +25,16 @@ inline constexpr const char* kModelPatterns[] = {
                       "White and black print contradict each other about it: %1 of both together; "
                       "something that depends on the print is at work."),
     QT_TRANSLATE_NOOP("Core",
+                      "White and black return unlike shares of light as range and incidence "
+                      "change, which no effect explains; edges are found in these intensities and "
+                      "cannot tell: %1."),
+    QT_TRANSLATE_NOOP("Core",
+                      "Something that is there, but too small to matter, explains more and leaves "
+                      "nothing to it: %1."),
+    QT_TRANSLATE_NOOP("Core",
+                      "It explains %1 % of what is wrong in the %2 channel: %3; something else is "
+                      "at work there."),
+    QT_TRANSLATE_NOOP("Core",
                       "What fits best is impossible: %1, while no device has less than %2; "
                       "something else is at work."),
     QT_TRANSLATE_NOOP(

@@ -13,16 +13,21 @@ class ChannelAngleOffset final : public CatalogueEffect {
                          .group = "LiDAR angle",
                          .title = "Elevation offset of each line",
                          .physics = "Every laser points slightly elsewhere than its table says.",
-                         .formula = "del = b(line)",
+                         .formula = "del = b(line), sum zero",
                          .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
                          .breaker = "boards that every line crosses",
                          .needs = {.line = true}},
                         {}) {}
 
-  // One parameter per laser line; their common part is another effect and is held by the prior.
+  // One parameter per laser line; what all have in common is a turn of the frame, which no data can
+  // tell from the extrinsic.
   [[nodiscard]] std::vector<EffectParameter> parameters(
       const MeasurementTable& table) const override {
     return one_per_line(table, {"b", "mrad", 1e-3, 0.3e-3, 0.01});
+  }
+
+  [[nodiscard]] std::vector<std::size_t> zero_sums(const MeasurementTable& table) const override {
+    return {table.lines.size()};
   }
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,

@@ -13,16 +13,20 @@ class ChannelRangeOffset final : public CatalogueEffect {
                          .group = "LiDAR range",
                          .title = "Range offset of each line",
                          .physics = "Every laser has its own delay.",
-                         .formula = "dr = a(line)",
+                         .formula = "dr = a(line), sum zero",
                          .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
                          .breaker = "boards that every line crosses at several distances",
                          .needs = {.line = true}},
                         {}) {}
 
-  // One parameter per laser line; their common part is another effect and is held by the prior.
+  // One parameter per laser line; what all have in common is a range offset, an effect of its own.
   [[nodiscard]] std::vector<EffectParameter> parameters(
       const MeasurementTable& table) const override {
     return one_per_line(table, {"a", "mm", 1e-3, 2e-3, 0.03});
+  }
+
+  [[nodiscard]] std::vector<std::size_t> zero_sums(const MeasurementTable& table) const override {
+    return {table.lines.size()};
   }
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,

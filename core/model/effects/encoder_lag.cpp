@@ -18,7 +18,7 @@ class EncoderLag final : public CatalogueEffect {
                          .source = "Glennie and Lichti 2011",
                          .breaker = "scans that cross the board in several directions",
                          .needs = {.time = true}},
-                        {{"τ", "µs", 1e-6, 5e-6, 1e-3}}) {}
+                        {{"τ", "µs", 1e-6, 2e-6, 1e-3}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

@@ -69,5 +69,20 @@ TEST_F(Growing, AStoppedSearchAddsNothing) {
   EXPECT_TRUE(selections_.empty());
 }
 
+// On the grid of the search are decays over 1.2 and 2.4 m: what the nearest leaves over must not be
+// taken for further effects.
+TEST_F(Growing, AShapeBetweenTheOnesTriedLeavesNothingOver) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.08 * std::exp(-beam.range_m / 1.7); };
+  test::TableRecipe recipe;
+  recipe.range_rows = 4000;
+  made_ = test::synthetic_table(recipe, wrong);
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  grow_model(search, selections_, 0, options_, context_, [] {});
+  EXPECT_THAT(ids(), ::testing::ElementsAre("range_near"));
+  ASSERT_FALSE(search.in_use().empty());
+  EXPECT_NEAR(search.in_use()[0].shape, 1.7, 0.15);
+}
+
 }  // namespace
 }  // namespace lvcalib
