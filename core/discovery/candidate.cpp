@@ -139,19 +139,16 @@ void Candidate::set_heldout(const std::array<double, kChannels>& with,
     heldout_gain[k] = without[k] > 0.0 ? 1.0 - with[k] / without[k] : 0.0;
     heldout_fall[k] = without[k] - with[k];
   }
-  // Of the channels in which it acts the one that tells most, and the one where most falls.
-  const auto share_of = [&](std::size_t k) -> std::optional<double> {
+  const auto share_of = [&](std::size_t k) {
     const double unexplained = without[k] - rows[k];
-    if (!(unexplained > rows[k])) return std::nullopt;
-    return heldout_fall[k] / unexplained;
+    return unexplained > rows[k] ? heldout_fall[k] / unexplained : 1.0;
   };
-  std::optional<double> acting;
-  for (std::size_t k = 0; k < kChannels; ++k) {
-    if (const auto share = share_of(k); share && acting_share[k] > 0.0)
-      acting = std::max(*share, acting.value_or(*share));
-  }
-  explained_share = std::min(acting.value_or(1.0),
-                             share_of(static_cast<std::size_t>(main_channel())).value_or(1.0));
+  explained_share = share_of(static_cast<std::size_t>(main_channel()));
+  const auto acts = [](double share) { return share > 0.0; };
+  const auto only = std::find_if(acting_share.begin(), acting_share.end(), acts);
+  if (std::count_if(acting_share.begin(), acting_share.end(), acts) != 1) return;
+  explained_share =
+      std::min(explained_share, share_of(static_cast<std::size_t>(only - acting_share.begin())));
 }
 
 std::array<double, kChannels> row_counts(const Linearization& linear) {

@@ -38,8 +38,8 @@ struct Candidate {
   std::optional<Channel> must_show;
   /// Values that a device can have are within two standard deviations of the estimate.
   bool possible = true;
-  /// Share of what is unexplained that it takes away in its main channel and in the channels in
-  /// which it acts, where these miss by more than their noise; 1 elsewhere.
+  /// Share of what is unexplained that it takes away in its main channel, and in the one in which
+  /// it acts if it acts in no other, where these miss by more than their noise; 1 elsewhere.
   double explained_share = 1.0;
   Contradiction contradiction = Contradiction::kNone;
   [[nodiscard]] double total_gain() const;
