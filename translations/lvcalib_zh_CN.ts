@@ -1222,10 +1222,6 @@ were saved. Take them up again?</source>
         <translation>在激光雷达四周放置标定板</translation>
     </message>
     <message>
-        <source>boards at several distances</source>
-        <translation>多个距离的标定板</translation>
-    </message>
-    <message>
         <source>boards at several distances and angles</source>
         <translation>多个距离和角度的标定板</translation>
     </message>
@@ -1568,6 +1564,54 @@ were saved. Take them up again?</source>
     <message>
         <source>intensity</source>
         <translation>强度</translation>
+    </message>
+    <message>
+        <source>alias correlation</source>
+        <translation>别名相关性</translation>
+    </message>
+    <message>
+        <source>max effects</source>
+        <translation>最多效应数</translation>
+    </message>
+    <message>
+        <source>min explained</source>
+        <translation>最小解释比例</translation>
+    </message>
+    <message>
+        <source>min extrinsic move</source>
+        <translation>最小外参移动</translation>
+    </message>
+    <message>
+        <source>min gain</source>
+        <translation>最小增益</translation>
+    </message>
+    <message>
+        <source>min gain few scenes</source>
+        <translation>少场景时最小增益</translation>
+    </message>
+    <message>
+        <source>min height</source>
+        <translation>最小高度</translation>
+    </message>
+    <message>
+        <source>min structure</source>
+        <translation>最小结构</translation>
+    </message>
+    <message>
+        <source>min sure structure</source>
+        <translation>确定结构的最小值</translation>
+    </message>
+    <message>
+        <source>scenes improved</source>
+        <translation>改善场景比例</translation>
+    </message>
+    <message>
+        <source>speaking nats</source>
+        <translation>作数阈值</translation>
+    </message>
+    <message>
+        <source>testable</source>
+        <translation>可检验阈值</translation>
     </message>
 </context>
 <context>
