@@ -279,7 +279,8 @@ class Judge {
       f.explanation = "What fits best is impossible: " + values_text(f) +
                       ", while no device has less than " + lowest_text(columns) +
                       "; something else is at work.";
-    } else if (c.explained_share < options_.min_explained && c.material) {
+    } else if (c.explained_share < options_.min_explained && c.material &&
+               is_sure(c, search_.candidates().size(), options_)) {
       f.explanation = formatted("It explains %.0f %% of what is wrong in the ",
                                 100.0 * std::max(0.0, c.explained_share)) +
                       std::string(name_of(c.main_channel())) + " channel: " + values_text(f) +

@@ -218,6 +218,8 @@ void print_set_table(const std::vector<EffectRecord>& records) {
   });
   const Tally quarter = tally_of(records, in("weak"));
   const Tally pair = tally_of(records, in("pair"));
+  const Tally others =
+      tally_of(records, [](const EffectRecord& r) { return r.set == "pair" && !is_footprint(r); });
   const Tally outside = tally_of(records, in("outside"));
   const Tally absorbed = tally_of(records, in("absorbed"));
   std::printf("| set | share (95 %% interval) | mark |\n| --- | --- | --- |\n");
@@ -234,7 +236,9 @@ void print_set_table(const std::vector<EffectRecord>& records) {
       "92–98 %");
   row("extrinsic with the model in its 95 % interval (components, one effect)", single.pose_inside,
       single.pose_components, "92–98 %");
-  row("two effects: both", pair.right + pair.alias, pair.rigs, "≥ 87 %");
+  row("two effects, footprints aside: both", others.right + others.alias, others.rigs, "≥ 87 %");
+  row("two effects, one a footprint: both", pair.right + pair.alias - others.right - others.alias,
+      pair.rigs - others.rigs, "–");
   row("two effects: an extra one", pair.extra, pair.rigs, "≤ 5 %");
   row("not in the catalogue: channel and covariate named", outside.signature, outside.rigs,
       "≥ 90 %");

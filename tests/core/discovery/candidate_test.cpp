@@ -202,5 +202,23 @@ TEST_F(Candidates, TheMainChannelIsWhereMostNoiseUnitsFall) {
   EXPECT_EQ(c.heldout_gain[3], 0.0);
 }
 
+// In corners much is wrong and stays wrong; that edges fit better through the poses is no proof.
+TEST_F(Candidates, AnEffectOfOneChannelHasToExplainThatOne) {
+  Candidate c;
+  c.acting_share = {1.0, 0.0, 0.0, 0.0};
+  const std::array<double, kChannels> rows = {700.0, 9000.0, 500.0, 0.0};
+  c.set_heldout({7000.0, 9000.0, 480.0, 0.0}, {7010.0, 9000.0, 520.0, 0.0}, rows);
+  EXPECT_EQ(c.main_channel(), Channel::kBoundary);
+  EXPECT_NEAR(c.explained_share, 10.0 / 6310.0, 1e-9);
+  // What acts elsewhere as well may show there.
+  c.acting_share = {1.0, 0.0, 1.0, 0.0};
+  c.set_heldout({7000.0, 9000.0, 480.0, 0.0}, {7010.0, 9000.0, 520.0, 0.0}, rows);
+  EXPECT_EQ(c.explained_share, 1.0);
+  // Corners that miss by no more than their noise leave nothing to explain.
+  c.acting_share = {1.0, 0.0, 0.0, 0.0};
+  c.set_heldout({700.0, 9000.0, 480.0, 0.0}, {710.0, 9000.0, 520.0, 0.0}, rows);
+  EXPECT_EQ(c.explained_share, 1.0);
+}
+
 }  // namespace
 }  // namespace lvcalib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/mixed_model.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -110,6 +111,38 @@ TEST(MixedModel, SolutionWithoutASceneIgnoresIt) {
   const ModelFit after = fit(made, {}, {.rounds = 0});
   EXPECT_LT((solution_without(before, 2) - solution_without(after, 2)).norm(), 1e-9);
   EXPECT_GT((before.solution - after.solution).norm(), 1e-5);
+}
+
+// What all lines have in common is another effect: told or not told of a common part, the lines'
+// own are known, and their sum is zero.
+TEST(MixedModel, RunsOfParametersSumToZero) {
+  const std::array<double, 6> own = {0.004, -0.006, 0.001, 0.003, -0.004, 0.002};
+  for (const double common : {0.0, 0.002}) {
+    test::Disturbance wrong;
+    wrong.range_m = [&](const BeamPoint& beam) {
+      return common + own[static_cast<std::size_t>(beam.line)];
+    };
+    const auto made = test::synthetic_table({}, wrong);
+    EffectColumnsList columns;
+    columns.add(find_effect("channel_range_offset"), 0.0, made.table);
+    const EffectColumns& c = columns.list().front();
+    ASSERT_EQ(c.zero_sums, std::vector<std::size_t>{6});
+    ColumnSubset subset;
+    for (int k = 0; k < c.count(); ++k) {
+      subset.columns.push_back(k);
+      subset.prior_sigma.push_back(c.parameters[static_cast<std::size_t>(k)].prior_sigma);
+      subset.prior_mean.push_back(0.0);
+    }
+    subset.zero_sums = {{0, 6}};
+    const ModelFit f =
+        fit_model(linearize(made.table, made.truth, {}, columns, {}), subset, {}, {});
+    EXPECT_NEAR(f.parameters().sum(), 0.0, 1e-4);
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      const double sigma = std::sqrt(f.parameter_covariance()(k, k));
+      EXPECT_LT(sigma, 0.0005);
+      EXPECT_NEAR(f.parameters()(k), own[static_cast<std::size_t>(k)], 4.0 * sigma);
+    }
+  }
 }
 
 }  // namespace
