@@ -23,6 +23,12 @@ std::string with_sigma(double value, double sigma) {
   return formatted((number + " ± " + number).c_str(), value, sigma);
 }
 
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string out;
+  for (const std::string& w : words) out += (out.empty() ? "" : between) + w;
+  return out;
+}
+
 std::string behind_number(const std::string& unit) {
   return unit == "1" ? "" : " " + unit;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/advice_text.h"
 #include "discovery/channel_summary.h"
 #include "discovery/closed_form.h"
 #include "discovery/effect_search.h"

@@ -27,11 +27,4 @@ std::vector<EffectFinding> judge_effects(const EffectSearch& search,
                                          const std::vector<Selection>& selected,
                                          const DiscoveryOptions& options);
 
-/// What to do about structure that no effect explains: the curve, and the closed form if there is
-/// one, to ask for with `--with`; the strongest few, one covariate per channel.
-std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unknown);
-
-/// Scenes worth taking, in words.
-std::vector<std::string> advise(const std::vector<EffectFinding>& findings);
-
 }  // namespace lvcalib

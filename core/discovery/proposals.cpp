@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "discovery/advice_text.h"
 #include "discovery/effect_search.h"
 #include "discovery/findings.h"
 #include "discovery/sensitivity_budget.h"

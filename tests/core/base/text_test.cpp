@@ -29,6 +29,12 @@ TEST(Text, NumbersWithoutAUnitHaveNone) {
   EXPECT_EQ(behind_number("1"), "");
 }
 
+TEST(Text, WordsAreJoined) {
+  EXPECT_EQ(joined({"a", "b", "c"}, " or "), "a or b or c");
+  EXPECT_EQ(joined({"a"}, ", "), "a");
+  EXPECT_EQ(joined({}, ", "), "");
+}
+
 TEST(Text, TooLongATextIsCut) {
   EXPECT_EQ(formatted("%400.0f", 1.0).size(), 255U);
 }
