@@ -24,7 +24,7 @@ std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unkno
     std::string text =
         std::string("No effect of the catalogue explains what the ") + name_of(s.channel) +
         " channel does over " + s.covariates() +
-        formatted(" (%.0f %% of its held-out variance, %.2g ", 100.0 * s.score, s.amplitude) +
+        formatted(" (%.2g %% of its held-out variance, %.2g ", 100.0 * s.score, s.amplitude) +
         unit_of(s.channel) + "); to take it out anyway: --with curve:" + name_of(s.channel) + ":" +
         name;
     if (!s.formula.empty()) text += ", or as a closed form: --with '" + s.formula + "'";

@@ -143,12 +143,15 @@ void Candidate::set_heldout(const std::array<double, kChannels>& with,
     const double unexplained = without[k] - rows[k];
     return unexplained > rows[k] ? heldout_fall[k] / unexplained : 1.0;
   };
-  explained_share = share_of(static_cast<std::size_t>(main_channel()));
+  explained_in = main_channel();
+  explained_share = share_of(static_cast<std::size_t>(explained_in));
   const auto acts = [](double share) { return share > 0.0; };
   const auto only = std::find_if(acting_share.begin(), acting_share.end(), acts);
   if (std::count_if(acting_share.begin(), acting_share.end(), acts) != 1) return;
-  explained_share =
-      std::min(explained_share, share_of(static_cast<std::size_t>(only - acting_share.begin())));
+  const double share = share_of(static_cast<std::size_t>(only - acting_share.begin()));
+  if (share >= explained_share) return;
+  explained_share = share;
+  explained_in = static_cast<Channel>(only - acting_share.begin());
 }
 
 std::array<double, kChannels> row_counts(const Linearization& linear) {

@@ -41,6 +41,7 @@ struct Candidate {
   /// Share of what is unexplained that it takes away in its main channel, and in the one in which
   /// it acts if it acts in no other, where these miss by more than their noise; 1 elsewhere.
   double explained_share = 1.0;
+  Channel explained_in = Channel::kRange;  ///< The channel that this share is of.
   Contradiction contradiction = Contradiction::kNone;
   [[nodiscard]] double total_gain() const;
   [[nodiscard]] double total_density() const;

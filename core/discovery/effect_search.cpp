@@ -283,7 +283,7 @@ void EffectSearch::ask_both_prints() {
 // as where a receiver saturates, edges are not to be trusted either.
 void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& disagree) {
   bool doubted = false;
-  for (const Candidate& c : std::vector<Candidate>(candidates_)) {
+  for (const Candidate& c : candidates_) {
     if (context_.stopped()) return;
     const bool asked = c.must_show && c.main_channel() == Channel::kIntensity &&
                        c.contradiction == Contradiction::kNone &&

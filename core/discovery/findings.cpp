@@ -11,7 +11,6 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
-#include "model/row_covariates.h"
 
 namespace lvcalib {
 namespace {
@@ -277,7 +276,7 @@ class Judge {
                is_sure(c, search_.candidates().size(), options_)) {
       f.explanation = formatted("It explains %.0f %% of what is wrong in the ",
                                 100.0 * std::max(0.0, c.explained_share)) +
-                      std::string(name_of(c.main_channel())) + " channel: " + values_text(f) +
+                      std::string(name_of(c.explained_in)) + " channel: " + values_text(f) +
                       "; something else is at work there.";
     } else if (!visible) {
       f.explanation = "These scenes could not show it: " + values_text(f) +

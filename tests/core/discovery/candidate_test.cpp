@@ -210,6 +210,7 @@ TEST_F(Candidates, AnEffectOfOneChannelHasToExplainThatOne) {
   c.set_heldout({7000.0, 9000.0, 480.0, 0.0}, {7010.0, 9000.0, 520.0, 0.0}, rows);
   EXPECT_EQ(c.main_channel(), Channel::kBoundary);
   EXPECT_NEAR(c.explained_share, 10.0 / 6310.0, 1e-9);
+  EXPECT_EQ(c.explained_in, Channel::kCorner);
   // What acts elsewhere as well may show there.
   c.acting_share = {1.0, 0.0, 1.0, 0.0};
   c.set_heldout({7000.0, 9000.0, 480.0, 0.0}, {7010.0, 9000.0, 520.0, 0.0}, rows);
