@@ -145,7 +145,7 @@ class NodeRefiner {
       }
       fits_.push_back(fit_node(unwrapped[n], records[n], window_, model_, options_));
       if (fits_.back().record.valid)
-        append_centred(unwrapped[n], fits_.back().record.wave_m, centred);
+        append_centred(unwrapped[n], fits_.back(), centred);
     }
     if (!centred.empty() && iteration < kSettlingRounds) {
       model_.update(centred, kSmallestFootprint * window_.radius_m,
@@ -159,10 +159,12 @@ class NodeRefiner {
   }
 
   // Distances measured from the fitted circle instead of the predicted one.
-  static void append_centred(const std::vector<UnwrappedSample>& samples,
-                             const Eigen::Vector3d& wave, std::vector<UnwrappedSample>& out) {
+  void append_centred(const std::vector<UnwrappedSample>& samples, const NodeFit& fit,
+                      std::vector<UnwrappedSample>& out) const {
     for (UnwrappedSample s : samples) {
-      s.distance_m -= wave.x() * s.cos_psi + wave.y() * s.sin_psi + wave.z();
+      const Eigen::Vector3d by_wave(s.cos_psi, s.sin_psi, 1.0);
+      s.distance_m -= by_wave.dot(fit.record.wave_m);
+      s.leverage = model_.leverage(s, by_wave.dot(fit.covariance_m2 * by_wave));
       out.push_back(s);
     }
   }

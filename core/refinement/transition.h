@@ -17,6 +17,7 @@ struct UnwrappedSample {
   double distance_m = 0.0;  ///< From the circle, outside positive.
   double level = 0.0;       ///< (I − inner)/(outer − inner): 0 black, 1 white.
   int bin = 0;
+  double leverage = 0.0;    ///< Share of its noise that the fit it is measured from has taken.
 };
 
 /// The intensity transition across a circle's edge, common to all nodes of a scene:
@@ -29,6 +30,8 @@ class TransitionModel {
   [[nodiscard]] double sigma_m(const UnwrappedSample& s) const;
   /// Variance of a sample's level at z = d/σ.
   [[nodiscard]] double variance(double z) const;
+  /// Share of a sample's noise that a fit takes which knows its distance with that variance.
+  [[nodiscard]] double leverage(const UnwrappedSample& s, double distance_variance_m2) const;
   /// Whether a level is none that a mixture of black and white could have given. Levels between
   /// the two are never strays: a beam that jitters jumps from one to the other.
   [[nodiscard]] bool is_stray(double level) const;
