@@ -19,13 +19,12 @@ std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
     ChannelResiduals r = residuals_of(table, state, in_use, channel);
     if (r.values.empty()) continue;
     remove_levels(table, r);
-    double squares = 0.0;
-    double noise = 0.0;
+    double weights = 0.0;
     double whitened = 0.0;
     for (std::size_t k = 0; k < r.values.size(); ++k) {
-      squares += r.values[k] * r.values[k];
-      noise += r.sigma[k] * r.sigma[k];
-      whitened += r.values[k] * r.values[k] / (r.sigma[k] * r.sigma[k]);
+      const double weight = 1.0 / (r.sigma[k] * r.sigma[k]);
+      weights += weight;
+      whitened += weight * r.values[k] * r.values[k];
     }
     const auto n = static_cast<double>(r.values.size());
     // Poses (or levels) and effects are fitted to these rows.
@@ -35,14 +34,13 @@ std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
     ChannelSummary s;
     s.channel = channel;
     s.n = r.values.size();
-    s.rms = unit * std::sqrt(squares / n);
-    s.noise_floor = unit * std::sqrt(noise / n);
+    s.rms = unit * std::sqrt(whitened / weights);
+    s.noise_floor = unit * std::sqrt(n / weights);
     s.unexplained =
         std::sqrt(std::max(0.0, s.rms * s.rms * n / (n - fitted) - s.noise_floor * s.noise_floor));
     double heldout = 0.0;
     for (const auto& scene : reference.heldout) heldout += scene[static_cast<std::size_t>(channel)];
-    // Held-out squares are over σ²; in the units of the fitted ones.
-    s.heldout_rms = whitened > 0.0 ? s.rms * std::sqrt(heldout / whitened) : 0.0;
+    s.heldout_rms = unit * std::sqrt(heldout / weights);
     out.push_back(s);
   }
   return out;

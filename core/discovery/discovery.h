@@ -94,7 +94,8 @@ struct EffectFinding {
   FoundCurve curve;
 };
 
-/// How well a channel is predicted. Display units.
+/// How well a channel is predicted. Display units; each row counts by its own standard deviation:
+/// rms² = Σ(r/σ)² / Σ(1/σ²), floor² = n / Σ(1/σ²).
 struct ChannelSummary {
   Channel channel = Channel::kCorner;
   std::size_t n = 0;

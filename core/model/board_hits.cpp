@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "base/statistics.h"
 #include "model/noise_floor.h"
@@ -88,6 +89,17 @@ void BoardHits::collect() {
     set_near_edge(hit.beam);
     hits_.push_back(hit);
   }
+  sort_hits();
+}
+
+// In the order of the scan, whatever order the file has: which rows are kept must not depend on it.
+void BoardHits::sort_hits() {
+  const auto key = [](const BoardHit& hit) {
+    return std::tuple{hit.beam.time_s, hit.beam.line, hit.beam.azimuth_rad, hit.beam.elevation_rad,
+                      hit.residual_m};
+  };
+  std::sort(hits_.begin(), hits_.end(),
+            [&](const BoardHit& a, const BoardHit& b) { return key(a) < key(b); });
 }
 
 Print BoardHits::print_at(const Eigen::Vector2d& board_m) const {

@@ -25,7 +25,7 @@ struct PrintNoise {
   std::array<double, kPrints> log_intensity{};
 };
 
-/// The points of one scene that hit the board, before thinning. Which print a point sees is
+/// The points of one scene that hit the board, in the order of the scan, before thinning. Which print a point sees is
 /// decided by geometry alone.
 class BoardHits {
  public:
@@ -39,6 +39,7 @@ class BoardHits {
 
  private:
   void collect();
+  void sort_hits();
   [[nodiscard]] Print print_at(const Eigen::Vector2d& board_m) const;
   [[nodiscard]] bool sees_only(Print print, const BeamPoint& beam, double sigmas,
                                int directions) const;

@@ -144,8 +144,7 @@ class NodeRefiner {
         continue;
       }
       fits_.push_back(fit_node(unwrapped[n], records[n], window_, model_, options_));
-      if (fits_.back().record.valid)
-        append_centred(unwrapped[n], fits_.back(), centred);
+      if (fits_.back().record.valid) append_centred(unwrapped[n], fits_.back(), centred);
     }
     if (!centred.empty() && iteration < kSettlingRounds) {
       model_.update(centred, kSmallestFootprint * window_.radius_m,

@@ -58,9 +58,7 @@ struct NoiseShape {
   double inner = 0.0;
   double outer = 0.0;
   double jitter = 0.0;
-  [[nodiscard]] double plateaus(double z) const {
-    return inner + (outer - inner) * normal_cdf(z);
-  }
+  [[nodiscard]] double plateaus(double z) const { return inner + (outer - inner) * normal_cdf(z); }
   [[nodiscard]] double variance(double z) const {
     return plateaus(z) + jitter * normal_pdf(z) * normal_pdf(z);
   }
@@ -215,7 +213,7 @@ CrossingSystem crossing_system(const std::vector<UnwrappedSample>& samples,
     if (std::abs(z) > 4.0) continue;
     const double e = s.level - normal_cdf(z);
     const double v = model.variance(z);
-    if (e * e > kOutlier * kOutlier * v) continue;
+    if (model.is_stray(s.level)) continue;
     const double j = -normal_pdf(z) / sigma;  // ∂level/∂crossing
     const double information = j * j / v;
     system.information += information;
@@ -262,6 +260,15 @@ void solve_crossing(const std::vector<UnwrappedSample>& samples, const Transitio
   // A midpoint known no better than the window is no measurement.
   bin.state =
       bin.sigma_m < 0.25 * (window_in_m + window_out_m) ? BinState::kUsed : BinState::kNoCrossing;
+}
+
+void step_crossing(const std::vector<UnwrappedSample>& samples, const TransitionModel& model,
+                   double expected_m, BinRecord& bin) {
+  const CrossingSystem system = crossing_system(samples, model, expected_m);
+  if (system.information <= 0) return;
+  bin.midpoint_m = expected_m + system.rhs / system.information;
+  bin.sigma_m = 1.0 / std::sqrt(system.information);
+  bin.angle_rad = std::atan2(system.sin_sum, system.cos_sum);
 }
 
 }  // namespace lvcalib

@@ -17,7 +17,7 @@ struct UnwrappedSample {
   double distance_m = 0.0;  ///< From the circle, outside positive.
   double level = 0.0;       ///< (I − inner)/(outer − inner): 0 black, 1 white.
   int bin = 0;
-  double leverage = 0.0;    ///< Share of its noise that the fit it is measured from has taken.
+  double leverage = 0.0;  ///< Share of its noise that the fit it is measured from has taken.
 };
 
 /// The intensity transition across a circle's edge, common to all nodes of a scene:
@@ -60,5 +60,11 @@ class TransitionModel {
 /// Mid-level crossing of one bin's samples under the model. Sets midpoint, sigma, angle and state.
 void solve_crossing(const std::vector<UnwrappedSample>& samples, const TransitionModel& model,
                     double window_in_m, double window_out_m, int min_samples, BinRecord& bin);
+
+/// One step from an expected crossing, which is surer than the bin's own: what the samples say
+/// about it is linear in their noise then, and so is the standard deviation right. Sets midpoint,
+/// sigma and angle.
+void step_crossing(const std::vector<UnwrappedSample>& samples, const TransitionModel& model,
+                   double expected_m, BinRecord& bin);
 
 }  // namespace lvcalib

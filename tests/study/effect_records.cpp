@@ -8,12 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/statistics.h"
-#include "effect_rigs.h"
 #include "evidence_rigs.h"
+#include "support/effect_rigs.h"
 
 namespace lvcalib::study {
 namespace {
 
+using namespace lvcalib::test;
 using nlohmann::json;
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {

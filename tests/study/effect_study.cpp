@@ -17,14 +17,15 @@
 #include <nlohmann/json.hpp>
 
 #include "effect_records.h"
-#include "effect_rigs.h"
 #include "evidence_rigs.h"
 #include "pipeline/model_discovery.h"
 #include "report/result_file.h"
+#include "support/effect_rigs.h"
 
 namespace lvcalib::study {
 namespace {
 
+using namespace lvcalib::test;
 using nlohmann::json;
 
 const EffectFinding* finding_of(const Discovery& discovery, const std::string& id) {

@@ -97,6 +97,7 @@ void ModelPage::connectParts() {
             where_->setOverlay(effect, scale);
             if (!effect) return;
             pattern_is_proposal_ = false;
+            follow_pattern_ = true;
             source_.requestPattern(*effect);
           });
   connect(what_if_, &WhatIfPane::scaleChanged, where_, &WherePane::setOverlayScale);
@@ -114,10 +115,11 @@ void ModelPage::connectParts() {
   connect(&source_, &FigureSource::patternReady, this,
           [this](const std::shared_ptr<const ResidualFigure>& figure) {
             if (pattern_is_proposal_) missing_->setPattern(figure);
-            if (figure)
+            if (figure && follow_pattern_)
               where_->look(figure->view->columns.channel,
                            QString::fromStdString(figure->along().name));
           });
+  connect(where_, &WherePane::turned, this, [this] { follow_pattern_ = false; });
   connect(where_, &WherePane::selected, this, &ModelPage::forward);
   connect(where_, &WherePane::failed, this, &ModelPage::failed);
   connect(budget_->figureActions(), &FigureActions::failed, this, &ModelPage::failed);
@@ -205,6 +207,7 @@ void ModelPage::takeChosen() {
     use.values(static_cast<Eigen::Index>(k)) = p->finding.parameters[k].value;
   where_->setOverlay(use);
   pattern_is_proposal_ = true;
+  follow_pattern_ = true;
   source_.requestPattern(use);
 }
 

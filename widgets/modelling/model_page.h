@@ -59,6 +59,7 @@ class ModelPage : public QWidget {
   QString reason_;
   ModelStepPtr shown_;
   bool pattern_is_proposal_ = true;  // Else it is a question of what if.
+  bool follow_pattern_ = false;      // Until the user looks elsewhere.
   QLabel* title_;
   QLabel* legend_;
   BudgetPlot* budget_;

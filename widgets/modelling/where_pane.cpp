@@ -66,9 +66,13 @@ void WherePane::createBar() {
   static_cast<QVBoxLayout*>(layout())->addLayout(bar);
   connect(channels_, &QComboBox::currentIndexChanged, this, [this] {
     fillCovariates();
+    Q_EMIT turned();
     ask();
   });
-  connect(covariates_, &QComboBox::currentIndexChanged, this, &WherePane::ask);
+  connect(covariates_, &QComboBox::currentIndexChanged, this, [this] {
+    Q_EMIT turned();
+    ask();
+  });
 }
 
 void WherePane::createFigures() {

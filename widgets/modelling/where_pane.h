@@ -49,6 +49,8 @@ class WherePane : public QWidget {
   /// Measurements were selected in a figure; empty: none.
   void selected(const std::vector<lvcalib::widgets::SelectedSample>& samples);
   void failed(const QString& message);
+  /// Channel or covariate were chosen by hand.
+  void turned();
 
  protected:
   void changeEvent(QEvent* event) override;

@@ -48,14 +48,14 @@ struct Circle {
 class NodeFitTest : public ::testing::Test {
  protected:
   NodeFit fit(const std::vector<PlaneSample>& samples,
-              const Eigen::Vector2d& center = Circle{}.center) {
+              const Eigen::Vector2d& center = Circle{}.center, double radius_change_m = 0.0) {
     NodeRecord record;
     auto unwrapped = unwrap_node(samples, Eigen::Vector2d::Zero(), window_, kBlur, record);
     TransitionModel model(kBlur);
     // The noise as the refinement knows it after its first round.
     std::vector<UnwrappedSample> centred = unwrapped;
     for (UnwrappedSample& s : centred)
-      s.distance_m -= center.x() * s.cos_psi + center.y() * s.sin_psi;
+      s.distance_m -= center.x() * s.cos_psi + center.y() * s.sin_psi + radius_change_m;
     model.update(centred, kBlur, kBlur);
     return fit_node(unwrapped, record, window_, model, options_);
   }
@@ -114,7 +114,7 @@ TEST_F(NodeFitTest, WaveIsTheCentresShiftAndTheRadiusChangeWithTrueCovariance) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   constexpr int kDraws = 150;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const NodeFit result = fit(circle.draw(window_, random_), circle.center);
+    const NodeFit result = fit(circle.draw(window_, random_), circle.center, circle.radius_change_m);
     ASSERT_TRUE(result.record.valid) << result.record.reason;
     const Eigen::Vector3d error = result.record.wave_m - truth;
     mean += error / kDraws;

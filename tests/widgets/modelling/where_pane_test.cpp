@@ -51,6 +51,20 @@ TEST_F(Where, AnotherChannelHasItsOwnCovariates) {
   EXPECT_TRUE(wait_for("azimuth"));
 }
 
+TEST_F(Where, WhatTheUserChoseIsTold) {
+  int turned = 0;
+  QObject::connect(&pane_, &WherePane::turned, &pane_, [&] { ++turned; });
+  pane_.look(Channel::kCorner, "image x");
+  pane_.look(Channel::kRange, "azimuth");
+  EXPECT_EQ(turned, 0) << "nobody chose that";
+  auto* covariates = pane_.findChild<QComboBox*>("covariate");
+  covariates->setCurrentIndex(covariates->findData("range"));
+  EXPECT_EQ(turned, 1);
+  auto* channels = pane_.findChild<QComboBox*>("channel");
+  channels->setCurrentIndex(channels->findData(static_cast<int>(Channel::kCorner)));
+  EXPECT_EQ(turned, 2);
+}
+
 TEST_F(Where, BrushingSelectsTheSameMeasurementsEverywhere) {
   pane_.look(Channel::kRange, "range");
   ASSERT_TRUE(wait_for("range"));

@@ -10,7 +10,7 @@
 #include "discovery/discovery.h"
 #include "simulation/simulator.h"
 
-namespace lvcalib::study {
+namespace lvcalib::test {
 
 /// Which table a rig belongs to.
 enum class EffectSet { kNothing, kSingle, kWeak, kPair, kOutside, kAbsorbed };
@@ -50,4 +50,4 @@ struct Signature {
 };
 std::optional<Signature> signature_of(const std::string& outside_id);
 
-}  // namespace lvcalib::study
+}  // namespace lvcalib::test

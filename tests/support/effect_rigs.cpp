@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "effect_rigs.h"
+#include "support/effect_rigs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "simulation/disturbances/registry.h"
 
-namespace lvcalib::study {
+namespace lvcalib::test {
 namespace {
 
 constexpr double kWeakShare = 0.25;
@@ -212,4 +212,4 @@ std::optional<Signature> signature_of(const std::string& outside_id) {
   return std::nullopt;
 }
 
-}  // namespace lvcalib::study
+}  // namespace lvcalib::test
