@@ -13,6 +13,7 @@ enum class Contradiction {
   kNone,
   kPrints,  ///< White and black print tell different stories about it (see print_contrast.h).
   kSmall,   ///< Something sure, too small to matter, explains more and leaves it nothing.
+  kScenes,  ///< With the shape number that fits best, scenes held out are predicted worse.
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
 };
 

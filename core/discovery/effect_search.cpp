@@ -221,6 +221,10 @@ void EffectSearch::rank() {
                  candidates_[k] = evaluate_candidate(linear_, compared_with(at), at, {});
                });
   sort_best_first(candidates_);
+  for (Candidate& c : candidates_) {
+    if (refused_.contains(linear_.columns.list()[c.columns].effect->info().id))
+      c.contradiction = Contradiction::kScenes;
+  }
   refit_promising();
   ask_both_prints();
   ask_what_is_small();

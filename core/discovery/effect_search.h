@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "discovery/candidate.h"
@@ -46,6 +48,8 @@ class EffectSearch {
   void refit();
   /// Linearises with all candidates that are testable and not in use, and evaluates each.
   void rank();
+  /// From the next rank() on an effect is not accepted: scenes held out contradict it.
+  void refuse(const std::string& id) { refused_.insert(id); }
   /// After rank(): index of the best accepted candidate.
   [[nodiscard]] std::optional<std::size_t> best() const;
   /// After rank(): the model with effects that are sure but too small to matter, of each channel
@@ -104,6 +108,7 @@ class EffectSearch {
   Reference reference_;
   std::optional<Reference> bare_;  ///< Without the natural footprint.
   std::vector<Candidate> candidates_;
+  std::set<std::string> refused_;
   std::optional<Eigen::MatrixXd> joint_covariance_;
   std::vector<double> shape_sigmas_;
 };

@@ -265,6 +265,10 @@ class Judge {
           "Something that is there, but too small to matter, explains more and leaves "
           "nothing to it: " +
           values_text(f) + ".";
+    } else if (c.contradiction == Contradiction::kScenes) {
+      f.explanation = "Where it fits best it predicts scenes held out worse: " + values_text(f) +
+                      "; too few of them show it. To decide: " + columns.effect->info().breaker +
+                      ".";
     } else if (c.contradiction == Contradiction::kPrints) {
       f.explanation = "White and black print contradict each other about it: " + values_text(f) +
                       " of both together; something that depends on the print is at work.";

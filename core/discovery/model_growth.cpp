@@ -34,8 +34,17 @@ class Growth {
       const EffectColumns columns = search_.linear().columns.list()[c.columns];
       Selection s{columns.effect->info().id, aliases_of(search_, *best, options_),
                   c.best_heldout_gain(), c.total_gain(), c.p_value};
+      const Channel channel = c.main_channel();
+      const double before = heldout_squares(channel);
       search_.add(columns.effect, columns.shape);
       search_.refine_shape(search_.in_use().size() - 1);
+      if (context_.stopped()) return;
+      // One scene with all the leverage can choose a shape that the others know nothing of.
+      if (heldout_squares(channel) > (1.0 + options_.min_gain) * before) {
+        search_.remove(search_.in_use().size() - 1);
+        search_.refuse(s.id);
+        continue;
+      }
       selections_.push_back(s);
       try_swaps();
       drop_superfluous();
@@ -45,6 +54,13 @@ class Growth {
   }
 
  private:
+  [[nodiscard]] double heldout_squares(Channel channel) const {
+    double sum = 0.0;
+    for (const auto& scene : search_.reference().heldout)
+      sum += scene[static_cast<std::size_t>(channel)];
+    return sum;
+  }
+
   // Puts an alias in an effect's place if it predicts held-out scenes better by more than one
   // standard error over scenes, after a full refit; or as well, with fewer effects in the model.
   void try_swaps() {

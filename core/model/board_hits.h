@@ -25,8 +25,8 @@ struct PrintNoise {
   std::array<double, kPrints> log_intensity{};
 };
 
-/// The points of one scene that hit the board, in the order of the scan, before thinning. Which print a point sees is
-/// decided by geometry alone.
+/// The points of one scene that hit the board, in the order of the scan, before thinning. Which
+/// print a point sees is decided by geometry alone.
 class BoardHits {
  public:
   BoardHits(const SceneMeasurements& input, int scene, const SceneGeometry& geometry,

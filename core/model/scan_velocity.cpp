@@ -5,12 +5,14 @@
 #include <cmath>
 #include <map>
 
+#include <Eigen/Cholesky>
+
 #include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
 
-constexpr int kNeighbours = 5;  // on either side
+constexpr std::size_t kNeighbours = 5;  // on either side
 
 struct Ray {
   std::size_t point;
@@ -19,24 +21,43 @@ struct Ray {
   double elevation;
 };
 
-Eigen::Vector2d slope(const std::vector<Ray>& rays, std::size_t at, std::size_t begin,
-                      std::size_t end) {
-  double n = 0, t = 0, tt = 0;
-  Eigen::Vector2d y = Eigen::Vector2d::Zero();
-  Eigen::Vector2d ty = Eigen::Vector2d::Zero();
+// Velocity at a ray by a polynomial in time through it and its neighbours: of second order from
+// five rays on, as scans are curved, and else straight.
+Eigen::Vector2d velocity(const std::vector<Ray>& rays, std::size_t at, std::size_t begin,
+                         std::size_t end) {
+  const double unit = (rays[end - 1].time_s - rays[begin].time_s) / 2.0;
+  if (!(unit > 0.0)) return Eigen::Vector2d::Zero();
+  const int order = end - begin >= 5 ? 2 : 1;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> rhs = Eigen::Matrix<double, 3, 2>::Zero();
   for (std::size_t k = begin; k < end; ++k) {
-    const double dt = rays[k].time_s - rays[at].time_s;
-    const Eigen::Vector2d v(
+    const double t = (rays[k].time_s - rays[at].time_s) / unit;
+    const Eigen::Vector3d powers(1.0, t, t * t);
+    const Eigen::RowVector2d moved(
         std::remainder(rays[k].azimuth - rays[at].azimuth, 2 * M_PI) * std::cos(rays[at].elevation),
         rays[k].elevation - rays[at].elevation);
-    n += 1;
-    t += dt;
-    tt += dt * dt;
-    y += v;
-    ty += dt * v;
+    normal += powers * powers.transpose();
+    rhs += powers * moved;
   }
-  const double spread = n * tt - t * t;
-  return spread > 0.0 ? Eigen::Vector2d((n * ty - t * y) / spread) : Eigen::Vector2d::Zero().eval();
+  const int n = order + 1;
+  const Eigen::MatrixXd fit = normal.topLeftCorner(n, n).ldlt().solve(rhs.topRows(n));
+  const Eigen::Vector2d out = fit.row(1).transpose() / unit;
+  return out.allFinite() ? out : Eigen::Vector2d::Zero().eval();
+}
+
+// The neighbours that the scanner passed without a break.
+struct Stretch {
+  std::size_t begin;
+  std::size_t end;
+};
+Stretch stretch_about(const std::vector<Ray>& rays, std::size_t at, double longest_step) {
+  Stretch out{at, at + 1};
+  const auto joined = [&](std::size_t k) {  // ray k and the next
+    return rays[k + 1].time_s - rays[k].time_s <= longest_step;
+  };
+  while (out.begin > 0 && at - out.begin < kNeighbours && joined(out.begin - 1)) --out.begin;
+  while (out.end < rays.size() && out.end - at <= kNeighbours && joined(out.end - 1)) ++out.end;
+  return out;
 }
 
 }  // namespace
@@ -62,12 +83,11 @@ std::vector<Eigen::Vector2d> scan_velocities(const Cloud& cloud) {
       if (step > 0.0) steps.push_back(step);
     }
     if (steps.size() < 2 * kNeighbours) continue;
-    const double longest = 10.0 * (2 * kNeighbours) * median(std::move(steps));
+    // A shot or two may be missing; after more the scanner may have been anywhere.
+    const double longest = 3.5 * median(std::move(steps));
     for (std::size_t k = 0; k < rays.size(); ++k) {
-      const std::size_t begin = k < kNeighbours ? 0 : k - kNeighbours;
-      const std::size_t end = std::min(rays.size(), k + kNeighbours + 1);
-      if (end - begin < 5 || rays[end - 1].time_s - rays[begin].time_s > longest) continue;
-      out[rays[k].point] = slope(rays, k, begin, end);
+      const Stretch near = stretch_about(rays, k, longest);
+      if (near.end - near.begin > 1) out[rays[k].point] = velocity(rays, k, near.begin, near.end);
     }
   }
   return out;

@@ -9,9 +9,10 @@
 
 namespace lvcalib {
 
-/// Scan velocity (azimuth·cos elevation, elevation; rad/s) at every point: the slope of a straight
-/// line through the neighbours in time on the same laser line. Zero where they are too few or too
-/// far apart in time (ten times the usual step). Empty if the cloud has no time.
+/// Scan velocity (azimuth·cos elevation, elevation; rad/s) at every point: the slope of a parabola
+/// (with fewer than five, a straight line) through up to five neighbours in time on either side, on
+/// the same laser line and without a break of more than three of the usual steps. Zero where there
+/// is none. Empty if the cloud has no time.
 std::vector<Eigen::Vector2d> scan_velocities(const Cloud& cloud);
 
 }  // namespace lvcalib

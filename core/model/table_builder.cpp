@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "base/statistics.h"
 #include "model/board_hits.h"
+#include "model/edge_view.h"
 #include "model/noise_floor.h"
 #include "model/scene_geometry.h"
 #include "model/transition_width.h"
@@ -30,6 +32,8 @@ class SceneBuilder {
         camera_from_board_(state.camera_from_board[static_cast<std::size_t>(scene)]),
         nodes_(table.target.nodes()),
         hits_(input, scene, geometry_, table.target, options),
+        view_(hits_.list(), nodes_, table.target.circle_radius_m,
+              input.refinement->transition_noise),
         levels_(hits_.levels()) {}
 
   void add_corners(double sigma_px) {
@@ -98,8 +102,9 @@ class SceneBuilder {
                                    [&](const TargetNode& n) { return n.id == node.id; });
       if (at == nodes_.end()) continue;
       bool any = false;
-      for (const BinRecord& bin : node.bins) {
-        if (bin.state == BinState::kUsed) any = add_bin(*at, node, bin) || any;
+      for (std::size_t k = 0; k < node.bins.size(); ++k) {
+        if (node.bins[k].state == BinState::kUsed)
+          any = add_bin(*at, node, node.bins[k], sector_of(k, node.bins.size())) || any;
       }
       if (any) scene.nodes.push_back(node.id);
     }
@@ -137,7 +142,8 @@ class SceneBuilder {
         {hit.beam, hit.print, std::log(row.intensity) + 0.5 * sigma * sigma, sigma});
   }
 
-  bool add_bin(const TargetNode& node, const NodeRecord& record, const BinRecord& bin) {
+  bool add_bin(const TargetNode& node, const NodeRecord& record, const BinRecord& bin,
+               const EdgeSector& sector) {
     const BoardRefinement& refinement = *input_.refinement;
     const double radius = table_.target.circle_radius_m;
     const Eigen::Vector2d uv =
@@ -157,7 +163,7 @@ class SceneBuilder {
     if (record.inner_level > 0.0 && record.outer_level > 0.0)
       row.log_contrast = std::log(record.outer_level / record.inner_level);
     set_edge_normal(row);
-    set_local_scan(row);
+    view_.describe(static_cast<std::size_t>(&node - nodes_.data()), sector, row);
     table_.boundary.push_back(row);
     return true;
   }
@@ -177,44 +183,15 @@ class SceneBuilder {
   }
 
   // Mean scan velocity and time of the points about an edge point, and the lines they are of.
-  void set_local_scan(BoundaryRow& row) {
-    BeamPoint& beam = row.beam;
-    std::map<int, int> lines;
-    constexpr double kReach = 0.02;
-    const std::vector<BoardHit>& hits = hits_.list();
-    if (hash_.empty()) {
-      for (std::size_t h = 0; h < hits.size(); ++h)
-        hash_[cell_of(hits[h].beam.board_m, kReach)].push_back(h);
-    }
-    double count = 0.0;
-    const auto [cx, cy] = cell_of(beam.board_m, kReach);
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        const auto at = hash_.find({cx + dx, cy + dy});
-        if (at == hash_.end()) continue;
-        for (const std::size_t h : at->second) {
-          if ((hits[h].beam.board_m - beam.board_m).norm() > kReach) continue;
-          beam.scan_rad_s += hits[h].beam.scan_rad_s;
-          beam.time_s += hits[h].beam.time_s;
-          ++lines[hits[h].beam.line];
-          count += 1.0;
-        }
-      }
-    }
-    if (!(count > 0.0)) return;
-    beam.scan_rad_s /= count;
-    beam.time_s /= count;
-    int most = 0;
-    for (const auto& [line, points] : lines) {
-      row.lines.push_back({line, points / count});
-      if (points <= most) continue;
-      most = points;
-      beam.line = line;
-    }
-  }
-
-  static std::pair<int, int> cell_of(const Eigen::Vector2d& p, double size) {
-    return {static_cast<int>(std::floor(p.x() / size)), static_cast<int>(std::floor(p.y() / size))};
+  // An angular bin of the refinement, whose angles count in the fitted plane's axes.
+  [[nodiscard]] EdgeSector sector_of(std::size_t bin, std::size_t bins) const {
+    const double half = std::numbers::pi / static_cast<double>(bins);
+    const double middle = -std::numbers::pi + (2.0 * static_cast<double>(bin) + 1.0) * half;
+    const FittedPlane& plane = input_.refinement->plane;
+    const Eigen::Vector3d in_board =
+        geometry_.lidar_from_board().rotation.inverse() *
+        (std::cos(middle) * plane.axis_u + std::sin(middle) * plane.axis_v).eval();
+    return {std::atan2(in_board.y(), in_board.x()), half};
   }
 
   [[nodiscard]] Eigen::Vector2d unit_square(const Eigen::Vector2d& board_m) const {
@@ -230,7 +207,7 @@ class SceneBuilder {
   Rigid3 camera_from_board_;
   std::vector<TargetNode> nodes_;
   BoardHits hits_;
-  std::map<std::pair<int, int>, std::vector<std::size_t>> hash_;
+  EdgeView view_;
   std::array<double, kPrints> levels_;
 };
 

@@ -229,7 +229,9 @@ class NodeRefiner {
     result_.scale = scale.scale;
     result_.scale_sigma = scale.sigma;
     result_.footprint_m2 = model_.footprint_m2();
-    result_.intensity_noise = std::sqrt(0.5 * (model_.variance(-4.0) + model_.variance(4.0)));
+    const TransitionNoise& noise = model_.noise();
+    result_.transition_noise = noise;
+    result_.intensity_noise = std::sqrt(0.5 * (noise.variance(-4.0) + noise.variance(4.0)));
     store_pose();
   }
 

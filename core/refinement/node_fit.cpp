@@ -152,7 +152,7 @@ NodeFit fit_node(std::vector<UnwrappedSample> samples, NodeRecord record, const 
     s.bin = std::clamp(static_cast<int>((psi + std::numbers::pi) / width), 0, bins - 1);
     by_bin[static_cast<std::size_t>(s.bin)].push_back(s);
   }
-  const double plateau_noise = std::sqrt(std::max(model.variance(-4.0), model.variance(4.0)));
+  const double plateau_noise = model.noise().plateau_sigma();
   const bool weak = plateau_noise * options.min_contrast > 1.0;
   for (std::size_t k = 0; k < by_bin.size(); ++k) {
     BinRecord& bin = fit.record.bins[k];

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <span>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -14,16 +12,13 @@
 namespace lvcalib {
 namespace {
 
-// Residuals beyond this many standard deviations are someone else's (a tag's edge, a stray hit).
+// Levels this many standard deviations beyond a plateau are someone else's (a stray hit).
 constexpr double kOutlier = 5.0;
 
 }  // namespace
 
 TransitionModel::TransitionModel(double sigma_m)
-    : footprint_(sigma_m * sigma_m * Eigen::Matrix2d::Identity()) {
-  // Before anything is known every sample counts the same.
-  variance_.fill(0.05);
-}
+    : footprint_(sigma_m * sigma_m * Eigen::Matrix2d::Identity()) {}
 
 double TransitionModel::sigma_m(const UnwrappedSample& s) const {
   const Eigen::Vector2d e(s.cos_psi, s.sin_psi);
@@ -39,54 +34,8 @@ double TransitionModel::leverage(const UnwrappedSample& s, double distance_varia
   const double z = s.distance_m / sigma;
   const double slope = normal_pdf(z) / sigma;
   // A fit of a few unknowns to a ring of samples holds no sample by more than half.
-  return std::min(0.5, slope * slope * distance_variance_m2 / variance(z));
+  return std::min(0.5, slope * slope * distance_variance_m2 / noise_.variance(z));
 }
-
-int TransitionModel::zone(double z) {
-  return std::clamp(static_cast<int>(std::floor(z / kZoneWidth)) + kZones / 2, 0, kZones - 1);
-}
-
-double TransitionModel::variance(double z) const {
-  return variance_[static_cast<std::size_t>(zone(z))];
-}
-
-namespace {
-
-// Noise as a beam has it: that of the two plateaus, mixed like their levels, and that of a beam
-// whose direction jitters: in proportion to the square of the profile's slope.
-struct NoiseShape {
-  double inner = 0.0;
-  double outer = 0.0;
-  double jitter = 0.0;
-  [[nodiscard]] double plateaus(double z) const { return inner + (outer - inner) * normal_cdf(z); }
-  [[nodiscard]] double variance(double z) const {
-    return plateaus(z) + jitter * normal_pdf(z) * normal_pdf(z);
-  }
-};
-
-double mean_of(const std::vector<double>& values, double fallback) {
-  if (values.empty()) return fallback;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// From the squared residuals of the zones whose middles are given; plateaus first and last.
-NoiseShape fit_noise_shape(std::span<const std::vector<double>> squares,
-                           std::span<const double> middles) {
-  NoiseShape shape;
-  shape.outer = mean_of(squares.back(), mean_of(squares.front(), 0.0));
-  shape.inner = mean_of(squares.front(), shape.outer);
-  double sum = 0.0;
-  double norm = 0.0;
-  for (std::size_t k = 1; k + 1 < squares.size(); ++k) {
-    const double slope_sq = normal_pdf(middles[k]) * normal_pdf(middles[k]);
-    for (const double square : squares[k]) sum += slope_sq * (square - shape.plateaus(middles[k]));
-    norm += static_cast<double>(squares[k].size()) * slope_sq * slope_sq;
-  }
-  if (norm > 0.0) shape.jitter = std::max(0.0, sum / norm);
-  return shape;
-}
-
-}  // namespace
 
 void TransitionModel::update(const std::vector<UnwrappedSample>& samples, double min_sigma_m,
                              double max_sigma_m) {
@@ -106,7 +55,7 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
       const double z = s.distance_m / sigma;
       if (std::abs(z) > 4.0) continue;
       const double e = s.level - normal_cdf(z);
-      const double v = variance(z);
+      const double v = noise_.variance(z);
       if (is_stray(s.level)) continue;
       const double by_variance = -normal_pdf(z) * z / (2.0 * sigma * sigma);
       const Eigen::Vector3d j =
@@ -134,39 +83,20 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
 }
 
 bool TransitionModel::is_stray(double level) const {
-  const double slack = 0.02 + kOutlier * std::sqrt(std::max(variance(-4.0), variance(4.0)));
+  const double slack = 0.02 + kOutlier * noise_.plateau_sigma();
   return !(level >= -slack && level <= 1.0 + slack);
 }
 
 void TransitionModel::update_noise(const std::vector<UnwrappedSample>& samples) {
-  std::array<std::vector<double>, kZones> squares;
+  std::vector<TransitionResidual> residuals;
+  residuals.reserve(samples.size());
   for (const UnwrappedSample& s : samples) {
     const double z = s.distance_m / sigma_m(s);
     const double e = s.level - normal_cdf(z);
     // What the circle's own fit took from the residual is given back.
-    squares[static_cast<std::size_t>(zone(z))].push_back(e * e / (1.0 - s.leverage));
+    residuals.push_back({z, e * e / (1.0 - s.leverage)});
   }
-  if (samples.size() < 20) return;
-  // Plateaus hold strays (a tag's edge, another surface); between them nothing is one.
-  for (const std::size_t end : {std::size_t{0}, std::size_t{kZones - 1}}) {
-    constexpr double kMedianOfSquare = 0.4549;
-    std::vector<double>& plateau = squares[end];
-    if (plateau.empty()) continue;
-    const double cut = kOutlier * kOutlier * median(plateau) / kMedianOfSquare;
-    std::erase_if(plateau, [&](double square) { return square > cut; });
-  }
-  std::array<double, kZones> middles{};
-  for (std::size_t k = 0; k < kZones; ++k)
-    middles[k] = (static_cast<double>(k) - 0.5 * kZones + 0.5) * kZoneWidth;
-  const NoiseShape shape = fit_noise_shape(squares, middles);
-  for (std::size_t k = 0; k < kZones; ++k) {
-    // The shape stands in for ten more samples, so that thin zones stay near it.
-    constexpr double kPrior = 10.0;
-    const double prior = shape.variance(middles[k]);
-    const double sum = std::accumulate(squares[k].begin(), squares[k].end(), kPrior * prior);
-    // A quantised, noiseless level must not get infinite weight.
-    variance_[k] = std::max(sum / (kPrior + static_cast<double>(squares[k].size())), 1e-6);
-  }
+  noise_.update(residuals);
 }
 
 namespace {
@@ -212,7 +142,7 @@ CrossingSystem crossing_system(const std::vector<UnwrappedSample>& samples,
     const double z = (s.distance_m - crossing) / sigma;
     if (std::abs(z) > 4.0) continue;
     const double e = s.level - normal_cdf(z);
-    const double v = model.variance(z);
+    const double v = model.noise().variance(z);
     if (model.is_stray(s.level)) continue;
     const double j = -normal_pdf(z) / sigma;  // ∂level/∂crossing
     const double information = j * j / v;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "refinement/board_refinement.h"
+#include "refinement/transition_noise.h"
 
 namespace lvcalib {
 
@@ -28,8 +28,7 @@ class TransitionModel {
   explicit TransitionModel(double sigma_m);
 
   [[nodiscard]] double sigma_m(const UnwrappedSample& s) const;
-  /// Variance of a sample's level at z = d/σ.
-  [[nodiscard]] double variance(double z) const;
+  [[nodiscard]] const TransitionNoise& noise() const { return noise_; }
   /// Share of a sample's noise that a fit takes which knows its distance with that variance.
   [[nodiscard]] double leverage(const UnwrappedSample& s, double distance_variance_m2) const;
   /// Whether a level is none that a mixture of black and white could have given. Levels between
@@ -48,13 +47,8 @@ class TransitionModel {
                         double max_sigma_m);
   void update_noise(const std::vector<UnwrappedSample>& samples);
 
-  // The transition is divided at z = −3, −2.5, …, 3, with the plateaus at both ends.
-  static constexpr int kZones = 14;
-  static constexpr double kZoneWidth = 0.5;
-  [[nodiscard]] static int zone(double z);
-
   Eigen::Matrix2d footprint_;
-  std::array<double, kZones> variance_{};
+  TransitionNoise noise_;
 };
 
 /// Mid-level crossing of one bin's samples under the model. Sets midpoint, sigma, angle and state.

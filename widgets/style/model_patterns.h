@@ -35,6 +35,9 @@ inline constexpr const char* kModelPatterns[] = {
                       "It explains %1 % of what is wrong in the %2 channel: %3; something else is "
                       "at work there."),
     QT_TRANSLATE_NOOP("Core",
+                      "Where it fits best it predicts scenes held out worse: %1; too few of them "
+                      "show it. To decide: %2."),
+    QT_TRANSLATE_NOOP("Core",
                       "What fits best is impossible: %1, while no device has less than %2; "
                       "something else is at work."),
     QT_TRANSLATE_NOOP(

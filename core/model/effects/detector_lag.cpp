@@ -18,7 +18,7 @@ class DetectorLag final : public CatalogueEffect {
              .source = "derived",
              .breaker = "scans that cross edges in both directions",
              .needs = {.time = true, .circles = true, .intensity = true}},
-            {{"τ", "µs", 1e-6, 2e-6, 1e-3}}) {}
+            {{"τ", "µs", 1e-6, 2e-6, 1e-3, 0.0}}) {}
 
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {

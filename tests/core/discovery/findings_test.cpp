@@ -113,6 +113,22 @@ TEST_F(Findings, MissingFieldsAreNamed) {
   EXPECT_TRUE(finding_of(all, "scan_motion").parameters.empty());
 }
 
+TEST_F(Findings, WhatScenesHeldOutContradictIsNotJudgedPresent) {
+  const auto made = with_walk();
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.refuse("range_walk");
+  search.rank();
+  const auto best = search.best();
+  if (best) {
+    EXPECT_NE(search.linear().columns.list()[search.candidates()[*best].columns].effect->info().id,
+              "range_walk");
+  }
+  const EffectFinding f = finding_of(judge_effects(search, {}, options_), "range_walk");
+  EXPECT_NE(f.verdict, EffectVerdict::kPresent);
+  EXPECT_THAT(f.explanation, HasSubstr("predicts scenes held out worse"));
+  EXPECT_THAT(f.explanation, HasSubstr(find_effect("range_walk")->info().breaker));
+}
+
 TEST_F(Findings, AliasesOfACandidateAreThoseWithItsPattern) {
   test::Disturbance wrong;
   wrong.edge_m = [](const BoundaryRow&) { return 0.001; };

@@ -58,12 +58,37 @@ TEST(ScanVelocity, NeedsTimeAndNeighbours) {
   EXPECT_TRUE(scan_velocities(cloud).empty());
 }
 
-TEST(ScanVelocity, IsZeroAcrossAGapInTime) {
+TEST(ScanVelocity, BesideAGapInTimeOneSideTells) {
   Cloud cloud = two_lines(400);
+  const auto before = scan_velocities(cloud);
   for (std::size_t i = 200; i < 400; ++i) cloud.time_s[i] += 1.0F;
+  const auto after = scan_velocities(cloud);
+  for (const std::size_t i : {198U, 199U, 200U, 201U})
+    EXPECT_LT((after[i] - before[i]).norm(), 0.05) << i;
+}
+
+TEST(ScanVelocity, IsZeroForAPointByItself) {
+  Cloud cloud = two_lines(400);
+  for (std::size_t i = 200; i < 400; ++i) cloud.time_s[i] += i < 202 ? 1.0F : 2.0F;
   const auto velocity = scan_velocities(cloud);
-  EXPECT_TRUE(velocity[199].isZero());
-  EXPECT_FALSE(velocity[100].isZero());
+  EXPECT_TRUE(velocity[200].isZero());
+  EXPECT_TRUE(velocity[201].isZero());
+  EXPECT_FALSE(velocity[202].isZero());
+}
+
+// At the ends of a stretch a straight line would be a parabola's slope in the middle.
+TEST(ScanVelocity, FollowsACurvedScan) {
+  Cloud cloud;
+  for (int i = 0; i < 40; ++i) {
+    const double t = 1e-4 * i;
+    const double az = 30.0 * t + 0.5 * 2e4 * t * t;
+    cloud.points_m.emplace_back(static_cast<float>(3 * std::cos(az)),
+                                static_cast<float>(3 * std::sin(az)), 0.0F);
+    cloud.time_s.push_back(static_cast<float>(t));
+  }
+  const auto velocity = scan_velocities(cloud);
+  for (const int i : {0, 1, 20, 39})
+    EXPECT_NEAR(velocity[static_cast<std::size_t>(i)].x(), 30.0 + 2e4 * 1e-4 * i, 0.5) << i;
 }
 
 TEST(ScanVelocity, PointsThatAreNoReturnsDisturbNobody) {

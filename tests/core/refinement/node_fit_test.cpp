@@ -114,7 +114,8 @@ TEST_F(NodeFitTest, WaveIsTheCentresShiftAndTheRadiusChangeWithTrueCovariance) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   constexpr int kDraws = 150;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const NodeFit result = fit(circle.draw(window_, random_), circle.center, circle.radius_change_m);
+    const NodeFit result =
+        fit(circle.draw(window_, random_), circle.center, circle.radius_change_m);
     ASSERT_TRUE(result.record.valid) << result.record.reason;
     const Eigen::Vector3d error = result.record.wave_m - truth;
     mean += error / kDraws;

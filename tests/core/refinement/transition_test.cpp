@@ -61,7 +61,7 @@ TEST(TransitionModel, RecoversTheNoise) {
   TransitionModel model(0.004);
   model.update(samples, 4e-4, 0.04);
   for (const double z : {-4.0, -1.2, 0.1, 1.3, 4.0}) {
-    EXPECT_NEAR(std::sqrt(model.variance(z)), 0.08, 0.008) << "z = " << z;
+    EXPECT_NEAR(std::sqrt(model.noise().variance(z)), 0.08, 0.008) << "z = " << z;
   }
 }
 
@@ -74,7 +74,7 @@ TEST(TransitionModel, NoiseInTheTransitionIsToldFromNoiseOnThePlateaus) {
   }
   TransitionModel model(0.004);
   model.update(samples, 4e-4, 0.04);
-  EXPECT_GT(model.variance(0.2), 9.0 * model.variance(4.0));
+  EXPECT_GT(model.noise().variance(0.2), 9.0 * model.noise().variance(4.0));
 }
 
 TEST(TransitionModel, StaysWithinItsLimitsWhateverTheData) {
@@ -89,7 +89,7 @@ TEST(TransitionModel, StaysWithinItsLimitsWhateverTheData) {
   EXPECT_TRUE(model.footprint_m2().allFinite());
   EXPECT_GE(model.mean_sigma_m(), 4e-4 * 0.999);
   EXPECT_LE(model.mean_sigma_m(), 0.04 * 1.001);
-  EXPECT_GT(model.variance(0.0), 0.0);
+  EXPECT_GT(model.noise().variance(0.0), 0.0);
 }
 
 TEST(Crossing, IsUnbiasedAndItsStandardDeviationTrue) {
