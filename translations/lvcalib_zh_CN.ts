@@ -1613,6 +1613,10 @@ were saved. Take them up again?</source>
         <source>testable</source>
         <translation>可检验阈值</translation>
     </message>
+    <message>
+        <source>Where it fits best it predicts scenes held out worse: %1; too few of them show it. To decide: %2.</source>
+        <translation>在拟合最好的取值下，它对留出场景的预测反而更差：%1；能显示它的场景太少。要判定需要：%2。</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

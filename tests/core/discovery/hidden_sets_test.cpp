@@ -101,6 +101,21 @@ TEST_P(HiddenNothing, SelectsNothingAndNeverCallsAGaugeAbsent) {
 
 INSTANTIATE_TEST_SUITE_P(Sets, HiddenNothing, ::testing::Values(44, 46, 47));
 
+// One scene that faces the beam chooses the width of the gloss; the others, told what it says, are
+// predicted worse. A better fit is not enough to believe it.
+TEST(HiddenGloss, SeenInOneSceneIsTakenBackWithTheReason) {
+  const test::HiddenRig rig(
+      73, {{"specular_lobe", simulation::find_disturbance("specular_lobe")->typical}});
+  ASSERT_TRUE(rig.ok());
+  const auto discovery = discover(rig.result(), {}, {});
+  ASSERT_TRUE(discovery.ok()) << discovery.error().text();
+  SCOPED_TRACE(discovery_summary(*discovery));
+  EXPECT_THAT(beyond_the_footprint(discovery->selected), IsEmpty());
+  const EffectFinding& gloss = finding(*discovery, "specular_lobe");
+  EXPECT_EQ(gloss.verdict, EffectVerdict::kNotTestable);
+  EXPECT_THAT(gloss.explanation, ::testing::HasSubstr("predicts scenes held out worse"));
+}
+
 // One rig for all that must not change the answer.
 class Invariance : public ::testing::Test {
  protected:

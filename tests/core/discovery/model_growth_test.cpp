@@ -84,24 +84,5 @@ TEST_F(Growing, AShapeBetweenTheOnesTriedLeavesNothingOver) {
   EXPECT_NEAR(search.in_use()[0].shape, 1.7, 0.15);
 }
 
-// One scene near the mirror direction has all the leverage on the width of a gloss; with the width
-// that suits it, the others are told what they do not show.
-TEST_F(Growing, AShapeThatOneSceneChoseAndTheOthersContradictIsTakenBack) {
-  test::Disturbance wrong;
-  wrong.log_intensity = [](const IntensityRow& row) {
-    const double theta = row.beam.incidence_rad;
-    const double gloss = 0.3 / (1.0 + std::pow(theta / 0.2, 2));
-    return std::log1p(gloss * (row.print == Print::kBlack ? 10.0 : 1.0));
-  };
-  test::TableRecipe recipe;
-  made_ = test::synthetic_table(recipe, wrong);
-  EffectSearch search(made_.table, made_.truth, options_, context_);
-  grow_model(search, selections_, 0, options_, context_, [] {});
-  for (const auto& id : ids()) std::printf("in: %s\n", id.c_str());
-  for (const auto& c : search.candidates())
-    std::printf("%s %d %.3f\n", search.linear().columns.list()[c.columns].effect->info().id.c_str(),
-                int(c.contradiction), c.best_heldout_gain());
-}
-
 }  // namespace
 }  // namespace lvcalib
