@@ -140,7 +140,8 @@ simulation::SimulationOptions effect_rig_options(const EffectTask& task) {
 }
 
 // Of effects whose size means the same to nature and to the estimator. Blooming does not: its κ
-// counts the footprint here and the whole transition there.
+// counts the footprint here and the whole transition there. Nor does the detector's lag: the middle
+// between two levels passes before the mean delay is over.
 std::map<std::string, double> true_parameters(const std::string& id,
                                               const simulation::SimulatedRig& rig) {
   const auto at = rig.options.effects.find(id);
@@ -156,7 +157,6 @@ std::map<std::string, double> true_parameters(const std::string& id,
                                                           {"encoder_lag", "τ"},
                                                           {"boundary_bias", "δ0"},
                                                           {"footprint_offset", "βh"},
-                                                          {"detector_lag", "τ"},
                                                           {"print_scale", "scale"},
                                                           {"ink_gain", "g"},
                                                           {"corner_bias", "b"},
