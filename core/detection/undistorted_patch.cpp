@@ -50,8 +50,10 @@ bool UndistortedPatch::fit(const Camera& camera) {
   Eigen::Matrix<double, kSteps * kSteps, 2> values;
   for (int i = 0; i < kSteps * kSteps; ++i) {
     // Denser towards the rim, as Chebyshev's nodes, against overshoot.
-    const double x = std::cos((i % kSteps + 0.5) * M_PI / kSteps);
-    const double y = std::cos((i / kSteps + 0.5) * M_PI / kSteps);
+    const int column = i % kSteps;
+    const int row = i / kSteps;
+    const double x = std::cos((column + 0.5) * M_PI / kSteps);
+    const double y = std::cos((row + 0.5) * M_PI / kSteps);
     const auto plane = exact(center_px_ + radius_px_ * Eigen::Vector2d(x, y));
     if (!plane) return false;
     design.row(i) = basis(x, y).transpose();

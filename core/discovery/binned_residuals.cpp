@@ -150,10 +150,10 @@ ResidualMap map_residuals(std::span<const float> x, std::span<const float> y,
   for (std::size_t c = 0; c < count; ++c) {
     if (members[0][c].size() < kFewest) continue;
     ResidualCell cell;
-    const auto column = static_cast<double>(c % static_cast<std::size_t>(map.columns));
-    const auto row = static_cast<double>(c / static_cast<std::size_t>(map.columns));
-    cell.x = rx.low + (column + 0.5) * wide / map.columns;
-    cell.y = ry.low + (row + 0.5) * tall / map.rows;
+    const std::size_t column = c % static_cast<std::size_t>(map.columns);
+    const std::size_t row = c / static_cast<std::size_t>(map.columns);
+    cell.x = rx.low + (static_cast<double>(column) + 0.5) * wide / map.columns;
+    cell.y = ry.low + (static_cast<double>(row) + 0.5) * tall / map.rows;
     cell.first = mean_residual(sample, members[0][c], groups);
     if (!component.empty()) cell.second = mean_residual(sample, members[1][c], groups);
     map.cells.push_back(cell);

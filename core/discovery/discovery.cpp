@@ -40,11 +40,13 @@ class Discoverer {
     context_.report("model", 0.1, "fitting the base model");
     EffectSearch search(table_, state_, options_, context_);
     if (Status s = add_wanted(search); !s) return s.error();
+    search.remeasure();
     if (context_.stopped()) return Error::cancelled();
     record("", search);
     out_.channels = out_.history.front().channels;
     context_.report("structure", 0.2, "looking for structure");
-    out_.structure = notable_structure(table_, search.state(), search.model(), options_, context_);
+    out_.structure =
+        notable_structure(search.table(), search.state(), search.model(), options_, context_);
     grow_model(search, selections_, fixed_, options_, context_,
                [&] { record(selections_.back().id, search); });
     if (context_.stopped()) return Error::cancelled();
@@ -57,10 +59,10 @@ class Discoverer {
     }
     const EffectSearch explained = search.with_immaterial();
     if (context_.stopped()) return Error::cancelled();
-    out_.unknown =
-        notable_structure(table_, explained.state(), explained.model(), options_, context_);
-    suggest_closed_forms(table_, explained.state(), explained.model(), options_.closed_forms,
-                         context_, out_.unknown);
+    out_.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
+                                     options_, context_);
+    suggest_closed_forms(explained.table(), explained.state(), explained.model(),
+                         options_.closed_forms, context_, out_.unknown);
     context_.report("advice", 0.95, "looking for the next scene");
     out_.advice = options_.advise_scenes ? advise_scenes(search, out_.effects, options_, context_)
                                          : advise(out_.effects);
@@ -68,7 +70,7 @@ class Discoverer {
     out_.advice.insert(out_.advice.end(), about_unknown.begin(), about_unknown.end());
     for (const Selection& s : selections_) out_.selected.push_back(s.id);
     out_.state = search.state();
-    out_.scales = scales_of(table_);
+    out_.scales = scales_of(search.table());
     out_.covariance = search.joint_covariance().topLeftCorner<6, 6>();
     out_.budget = sensitivity_budget(search);
     out_.covariance_with_budget = covariance_with_budget(out_.covariance, out_.budget);
@@ -119,6 +121,12 @@ class Discoverer {
 
 }  // namespace
 
+MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options) {
+  TableOptions how = options;
+  how.refinement = input.refinement;
+  return build_table(input.scenes, input.target, input.camera, input.state, input.sigma_px, how);
+}
+
 Result<Discovery> discover_effects(const MeasurementTable& table, const ModelState& state,
                                    const DiscoveryOptions& options, const RunContext& context) {
   if (Status s = check_usable(table.scenes.size(), options); !s) return s.error();
@@ -129,8 +137,7 @@ Result<Discovery> discover_effects(const DiscoveryInput& input, const DiscoveryO
                                    const RunContext& context) {
   if (Status s = check_usable(input.scenes.size(), options); !s) return s.error();
   context.report("table", 0.0, "collecting measurements");
-  const MeasurementTable table = build_table(input.scenes, input.target, input.camera, input.state,
-                                             input.sigma_px, options.table);
+  const MeasurementTable table = table_of(input, options.table);
   if (context.stopped()) return Error::cancelled();
   return Discoverer(table, input.state, options, context).run();
 }

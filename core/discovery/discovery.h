@@ -171,7 +171,11 @@ struct DiscoveryInput {
   Camera camera;
   ModelState state;
   double sigma_px = 0.0;
+  RefinementOptions refinement;  ///< How the circles were refined.
 };
+
+/// The measurements of a calibration, with every covariate.
+MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options);
 
 /// Checks the texts of `with` without data, so that a slip of the pen is known before long work.
 Status check_wanted(const std::vector<std::string>& with);

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "discovery/print_contrast.h"
 #include "model/natural_footprint.h"
+#include "model/remeasured_edges.h"
 #include "model/residuals.h"
 
 namespace lvcalib {
@@ -43,7 +44,8 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
 EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
                            std::vector<EffectInUse> in_use, const DiscoveryOptions& options,
                            const RunContext& context)
-    : table_(table),
+    : base_(&table),
+      table_(&table),
       state_(std::move(state)),
       options_(options),
       context_(context),
@@ -53,7 +55,7 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
 }
 
 bool EffectSearch::natural() const {
-  return !table_.boundary.empty() &&
+  return !table().boundary.empty() &&
          std::none_of(in_use_.begin(), in_use_.end(), [](const EffectInUse& use) {
            return describes_footprint(use.effect->info().id);
          });
@@ -72,7 +74,7 @@ const Reference& EffectSearch::compared_with(std::size_t columns) const {
 
 EffectColumnsList EffectSearch::own_columns() const {
   EffectColumnsList columns;
-  for (const EffectInUse& use : model()) columns.add(use.effect, use.shape, table_);
+  for (const EffectInUse& use : model()) columns.add(use.effect, use.shape, table());
   return columns;
 }
 
@@ -98,7 +100,7 @@ Reference EffectSearch::without_natural() const {
 }
 
 void EffectSearch::add(const EffectPtr& effect, double shape) {
-  const auto parameters = effect->parameters(table_);
+  const auto parameters = effect->parameters(table());
   in_use_.push_back(
       {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))});
   refit();
@@ -110,7 +112,7 @@ void EffectSearch::remove(std::size_t k) {
 }
 
 void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape) {
-  const auto parameters = effect->parameters(table_);
+  const auto parameters = effect->parameters(table());
   in_use_[k] = {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
   refit();
 }
@@ -121,7 +123,7 @@ void EffectSearch::refit() {
   shape_sigmas_.clear();
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     const EffectColumnsList columns = own_columns();
-    linear_ = linearize(table_, state_, model(), columns, context_);
+    linear_ = linearize(table(), state_, model(), columns, context_);
     if (context_.stopped()) return;
     reference_ = make_reference(linear_, own_subset(columns), variances_, {});
     variances_ = reference_.fit.variances;
@@ -142,12 +144,24 @@ void EffectSearch::refit() {
   }
 }
 
+void EffectSearch::remeasure() {
+  constexpr int kRounds = 2;  // What is taken out is better known from the edges without it.
+  for (int round = 0; round < kRounds; ++round) {
+    auto again = remeasure_edges(*base_, state_, in_use_, context_);
+    if (context_.stopped() || (!again && table_ == base_)) return;
+    remeasured_ = again ? std::make_shared<const MeasurementTable>(std::move(*again)) : nullptr;
+    table_ = remeasured_ ? remeasured_.get() : base_;
+    refit();
+    if (!remeasured_) return;
+  }
+}
+
 std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) const {
-  std::vector<double> shapes = effect.shapes(table_);
+  std::vector<double> shapes = effect.shapes(table());
   if (shapes.size() <= kFewShapes) return shapes;
   // Least squares of the range residuals on the effect alone, row by row: a periodogram.
-  const ChannelResiduals residuals = residuals_of(table_, state_, model(), Channel::kRange);
-  const auto p = effect.parameters(table_).size();
+  const ChannelResiduals residuals = residuals_of(table(), state_, model(), Channel::kRange);
+  const auto p = effect.parameters(table()).size();
   const std::size_t stride = std::max<std::size_t>(1, residuals.values.size() / 20000);
   std::vector<double> power(shapes.size());
   parallel_for(shapes.size(), context_.thread_count(), [&](std::size_t k) {
@@ -158,8 +172,8 @@ std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) cons
     std::vector<Eigen::Vector3d> moves(p);
     Eigen::VectorXd row(n);
     for (std::size_t i = 0; i < residuals.values.size(); i += stride) {
-      const BeamPoint& beam = table_.range[residuals.row[i]].beam;
-      effect.lidar(beam, table_, shapes[k], moves);
+      const BeamPoint& beam = table().range[residuals.row[i]].beam;
+      effect.lidar(beam, table(), shapes[k], moves);
       for (Eigen::Index j = 0; j < n; ++j)
         row(j) = beam.direction.dot(moves[static_cast<std::size_t>(j)]) / residuals.sigma[i];
       normal.noalias() += row * row.transpose();
@@ -188,8 +202,8 @@ void EffectSearch::append_candidates(EffectColumnsList& columns) const {
     const bool used = std::any_of(in_use_.begin(), in_use_.end(), [&](const EffectInUse& use) {
       return use.effect->info().id == id;
     });
-    if (used || !why_not_testable(*effect, table_).empty()) continue;
-    for (const double shape : shapes_worth_trying(*effect)) columns.add(effect, shape, table_);
+    if (used || !why_not_testable(*effect, table()).empty()) continue;
+    for (const double shape : shapes_worth_trying(*effect)) columns.add(effect, shape, table());
   }
 }
 
@@ -197,7 +211,7 @@ void EffectSearch::rank() {
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   append_candidates(columns);
-  linear_ = linearize(table_, state_, model(), columns, context_);
+  linear_ = linearize(table(), state_, model(), columns, context_);
   candidates_.clear();
   if (context_.stopped()) return;
   reference_ = make_reference(linear_, subset, variances_, {});
@@ -255,23 +269,23 @@ void EffectSearch::ask_what_is_small() {
 bool EffectSearch::accepts(const EffectPtr& effect, double shape, std::size_t tried) const {
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
-  columns.add(effect, shape, table_);
-  const Linearization linear = linearize(table_, state_, model(), columns, context_);
+  columns.add(effect, shape, table());
+  const Linearization linear = linearize(table(), state_, model(), columns, context_);
   if (context_.stopped()) return false;
   const Reference reference = make_reference(linear, subset, variances_, {});
   const Candidate candidate = evaluate_candidate(linear, reference, own_count(), {});
-  return is_accepted(candidate, tried, table_.scenes.size(), options_);
+  return is_accepted(candidate, tried, table().scenes.size(), options_);
 }
 
 void EffectSearch::ask_both_prints() {
   const bool told = find_effect("range_walk") != nullptr &&
-                    why_not_testable(*find_effect("range_walk"), table_).empty();
+                    why_not_testable(*find_effect("range_walk"), table()).empty();
   if (!told) return;
   const std::vector<EffectInUse> effects = model();
   const EffectColumnsList own = own_columns();
   const ColumnSubset subset = own_subset(own);
   const auto disagree = [&](const Candidate& c) {
-    return prints_disagree({table_, state_, effects, own, subset, variances_},
+    return prints_disagree({table(), state_, effects, own, subset, variances_},
                            linear_.columns.list()[c.columns], c.main_channel(), options_, context_);
   };
   doubt_levels(disagree);
@@ -291,7 +305,7 @@ void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& dis
     if (context_.stopped()) return;
     const bool asked = c.must_show && c.main_channel() == Channel::kIntensity &&
                        c.contradiction == Contradiction::kNone &&
-                       is_accepted(c, candidates_.size(), table_.scenes.size(), options_);
+                       is_accepted(c, candidates_.size(), table().scenes.size(), options_);
     if (!asked || !disagree(c)) continue;
     contradict(c, Contradiction::kPrints);
     doubted = true;
@@ -317,7 +331,7 @@ void EffectSearch::refit_promising() {
   const std::size_t tried = candidates_.size();
   for (std::size_t k = 0; k < std::min(kRefitted, tried) && !context_.stopped(); ++k) {
     Candidate& c = candidates_[k];
-    if (is_accepted(c, tried, table_.scenes.size(), options_)) return;
+    if (is_accepted(c, tried, table().scenes.size(), options_)) return;
     const bool promising =
         c.material && c.p_value * static_cast<double>(tried) <= options_.false_alarm;
     if (!promising) continue;
@@ -328,7 +342,7 @@ void EffectSearch::refit_promising() {
     if (context_.stopped()) return;
     std::array<double, kChannels> with{};
     std::array<double, kChannels> without{};
-    for (std::size_t s = 0; s < table_.scenes.size(); ++s) {
+    for (std::size_t s = 0; s < table().scenes.size(); ++s) {
       c.scene_density[s] = trial.reference_.density[s];
       c.scene_gain[s] = c.scene_density[s] - without_it.density[s];
       for (std::size_t channel = 0; channel < kChannels; ++channel) {
@@ -342,7 +356,7 @@ void EffectSearch::refit_promising() {
 
 std::optional<std::size_t> EffectSearch::best() const {
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    if (is_accepted(candidates_[k], candidates_.size(), table_.scenes.size(), options_)) return k;
+    if (is_accepted(candidates_[k], candidates_.size(), table().scenes.size(), options_)) return k;
   }
   return std::nullopt;
 }
@@ -363,7 +377,7 @@ EffectSearch EffectSearch::with_immaterial() const {
 std::optional<std::size_t> EffectSearch::superfluous() {
   // The model with all effects in use against those with one less.
   const EffectColumnsList columns = own_columns();
-  const Linearization linear = linearize(table_, state_, model(), columns, context_);
+  const Linearization linear = linearize(table(), state_, model(), columns, context_);
   if (context_.stopped()) return std::nullopt;
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
     // Without the effect its rows still hold the values in use: the candidate's increment undoes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,6 +47,11 @@ class EffectSearch {
   }
   /// Gauss–Newton on extrinsic, poses and effects until the extrinsic stands still.
   void refit();
+  /// Measures the edges again without what effects in use do to single points (remeasure_edges())
+  /// and refits: to be called when effects have come or gone.
+  void remeasure();
+  /// The table that remeasure() made; null if it had nothing to do.
+  [[nodiscard]] std::shared_ptr<const MeasurementTable> remeasured() const { return remeasured_; }
   /// Linearises with all candidates that are testable and not in use, and evaluates each.
   void rank();
   /// From the next rank() on an effect is not accepted: scenes held out contradict it.
@@ -62,7 +68,7 @@ class EffectSearch {
   /// Shape numbers of an effect; of very many the few that the range residuals speak for.
   [[nodiscard]] std::vector<double> shapes_worth_trying(const Effect& effect) const;
 
-  [[nodiscard]] const MeasurementTable& table() const { return table_; }
+  [[nodiscard]] const MeasurementTable& table() const { return *table_; }
   [[nodiscard]] const ModelState& state() const { return state_; }
   /// Effects found or asked for, in the order added.
   [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
@@ -97,7 +103,9 @@ class EffectSearch {
   [[nodiscard]] Reference without_natural() const;
   [[nodiscard]] const Reference& compared_with(std::size_t columns) const;
 
-  const MeasurementTable& table_;
+  const MeasurementTable* base_;   // what was given
+  const MeasurementTable* table_;  // that, or …
+  std::shared_ptr<const MeasurementTable> remeasured_;
   ModelState state_;
   const DiscoveryOptions& options_;
   RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it

@@ -48,6 +48,7 @@ class Growth {
       selections_.push_back(s);
       try_swaps();
       drop_superfluous();
+      search_.remeasure();
       on_added_();
       if (context_.stopped()) return;
     }

@@ -56,6 +56,7 @@ Result<ModelStepPtr> step_from(const EffectSearch& search, ModelStep step,
                                const RunContext& context) {
   if (context.stopped()) return Error::cancelled();
   step.state = search.state();
+  step.remeasured = search.remeasured();
   step.covariance = search.reference().fit.covariance.topLeftCorner<6, 6>();
   read_back(search, step.terms);
   const auto model = search.model();
@@ -72,8 +73,8 @@ Result<ModelStepPtr> step_from(const EffectSearch& search, ModelStep step,
 Result<ModelStepPtr> fitted(ModelStep step, const RunContext& context) {
   context.report("model", 0.1, "fitting the model");
   const auto basis = step.basis;
-  const EffectSearch search(basis->table, step.state, switched_on(step.terms), basis->options,
-                            context);
+  EffectSearch search(basis->table, step.state, switched_on(step.terms), basis->options, context);
+  search.remeasure();
   return step_from(search, std::move(step), context);
 }
 
@@ -92,7 +93,8 @@ Result<double> preferred_shape(const ModelStep& from, const EffectPtr& effect,
                                const RunContext& context) {
   const ModelBasis& basis = *from.basis;
   if (effect->shapes(basis.table).size() < 2) return effect->shapes(basis.table).front();
-  const EffectSearch search(basis.table, from.state, from.in_use(), basis.options, context);
+  EffectSearch search(basis.table, from.state, from.in_use(), basis.options, context);
+  search.remeasure();
   if (context.stopped()) return Error::cancelled();
   const double shape = search.preferred_shape(effect);
   if (context.stopped()) return Error::cancelled();
@@ -177,9 +179,7 @@ Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state
 Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOptions& options,
                                  const RunContext& context) {
   context.report("table", 0.0, "collecting measurements");
-  return start_model(build_table(input.scenes, input.target, input.camera, input.state,
-                                 input.sigma_px, options.table),
-                     input.state, options, context);
+  return start_model(table_of(input, options.table), input.state, options, context);
 }
 
 Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spec,
@@ -278,6 +278,7 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
   ModelStepPtr step = from;
   const ModelBasis& basis = *from->basis;
   EffectSearch search(basis.table, from->state, from->in_use(), basis.options, context);
+  search.remeasure();
   std::vector<Selection> selections;
   for (const EffectInUse& use : search.in_use())
     selections.push_back({use.effect->info().id, {}, 0.0, 0.0, 1.0});

@@ -43,8 +43,12 @@ struct ModelStep {
   std::vector<EffectInUse> nuisance;  ///< Nature's share that is no effect to find.
   std::vector<ChannelSummary> channels;
   std::vector<StructureScore> structure;  ///< Every covariate's, best first.
+  /// The measurements with edges measured again for this model; null where that changes nothing.
+  std::shared_ptr<const MeasurementTable> remeasured;
 
-  [[nodiscard]] const MeasurementTable& table() const { return basis->table; }
+  [[nodiscard]] const MeasurementTable& table() const {
+    return remeasured ? *remeasured : basis->table;
+  }
   /// The effects that are switched on.
   [[nodiscard]] std::vector<EffectInUse> in_use() const;
   /// Those and the nuisance: what the measurements are compared with.

@@ -73,9 +73,10 @@ class Planner {
     for (const std::string& id : options_.effects) {
       const EffectPtr effect = find_effect(id);
       if (effect == nullptr) {
-        const std::string near = nearest_word(id, known);
-        return Error::usage("there is no effect '" + id + "'" +
-                            (near.empty() ? "" : "; did you mean '" + near + "'?"));
+        std::string message = "there is no effect '" + id + "'";
+        if (const std::string near = nearest_word(id, known); !near.empty())
+          message.append("; did you mean '").append(near).append("'?");
+        return Error::usage(message);
       }
       if (const std::string why = why_not(*effect); !why.empty())
         return Error::input("the effect '" + id + "' cannot be planned for: " + why);

@@ -139,6 +139,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   const ModelBasis& basis = *step.basis;
   context.report("rank", 0.1, "ranking effects");
   EffectSearch search(basis.table, step.state, step.in_use(), basis.options, context);
+  search.remeasure();
   if (context.stopped()) return Error::cancelled();
   search.rank();
   if (context.stopped()) return Error::cancelled();
@@ -157,7 +158,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   if (!any) {
     const EffectSearch explained = search.with_immaterial();
     if (context.stopped()) return Error::cancelled();
-    out.unknown = notable_structure(basis.table, explained.state(), explained.model(),
+    out.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
                                     basis.options, context);
     if (context.stopped()) return Error::cancelled();
   }

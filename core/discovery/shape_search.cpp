@@ -37,8 +37,8 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
   if (shapes.size() == 1) return shapes.front();
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
-  for (const double shape : shapes) columns.add(effect, shape, table_);
-  const Linearization linear = linearize(table_, state_, model(), columns, context_);
+  for (const double shape : shapes) columns.add(effect, shape, table());
+  const Linearization linear = linearize(table(), state_, model(), columns, context_);
   if (context_.stopped()) return shapes.front();
   const Reference reference = make_reference(linear, subset, variances_, {});
   std::vector<double> gain(shapes.size(), -HUGE_VAL);
@@ -54,14 +54,14 @@ double EffectSearch::profile(std::size_t k, double shape) const {
   std::vector<EffectInUse> in_use = model();
   in_use[k].shape = shape;
   EffectColumnsList columns;
-  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, table_);
-  const Linearization linear = linearize(table_, state_, in_use, columns, context_);
+  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, table());
+  const Linearization linear = linearize(table(), state_, in_use, columns, context_);
   if (context_.stopped()) return 0.0;
   return fit_model(linear, own_subset(columns), variances_, {.rounds = 0}).log_likelihood;
 }
 
 bool EffectSearch::move_shape(std::size_t k) {
-  const std::vector<double> shapes = in_use_[k].effect->shapes(table_);
+  const std::vector<double> shapes = in_use_[k].effect->shapes(table());
   if (!in_use_[k].effect->has_smooth_shape() || shapes.size() < 2) return false;
   const auto [low, high] = bracket(shapes, in_use_[k].shape);
   std::uintmax_t most = kMostEvaluations;
@@ -89,14 +89,14 @@ void EffectSearch::estimate_joint_covariance() {
   ColumnSubset subset = own_subset(columns);
   std::vector<std::size_t> shaped;
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
-    if (!in_use_[k].effect->has_smooth_shape() || in_use_[k].effect->shapes(table_).size() < 2)
+    if (!in_use_[k].effect->has_smooth_shape() || in_use_[k].effect->shapes(table()).size() < 2)
       continue;
-    columns.add(make_shape_slope(in_use_[k], table_), 0.0, table_);
+    columns.add(make_shape_slope(in_use_[k], table()), 0.0, table());
     append_columns(columns.list().back(), nullptr, subset);
     shaped.push_back(k);
   }
   if (shaped.empty() || context_.stopped()) return;
-  const Linearization linear = linearize(table_, state_, model(), columns, context_);
+  const Linearization linear = linearize(table(), state_, model(), columns, context_);
   if (context_.stopped()) return;
   const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 0});
   const auto own = fit.covariance.rows() - static_cast<Eigen::Index>(shaped.size());

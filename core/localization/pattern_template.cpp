@@ -60,7 +60,9 @@ PatternTemplate::PatternTemplate(const Target& target, double blur_sigma_m)
     for (int c = 0; c < columns_; ++c) {
       double sum = 0.0;
       for (int s = 0; s < kSub * kSub; ++s) {
-        const Eigen::Vector2d offset((s % kSub + 0.5) / kSub - 0.5, (s / kSub + 0.5) / kSub - 0.5);
+        const int right = s % kSub;
+        const int up = s / kSub;
+        const Eigen::Vector2d offset((right + 0.5) / kSub - 0.5, (up + 0.5) / kSub - 0.5);
         const Eigen::Vector2d p = outline.lower_left_m + step * (Eigen::Vector2d(c, r) + offset);
         sum += target.albedo(p.cwiseMax(outline.lower_left_m).cwiseMin(outline.upper_right_m))
                    .value_or(1.0);

@@ -29,8 +29,10 @@ class PatternTemplate {
     const float x = (x_m - origin_x_) * inverse_step_;
     const float y = (y_m - origin_y_) * inverse_step_;
     if (!(x >= 0.0F && y >= 0.0F && x < max_x_ && y < max_y_)) return -1.0F;
-    return raster_[static_cast<std::size_t>(static_cast<int>(y + 0.5F) * columns_ +
-                                            static_cast<int>(x + 0.5F))];
+    const float right = x + 0.5F;  // Neither is negative: truncation rounds.
+    const float down = y + 0.5F;
+    return raster_[static_cast<std::size_t>(static_cast<int>(down) * columns_ +
+                                            static_cast<int>(right))];
   }
 
   [[nodiscard]] double blur_sigma_m() const { return blur_sigma_m_; }

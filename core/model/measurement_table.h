@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -111,6 +112,8 @@ struct TableScene {
   double clock = 0.0;         ///< 0…1 over the scenes in their order.
 };
 
+struct EdgeSource;
+
 /// All measurements that a finished calibration keeps, thinned evenly over the boards, with every
 /// covariate. Rows are grouped by scene.
 struct MeasurementTable {
@@ -131,6 +134,8 @@ struct MeasurementTable {
   }
   /// ln(white/black): what darkness 1 stands for.
   double log_contrast = 0.0;
+  /// What the edges were measured with (see remeasure_edges()); null if they cannot be again.
+  std::shared_ptr<const EdgeSource> edge_source;
 
   [[nodiscard]] std::size_t size(Channel channel) const;
 };

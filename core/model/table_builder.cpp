@@ -11,6 +11,7 @@
 #include "model/board_hits.h"
 #include "model/edge_view.h"
 #include "model/noise_floor.h"
+#include "model/remeasured_edges.h"
 #include "model/scene_geometry.h"
 #include "model/transition_width.h"
 
@@ -162,27 +163,12 @@ class SceneBuilder {
     row.sigma_m = std::max(bin.sigma_m, 1e-5);
     if (record.inner_level > 0.0 && record.outer_level > 0.0)
       row.log_contrast = std::log(record.outer_level / record.inner_level);
-    set_edge_normal(row);
+    row.edge_normal_rad = edge_normal(geometry_, row.beam, row.psi_rad);
     view_.describe(static_cast<std::size_t>(&node - nodes_.data()), sector, row);
     table_.boundary.push_back(row);
     return true;
   }
 
-  void set_edge_normal(BoundaryRow& row) const {
-    const Eigen::Vector3d outward =
-        geometry_.lidar_from_board().rotation *
-        Eigen::Vector3d(std::cos(row.psi_rad), std::sin(row.psi_rad), 0);
-    const Eigen::Vector3d a = geometry_.edge_row(row.beam.direction, outward);
-    const double ca = std::cos(row.beam.azimuth_rad);
-    const double sa = std::sin(row.beam.azimuth_rad);
-    const double ce = std::cos(row.beam.elevation_rad);
-    const double se = std::sin(row.beam.elevation_rad);
-    row.edge_normal_rad =
-        row.beam.range_m * Eigen::Vector2d(a.dot(Eigen::Vector3d(-sa, ca, 0.0)),
-                                           a.dot(Eigen::Vector3d(-se * ca, -se * sa, ce)));
-  }
-
-  // Mean scan velocity and time of the points about an edge point, and the lines they are of.
   // An angular bin of the refinement, whose angles count in the fitted plane's axes.
   [[nodiscard]] EdgeSector sector_of(std::size_t bin, std::size_t bins) const {
     const double half = std::numbers::pi / static_cast<double>(bins);
@@ -210,6 +196,20 @@ class SceneBuilder {
   EdgeView view_;
   std::array<double, kPrints> levels_;
 };
+
+// A copy: calibrations may be gone by the time edges are measured again.
+std::shared_ptr<const EdgeSource> edge_source(const std::vector<SceneMeasurements>& scenes,
+                                              const TableOptions& options) {
+  auto out = std::make_shared<EdgeSource>();
+  out->options = options;
+  for (const SceneMeasurements& scene : scenes) {
+    out->board_points.push_back(*scene.board_points);
+    out->refinements.push_back(*scene.refinement);
+    auto& history = out->refinements.back().history;
+    if (history.size() > 1) history.erase(history.begin(), history.end() - 1);
+  }
+  return out;
+}
 
 // Some drivers fill the field with one number.
 bool tells_intensity(const Cloud& cloud) {
@@ -271,7 +271,30 @@ MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const
   const double noise_px = corner_noise(table, state, sigma_px);
   for (CornerRow& row : table.corner) row.sigma_px = noise_px;
   if (has_line) list_lines(table);
+  const bool parted = table.has_time || has_line;
+  if (parted && !table.boundary.empty()) table.edge_source = edge_source(scenes, options);
   return table;
+}
+
+void build_edges(const std::vector<SceneMeasurements>& scenes, const ModelState& state,
+                 const TableOptions& options, MeasurementTable& table) {
+  table.boundary.clear();
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    table.scenes[s].nodes.clear();
+    SceneBuilder(scenes[s], static_cast<int>(s), state, options, table).add_boundary();
+  }
+}
+
+Eigen::Vector2d edge_normal(const SceneGeometry& geometry, const BeamPoint& beam, double psi_rad) {
+  const Eigen::Vector3d outward = geometry.lidar_from_board().rotation *
+                                  Eigen::Vector3d(std::cos(psi_rad), std::sin(psi_rad), 0);
+  const Eigen::Vector3d a = geometry.edge_row(beam.direction, outward);
+  const double ca = std::cos(beam.azimuth_rad);
+  const double sa = std::sin(beam.azimuth_rad);
+  const double ce = std::cos(beam.elevation_rad);
+  const double se = std::sin(beam.elevation_rad);
+  return beam.range_m * Eigen::Vector2d(a.dot(Eigen::Vector3d(-sa, ca, 0.0)),
+                                        a.dot(Eigen::Vector3d(-se * ca, -se * sa, ce)));
 }
 
 }  // namespace lvcalib

@@ -6,6 +6,7 @@
 
 #include "detection/board_view.h"
 #include "model/measurement_table.h"
+#include "model/scene_geometry.h"
 
 namespace lvcalib {
 
@@ -22,6 +23,7 @@ struct TableOptions {
   double gate = 6.0;               ///< Points farther off the board (in σ) are not on it.
   /// Footprint (rad, one σ) where no circles measure it; decides which points see one print only.
   double footprint_rad = 0.001;
+  RefinementOptions refinement;  ///< How edges are measured again (see remeasure_edges()).
 };
 
 /// Builds the table at a state. The corners' noise is measured (see corner_noise);
@@ -30,5 +32,12 @@ struct TableOptions {
 MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const Target& target,
                              const Camera& camera, const ModelState& state, double sigma_px,
                              const TableOptions& options);
+
+/// Measures the edges of a table anew, from other clouds or refinements of the same scenes.
+void build_edges(const std::vector<SceneMeasurements>& scenes, const ModelState& state,
+                 const TableOptions& options, MeasurementTable& table);
+
+/// Gradient of an edge's outward coordinate by the LiDAR's angles (see BoundaryRow).
+Eigen::Vector2d edge_normal(const SceneGeometry& geometry, const BeamPoint& beam, double psi_rad);
 
 }  // namespace lvcalib

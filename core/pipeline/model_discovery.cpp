@@ -27,6 +27,7 @@ DiscoveryInput discovery_input(const CalibrationResult& result) {
   input.target = result.target;
   input.camera = result.camera;
   input.sigma_px = result.extrinsic.sigma_px;
+  input.refinement = result.options.refinement;
   input.state.camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
   for (const SceneResult& scene : result.scenes) {
     const SceneSolution* solution = solution_of(result, scene.name);

@@ -163,7 +163,11 @@ std::map<std::string, double> true_parameters(const std::string& id,
                                                           {"rolling_shutter", "v"}};
   if (const auto name = same.find(id); name != same.end()) return {{name->second, si}};
   if (id == "channel_range_offset") return per_line(rig, id, "line_mm", "a");
-  if (id == "channel_angle_offset") return per_line(rig, id, "line_elevation_mrad", "b");
+  if (id == "channel_angle_offset") {
+    auto out = per_line(rig, id, "line_elevation_mrad", "b");
+    out.merge(per_line(rig, id, "line_azimuth_mrad", "c"));
+    return out;
+  }
   if (id == "beam_divergence") return {{"γ²", si * si + kJitterRad * kJitterRad}};
   if (id == "intensity_geometry") return {{"n", si}};
   if (id == "intrinsics_error") {

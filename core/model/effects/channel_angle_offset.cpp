@@ -11,29 +11,35 @@ class ChannelAngleOffset final : public CatalogueEffect {
   ChannelAngleOffset()
       : CatalogueEffect({.id = "channel_angle_offset",
                          .group = "LiDAR angle",
-                         .title = "Elevation offset of each line",
+                         .title = "Angle offsets of each line",
                          .physics = "Every laser points slightly elsewhere than its table says.",
-                         .formula = "del = b(line), sum zero",
+                         .formula = "del = b(line), daz = c(line), each with sum zero",
                          .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
                          .breaker = "boards that every line crosses",
                          .needs = {.line = true}},
                         {}) {}
 
-  // One parameter per laser line; what all have in common is a turn of the frame, which no data can
-  // tell from the extrinsic.
+  // Two parameters per laser line; what all have in common is a turn of the frame, which no data
+  // can tell from the extrinsic.
   [[nodiscard]] std::vector<EffectParameter> parameters(
       const MeasurementTable& table) const override {
-    return one_per_line(table, {"b", "mrad", 1e-3, 0.3e-3, 0.01});
+    auto out = one_per_line(table, {"b", "mrad", 1e-3, 0.3e-3, 0.01});
+    const auto azimuth = one_per_line(table, {"c", "mrad", 1e-3, 0.3e-3, 0.01});
+    out.insert(out.end(), azimuth.begin(), azimuth.end());
+    return out;
   }
 
   [[nodiscard]] std::vector<std::size_t> zero_sums(const MeasurementTable& table) const override {
-    return {table.lines.size()};
+    return {table.lines.size(), table.lines.size()};
   }
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {
+    const std::size_t lines = by.size() / 2;
     const auto k = line_index(table, beam.line);
-    if (k < by.size()) by[k] = angle_axes(beam).elevation_m;
+    if (k >= lines) return;
+    by[k] = angle_axes(beam).elevation_m;
+    by[lines + k] = angle_axes(beam).azimuth_m;
   }
 };
 

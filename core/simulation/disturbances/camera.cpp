@@ -62,7 +62,7 @@ std::optional<Eigen::Vector3d> CameraDisturbance::unproject(const Eigen::Vector2
   // The displacement varies slowly: each round gains two digits at least.
   Eigen::Vector2d undisplaced = pixel;
   for (int i = 0; i < 5; ++i) undisplaced = pixel - displacement_px(undisplaced);
-  const auto ray = camera_.unproject(undisplaced);
+  auto ray = camera_.unproject(undisplaced);
   if (!ray || shutter_px_ == 0.0) return ray;
   const double turn = shutter_px_ / camera_.fx * pixel.y() / camera_.height_px;
   const double c = std::cos(turn);

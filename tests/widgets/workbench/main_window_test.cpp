@@ -13,7 +13,6 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSignalSpy>
-#include <QTemporaryDir>
 #include <QToolButton>
 #include <QUndoStack>
 #include <QUrl>
@@ -26,70 +25,21 @@
 #include "base/file_io.h"
 #include "docks/parameters_dock.h"
 #include "report/result_file.h"
-#include "runner/demo.h"
 #include "support/pose_matchers.h"
-#include "widgets/support/driver.h"
+#include "widgets/workbench/main_window_fixture.h"
 
 namespace lvcalib {
 namespace {
 
 using test::cell;
 using test::find;
+using test::MainWindowTest;
+using test::small_demo;
 using test::trigger;
 using test::wait_until;
 using widgets::MainWindow;
 using widgets::SceneModel;
 using widgets::Workspace;
-
-simulation::SimulationOptions small_demo() {
-  simulation::SimulationOptions options;
-  options.seed = 3;
-  options.scenes = 3;
-  options.lidar.points = 100'000;
-  options.image.width_px = 800;
-  options.image.height_px = 500;
-  return options;
-}
-
-// A window with settings of its own; all cases share one simulated dataset.
-class MainWindowTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    data_ = new QTemporaryDir;
-    ASSERT_TRUE(widgets::make_demo(dataset().toStdString(), small_demo(), {}).ok());
-  }
-  static void TearDownTestSuite() {
-    delete data_;
-    EXPECT_TRUE(widgets::Runner::wait_for_workers(60'000));
-  }
-  static QString dataset() { return data_->filePath(QStringLiteral("dataset")); }
-
-  void SetUp() override {
-    settings_ = std::make_unique<widgets::AppSettings>(folder_.path());
-    window_ = std::make_unique<MainWindow>(*settings_, answers_);
-    window_->show();
-  }
-  void open() {
-    answers_.dataset = dataset();
-    ASSERT_TRUE(trigger(*window_, "open_dataset"));
-    ASSERT_TRUE(wait_until([&] { return workspace().is_open() && !workspace().busy(); }));
-  }
-  void run() {
-    open();
-    QTest::keyClick(window_.get(), Qt::Key_F5);
-    ASSERT_TRUE(test::wait_for_result(*window_));
-  }
-  Workspace& workspace() { return window_->workspace(); }
-  Eigen::Matrix4d pose() {
-    return workspace().result()->extrinsic.camera_from_lidar.transform.matrix();
-  }
-
-  static inline QTemporaryDir* data_ = nullptr;
-  QTemporaryDir folder_;
-  test::Answers answers_;
-  std::unique_ptr<widgets::AppSettings> settings_;
-  std::unique_ptr<MainWindow> window_;
-};
 
 TEST_F(MainWindowTest, TheDemoIsSimulatedRunAndFoundRight) {
   window_->set_demo(small_demo());
@@ -370,52 +320,6 @@ TEST_F(MainWindowTest, ThemesAndLanguagesSwitchWhileOpen) {
   }
   QTest::qWait(20);
   EXPECT_EQ(find<QAction>(*window_, "run")->text(), "&Run all");
-}
-
-TEST_F(MainWindowTest, TheWindowIsUpWithinASecond) {
-  window_.reset();
-  QElapsedTimer clock;
-  clock.start();
-  window_ = std::make_unique<MainWindow>(*settings_, answers_);
-  window_->show();
-  ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-  QCoreApplication::processEvents();
-  std::cout << "start to a usable window: " << clock.elapsed() << " ms\n";
-  RecordProperty("start_ms", static_cast<int>(clock.elapsed()));
-  EXPECT_LT(clock.elapsed(), 1000);
-}
-
-// Reading, running and cancelling three scenes of half a million points each.
-TEST_F(MainWindowTest, TheWindowNeverFreezes) {
-  auto options = small_demo();
-  options.lidar.points = 500'000;
-  window_->set_demo(options);
-  test::Watchdog watchdog;
-  const auto report = [&](const char* what) {
-    const auto gap = watchdog.take_largest_ms();
-    std::cout << "largest gap while " << what << ": " << gap << " ms\n";
-    RecordProperty(std::string("gap_ms_") + what, static_cast<int>(gap));
-    EXPECT_LT(gap, 1000) << what;
-  };
-  watchdog.take_largest_ms();
-  trigger(*window_, "demo");
-  ASSERT_TRUE(wait_until([&] { return workspace().is_open() && !workspace().busy(); }));
-  QTest::qWait(1500);
-  report("opening");
-  trigger(*window_, "run");
-  QTest::qWait(700);
-  trigger(*window_, "cancel");
-  ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
-  report("cancelling");
-  trigger(*window_, "run");
-  ASSERT_TRUE(test::wait_for_result(*window_));
-  QTest::qWait(500);
-  report("running");
-  for (const char* scene : {"B", "C", "A"}) {
-    test::click_scene(*window_, scene, false);
-    QTest::qWait(700);
-  }
-  report("looking");
 }
 
 }  // namespace
