@@ -990,8 +990,8 @@ were saved. Take them up again?</source>
         <translation>周期性测距误差</translation>
     </message>
     <message>
-        <source>Elevation offset of each line</source>
-        <translation>各线仰角偏移</translation>
+        <source>Angle offsets of each line</source>
+        <translation>各线角度偏移</translation>
     </message>
     <message>
         <source>Elliptic footprint</source>

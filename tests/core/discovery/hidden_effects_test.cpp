@@ -39,11 +39,7 @@ std::vector<std::string> planted_ids(bool footprints) {
   return ids;
 }
 
-// The size that the simulator calls typical; lags so large that an edge moves by less than the
-// footprint is wide, since beyond no edge moves in proportion.
 double size_of(const std::string& id) {
-  constexpr double kLag_us = 3.0;
-  if (id == "encoder_lag" || id == "detector_lag") return kLag_us;
   return simulation::find_disturbance(id)->typical;
 }
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Edges measured again, on simulated scans: their points come from the whole pipeline.
+#include "model/remeasured_edges.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "discovery/model_session.h"
+#include "model/residuals.h"
+#include "pipeline/model_discovery.h"
+#include "support/effect_rigs.h"
+#include "support/hidden_answer.h"
+#include "support/hidden_rig.h"
+
+namespace lvcalib {
+namespace {
+
+// A rig whose lines look a milliradian past where they say, with the model that says so.
+class RemeasuredEdges : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const test::HiddenRig rig(61, {{"channel_angle_offset", 1.0}});
+    ASSERT_TRUE(rig.ok());
+    table_ = table_of(discovery_input(rig.result()), {});
+    truth_.camera_from_lidar = rig.rig().camera_from_lidar;
+    for (const auto& scene : rig.rig().scenes)
+      truth_.camera_from_board.push_back(scene.camera_from_board);
+    const EffectPtr effect = find_effect("channel_angle_offset");
+    const auto parameters = effect->parameters(table_);
+    const auto values = test::true_parameters("channel_angle_offset", rig.rig());
+    lines_ = {effect, 0.0, Eigen::VectorXd(static_cast<Eigen::Index>(parameters.size()))};
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      lines_.values(static_cast<Eigen::Index>(k)) = values.at(parameters[k].name);
+  }
+
+  // RMS distance (m) of the edges from what the model predicts at the truth.
+  static double edge_rms(const MeasurementTable& table) {
+    const auto r = residuals_of(table, truth_, {lines_}, Channel::kBoundary);
+    double sum = 0.0;
+    for (const double value : r.values) sum += value * value;
+    return std::sqrt(sum / static_cast<double>(r.values.size()));
+  }
+
+  static double edge_floor(const ModelStep& step) {
+    return test::summary_of(step.channels, Channel::kBoundary).noise_floor;
+  }
+
+  static inline MeasurementTable table_;
+  static inline ModelState truth_;
+  static inline EffectInUse lines_;
+  RunContext context_;
+};
+
+TEST_F(RemeasuredEdges, AreSharperAndWhereTheModelHasThem) {
+  const auto again = remeasure_edges(table_, truth_, {lines_}, context_);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_GT(again->boundary.size(), table_.boundary.size() * 8 / 10);
+  EXPECT_LT(edge_rms(*again), 0.75 * edge_rms(table_));
+  double before = 0.0;
+  double after = 0.0;
+  for (const BoundaryRow& row : table_.boundary) before += row.sigma_m;
+  for (const BoundaryRow& row : again->boundary) after += row.sigma_m;
+  EXPECT_LT(after / static_cast<double>(again->boundary.size()),
+            0.75 * before / static_cast<double>(table_.boundary.size()));
+}
+
+TEST_F(RemeasuredEdges, LeaveAllElseAsItWas) {
+  const auto again = remeasure_edges(table_, truth_, {lines_}, context_);
+  ASSERT_TRUE(again.has_value());
+  ASSERT_EQ(again->range.size(), table_.range.size());
+  for (std::size_t k = 0; k < table_.range.size(); ++k)
+    ASSERT_EQ(again->range[k].measured_m, table_.range[k].measured_m);
+  EXPECT_EQ(again->corner.size(), table_.corner.size());
+  EXPECT_EQ(again->edge_source, table_.edge_source);
+}
+
+// With values of no size the edges are the same edges, but for bins that other points fall into.
+TEST_F(RemeasuredEdges, NothingTakenOutChangesNothing) {
+  EffectInUse none = lines_;
+  none.values.setZero();
+  EXPECT_FALSE(remeasure_edges(table_, truth_, {none}, context_).has_value());
+  const auto again = remeasure_edges(table_, truth_, {none}, context_, 0.0);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_NEAR(edge_rms(*again) / edge_rms(table_), 1.0, 0.1);
+}
+
+TEST_F(RemeasuredEdges, NeedEffectsThatPartPoints) {
+  const EffectInUse scale{find_effect("angle_scale"), 0.0, Eigen::VectorXd::Constant(2, 0.01)};
+  EXPECT_FALSE(remeasure_edges(table_, truth_, {scale}, context_).has_value());
+  EXPECT_FALSE(remeasure_edges(table_, truth_, {}, context_).has_value());
+}
+
+TEST_F(RemeasuredEdges, NeedWhatTheyWereMeasuredWith) {
+  MeasurementTable bare = table_;
+  bare.edge_source = nullptr;
+  EXPECT_FALSE(remeasure_edges(bare, truth_, {lines_}, context_).has_value());
+  std::stop_source stop;
+  stop.request_stop();
+  context_.stop = stop.get_token();
+  EXPECT_FALSE(remeasure_edges(table_, truth_, {lines_}, context_).has_value());
+}
+
+TEST_F(RemeasuredEdges, ComeAndGoWithTheEffectInAModelMadeByHand) {
+  const auto start = start_model(table_, truth_, {}, context_);
+  ASSERT_TRUE(start.ok()) << start.error().text();
+  EXPECT_EQ((*start)->remeasured, nullptr);
+  const auto with = add_effect(*start, "channel_angle_offset", std::nullopt, context_);
+  ASSERT_TRUE(with.ok()) << with.error().text();
+  ASSERT_NE((*with)->remeasured, nullptr);
+  EXPECT_EQ(&(*with)->table(), (*with)->remeasured.get());
+  EXPECT_LT(edge_floor(**with), 0.75 * edge_floor(**start));
+  const auto without = remove_effect(*with, 0, context_);
+  ASSERT_TRUE(without.ok()) << without.error().text();
+  EXPECT_EQ((*without)->remeasured, nullptr);
+  EXPECT_NEAR(edge_floor(**without), edge_floor(**start), 1e-9);
+}
+
+}  // namespace
+}  // namespace lvcalib
