@@ -145,14 +145,13 @@ void EffectSearch::refit() {
 }
 
 void EffectSearch::remeasure() {
-  constexpr int kRounds = 2;  // What is taken out is better known from the edges without it.
+  constexpr int kRounds = 2;  // What is taken out is better known from what is left without it.
   for (int round = 0; round < kRounds; ++round) {
-    auto again = remeasure_edges(*base_, state_, in_use_, context_);
+    auto again = lvcalib::remeasured(*base_, state_, in_use_, context_);
     if (context_.stopped() || (!again && table_ == base_)) return;
-    remeasured_ = again ? std::make_shared<const MeasurementTable>(std::move(*again)) : nullptr;
+    remeasured_ = std::move(again);
     table_ = remeasured_ ? remeasured_.get() : base_;
     refit();
-    if (!remeasured_) return;
   }
 }
 

@@ -47,10 +47,10 @@ class EffectSearch {
   }
   /// Gauss–Newton on extrinsic, poses and effects until the extrinsic stands still.
   void refit();
-  /// Measures the edges again without what effects in use do to single points (remeasure_edges())
-  /// and refits: to be called when effects have come or gone.
+  /// Makes the table again for the model as it is (see lvcalib::remeasured()) and refits: to be
+  /// called when effects have come or gone.
   void remeasure();
-  /// The table that remeasure() made; null if it had nothing to do.
+  /// The table that remeasure() made; null if there was nothing to do.
   [[nodiscard]] std::shared_ptr<const MeasurementTable> remeasured() const { return remeasured_; }
   /// Linearises with all candidates that are testable and not in use, and evaluates each.
   void rank();

@@ -43,7 +43,8 @@ struct ModelStep {
   std::vector<EffectInUse> nuisance;  ///< Nature's share that is no effect to find.
   std::vector<ChannelSummary> channels;
   std::vector<StructureScore> structure;  ///< Every covariate's, best first.
-  /// The measurements with edges measured again for this model; null where that changes nothing.
+  /// The measurements made again for this model (see lvcalib::remeasured()); null where that
+  /// changes nothing.
   std::shared_ptr<const MeasurementTable> remeasured;
 
   [[nodiscard]] const MeasurementTable& table() const {

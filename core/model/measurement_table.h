@@ -112,7 +112,13 @@ struct TableScene {
   double clock = 0.0;         ///< 0…1 over the scenes in their order.
 };
 
-struct EdgeSource;
+/// State that the measurements are predicted from: extrinsic and a board pose per scene.
+struct ModelState {
+  Rigid3 camera_from_lidar;
+  std::vector<Rigid3> camera_from_board;
+};
+
+struct TableSource;
 
 /// All measurements that a finished calibration keeps, thinned evenly over the boards, with every
 /// covariate. Rows are grouped by scene.
@@ -134,16 +140,12 @@ struct MeasurementTable {
   }
   /// ln(white/black): what darkness 1 stands for.
   double log_contrast = 0.0;
-  /// What the edges were measured with (see remeasure_edges()); null if they cannot be again.
-  std::shared_ptr<const EdgeSource> edge_source;
+  /// The state by which points were told to lie on which print.
+  ModelState placed_by;
+  /// What the table was made of, to make it again (see remeasured()); null if that is gone.
+  std::shared_ptr<const TableSource> source;
 
   [[nodiscard]] std::size_t size(Channel channel) const;
-};
-
-/// State that the measurements are predicted from: extrinsic and a board pose per scene.
-struct ModelState {
-  Rigid3 camera_from_lidar;
-  std::vector<Rigid3> camera_from_board;
 };
 
 }  // namespace lvcalib

@@ -78,7 +78,7 @@ class Remeasurement {
  public:
   Remeasurement(const MeasurementTable& table, const ModelState& state,
                 const std::vector<EffectInUse>& effects, const RunContext& context)
-      : source_(*table.edge_source),
+      : source_(*table.source),
         state_(state),
         effects_(effects),
         context_(context),
@@ -145,7 +145,7 @@ class Remeasurement {
     (void)geometry.describe(point.normalized(), row.beam);
   }
 
-  const EdgeSource& source_;
+  const TableSource& source_;
   const ModelState& state_;
   const std::vector<EffectInUse>& effects_;
   const RunContext& context_;
@@ -155,14 +155,47 @@ class Remeasurement {
   std::vector<double> parted_m_;  // RMS shift of the points about circles
 };
 
+// Whether a board's corner has moved, in the board's plane, by a quarter of a footprint against the
+// rays that met it: points then lie on other print than they were taken to.
+bool is_displaced(const MeasurementTable& table, const ModelState& state) {
+  constexpr double kShare = 0.25;
+  const BoardOutline outline = table.target.outline();
+  for (std::size_t s = 0; s < table.scenes.size(); ++s) {
+    const SceneGeometry before(table.placed_by.camera_from_lidar,
+                               table.placed_by.camera_from_board[s]);
+    const SceneGeometry now(state.camera_from_lidar, state.camera_from_board[s]);
+    for (const Eigen::Vector2d& corner : {outline.lower_left_m, outline.upper_right_m}) {
+      const Eigen::Vector3d at(corner.x(), corner.y(), 0.0);
+      const Eigen::Vector3d p = before.lidar_from_board() * at;
+      const Eigen::Vector3d moved = now.lidar_from_board() * at - p;
+      const Eigen::Vector3d within = moved - now.normal() * now.normal().dot(moved);
+      if (within.norm() > kShare * table.source->options.footprint_rad * p.norm()) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
+
+std::shared_ptr<const MeasurementTable> remeasured(const MeasurementTable& table,
+                                                   const ModelState& state,
+                                                   const std::vector<EffectInUse>& in_use,
+                                                   const RunContext& context) {
+  if (!table.source) return nullptr;
+  std::shared_ptr<const MeasurementTable> out;
+  if (is_displaced(table, state))
+    out = std::make_shared<const MeasurementTable>(rebuild_table(table, state));
+  if (auto edges = remeasure_edges(out ? *out : table, state, in_use, context))
+    out = std::make_shared<const MeasurementTable>(std::move(*edges));
+  return context.stopped() ? nullptr : out;
+}
 
 std::optional<MeasurementTable> remeasure_edges(const MeasurementTable& table,
                                                 const ModelState& state,
                                                 const std::vector<EffectInUse>& in_use,
                                                 const RunContext& context, double least_m) {
   const std::vector<EffectInUse> effects = parting(in_use);
-  if (effects.empty() || !table.edge_source || table.boundary.empty()) return std::nullopt;
+  if (effects.empty() || !table.source || table.boundary.empty()) return std::nullopt;
   return Remeasurement(table, state, effects, context).run(least_m);
 }
 

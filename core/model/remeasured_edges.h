@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,13 +10,6 @@
 #include "model/table_builder.h"
 
 namespace lvcalib {
-
-/// What the edges of a table were measured with: enough to measure them again.
-struct EdgeSource {
-  std::vector<Cloud> board_points;           ///< Per scene.
-  std::vector<BoardRefinement> refinements;  ///< Per scene, the last iteration alone.
-  TableOptions options;
-};
 
 /// The table with its edges measured again, after what single lines, the scan or time do to the
 /// points about the circles has been taken out of these.
@@ -33,5 +27,13 @@ std::optional<MeasurementTable> remeasure_edges(const MeasurementTable& table,
                                                 const ModelState& state,
                                                 const std::vector<EffectInUse>& in_use,
                                                 const RunContext& context, double least_m = 5e-5);
+
+/// The table made again for a model: with its points placed on the board by `state`, if that has
+/// moved them by a quarter of a footprint, and with its edges measured again for the effects in
+/// use. Null if neither changes anything, or when stopped.
+std::shared_ptr<const MeasurementTable> remeasured(const MeasurementTable& table,
+                                                   const ModelState& state,
+                                                   const std::vector<EffectInUse>& in_use,
+                                                   const RunContext& context);
 
 }  // namespace lvcalib

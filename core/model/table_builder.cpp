@@ -11,7 +11,6 @@
 #include "model/board_hits.h"
 #include "model/edge_view.h"
 #include "model/noise_floor.h"
-#include "model/remeasured_edges.h"
 #include "model/scene_geometry.h"
 #include "model/transition_width.h"
 
@@ -197,12 +196,13 @@ class SceneBuilder {
   std::array<double, kPrints> levels_;
 };
 
-// A copy: calibrations may be gone by the time edges are measured again.
-std::shared_ptr<const EdgeSource> edge_source(const std::vector<SceneMeasurements>& scenes,
-                                              const TableOptions& options) {
-  auto out = std::make_shared<EdgeSource>();
+std::shared_ptr<const TableSource> source_of(const std::vector<SceneMeasurements>& scenes,
+                                             double sigma_px, const TableOptions& options) {
+  auto out = std::make_shared<TableSource>();
+  out->sigma_px = sigma_px;
   out->options = options;
   for (const SceneMeasurements& scene : scenes) {
+    out->corners.push_back(scene.corners);
     out->board_points.push_back(*scene.board_points);
     out->refinements.push_back(*scene.refinement);
     auto& history = out->refinements.back().history;
@@ -230,11 +230,9 @@ void list_lines(MeasurementTable& table) {
   table.lines.erase(std::unique(table.lines.begin(), table.lines.end()), table.lines.end());
 }
 
-}  // namespace
-
-MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const Target& target,
-                             const Camera& camera, const ModelState& state, double sigma_px,
-                             const TableOptions& options) {
+MeasurementTable collect(const std::vector<SceneMeasurements>& scenes, const Target& target,
+                         const Camera& camera, const ModelState& state, double sigma_px,
+                         const TableOptions& options) {
   MeasurementTable table;
   table.target = target;
   table.camera = camera;
@@ -271,9 +269,31 @@ MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const
   const double noise_px = corner_noise(table, state, sigma_px);
   for (CornerRow& row : table.corner) row.sigma_px = noise_px;
   if (has_line) list_lines(table);
-  const bool parted = table.has_time || has_line;
-  if (parted && !table.boundary.empty()) table.edge_source = edge_source(scenes, options);
+  table.placed_by = state;
   return table;
+}
+
+}  // namespace
+
+MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const Target& target,
+                             const Camera& camera, const ModelState& state, double sigma_px,
+                             const TableOptions& options) {
+  MeasurementTable table = collect(scenes, target, camera, state, sigma_px, options);
+  table.source = source_of(scenes, sigma_px, options);
+  return table;
+}
+
+MeasurementTable rebuild_table(const MeasurementTable& table, const ModelState& state) {
+  const TableSource& source = *table.source;
+  std::vector<SceneMeasurements> scenes;
+  for (std::size_t s = 0; s < table.scenes.size(); ++s) {
+    scenes.push_back(
+        {table.scenes[s].name, source.corners[s], &source.refinements[s], &source.board_points[s]});
+  }
+  MeasurementTable out =
+      collect(scenes, table.target, table.camera, state, source.sigma_px, source.options);
+  out.source = table.source;
+  return out;
 }
 
 void build_edges(const std::vector<SceneMeasurements>& scenes, const ModelState& state,

@@ -33,6 +33,18 @@ MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const
                              const Camera& camera, const ModelState& state, double sigma_px,
                              const TableOptions& options);
 
+/// What a table was made of. A copy: a calibration may be gone by the time it is made again.
+struct TableSource {
+  std::vector<std::vector<CornerObservation>> corners;  ///< Per scene.
+  std::vector<Cloud> board_points;                      ///< Per scene.
+  std::vector<BoardRefinement> refinements;             ///< Per scene, the last iteration alone.
+  double sigma_px = 0.0;
+  TableOptions options;
+};
+
+/// The same table with its points placed on the board by another state. The table needs its source.
+MeasurementTable rebuild_table(const MeasurementTable& table, const ModelState& state);
+
 /// Measures the edges of a table anew, from other clouds or refinements of the same scenes.
 void build_edges(const std::vector<SceneMeasurements>& scenes, const ModelState& state,
                  const TableOptions& options, MeasurementTable& table);

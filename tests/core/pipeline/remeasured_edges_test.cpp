@@ -72,7 +72,7 @@ TEST_F(RemeasuredEdges, LeaveAllElseAsItWas) {
   for (std::size_t k = 0; k < table_.range.size(); ++k)
     ASSERT_EQ(again->range[k].measured_m, table_.range[k].measured_m);
   EXPECT_EQ(again->corner.size(), table_.corner.size());
-  EXPECT_EQ(again->edge_source, table_.edge_source);
+  EXPECT_EQ(again->source, table_.source);
 }
 
 // With values of no size the edges are the same edges, but for bins that other points fall into.
@@ -93,7 +93,7 @@ TEST_F(RemeasuredEdges, NeedEffectsThatPartPoints) {
 
 TEST_F(RemeasuredEdges, NeedWhatTheyWereMeasuredWith) {
   MeasurementTable bare = table_;
-  bare.edge_source = nullptr;
+  bare.source = nullptr;
   EXPECT_FALSE(remeasure_edges(bare, truth_, {lines_}, context_).has_value());
   std::stop_source stop;
   stop.request_stop();
