@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Edges measured again, on simulated scans: their points come from the whole pipeline.
+// Tables made again for a model, on simulated scans: points come from the whole pipeline.
 #include "model/remeasured_edges.h"
 
 #include <cmath>
@@ -99,6 +99,28 @@ TEST_F(RemeasuredEdges, NeedWhatTheyWereMeasuredWith) {
   stop.request_stop();
   context_.stop = stop.get_token();
   EXPECT_FALSE(remeasure_edges(table_, truth_, {lines_}, context_).has_value());
+}
+
+// The share of points whose intensity is that of the other print.
+double misplaced(const MeasurementTable& table) {
+  const double middle =
+      0.5 * (std::log(table.level_of(Print::kWhite)) + std::log(table.level_of(Print::kBlack)));
+  double wrong = 0.0;
+  for (const IntensityRow& row : table.intensity)
+    wrong += (row.print == Print::kWhite) == (row.log_intensity < middle) ? 1.0 : 0.0;
+  return wrong / static_cast<double>(table.intensity.size());
+}
+
+TEST_F(RemeasuredEdges, PointsArePlacedByTheStateOfTheModel) {
+  ModelState off = truth_;
+  off.camera_from_lidar.translation += Eigen::Vector3d(0.015, 0.015, 0.0);
+  const MeasurementTable wrong = rebuild_table(table_, off);
+  EXPECT_GT(misplaced(wrong), 0.02);
+  const auto again = remeasured(wrong, truth_, {}, context_);
+  ASSERT_NE(again, nullptr);
+  EXPECT_LT(misplaced(*again), 0.005);
+  EXPECT_EQ(again->source, table_.source);
+  EXPECT_EQ(remeasured(*again, truth_, {}, context_), nullptr);
 }
 
 TEST_F(RemeasuredEdges, ComeAndGoWithTheEffectInAModelMadeByHand) {
