@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "discovery/print_contrast.h"
 #include "model/natural_footprint.h"
-#include "model/remeasured_edges.h"
+#include "model/remeasurement.h"
 #include "model/residuals.h"
 
 namespace lvcalib {
@@ -219,20 +219,16 @@ void EffectSearch::rank() {
   if (natural()) bare_ = without_natural();
   const std::size_t first = own_count();
   candidates_.resize(columns.list().size() - first);
-  const auto evaluate = [&](std::size_t k, const MixedModelOptions& how) {
-    if (!context_.stopped())
-      candidates_[k] = evaluate_candidate(linear_, compared_with(first + k), first + k, how);
+  const auto evaluate = [&](std::size_t k, std::size_t columns_at, const MixedModelOptions& how) {
+    if (context_.stopped()) return;
+    candidates_[k] = evaluate_candidate(linear_, compared_with(columns_at), columns_at, how);
   };
   parallel_for(candidates_.size(), context_.thread_count(),
-               [&](std::size_t k) { evaluate(k, {.rounds = 3}); });
+               [&](std::size_t k) { evaluate(k, first + k, {.rounds = 3}); });
   if (context_.stopped()) return;
   sort_best_first(candidates_);
   parallel_for(std::min(kFinalists, candidates_.size()), context_.thread_count(),
-               [&](std::size_t k) {
-                 if (context_.stopped()) return;
-                 const std::size_t at = candidates_[k].columns;
-                 candidates_[k] = evaluate_candidate(linear_, compared_with(at), at, {});
-               });
+               [&](std::size_t k) { evaluate(k, candidates_[k].columns, {}); });
   sort_best_first(candidates_);
   for (Candidate& c : candidates_) {
     if (refused_.contains(linear_.columns.list()[c.columns].effect->info().id))

@@ -55,10 +55,6 @@ const CalibrationResult& calibrated(std::int64_t points) {
   return *entry;
 }
 
-MeasurementTable table_of(const DiscoveryInput& input) {
-  return build_table(input.scenes, input.target, input.camera, input.state, input.sigma_px, {});
-}
-
 void count_rows(benchmark::State& state, const MeasurementTable& table) {
   std::size_t rows = 0;
   for (const Channel channel : kAllChannels) rows += table.size(channel);
@@ -68,23 +64,23 @@ void count_rows(benchmark::State& state, const MeasurementTable& table) {
 void residual_table(benchmark::State& state) {
   const DiscoveryInput input = discovery_input(calibrated(state.range(0)));
   for (auto _ : state) {
-    const MeasurementTable table = table_of(input);
+    const MeasurementTable table = table_of(input, {});
     benchmark::DoNotOptimize(table.range.data());
   }
-  count_rows(state, table_of(input));
+  count_rows(state, table_of(input, {}));
   state.SetItemsProcessed(state.iterations() * 6 * state.range(0));
 }
 
 void structure_scan(benchmark::State& state) {
   const DiscoveryInput input = discovery_input(calibrated(state.range(0)));
-  const MeasurementTable table = table_of(input);
+  const MeasurementTable table = table_of(input, {});
   for (auto _ : state) benchmark::DoNotOptimize(scan_structure(table, input.state, {}, {}).size());
   count_rows(state, table);
 }
 
 void ranking(benchmark::State& state) {
   const DiscoveryInput input = discovery_input(calibrated(state.range(0)));
-  const MeasurementTable table = table_of(input);
+  const MeasurementTable table = table_of(input, {});
   const DiscoveryOptions options;
   const RunContext context;
   EffectSearch search(table, input.state, options, context);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables made again for a model, on simulated scans: points come from the whole pipeline.
-#include "model/remeasured_edges.h"
+#include "model/remeasurement.h"
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ namespace lvcalib {
 namespace {
 
 // A rig whose lines look a milliradian past where they say, with the model that says so.
-class RemeasuredEdges : public ::testing::Test {
+class Remeasurement : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     const test::HiddenRig rig(61, {{"channel_angle_offset", 1.0}});
@@ -52,7 +52,7 @@ class RemeasuredEdges : public ::testing::Test {
   RunContext context_;
 };
 
-TEST_F(RemeasuredEdges, AreSharperAndWhereTheModelHasThem) {
+TEST_F(Remeasurement, AreSharperAndWhereTheModelHasThem) {
   const auto again = remeasure_edges(table_, truth_, {lines_}, context_);
   ASSERT_TRUE(again.has_value());
   EXPECT_GT(again->boundary.size(), table_.boundary.size() * 8 / 10);
@@ -65,7 +65,7 @@ TEST_F(RemeasuredEdges, AreSharperAndWhereTheModelHasThem) {
             0.75 * before / static_cast<double>(table_.boundary.size()));
 }
 
-TEST_F(RemeasuredEdges, LeaveAllElseAsItWas) {
+TEST_F(Remeasurement, LeaveAllElseAsItWas) {
   const auto again = remeasure_edges(table_, truth_, {lines_}, context_);
   ASSERT_TRUE(again.has_value());
   ASSERT_EQ(again->range.size(), table_.range.size());
@@ -76,7 +76,7 @@ TEST_F(RemeasuredEdges, LeaveAllElseAsItWas) {
 }
 
 // With values of no size the edges are the same edges, but for bins that other points fall into.
-TEST_F(RemeasuredEdges, NothingTakenOutChangesNothing) {
+TEST_F(Remeasurement, NothingTakenOutChangesNothing) {
   EffectInUse none = lines_;
   none.values.setZero();
   EXPECT_FALSE(remeasure_edges(table_, truth_, {none}, context_).has_value());
@@ -85,13 +85,13 @@ TEST_F(RemeasuredEdges, NothingTakenOutChangesNothing) {
   EXPECT_NEAR(edge_rms(*again) / edge_rms(table_), 1.0, 0.1);
 }
 
-TEST_F(RemeasuredEdges, NeedEffectsThatPartPoints) {
+TEST_F(Remeasurement, NeedEffectsThatPartPoints) {
   const EffectInUse scale{find_effect("angle_scale"), 0.0, Eigen::VectorXd::Constant(2, 0.01)};
   EXPECT_FALSE(remeasure_edges(table_, truth_, {scale}, context_).has_value());
   EXPECT_FALSE(remeasure_edges(table_, truth_, {}, context_).has_value());
 }
 
-TEST_F(RemeasuredEdges, NeedWhatTheyWereMeasuredWith) {
+TEST_F(Remeasurement, NeedWhatTheyWereMeasuredWith) {
   MeasurementTable bare = table_;
   bare.source = nullptr;
   EXPECT_FALSE(remeasure_edges(bare, truth_, {lines_}, context_).has_value());
@@ -111,7 +111,7 @@ double misplaced(const MeasurementTable& table) {
   return wrong / static_cast<double>(table.intensity.size());
 }
 
-TEST_F(RemeasuredEdges, PointsArePlacedByTheStateOfTheModel) {
+TEST_F(Remeasurement, PointsArePlacedByTheStateOfTheModel) {
   ModelState off = truth_;
   off.camera_from_lidar.translation += Eigen::Vector3d(0.015, 0.015, 0.0);
   const MeasurementTable wrong = rebuild_table(table_, off);
@@ -123,7 +123,7 @@ TEST_F(RemeasuredEdges, PointsArePlacedByTheStateOfTheModel) {
   EXPECT_EQ(remeasured(*again, truth_, {}, context_), nullptr);
 }
 
-TEST_F(RemeasuredEdges, ComeAndGoWithTheEffectInAModelMadeByHand) {
+TEST_F(Remeasurement, ComeAndGoWithTheEffectInAModelMadeByHand) {
   const auto start = start_model(table_, truth_, {}, context_);
   ASSERT_TRUE(start.ok()) << start.error().text();
   EXPECT_EQ((*start)->remeasured, nullptr);

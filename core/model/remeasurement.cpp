@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/remeasured_edges.h"
+#include "model/remeasurement.h"
 
 #include <algorithm>
 #include <cmath>
