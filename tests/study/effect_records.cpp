@@ -105,7 +105,9 @@ void judge_channel(const json& record, EffectRecord& out) {
   const double floor = before.at("floor");
   out.had_unexplained = unexplained > 0.5 * floor;
   if (unexplained > 0.0) out.removed = 1.0 - after.at("unexplained").get<double>() / unexplained;
-  out.heldout_over_floor = after.at("heldout").get<double>() / std::max(1e-12, floor);
+  // Edges measured again have a floor of their own.
+  out.heldout_over_floor =
+      after.at("heldout").get<double>() / std::max(1e-12, after.at("floor").get<double>());
 }
 
 std::string median_text(const std::vector<double>& values, const char* format) {
