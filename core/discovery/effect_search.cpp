@@ -152,6 +152,7 @@ void EffectSearch::remeasure() {
     remeasured_ = std::move(again);
     table_ = remeasured_ ? remeasured_.get() : base_;
     refit();
+    if (!is_outdated(*table_, state_, in_use_)) return;
   }
 }
 

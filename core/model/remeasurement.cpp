@@ -190,6 +190,11 @@ std::shared_ptr<const MeasurementTable> remeasured(const MeasurementTable& table
   return context.stopped() ? nullptr : out;
 }
 
+bool is_outdated(const MeasurementTable& table, const ModelState& state,
+                 const std::vector<EffectInUse>& in_use) {
+  return table.source && (is_displaced(table, state) || !parting(in_use).empty());
+}
+
 std::optional<MeasurementTable> remeasure_edges(const MeasurementTable& table,
                                                 const ModelState& state,
                                                 const std::vector<EffectInUse>& in_use,

@@ -36,4 +36,10 @@ std::shared_ptr<const MeasurementTable> remeasured(const MeasurementTable& table
                                                    const std::vector<EffectInUse>& in_use,
                                                    const RunContext& context);
 
+/// Whether a table with a source would be made otherwise for this model: points have moved by a
+/// quarter of a footprint since it was made, or effects in use move the points of an edge apart,
+/// and their values with them.
+bool is_outdated(const MeasurementTable& table, const ModelState& state,
+                 const std::vector<EffectInUse>& in_use);
+
 }  // namespace lvcalib

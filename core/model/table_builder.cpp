@@ -6,7 +6,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
+#include "base/parallel.h"
+#include "base/progress.h"
 #include "base/statistics.h"
 #include "model/board_hits.h"
 #include "model/edge_view.h"
@@ -246,16 +249,18 @@ MeasurementTable collect(const std::vector<SceneMeasurements>& scenes, const Tar
     table.has_intensity = table.has_intensity && tells_intensity(*scenes[s].board_points);
     has_line = has_line && scenes[s].board_points->has_line();
   }
-  std::vector<SceneBuilder> builders;
-  builders.reserve(scenes.size());
+  // Placing the points takes most of the time; rows are then added scene by scene.
+  std::vector<std::optional<SceneBuilder>> builders(scenes.size());
+  parallel_for(scenes.size(), RunContext().thread_count(), [&](std::size_t s) {
+    builders[s].emplace(scenes[s], static_cast<int>(s), state, options, table);
+  });
   std::array<std::vector<double>, kPrints> levels;
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    builders.emplace_back(scenes[s], static_cast<int>(s), state, options, table);
-    builders.back().add_corners(sigma_px);
-    builders.back().add_points();
-    builders.back().add_boundary();
+  for (auto& builder : builders) {
+    builder->add_corners(sigma_px);
+    builder->add_points();
+    builder->add_boundary();
     for (std::size_t k = 0; k < kPrints; ++k) {
-      if (builders.back().levels()[k] > 0.0) levels[k].push_back(builders.back().levels()[k]);
+      if (builder->levels()[k] > 0.0) levels[k].push_back(builder->levels()[k]);
     }
   }
   for (std::size_t k = 0; k < kPrints; ++k) {
@@ -265,7 +270,7 @@ MeasurementTable collect(const std::vector<SceneMeasurements>& scenes, const Tar
   if (!levels[0].empty() && !levels[black].empty())
     table.log_contrast = std::log(table.level[0] / table.level[black]);
   if (!table.has_intensity) forget_intensity(table);
-  for (SceneBuilder& builder : builders) builder.set_darkness();
+  for (auto& builder : builders) builder->set_darkness();
   const double noise_px = corner_noise(table, state, sigma_px);
   for (CornerRow& row : table.corner) row.sigma_px = noise_px;
   if (has_line) list_lines(table);
