@@ -121,6 +121,9 @@ TEST_F(Remeasurement, PointsArePlacedByTheStateOfTheModel) {
   EXPECT_LT(misplaced(*again), 0.005);
   EXPECT_EQ(again->source, table_.source);
   EXPECT_EQ(remeasured(*again, truth_, {}, context_), nullptr);
+  EXPECT_TRUE(is_outdated(wrong, truth_, {}));
+  EXPECT_FALSE(is_outdated(*again, truth_, {}));
+  EXPECT_TRUE(is_outdated(*again, truth_, {lines_}));  // Its values may still move.
 }
 
 TEST_F(Remeasurement, ComeAndGoWithTheEffectInAModelMadeByHand) {
