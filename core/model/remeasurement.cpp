@@ -33,7 +33,7 @@ class Shift {
         rotation_(geometry.lidar_from_board().rotation.toRotationMatrix()) {}
 
   [[nodiscard]] Eigen::Vector3d outward(const BoundaryRow& row) const {
-    return rotation_ * Eigen::Vector3d(std::cos(row.psi_rad), std::sin(row.psi_rad), 0.0);
+    return outward_of(row, row.beam.board_m, rotation_);
   }
 
   double of(const BoundaryRow& row) {
@@ -82,7 +82,7 @@ class Remeasurement {
         state_(state),
         effects_(effects),
         context_(context),
-        out_(table),
+        table_(table),
         clouds_(source_.board_points),
         refined_(source_.refinements.size()),
         parted_m_(source_.refinements.size(), 0.0) {}
@@ -96,10 +96,11 @@ class Remeasurement {
     if (!all || context_.stopped()) return std::nullopt;
     std::vector<SceneMeasurements> scenes;
     for (std::size_t s = 0; s < clouds_.size(); ++s)
-      scenes.push_back({out_.scenes[s].name, {}, &*refined_[s], &clouds_[s]});
-    build_edges(scenes, state_, source_.options, out_);
-    for (BoundaryRow& row : out_.boundary) give_back(row);
-    return std::move(out_);
+      scenes.push_back({table_.scenes[s].name, {}, &*refined_[s], &clouds_[s]});
+    MeasurementTable out = table_;
+    build_edges(scenes, state_, source_.options, out);
+    give_back(out);
+    return out;
   }
 
  private:
@@ -111,14 +112,14 @@ class Remeasurement {
     if (context_.stopped()) return;
     const SceneGeometry geometry = geometry_of(s);
     const SceneMeasurements measured{
-        out_.scenes[s].name, {}, &source_.refinements[s], &source_.board_points[s]};
-    const BoardHits hits(measured, static_cast<int>(s), geometry, out_.target, source_.options);
-    const std::vector<TargetNode> nodes = out_.target.nodes();
-    Shift shift(out_, effects_, geometry);
+        table_.scenes[s].name, {}, &source_.refinements[s], &source_.board_points[s]};
+    const BoardHits hits(measured, static_cast<int>(s), geometry, table_.target, source_.options);
+    const std::vector<TargetNode> nodes = table_.target.nodes();
+    Shift shift(table_, effects_, geometry);
     double squares = 0.0;
     double count = 0.0;
     for (const BoardHit& hit : hits.list()) {
-      const auto row = row_of(hit, nodes, out_.target.circle_radius_m, geometry);
+      const auto row = row_of(hit, nodes, table_.target.circle_radius_m, geometry);
       if (!row) continue;
       const double moved = shift.of(*row);
       clouds_[s].points_m[hit.point] -= (moved * shift.outward(*row)).cast<float>();
@@ -132,24 +133,29 @@ class Remeasurement {
     RunContext quiet;
     quiet.stop = context_.stop;
     quiet.threads = 1;
-    auto refined = refine_board(clouds_[s], out_.target, geometry_of(s).lidar_from_board(),
+    auto refined = refine_board(clouds_[s], table_.target, geometry_of(s).lidar_from_board(),
                                 source_.options.refinement, quiet);
     if (refined) refined_[s] = std::move(*refined);
   }
 
-  void give_back(BoundaryRow& row) const {
-    const SceneGeometry geometry = geometry_of(static_cast<std::size_t>(row.beam.scene));
-    Shift shift(out_, effects_, geometry);
-    const Eigen::Vector3d point =
-        row.beam.range_m * row.beam.direction + shift.of(row) * shift.outward(row);
-    (void)geometry.describe(point.normalized(), row.beam);
+  void give_back(MeasurementTable& out) const {
+    for (std::size_t s = 0; s < clouds_.size(); ++s) {
+      const SceneGeometry geometry = geometry_of(s);
+      Shift shift(out, effects_, geometry);
+      for (BoundaryRow& row : out.boundary) {
+        if (row.beam.scene != static_cast<int>(s)) continue;
+        const Eigen::Vector3d point =
+            row.beam.range_m * row.beam.direction + shift.of(row) * shift.outward(row);
+        (void)geometry.describe(point.normalized(), row.beam);
+      }
+    }
   }
 
   const TableSource& source_;
   const ModelState& state_;
   const std::vector<EffectInUse>& effects_;
   const RunContext& context_;
-  MeasurementTable out_;
+  const MeasurementTable& table_;
   std::vector<Cloud> clouds_;
   std::vector<std::optional<BoardRefinement>> refined_;
   std::vector<double> parted_m_;  // RMS shift of the points about circles

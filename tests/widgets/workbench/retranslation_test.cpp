@@ -16,8 +16,8 @@
 #include "style/texts.h"
 #include "views/color_bar.h"
 #include "widgets/modelling/model_example.h"
-#include "widgets/support/driver.h"
 #include "widgets/support/visible_texts.h"
+#include "widgets/workbench/main_window_fixture.h"
 #include "workbench/language.h"
 
 namespace lvcalib {
@@ -67,14 +67,8 @@ void choose_language(const QMainWindow& window, const QString& code) {
 class RetranslationTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    simulation::SimulationOptions options;
-    options.seed = 3;
-    options.scenes = 3;
-    options.lidar.points = 100'000;
-    options.image.width_px = 800;
-    options.image.height_px = 500;
     const QString dataset = folder_.filePath(QStringLiteral("dataset"));
-    ASSERT_TRUE(widgets::make_demo(dataset.toStdString(), options, {}).ok());
+    ASSERT_TRUE(widgets::make_demo(dataset.toStdString(), test::small_demo(), {}).ok());
     settings_ = std::make_unique<widgets::AppSettings>(folder_.filePath("settings"));
     window_ = std::make_unique<widgets::MainWindow>(*settings_, answers_);
     window_->show();
