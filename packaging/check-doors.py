@@ -29,6 +29,7 @@ DOORS = {
     "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
                  "extrinsic"],
     "model": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic"],
+    "solve": ["base", "target", "camera", "cloud", "detection", "model"],
     "discovery": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic",
                   "model"],
     "simulation": ["base", "target", "camera", "cloud"],

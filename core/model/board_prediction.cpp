@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/board_prediction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace lvcalib {
+namespace {
+
+// Beyond 80° the spot is six times as long as wide and ranges say nothing.
+constexpr double kSmallestCosine = 0.17;
+// Black print still returns some light; keeps ln P finite where levels are not known yet.
+constexpr double kSmallestPowerShare = 0.02;
+
+}  // namespace
+
+Eigen::Matrix2d BeamSpread::footprint_rad2() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(blur_rad2 - jitter_rad2);
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         axes.eigenvectors().transpose();
+}
+
+BeamAxes beam_axes(const Eigen::Vector3d& direction) {
+  Eigen::Vector3d horizontal = Eigen::Vector3d::UnitZ().cross(direction);
+  // Straight up or down horizontal is any direction.
+  if (horizontal.squaredNorm() < 1e-12) horizontal = Eigen::Vector3d::UnitY();
+  horizontal.normalize();
+  return {horizontal, direction.cross(horizontal)};
+}
+
+BoardPredictor::BoardPredictor(const BlurredPrint& print, const Rigid3& lidar_from_board,
+                               const BoardLevels& levels, const BeamSpread& beam)
+    : print_(print),
+      board_from_lidar_(lidar_from_board.rotation.toRotationMatrix().transpose()),
+      origin_(lidar_from_board.translation),
+      normal_(board_from_lidar_.row(2).transpose()),
+      height_(normal_.dot(origin_)),
+      center_m_(print.outline().center_m()),
+      half_size_m_(0.5 * print.outline().size_m().maxCoeff()),
+      levels_(levels),
+      beam_(beam),
+      footprint_rad2_(beam.footprint_rad2()) {}
+
+std::optional<BoardPredictor::Hit> BoardPredictor::hit(const Eigen::Vector3d& direction) const {
+  const double along = normal_.dot(direction);
+  if (along > -kSmallestCosine) return std::nullopt;
+  const double range = height_ / along;
+  if (!(range > 0.0)) return std::nullopt;
+  return Hit{(board_from_lidar_ * (range * direction - origin_)).head<2>(), range};
+}
+
+std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& direction) const {
+  const auto met = hit(direction);
+  if (!met) return std::nullopt;
+  const double along = normal_.dot(direction);
+  const double r = met->range_m;
+  const Eigen::Vector3d h = r * direction;
+  const Eigen::Matrix<double, 2, 3> to_board = board_from_lidar_.topRows<2>();
+
+  // How the beam's angles move the hit and change its range.
+  const BeamAxes axes = beam_axes(direction);
+  const Eigen::RowVector2d range_by_angle(-r * normal_.dot(axes.horizontal) / along,
+                                          -r * normal_.dot(axes.vertical) / along);
+  Eigen::Matrix2d hit_by_angle;
+  hit_by_angle.col(0) = to_board * (r * axes.horizontal + range_by_angle(0) * direction);
+  hit_by_angle.col(1) = to_board * (r * axes.vertical + range_by_angle(1) * direction);
+  const Eigen::Matrix2d spot = hit_by_angle * beam_.blur_rad2 * hit_by_angle.transpose();
+
+  ReturnPrediction out;
+  out.board_m = met->board_m;
+  out.cos_incidence = -along;
+  const PrintSample print = print_.at(met->board_m, spot);
+  out.white = print.white;
+  const double widest = std::sqrt(0.5 * (spot(0, 0) + spot(1, 1)) +
+                                  std::hypot(0.5 * (spot(0, 0) - spot(1, 1)), spot(0, 1)));
+  out.inside_sigmas = print_.inside_m(met->board_m) / std::max(widest, 1e-9);
+
+  // How a small motion of the board moves the hit: along the ray to the new plane, less what the
+  // print moves itself.
+  Eigen::Matrix<double, 3, 6> moved;  // ρ + ω × h
+  moved.leftCols<3>().setIdentity();
+  moved.rightCols<3>() = -skew(h);
+  const Eigen::Matrix<double, 1, 6> hit_range_by_pose = normal_.transpose() * moved / along;
+  const Eigen::Matrix<double, 2, 6> hit_by_pose =
+      to_board * (direction * hit_range_by_pose - moved);
+
+  const double contrast = levels_.white - levels_.black;
+  const Eigen::Vector2d place = (met->board_m - center_m_) / half_size_m_;
+  const double light = 1.0 + levels_.slope.dot(place);
+  const double plain = levels_.black + contrast * print.white;
+  const Eigen::RowVector2d by_hit =
+      light * contrast * print.gradient_per_m.transpose() +
+      plain * levels_.slope.transpose() / half_size_m_;
+  out.intensity = plain * light;
+  out.intensity_by_pose = by_hit * hit_by_pose;
+  out.intensity_by_shift = -light * contrast * print.gradient_per_m.transpose();
+  out.intensity_by_angle = light * contrast * print.gradient_per_m.transpose() * hit_by_angle;
+  out.intensity_by_levels << light * print.white, light * (1.0 - print.white), plain * place.x(),
+      plain * place.y();
+  // ∂A/∂S = ½∇∇ᵀA.
+  const Eigen::Matrix2d by_blur = 0.5 * light * contrast *
+                                  hit_by_angle.transpose() * print.hessian_per_m2 * hit_by_angle;
+  out.intensity_by_blur << by_blur(0, 0), 2.0 * by_blur(0, 1), by_blur(1, 1);
+
+  // The darker part of the footprint weighs less.
+  const double floor = kSmallestPowerShare * std::max(std::abs(levels_.white), 1e-12);
+  const double power = std::max(plain, floor);
+  const Eigen::Vector2d log_power = contrast / power * print.gradient_per_m;
+  const Eigen::RowVector2d pull = range_by_angle * footprint_rad2_ * hit_by_angle.transpose();
+  out.range_m = r + pull.dot(log_power);
+  const Eigen::Matrix2d log_power_slope =
+      contrast / power * print.hessian_per_m2 - log_power * log_power.transpose();
+  out.range_by_pose = hit_range_by_pose + pull * log_power_slope * hit_by_pose;
+  return out;
+}
+
+}  // namespace lvcalib

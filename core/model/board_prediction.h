@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "base/rigid3.h"
+#include "target/blurred_print.h"
+
+namespace lvcalib {
+
+/// Covariances of a LiDAR's beam about its reported direction, in rad², beam frame: first axis
+/// horizontal (LiDAR z × ray), second vertical (ray × horizontal).
+struct BeamSpread {
+  /// Of all that blurs what is seen on average: footprint and pointing jitter together.
+  Eigen::Matrix2d blur_rad2 = Eigen::Matrix2d::Zero();
+  /// Of the pointing jitter alone, which also makes single returns scatter at edges.
+  Eigen::Matrix2d jitter_rad2 = Eigen::Matrix2d::Zero();
+  /// The footprint: what is left of the blur without the jitter, never negative.
+  [[nodiscard]] Eigen::Matrix2d footprint_rad2() const;
+};
+
+/// How one scene's returns show the print: I = (black + (white − black)·A)·(1 + slopeᵀx), where x
+/// runs from −1 to 1 over the board.
+struct BoardLevels {
+  double white = 1.0;
+  double black = 0.0;
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+};
+
+/// Number of parameters of BoardLevels (white, black, two slopes) and of a blur (hh, hv, vv).
+inline constexpr int kLevelParameters = 4;
+inline constexpr int kBlurParameters = 3;
+
+/// What one return on the board should say, and how that depends on the state.
+struct ReturnPrediction {
+  Eigen::Vector2d board_m = Eigen::Vector2d::Zero();  ///< Where the ray meets the board.
+  double range_m = 0.0;      ///< Mean over the footprint, weighted with the received power.
+  double intensity = 0.0;
+  double white = 0.0;        ///< Share of white in the blurred spot, A.
+  double cos_incidence = 1.0;
+  double inside_sigmas = 0.0;  ///< Distance to the board's outline in widths of the spot.
+  /// By the left perturbation of lidar_from_board, order (translation, rotation); m, m/rad, 1/m.
+  Eigen::Matrix<double, 1, 6> range_by_pose;
+  Eigen::Matrix<double, 1, 6> intensity_by_pose;
+  Eigen::Matrix<double, 1, kLevelParameters> intensity_by_levels;
+  Eigen::Matrix<double, 1, kBlurParameters> intensity_by_blur;  ///< By blur_rad2: hh, hv, vv.
+  Eigen::RowVector2d intensity_by_shift;  ///< By a shift of the print on the board, 1/m.
+  Eigen::RowVector2d intensity_by_angle;  ///< By the beam's two angles, 1/rad.
+};
+
+/// The forward model of a LiDAR return on the board: the one place where it stands.
+///
+/// The ray meets the board's plane at h = r·d, r = n·t/(n·d). The spot that it sees there has the
+/// covariance S = J Σ Jᵀ with J = ∂(u, v)/∂(angles), which holds the stretch by 1/cos θ. The mean
+/// intensity follows from the print blurred by S, A = print ⊗ N(0, S) (see BlurredPrint). The range
+/// is the mean over the footprint weighted with the received power P ∝ black + (white − black)·A:
+/// r + ∇rᵀ Σ_f ∇ln P (Stein's lemma; exact for a plane and a Gaussian footprint).
+class BoardPredictor {
+ public:
+  BoardPredictor(const BlurredPrint& print, const Rigid3& lidar_from_board,
+                 const BoardLevels& levels, const BeamSpread& beam);
+
+  /// Of a return reported along the unit vector `direction`. Nothing if the ray does not meet the
+  /// board's front side at less than 80° of incidence.
+  [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction) const;
+
+  /// Where a ray meets the board's plane, in board coordinates, and its range; the cheap part.
+  struct Hit {
+    Eigen::Vector2d board_m;
+    double range_m;
+  };
+  [[nodiscard]] std::optional<Hit> hit(const Eigen::Vector3d& direction) const;
+
+ private:
+  const BlurredPrint& print_;
+  Eigen::Matrix3d board_from_lidar_;  // Rotation.
+  Eigen::Vector3d origin_;            // Of the board, in the LiDAR frame.
+  Eigen::Vector3d normal_;
+  double height_;  // normal · origin.
+  Eigen::Vector2d center_m_;
+  double half_size_m_;
+  BoardLevels levels_;
+  BeamSpread beam_;
+  Eigen::Matrix2d footprint_rad2_;
+};
+
+/// The beam frame at a unit direction: horizontal and vertical axis.
+struct BeamAxes {
+  Eigen::Vector3d horizontal, vertical;
+};
+BeamAxes beam_axes(const Eigen::Vector3d& direction);
+
+}  // namespace lvcalib

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/rigid3.h"
+#include "cloud/cloud.h"
+#include "model/board_prediction.h"
+
+namespace lvcalib {
+
+/// The returns of one scene that lie on the board, as places in the scene's cloud.
+struct BoardReturns {
+  const Cloud* cloud = nullptr;
+  std::vector<std::uint32_t> index;
+  std::size_t on_board = 0;  ///< Rays that meet the board's inside, refused ones included.
+  std::size_t refused = 0;   ///< Of them, those that lie off the plane or next to what covers it.
+  /// Correlation of neighbours along a line is measured over these: places in `index` whose
+  /// successor on the same line is the next place of `successor`, or kNone.
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  std::vector<std::uint32_t> successor;
+
+  [[nodiscard]] std::size_t size() const { return index.size(); }
+  [[nodiscard]] Eigen::Vector3d point_m(std::size_t k) const {
+    return cloud->points_m[index[k]].cast<double>();
+  }
+  [[nodiscard]] double intensity(std::size_t k) const {
+    return static_cast<double>(cloud->intensity[index[k]]);
+  }
+};
+
+struct ReturnSelection {
+  /// The spot must lie inside the outline by so many of its widths (one σ).
+  double inside_sigmas = 3.0;
+  /// A return farther than this many standard deviations of its range from the plane is not on it.
+  double range_gate = 5.0;
+};
+
+/// Picks the returns on a board at `lidar_from_board`: those whose ray meets the board's inside and
+/// whose range agrees with its plane. Where something stands before the board, returns within three
+/// spot widths of it are left out as well: part of their light comes from it.
+BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
+                            const Rigid3& lidar_from_board, const BeamSpread& beam,
+                            double range_sigma_m, const ReturnSelection& selection = {});
+
+/// A pose for the board within a neighbourhood of another, found by the print alone.
+struct PrintMatch {
+  Rigid3 lidar_from_board;
+  double correlation = 0.0;  ///< Between intensities and blurred print.
+  /// Log-likelihood over that of the best pose that lies elsewhere (half a feature away or more).
+  double margin = 0.0;
+};
+
+struct PrintSearch {
+  double reach_m = 0.075;    ///< Moves tried along each axis of the board.
+  double turn_rad = 0.1;     ///< Turns tried about its normal.
+  std::size_t samples = 1500;
+};
+
+/// Slides and turns the board on its plane until the intensities fit best. Nothing where no pose
+/// correlates.
+std::optional<PrintMatch> match_print(const Cloud& cloud, const BoardReturns& returns,
+                                      const BlurredPrint& print, const Rigid3& lidar_from_board,
+                                      const PrintSearch& search = {});
+
+}  // namespace lvcalib

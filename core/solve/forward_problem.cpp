@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/forward_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Cholesky>
+
+#include "base/parallel.h"
+#include "base/statistics.h"
+
+namespace lvcalib {
+namespace {
+
+// Print plainer than this counts as white or black when their noise is measured.
+constexpr double kPlainShare = 0.01;
+// Residuals are cut here before they are squared and averaged, and the mean corrected for what
+// Gaussian noise loses: E[min(z², 9)] = 0.9904.
+constexpr double kCut = 3.0;
+constexpr double kCutMean = 0.9904;
+// Light changes over a board by some per cent; this is one σ.
+constexpr double kSlopeSigma = 0.1;
+// A line has a gain of its own if so many of its returns are on the board.
+constexpr int kLineRows = 8;
+
+constexpr Eigen::Index kLidarFixed = 6 + kBlurParameters + kLevelParameters;
+constexpr Eigen::Index kRangeTerms = 15;
+
+// Products of Legendre polynomials up to total degree four, at (x, y) in [−1, 1]².
+void legendre_products(double x, double y, double* out) {
+  const auto series = [](double t, std::array<double, 5>& p) {
+    p = {1.0, t, 0.5 * (3 * t * t - 1), 0.5 * (5 * t * t * t - 3 * t),
+         0.125 * (35 * t * t * t * t - 30 * t * t + 3)};
+  };
+  std::array<double, 5> px{};
+  std::array<double, 5> py{};
+  series(x, px);
+  series(y, py);
+  for (std::size_t degree = 0; degree < 5; ++degree) {
+    for (std::size_t i = 0; i <= degree; ++i) *out++ = px[i] * py[degree - i];
+  }
+}
+
+// Where everything of one scene stands among the LiDAR's unknowns: pose of the board in the LiDAR
+// frame (6), blur (3), levels (4), shared errors.
+struct Layout {
+  Eigen::Index size = kLidarFixed;
+  Eigen::Index range_shape = -1;
+  Eigen::Index print_scene = -1;
+  Eigen::Index print_patch = -1;
+  Eigen::Index line_gain = -1;
+  Eigen::Index corner_group = -1;  // Behind the LiDAR's.
+  Eigen::Index corner_groups = 0;
+  int patches_x = 0, patches_y = 0;
+  std::map<int, int> corner_group_of;           // feature → group
+  std::map<std::uint16_t, int> line_gain_of;
+  SharedErrorColumns columns;
+};
+
+int patch_of(const Layout& layout, const BoardOutline& outline, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d t = (p - outline.lower_left_m).cwiseQuotient(outline.size_m());
+  const int x = std::clamp(static_cast<int>(t.x() * layout.patches_x), 0, layout.patches_x - 1);
+  const int y = std::clamp(static_cast<int>(t.y() * layout.patches_y), 0, layout.patches_y - 1);
+  return y * layout.patches_x + x;
+}
+
+Layout make_layout(const ForwardScene& scene, const BoardReturns& returns, const BlurredPrint& print,
+                   const LinearizationOptions& options) {
+  Layout layout;
+  if (!options.shared_errors) return layout;
+  const BoardOutline& outline = print.outline();
+  layout.patches_x =
+      std::max(1, static_cast<int>(std::ceil(outline.size_m().x() / options.patch_m)));
+  layout.patches_y =
+      std::max(1, static_cast<int>(std::ceil(outline.size_m().y() / options.patch_m)));
+  const auto place = [&](SharedError kind, Eigen::Index count) {
+    const auto k = static_cast<std::size_t>(kind);
+    layout.columns.first[k] = layout.size - kLidarFixed;
+    layout.columns.count[k] = count;
+    const Eigen::Index at = layout.size;
+    layout.size += count;
+    return at;
+  };
+  layout.range_shape = place(SharedError::kRangeShape, kRangeTerms);
+  if (returns.cloud->has_intensity()) {
+    layout.print_scene = place(SharedError::kPrintScene, 2);
+    layout.print_patch = place(SharedError::kPrintPatch,
+                               2 * static_cast<Eigen::Index>(layout.patches_x * layout.patches_y));
+    if (returns.cloud->has_line()) {
+      std::map<std::uint16_t, int> rows;
+      for (const std::uint32_t i : returns.index) ++rows[returns.cloud->line[i]];
+      for (const auto& [line, count] : rows) {
+        if (count < kLineRows) continue;
+        const int next = static_cast<int>(layout.line_gain_of.size());
+        layout.line_gain_of.emplace(line, next);
+      }
+      // One line's gain is the levels'.
+      if (layout.line_gain_of.size() < 2) layout.line_gain_of.clear();
+    }
+    layout.line_gain =
+        place(SharedError::kLineGain, static_cast<Eigen::Index>(layout.line_gain_of.size()));
+  }
+  const bool tags = print.target().has_tags();
+  for (const CornerObservation& c : scene.corners) {
+    const int feature = tags ? c.feature_id : patch_of(layout, outline, c.board_m);
+    layout.corner_group_of.try_emplace(feature, static_cast<int>(layout.corner_group_of.size()));
+  }
+  layout.corner_groups = static_cast<Eigen::Index>(layout.corner_group_of.size());
+  layout.corner_group = place(SharedError::kCornerGroup, 2 * layout.corner_groups);
+  layout.columns.total = layout.size - kLidarFixed;
+  return layout;
+}
+
+// One row's non-zero entries.
+struct SparseRow {
+  static constexpr int kMost = 32;
+  std::array<Eigen::Index, kMost> at{};
+  std::array<double, kMost> value{};
+  int count = 0;
+  void add(Eigen::Index i, double v) {
+    at[static_cast<std::size_t>(count)] = i;
+    value[static_cast<std::size_t>(count)] = v;
+    ++count;
+  }
+};
+
+// Lower triangle of the normal matrix, and gradient.
+struct Accumulator {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd gradient;
+  SceneFit fit;
+  std::array<double, 4> cut_squares{};  // range white, black; intensity white, black
+  std::array<double, 4> cut_rows{};
+  double weight = 0.0, sum = 0.0, squares = 0.0, residual_squares = 0.0;
+
+  explicit Accumulator(Eigen::Index size)
+      : normal(Eigen::MatrixXd::Zero(size, size)), gradient(Eigen::VectorXd::Zero(size)) {}
+
+  void add(const SparseRow& row, double residual, double weight) {
+    for (int a = 0; a < row.count; ++a) {
+      const auto ia = static_cast<std::size_t>(a);
+      const double wa = weight * row.value[ia];
+      gradient(row.at[ia]) += wa * residual;
+      for (int b = 0; b <= a; ++b) {
+        const auto ib = static_cast<std::size_t>(b);
+        // Entries come in rising order, so this is the lower triangle.
+        normal(row.at[ia], row.at[ib]) += wa * row.value[ib];
+      }
+    }
+  }
+
+  void merge(const Accumulator& other) {
+    normal += other.normal;
+    gradient += other.gradient;
+    fit.range_rows += other.fit.range_rows;
+    fit.intensity_rows += other.fit.intensity_rows;
+    fit.range_squares += other.fit.range_squares;
+    fit.intensity_squares += other.fit.intensity_squares;
+    fit.jitter_normal += other.fit.jitter_normal;
+    for (std::size_t k = 0; k < 2; ++k) fit.jitter_sums[k] += other.fit.jitter_sums[k];
+    for (std::size_t k = 0; k < 4; ++k) {
+      cut_squares[k] += other.cut_squares[k];
+      cut_rows[k] += other.cut_rows[k];
+    }
+    weight += other.weight;
+    sum += other.sum;
+    squares += other.squares;
+    residual_squares += other.residual_squares;
+  }
+};
+
+double blended(double white, double black, double share) {
+  return std::exp(share * std::log(white) + (1.0 - share) * std::log(black));
+}
+
+class LidarRows {
+ public:
+  LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
+            std::size_t index, const SceneNoise& noise, const Layout& layout,
+            const LinearizationOptions& options)
+      : returns_(returns),
+        print_(print),
+        state_(state),
+        noise_(noise),
+        layout_(layout),
+        options_(options),
+        predictor_(print, state.lidar_from_board(index), state.levels[index], state.beam),
+        blur_by_factor_(blur_by_factor(blur_factor(state.beam.blur_rad2))),
+        center_(print.outline().center_m()),
+        half_(0.5 * print.outline().size_m()),
+        has_intensity_(returns.cloud->has_intensity()),
+        range_z(returns.size(), kUnused),
+        intensity_z(returns.size(), kUnused) {}
+
+  static constexpr float kUnused = 1e9F;
+
+  void add(std::size_t begin, std::size_t end, Accumulator& out) {
+    for (std::size_t k = begin; k < end; k += options_.stride) {
+      const Eigen::Vector3d point = returns_.point_m(k);
+      const double range = point.norm();
+      const auto p = predictor_.predict(point / range);
+      if (!p) continue;
+      add_range(k, range - p->range_m, *p, out);
+      if (has_intensity_) add_intensity(k, returns_.intensity(k) - p->intensity, *p, out);
+    }
+  }
+
+ private:
+  void add_range(std::size_t k, double e, const ReturnPrediction& p, Accumulator& out) {
+    const double sigma = blended(noise_.range_white_m, noise_.range_black_m, p.white);
+    const double z = e / sigma;
+    range_z[k] = static_cast<float>(z);
+    SparseRow row;
+    for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.range_by_pose(i));
+    if (layout_.range_shape >= 0) {
+      const Eigen::Vector2d at = (p.board_m - center_).cwiseQuotient(half_);
+      std::array<double, kRangeTerms> terms{};
+      legendre_products(at.x(), at.y(), terms.data());
+      for (std::size_t i = 0; i < terms.size(); ++i)
+        row.add(layout_.range_shape + static_cast<Eigen::Index>(i), terms[i]);
+    }
+    const double robust = huber_weight(z, options_.robust_threshold);
+    out.add(row, e, robust / (sigma * sigma * noise_.range_inflation));
+    out.fit.range_squares += robust * z * z;
+    ++out.fit.range_rows;
+    note_noise(p.white, e, sigma, 0, out);
+  }
+
+  void add_intensity(std::size_t k, double e, const ReturnPrediction& p, Accumulator& out) {
+    const double plain = blended(noise_.intensity_white, noise_.intensity_black, p.white);
+    const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
+    const Eigen::Matrix2d& jitter = state_.beam.jitter_rad2;
+    const double variance = plain * plain + by_angle * jitter * by_angle.transpose();
+    const double sigma = std::sqrt(variance);
+    const double z = e / sigma;
+    intensity_z[k] = static_cast<float>(z);
+    SparseRow row;
+    for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.intensity_by_pose(i));
+    const Eigen::RowVector3d by_factor = p.intensity_by_blur * blur_by_factor_;
+    for (Eigen::Index i = 0; i < kBlurParameters; ++i) row.add(6 + i, by_factor(i));
+    for (Eigen::Index i = 0; i < kLevelParameters; ++i)
+      row.add(6 + kBlurParameters + i, p.intensity_by_levels(i));
+    if (layout_.print_scene >= 0) {
+      row.add(layout_.print_scene, p.intensity_by_shift(0));
+      row.add(layout_.print_scene + 1, p.intensity_by_shift(1));
+      const Eigen::Index patch =
+          layout_.print_patch + 2 * patch_of(layout_, print_.outline(), p.board_m);
+      row.add(patch, p.intensity_by_shift(0));
+      row.add(patch + 1, p.intensity_by_shift(1));
+      if (!layout_.line_gain_of.empty()) {
+        const auto gain = layout_.line_gain_of.find(returns_.cloud->line[returns_.index[k]]);
+        if (gain != layout_.line_gain_of.end())
+          row.add(layout_.line_gain + gain->second, p.intensity);
+      }
+    }
+    const double robust = huber_weight(z, options_.robust_threshold);
+    out.add(row, e, robust / (variance * noise_.intensity_inflation));
+    out.fit.intensity_squares += robust * z * z;
+    ++out.fit.intensity_rows;
+    const double intensity = p.intensity + e;
+    out.weight += robust;
+    out.sum += robust * intensity;
+    out.squares += robust * intensity * intensity;
+    out.residual_squares += robust * e * e;
+    note_noise(p.white, e, sigma, 2, out);
+    // Jitter: what edges scatter beyond plain print, by axis.
+    const Eigen::Vector2d g = by_angle.transpose().cwiseAbs2();
+    const double wanted = std::min(e * e, kCut * kCut * variance) / kCutMean - plain * plain;
+    const double w = 1.0 / (variance * variance);
+    out.fit.jitter_normal += w * g * g.transpose();
+    for (std::size_t i = 0; i < 2; ++i)
+      out.fit.jitter_sums[i] += w * g(static_cast<Eigen::Index>(i)) * wanted;
+  }
+
+  static void note_noise(double white, double e, double sigma, std::size_t first,
+                         Accumulator& out) {
+    const bool is_white = white > 1.0 - kPlainShare;
+    if (!is_white && white > kPlainShare) return;
+    const std::size_t k = first + (is_white ? 0 : 1);
+    out.cut_squares[k] += std::min(e * e, kCut * kCut * sigma * sigma);
+    out.cut_rows[k] += 1.0;
+  }
+
+  const BoardReturns& returns_;
+  const BlurredPrint& print_;
+  const ForwardState& state_;
+  const SceneNoise& noise_;
+  const Layout& layout_;
+  const LinearizationOptions& options_;
+  BoardPredictor predictor_;
+  Eigen::Matrix3d blur_by_factor_;
+  Eigen::Vector2d center_;
+  Eigen::Vector2d half_;
+  bool has_intensity_;
+
+ public:
+  std::vector<float> range_z, intensity_z;  // Per return; kUnused where there is no row.
+};
+
+// (1 + ρ)/(1 − ρ) from neighbours along a line, where ρ stands clear of chance.
+double inflation(const BoardReturns& returns, const std::vector<float>& z) {
+  double products = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t k = 0; k < returns.size(); ++k) {
+    const std::uint32_t next = returns.successor[k];
+    if (next == BoardReturns::kNone) continue;
+    const double a = z[k];
+    const double b = z[next];
+    if (std::abs(a) > kCut || std::abs(b) > kCut) continue;
+    products += a * b;
+    squares += 0.5 * (a * a + b * b);
+    count += 1.0;
+  }
+  if (count < 20.0 || squares <= 0.0) return 1.0;
+  const double rho = products / squares;
+  if (rho < 2.0 / std::sqrt(count)) return 1.0;
+  const double bounded = std::min(rho, 0.9);
+  return (1.0 + bounded) / (1.0 - bounded);
+}
+
+void update_noise(const SceneNoise& before, const Accumulator& sums, const LidarRows& rows,
+                  const BoardReturns& returns, SceneFit& fit) {
+  constexpr double kFewest = 20.0;
+  // A class with too few rows takes the other's.
+  const auto sigma = [&](std::size_t k, double old, double floor) {
+    const double n = sums.cut_rows[k];
+    return n < kFewest ? old : std::max(floor, std::sqrt(sums.cut_squares[k] / (kCutMean * n)));
+  };
+  fit.noise = before;
+  fit.noise.range_white_m = sigma(0, before.range_white_m, 1e-5);
+  fit.noise.range_black_m =
+      sums.cut_rows[1] < kFewest ? fit.noise.range_white_m : sigma(1, before.range_black_m, 1e-5);
+  // Whole numbers scatter by 1/√12 at least.
+  constexpr double kStep = 0.2887;
+  const double floor = returns.cloud->has_intensity() && before.intensity_white > 2.0 ? kStep : 0.0;
+  fit.noise.intensity_white = sigma(2, before.intensity_white, std::max(floor, 1e-9));
+  fit.noise.intensity_black = sums.cut_rows[3] < kFewest
+                                  ? fit.noise.intensity_white
+                                  : sigma(3, before.intensity_black, std::max(floor, 1e-9));
+  fit.noise.range_inflation = inflation(returns, rows.range_z);
+  fit.noise.intensity_inflation = inflation(returns, rows.intensity_z);
+  if (sums.weight > 0.0) {
+    const double variance =
+        sums.squares / sums.weight - std::pow(sums.sum / sums.weight, 2);
+    if (variance > 0.0)
+      fit.intensity_variance_share = sums.residual_squares / sums.weight / variance;
+  }
+}
+
+// Adds the corners: unknowns T_camera_board and the group's shift.
+void add_corners(const ForwardScene& scene, std::size_t index, const Camera& camera,
+                 const BlurredPrint& print, const ForwardState& state, double sigma_px,
+                 const Layout& layout, const LinearizationOptions& options, SceneEquations& out,
+                 SceneFit& fit) {
+  const Rigid3& camera_from_board = state.camera_from_board[index];
+  const bool tags = print.target().has_tags();
+  for (const CornerObservation& c : scene.corners) {
+    const Eigen::Vector3d p =
+        camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
+    Eigen::Matrix<double, 2, 3> by_point;
+    const auto pixel = camera.project(p, &by_point);
+    if (!pixel) continue;
+    Eigen::Matrix<double, 3, 6> moved;
+    moved.leftCols<3>().setIdentity();
+    moved.rightCols<3>() = -skew(p);
+    const Eigen::Matrix<double, 2, 6> j = by_point * moved;
+    const Eigen::Vector2d e = c.pixel - *pixel;
+    const double size = e.norm() / sigma_px;
+    const double w = huber_weight(size, options.robust_threshold + 1.0) / (sigma_px * sigma_px);
+    fit.corner_squares += w * e.squaredNorm();
+    fit.corner_rows += 2;
+    out.normal.block<6, 6>(kGlobals, kGlobals) += w * j.transpose() * j;
+    out.gradient.segment<6>(kGlobals) += w * j.transpose() * e;
+    if (layout.corner_group < 0) continue;
+    const int feature = tags ? c.feature_id : patch_of(layout, print.outline(), c.board_m);
+    const Eigen::Index at = kGlobals + kLocals + (layout.corner_group - kLidarFixed) +
+                            2 * layout.corner_group_of.at(feature);
+    out.normal.block<2, 6>(at, kGlobals) += w * j;
+    out.normal.block<6, 2>(kGlobals, at) += w * j.transpose();
+    out.normal(at, at) += w;
+    out.normal(at + 1, at + 1) += w;
+    out.gradient.segment<2>(at) += w * e;
+  }
+}
+
+}  // namespace
+
+Eigen::Vector3d blur_factor(const Eigen::Matrix2d& blur) {
+  const double a = std::sqrt(std::max(1e-14, blur(0, 0)));
+  const double b = blur(0, 1) / a;
+  return {a, b, std::sqrt(std::max(1e-14, blur(1, 1) - b * b))};
+}
+
+Eigen::Matrix2d blur_from_factor(const Eigen::Vector3d& f) {
+  Eigen::Matrix2d blur;
+  blur << f(0) * f(0), f(0) * f(1), f(0) * f(1), f(1) * f(1) + f(2) * f(2);
+  return blur;
+}
+
+Eigen::Matrix3d blur_by_factor(const Eigen::Vector3d& f) {
+  Eigen::Matrix3d j;
+  j << 2 * f(0), 0, 0, f(1), f(0), 0, 0, 2 * f(1), 2 * f(2);
+  return j;
+}
+
+SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
+                               const BoardReturns& returns, const BlurredPrint& print,
+                               const Camera& camera, const ForwardState& state,
+                               const ForwardNoise& noise, const LinearizationOptions& options,
+                               int threads, SceneFit& fit) {
+  // Chunks of a fixed size, summed in order: the result does not depend on the threads.
+  constexpr std::size_t kChunk = 8192;
+  const Layout layout = make_layout(scene, returns, print, options);
+  LidarRows rows(returns, print, state, index, noise.scenes[index], layout, options);
+  const std::size_t stride = options.stride;
+  const std::size_t chunk = kChunk * stride;
+  const std::size_t chunks = (returns.size() + chunk - 1) / chunk;
+  const Eigen::Index lidar_size =
+      layout.corner_group < 0 ? layout.size : layout.corner_group;
+  Accumulator sums(lidar_size);
+  std::vector<Accumulator> parts(chunks, Accumulator(0));
+  parallel_for(chunks, threads, [&](std::size_t c) {
+    parts[c] = Accumulator(lidar_size);
+    rows.add(c * chunk, std::min(returns.size(), (c + 1) * chunk), parts[c]);
+  });
+  for (const Accumulator& part : parts) sums.merge(part);
+  sums.normal.triangularView<Eigen::StrictlyUpper>() = sums.normal.transpose();
+  fit = sums.fit;
+  update_noise(noise.scenes[index], sums, rows, returns, fit);
+
+  // From the board's pose in the LiDAR frame to both poses in the camera frame:
+  // T_LB = X⁻¹ B, so δ = Ad(X⁻¹)(ξ_B − ξ_X).
+  const Matrix6d ad = state.camera_from_lidar.inverse().adjoint();
+  const Eigen::Index shared = layout.size - kLidarFixed;
+  const Eigen::Index size = kGlobals + kLocals + shared;
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(lidar_size, size);
+  map.block<6, 6>(0, 0) = -ad;
+  map.block<6, 6>(0, kGlobals) = ad;
+  map.block<3, 3>(6, 6).setIdentity();
+  map.block<4, 4>(9, kGlobals + 6).setIdentity();
+  for (Eigen::Index i = kLidarFixed; i < lidar_size; ++i) map(i, kGlobals + kLocals + i - kLidarFixed) = 1.0;
+  SceneEquations out;
+  out.columns = layout.columns;
+  // Only the first six rows of the map are dense.
+  Eigen::MatrixXd half = Eigen::MatrixXd::Zero(lidar_size, size);
+  half.noalias() = sums.normal * map;
+  out.normal.noalias() = map.transpose() * half;
+  out.gradient.noalias() = map.transpose() * sums.gradient;
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const Eigen::Index at = kGlobals + 6 + 2 + i;
+    out.normal(at, at) += 1.0 / (kSlopeSigma * kSlopeSigma);
+    out.gradient(at) -= state.levels[index].slope(i) / (kSlopeSigma * kSlopeSigma);
+  }
+  add_corners(scene, index, camera, print, state, noise.corner_px, layout, options, out, fit);
+  return out;
+}
+
+GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes,
+                               const SharedVariances& variances, bool measure_shared, int threads) {
+  GlobalSolution out;
+  struct Eliminated {
+    Eigen::LDLT<Eigen::MatrixXd> own;
+    Eigen::MatrixXd to_globals;  // own⁻¹ · coupling
+    Eigen::VectorXd rest;        // own⁻¹ · gradient
+    Eigen::MatrixXd information;
+    Eigen::VectorXd gradient;
+    bool usable = false;
+  };
+  std::vector<Eliminated> parts(scenes.size());
+  parallel_for(scenes.size(), threads, [&](std::size_t s) {
+    const SceneEquations& scene = scenes[s];
+    const Eigen::Index n = scene.normal.rows() - kGlobals;
+    if (n <= 0) return;
+    Eigen::MatrixXd own = scene.normal.bottomRightCorner(n, n);
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
+        const Eigen::Index at = kLocals + scene.columns.first[k] + i;
+        own(at, at) += 1.0 / variances[k];
+      }
+    }
+    // Levels without any intensity row are nobody's.
+    for (Eigen::Index i = 6; i < kLocals; ++i) {
+      if (own(i, i) <= 0.0) own(i, i) = 1.0;
+    }
+    Eliminated& part = parts[s];
+    part.own.compute(own);
+    const Eigen::MatrixXd coupling = scene.normal.bottomLeftCorner(n, kGlobals);
+    part.to_globals = part.own.solve(coupling);
+    part.rest = part.own.solve(scene.gradient.tail(n));
+    part.information = scene.normal.topLeftCorner<kGlobals, kGlobals>() -
+                       coupling.transpose() * part.to_globals;
+    part.gradient = scene.gradient.head<kGlobals>() - coupling.transpose() * part.rest;
+    part.usable = part.information.allFinite() && part.gradient.allFinite();
+  });
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kGlobals, kGlobals);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kGlobals);
+  for (const Eliminated& part : parts) {
+    if (!part.usable) continue;
+    information += part.information;
+    gradient += part.gradient;
+  }
+  // A blur that no edge shows stays where it is.
+  for (Eigen::Index i = 6; i < kGlobals; ++i) information(i, i) += 1.0 / (0.01 * 0.01);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(information);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return out;
+  out.globals = factor.solve(gradient);
+  out.covariance = factor.solve(Eigen::MatrixXd::Identity(kGlobals, kGlobals));
+  out.decrement = out.globals.dot(gradient);
+  out.solvable = out.globals.allFinite() && out.covariance.allFinite();
+  if (!out.solvable) return out;
+  out.scenes.resize(scenes.size());
+  std::vector<SharedVariances> squares(scenes.size());
+  std::vector<SharedVariances> determined(scenes.size());
+  parallel_for(scenes.size(), threads, [&](std::size_t s) {
+    if (!parts[s].usable) return;
+    out.scenes[s] = parts[s].rest - parts[s].to_globals * out.globals;
+    if (!measure_shared) return;
+    const Eigen::Index n = out.scenes[s].size();
+    const Eigen::MatrixXd inverse = parts[s].own.solve(Eigen::MatrixXd::Identity(n, n));
+    const Eigen::MatrixXd spread = parts[s].to_globals * out.covariance;
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      for (Eigen::Index i = 0; i < scenes[s].columns.count[k]; ++i) {
+        const Eigen::Index at = kLocals + scenes[s].columns.first[k] + i;
+        const double variance = inverse(at, at) + spread.row(at).dot(parts[s].to_globals.row(at));
+        squares[s][k] += out.scenes[s](at) * out.scenes[s](at);
+        determined[s][k] += 1.0 - variance / variances[k];
+      }
+    }
+  });
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      out.squares[k] += squares[s][k];
+      out.determined[k] += determined[s][k];
+    }
+  }
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/forward_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "base/parallel.h"
+#include "base/statistics.h"
+
+namespace lvcalib {
+namespace {
+
+// While the poses are still off by millimetres the print is seen through at least this blur.
+constexpr double kCoarseBlur_m = 0.008;
+// Rows per scene until the end is near; all of them then.
+constexpr std::size_t kEarlyRows = 6000;
+constexpr int kCoarseIterations = 6;
+constexpr int kVarianceRounds = 8;
+
+class ForwardSolver {
+ public:
+  ForwardSolver(const std::vector<ForwardScene>& scenes, const BlurredPrint& print,
+                const Camera& camera, const ForwardOptions& options, const RunContext& context)
+      : scenes_(scenes), print_(print), camera_(camera), options_(options), context_(context) {}
+
+  Result<ForwardSolution> run(const Rigid3& start, double corner_sigma_px) {
+    prepare(start, corner_sigma_px);
+    if (!select()) {
+      return Error::untrusted("no LiDAR return lies on the board where the start puts it", {},
+                              "give a rough extrinsic with --init");
+    }
+    if (solution_.uses_intensity) match();
+    if (context_.stopped()) return Error::cancelled();
+    if (!select()) return Error::untrusted("no LiDAR return lies on the board");
+    first_levels();
+    if (!coarse()) return failure();
+    if (!select()) return Error::untrusted("no LiDAR return lies on the board");
+    if (!fine()) return failure();
+    if (context_.stopped()) return Error::cancelled();
+    finish();
+    return std::move(solution_);
+  }
+
+ private:
+  ForwardState& state() { return solution_.state; }
+  ForwardNoise& noise() { return solution_.noise; }
+
+  Error failure() const {
+    if (context_.stopped()) return Error::cancelled();
+    return Error::untrusted("the joint solve fails on these observations");
+  }
+
+  void prepare(const Rigid3& start, double corner_sigma_px) {
+    state().camera_from_lidar = start;
+    noise().corner_px = std::max(options_.sigma_px_floor, corner_sigma_px);
+    solution_.scenes.resize(scenes_.size());
+    const double blur = options_.first_blur_rad * options_.first_blur_rad;
+    state().beam.blur_rad2 = blur * Eigen::Matrix2d::Identity();
+    state().beam.jitter_rad2 = 0.1 * blur * Eigen::Matrix2d::Identity();
+    solution_.uses_intensity = true;
+    for (const ForwardScene& scene : scenes_) {
+      state().camera_from_board.push_back(scene.camera_from_board);
+      state().levels.push_back({});
+      SceneNoise n;
+      n.range_white_m = n.range_black_m = scene.range_sigma_m;
+      noise().scenes.push_back(n);
+      if (!scene.board_points->has_intensity()) solution_.uses_intensity = false;
+    }
+  }
+
+  bool select() {
+    returns_.assign(scenes_.size(), {});
+    parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
+      const SceneNoise& n = noise().scenes[s];
+      returns_[s] = select_returns(*scenes_[s].board_points, print_, state().lidar_from_board(s),
+                                   state().beam, std::max(n.range_white_m, n.range_black_m),
+                                   options_.selection);
+    });
+    return std::any_of(returns_.begin(), returns_.end(),
+                       [](const BoardReturns& r) { return r.size() > 0; });
+  }
+
+  // Each scene's print votes for an extrinsic; the vote under which all scenes' prints fit best
+  // wins, the start included.
+  void match() {
+    std::vector<std::optional<PrintMatch>> matches(scenes_.size());
+    parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
+      if (context_.stopped()) return;
+      matches[s] = match_print(*scenes_[s].board_points, returns_[s], print_,
+                               state().lidar_from_board(s), options_.search);
+    });
+    std::vector<Rigid3> votes{state().camera_from_lidar};
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (!matches[s]) continue;
+      solution_.scenes[s].print_correlation = matches[s]->correlation;
+      solution_.scenes[s].print_margin = matches[s]->margin;
+      votes.push_back(state().camera_from_board[s] * matches[s]->lidar_from_board.inverse());
+    }
+    std::vector<double> likelihood(votes.size(), 0.0);
+    parallel_for(votes.size(), context_.thread_count(), [&](std::size_t v) {
+      for (std::size_t s = 0; s < scenes_.size(); ++s) likelihood[v] += fit_of(s, votes[v]);
+    });
+    const auto best = std::max_element(likelihood.begin(), likelihood.end());
+    state().camera_from_lidar = votes[static_cast<std::size_t>(best - likelihood.begin())];
+  }
+
+  // Log-likelihood of one scene's intensities under an extrinsic, levels fitted; a blur of 12 mm
+  // bridges what the votes are still off.
+  double fit_of(std::size_t s, const Rigid3& camera_from_lidar) const {
+    const Rigid3 board = camera_from_lidar.inverse() * solution_.state.camera_from_board[s];
+    const BoardPredictor predictor(print_, board, {}, {});
+    const BoardReturns& returns = returns_[s];
+    double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
+    const std::size_t stride = std::max<std::size_t>(1, returns.size() / 1500);
+    for (std::size_t k = 0; k < returns.size(); k += stride) {
+      const auto hit = predictor.hit(returns.point_m(k).normalized());
+      if (!hit) continue;
+      const double white = print_.coarse(hit->board_m, 0.012);
+      const double intensity = returns.intensity(k);
+      n += 1;
+      a += white;
+      i += intensity;
+      aa += white * white;
+      ii += intensity * intensity;
+      ai += white * intensity;
+    }
+    const double va = aa - a * a / n;
+    const double vi = ii - i * i / n;
+    if (!(n > 10 && va > 0 && vi > 0)) return 0.0;
+    const double rho = std::clamp((ai - a * i / n) / std::sqrt(va * vi), 0.0, 0.9999);
+    return -0.5 * n * std::log(1.0 - rho * rho);
+  }
+
+  // Levels by regression of the intensities on the coarse print.
+  void first_levels() {
+    if (!solution_.uses_intensity) return;
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      const BoardPredictor predictor(print_, state().lidar_from_board(s), {}, {});
+      double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
+      const std::size_t stride = std::max<std::size_t>(1, returns_[s].size() / kEarlyRows);
+      for (std::size_t k = 0; k < returns_[s].size(); k += stride) {
+        const auto hit = predictor.hit(returns_[s].point_m(k).normalized());
+        if (!hit) continue;
+        const double white = print_.coarse(hit->board_m, kCoarseBlur_m);
+        const double v = returns_[s].intensity(k);
+        n += 1;
+        a += white;
+        i += v;
+        aa += white * white;
+        ii += v * v;
+        ai += white * v;
+      }
+      if (n < 3) continue;
+      const double va = aa - a * a / n;
+      const double slope = va > 0 ? (ai - a * i / n) / va : 0.0;
+      BoardLevels& levels = state().levels[s];
+      levels.black = (i - slope * a) / n;
+      levels.white = levels.black + slope;
+      const double rest = std::max(1e-12, (ii - i * i / n - slope * (ai - a * i / n)) / n);
+      noise().scenes[s].intensity_white = noise().scenes[s].intensity_black = std::sqrt(rest);
+    }
+  }
+
+  [[nodiscard]] double mean_range_m() const {
+    double sum = 0.0;
+    for (std::size_t s = 0; s < scenes_.size(); ++s)
+      sum += solution_.state.lidar_from_board(s).translation.norm();
+    return sum / static_cast<double>(scenes_.size());
+  }
+
+  bool coarse() {
+    const Eigen::Matrix2d natural = state().beam.blur_rad2;
+    const double wide = std::pow(kCoarseBlur_m / mean_range_m(), 2);
+    state().beam.blur_rad2 =
+        natural + std::max(0.0, wide - natural(0, 0)) * Eigen::Matrix2d::Identity();
+    for (int i = 0; i < kCoarseIterations; ++i) {
+      const auto step = iterate(early(false), false);
+      if (!step) return false;
+      if (*step < 0.3) break;
+    }
+    return true;
+  }
+
+  bool fine() {
+    int rounds_left = options_.max_iterations;
+    // Few rows until the state stands still, then all of them, then all with shared errors.
+    for (const bool all : {false, true}) {
+      for (; rounds_left > 0; --rounds_left) {
+        const auto step = iterate(all ? final_rows(false) : early(true), true);
+        if (!step) return false;
+        if (*step < (all ? 0.3 : 0.5)) break;
+      }
+      if (!all && !select()) return false;
+    }
+    for (; rounds_left > 0; --rounds_left) {
+      const auto step = iterate(final_rows(true), true);
+      if (!step) return false;
+      if (*step < options_.tolerance) {
+        solution_.converged = true;
+        break;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] LinearizationOptions early(bool) const {
+    LinearizationOptions how;
+    how.shared_errors = false;
+    std::size_t most = 1;
+    for (const BoardReturns& r : returns_) most = std::max(most, r.size() / kEarlyRows);
+    how.stride = most;
+    how.robust_threshold = options_.robust_threshold;
+    how.patch_m = options_.patch_m;
+    return how;
+  }
+
+  [[nodiscard]] LinearizationOptions final_rows(bool shared) const {
+    LinearizationOptions how;
+    how.shared_errors = shared;
+    how.robust_threshold = options_.robust_threshold;
+    how.patch_m = options_.patch_m;
+    return how;
+  }
+
+  // One Gauss–Newton step; the size of the extrinsic's move in its σ.
+  std::optional<double> iterate(const LinearizationOptions& how, bool free_blur) {
+    if (context_.stopped()) return std::nullopt;
+    ++solution_.iterations;
+    std::vector<SceneEquations> equations(scenes_.size());
+    fits_.assign(scenes_.size(), {});
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      equations[s] = linearize_scene(scenes_[s], s, returns_[s], print_, camera_, state(), noise(),
+                                     how, context_.thread_count(), fits_[s]);
+    }
+    if (!free_blur) {
+      for (SceneEquations& e : equations) {
+        e.normal.middleRows<kBlurParameters>(6).setZero();
+        e.normal.middleCols<kBlurParameters>(6).setZero();
+        e.gradient.segment<kBlurParameters>(6).setZero();
+      }
+    }
+    GlobalSolution step = solve_equations(equations, noise().shared, how.shared_errors,
+                                          context_.thread_count());
+    if (!step.solvable) return std::nullopt;
+    if (how.shared_errors) {
+      for (int round = 0; round < kVarianceRounds; ++round) {
+        if (!update_shared(step)) break;
+        step = solve_equations(equations, noise().shared, true, context_.thread_count());
+        if (!step.solvable) return std::nullopt;
+      }
+      equations_ = std::move(equations);
+    }
+    apply(step);
+    update_noise();
+    last_ = std::move(step);
+    const Eigen::VectorXd move = last_.globals.head<6>();
+    const Matrix6d covariance = last_.covariance.topLeftCorner<6, 6>();
+    return std::sqrt(std::max(0.0, move.dot(covariance.ldlt().solve(move)) / 6.0));
+  }
+
+  void apply(const GlobalSolution& step) {
+    // A step beyond a decimetre or six degrees comes from a linearization that no longer holds.
+    double scale = 1.0;
+    const auto limit = [&](const Vector6d& xi) {
+      scale = std::min({scale, 0.1 / std::max(1e-12, xi.head<3>().norm()),
+                        0.1 / std::max(1e-12, xi.tail<3>().norm())});
+    };
+    limit(step.globals.head<6>());
+    state().camera_from_lidar =
+        se3_exp(scale * Vector6d(step.globals.head<6>())) * state().camera_from_lidar;
+    Eigen::Vector3d factor = blur_factor(state().beam.blur_rad2);
+    const Eigen::Vector3d change = scale * step.globals.tail<kBlurParameters>();
+    // Widths change by half at most in one step.
+    const double most = 0.5 * factor.cwiseAbs().maxCoeff();
+    factor += change * std::min(1.0, most / std::max(1e-15, change.norm()));
+    factor(0) = std::max(std::abs(factor(0)), 1e-5);
+    factor(2) = std::max(std::abs(factor(2)), 1e-5);
+    state().beam.blur_rad2 = blur_from_factor(factor);
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (step.scenes[s].size() == 0) continue;
+      const Eigen::VectorXd local = scale * step.scenes[s].head(kLocals);
+      state().camera_from_board[s] =
+          se3_exp(Vector6d(local.head<6>())) * state().camera_from_board[s];
+      BoardLevels& levels = state().levels[s];
+      levels.white += local(6);
+      levels.black += local(7);
+      levels.slope += local.tail<2>();
+    }
+  }
+
+  // MacKay's fixed point σ² = uᵀu/γ, equal to restricted maximum likelihood where it stands still.
+  bool update_shared(const GlobalSolution& step) {
+    bool moved = false;
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      if (step.determined[k] < 0.05) continue;
+      const double wanted = step.squares[k] / step.determined[k];
+      const double bounded = std::clamp(wanted, 0.05 * noise().shared[k], 20.0 * noise().shared[k]);
+      const double next = std::max(bounded, kSmallestShared[k]);
+      moved = moved || std::abs(std::log(next / noise().shared[k])) > 0.03;
+      noise().shared[k] = next;
+    }
+    return moved;
+  }
+
+  void update_noise() {
+    std::array<double, 2> sums{};
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    double corner = 0.0;
+    double rows = 0.0;
+    double groups = 0.0;
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      noise().scenes[s] = fits_[s].noise;
+      normal += fits_[s].jitter_normal;
+      for (std::size_t k = 0; k < 2; ++k) sums[k] += fits_[s].jitter_sums[k];
+      corner += fits_[s].corner_squares;
+      rows += static_cast<double>(fits_[s].corner_rows);
+      groups += 6.0;
+    }
+    // Jitter per axis by regression, never negative, never more than the whole blur.
+    if (normal.trace() > 0.0) {
+      Eigen::Vector2d j = normal.ldlt().solve(Eigen::Vector2d(sums[0], sums[1]));
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        if (j(k) >= 0.0) continue;
+        const Eigen::Index other = 1 - k;
+        j(k) = 0.0;
+        j(other) = std::max(0.0, sums[static_cast<std::size_t>(other)] / normal(other, other));
+      }
+      const Eigen::Matrix2d& blur = state().beam.blur_rad2;
+      state().beam.jitter_rad2 =
+          Eigen::Vector2d(std::min(j(0), blur(0, 0)), std::min(j(1), blur(1, 1))).asDiagonal();
+    }
+    if (rows > groups + 1.0) {
+      noise().corner_px = std::max(options_.sigma_px_floor,
+                                   noise().corner_px * std::sqrt(corner / (rows - groups)));
+    }
+  }
+
+  void finish() {
+    const Matrix6d covariance = last_.covariance.topLeftCorner<6, 6>();
+    solution_.camera_from_lidar = {state().camera_from_lidar, covariance};
+    const Eigen::Matrix3d by = blur_by_factor(blur_factor(state().beam.blur_rad2));
+    solution_.blur_covariance = by * last_.covariance.bottomRightCorner<3, 3>() * by.transpose();
+    solution_.dof = satterthwaite();
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      ForwardSceneResult& scene = solution_.scenes[s];
+      const SceneFit& fit = fits_[s];
+      scene.returns = returns_[s].size();
+      scene.on_board = returns_[s].on_board;
+      scene.refused = returns_[s].refused;
+      scene.intensity_left = fit.intensity_variance_share;
+      const auto chi = [](double squares, std::size_t rows) {
+        return rows > 0 ? std::sqrt(squares / static_cast<double>(rows)) : 0.0;
+      };
+      scene.range_chi = chi(fit.range_squares, fit.range_rows);
+      scene.intensity_chi = chi(fit.intensity_squares, fit.intensity_rows);
+      scene.corner_chi = chi(fit.corner_squares, fit.corner_rows);
+      scene.noise = fit.noise;
+    }
+  }
+
+  // ν = 2v²/Var(v), v the trace of the extrinsic's scaled covariance, whose variance comes from
+  // that of the estimated variances: Var(D) = 2D²/γ.
+  double satterthwaite() {
+    constexpr double kStep = 0.2;
+    const auto spread = [](const GlobalSolution& s) {
+      // Rotations act over some three metres.
+      Vector6d unit;
+      unit << 1, 1, 1, 3, 3, 3;
+      return (unit.asDiagonal() * s.covariance.topLeftCorner<6, 6>() * unit.asDiagonal()).trace();
+    };
+    const double v = spread(last_);
+    double variance = 0.0;
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      if (last_.determined.empty()) break;
+      SharedVariances varied = noise().shared;
+      varied[k] *= 1.0 + kStep;
+      const GlobalSolution s =
+          solve_equations(equations_, varied, false, context_.thread_count());
+      if (!s.solvable) continue;
+      const double slope = (spread(s) - v) / kStep;  // By the logarithm of D.
+      variance += slope * slope * 2.0 / std::max(1.0, last_.determined[k]);
+    }
+    constexpr double kMany = 1e6;
+    return variance > 0.0 ? std::min(kMany, 2.0 * v * v / variance) : kMany;
+  }
+
+  // Floors of the shared errors' variances: a fiftieth of what any measurement could tell.
+  static constexpr SharedVariances kSmallestShared{1e-10, 1e-10, 1e-10, 1e-6, 1e-8};
+
+  const std::vector<ForwardScene>& scenes_;
+  const BlurredPrint& print_;
+  const Camera& camera_;
+  const ForwardOptions& options_;
+  const RunContext& context_;
+  ForwardSolution solution_;
+  std::vector<BoardReturns> returns_;
+  std::vector<SceneFit> fits_;
+  std::vector<SceneEquations> equations_;
+  GlobalSolution last_;
+};
+
+}  // namespace
+
+Result<ForwardSolution> solve_forward(const std::vector<ForwardScene>& scenes,
+                                      const BlurredPrint& print, const Camera& camera,
+                                      const Rigid3& camera_from_lidar, double corner_sigma_px,
+                                      const ForwardOptions& options, const RunContext& context) {
+  if (scenes.empty()) return Error::untrusted("no usable scene is left");
+  return ForwardSolver(scenes, print, camera, options, context)
+      .run(camera_from_lidar, corner_sigma_px);
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "solve/forward_problem.h"
+
+namespace lvcalib {
+
+struct ForwardOptions {
+  ReturnSelection selection;
+  PrintSearch search;
+  double robust_threshold = 3.0;  ///< Huber's, in standard deviations.
+  double patch_m = 0.2;           ///< Side of the patches over which the print may move.
+  int max_iterations = 30;
+  /// Done when the extrinsic moves by less than this share of its standard deviation.
+  double tolerance = 0.01;
+  double sigma_px_floor = 0.01;
+  /// First guess of the beam's blur, rad: between a Livox (1 mrad) and a spinning 16-liner (3).
+  double first_blur_rad = 0.0015;
+};
+
+/// What the solve says about one scene.
+struct ForwardSceneResult {
+  std::size_t returns = 0;  ///< Rows in use.
+  std::size_t on_board = 0;
+  std::size_t refused = 0;
+  /// Share of the intensities' variance that the model leaves.
+  double intensity_left = 1.0;
+  double range_chi = 0.0, intensity_chi = 0.0, corner_chi = 0.0;  ///< RMS in σ.
+  SceneNoise noise;
+  /// Before the joint solve, of the print alone: correlation, and the log-likelihood by which its
+  /// place beats the best other one.
+  double print_correlation = 0.0;
+  double print_margin = 0.0;
+};
+
+/// The extrinsic and all else that the base model holds.
+struct ForwardSolution {
+  /// Covariance of the left perturbation in the camera frame, shared errors included.
+  UncertainRigid3 camera_from_lidar;
+  double dof = 0.0;  ///< Student's, by Satterthwaite's approximation.
+  ForwardState state;
+  ForwardNoise noise;
+  Eigen::Matrix3d blur_covariance = Eigen::Matrix3d::Zero();  ///< Of (hh, hv, vv), rad⁴.
+  std::vector<ForwardSceneResult> scenes;
+  int iterations = 0;
+  bool converged = false;
+  bool uses_intensity = false;
+};
+
+/// The joint solve: every corner, every range and every intensity on the boards, one extrinsic,
+/// one pose per board, one beam (Gauss–Newton; scenes eliminated; shared errors marginalised with
+/// variances estimated by restricted maximum likelihood). `start` may be off by some centimetres:
+/// the print is matched scene by scene first, and the scenes' votes compared over all scenes.
+/// Errors (kUntrusted): no scene with returns on its board; not solvable. kCancelled.
+Result<ForwardSolution> solve_forward(const std::vector<ForwardScene>& scenes,
+                                      const BlurredPrint& print, const Camera& camera,
+                                      const Rigid3& camera_from_lidar, double corner_sigma_px,
+                                      const ForwardOptions& options, const RunContext& context);
+
+}  // namespace lvcalib

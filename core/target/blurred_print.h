@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "target/target.h"
+
+namespace lvcalib {
+
+/// The share of white A in what a Gaussian spot sees of the print: A = print ⊗ N(0, S), 1 on white
+/// and 0 on black, with its gradient and Hessian on the board.
+struct PrintSample {
+  double white = 1.0;
+  Eigen::Vector2d gradient_per_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d hessian_per_m2 = Eigen::Matrix2d::Zero();
+};
+
+/// The print under any Gaussian blur.
+///
+/// Kept is the print under a series of isotropic blurs of widths σ_k = σ_0·q^k, each sampled with a
+/// spacing of σ_k/2 (value, both slopes and the mixed second derivative, for bicubic Hermite
+/// interpolation; the error of that is h⁴/384·max|A''''| = 2·10⁻⁴). A level is made when it is first
+/// asked for. Its source is the exact share of white in each cell, so that edges lie where they are
+/// drawn, whatever the spacing; the cell's own variance h²/12 is taken out of the blur.
+/// Between levels the value is interpolated by a parabola in σ². A blur that is longer in one
+/// direction is the isotropic one of its smaller axis, averaged along the larger one
+/// (a Gaussian is a Gaussian of Gaussians). Beyond the board's outline the print goes on white.
+/// Safe to use from several threads.
+class BlurredPrint {
+ public:
+  /// Errors are the target's own: it must pass check().
+  explicit BlurredPrint(const Target& target);
+  ~BlurredPrint();
+  BlurredPrint(const BlurredPrint&) = delete;
+  BlurredPrint& operator=(const BlurredPrint&) = delete;
+
+  /// The print seen at a board point with blur covariance S (m², symmetric, positive). Widths below
+  /// smallest_sigma_m() are taken as that one.
+  [[nodiscard]] PrintSample at(const Eigen::Vector2d& board_m,
+                               const Eigen::Matrix2d& blur_m2) const;
+
+  /// The value alone under an isotropic blur, from the nearest sample: for coarse searches.
+  [[nodiscard]] double coarse(const Eigen::Vector2d& board_m, double sigma_m) const;
+
+  [[nodiscard]] double smallest_sigma_m() const;
+  [[nodiscard]] double largest_sigma_m() const;
+  [[nodiscard]] const Target& target() const { return target_; }
+  [[nodiscard]] const BoardOutline& outline() const { return outline_; }
+  /// Distance of a point to the outline; negative outside.
+  [[nodiscard]] double inside_m(const Eigen::Vector2d& board_m) const {
+    const Eigen::Vector2d a = board_m - outline_.lower_left_m;
+    const Eigen::Vector2d b = outline_.upper_right_m - board_m;
+    return std::min(a.minCoeff(), b.minCoeff());
+  }
+
+ private:
+  struct Level;
+  static constexpr int kLevels = 40;
+  const Level& level(int index) const;
+  [[nodiscard]] double sigma_m(int index) const;
+  [[nodiscard]] int level_below(double sigma_m) const;
+
+  Target target_;
+  BoardOutline outline_;
+  double first_sigma_m_ = 0.0;
+  mutable std::array<std::atomic<const Level*>, kLevels> levels_{};
+  mutable std::mutex building_;
+};
+
+}  // namespace lvcalib

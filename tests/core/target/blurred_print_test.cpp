@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The blurred print against sums over many points of the spot, and its derivatives against
+// differences.
+#include "target/blurred_print.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+
+namespace lvcalib {
+namespace {
+
+Target circles() {
+  Target t;
+  t.tag_spacing = 0.1 / 0.12;
+  return t;
+}
+
+Target checkerboard() {
+  Target t;
+  t.type = TargetType::kCheckerboard;
+  t.corner_columns = 7;
+  t.corner_rows = 5;
+  t.column_spacing_m = t.row_spacing_m = 0.095;
+  t.board_width_m = 0.85;
+  t.board_height_m = 0.65;
+  return t;
+}
+
+// Gaussian points of the plane, spread evenly: Halton's sequence through Box and Muller.
+class SpotPoints {
+ public:
+  explicit SpotPoints(int count) {
+    for (int i = 1; i <= count; ++i) {
+      const double radius = std::sqrt(-2.0 * std::log(1.0 - halton(i, 2)));
+      const double angle = 2.0 * std::numbers::pi * halton(i, 3);
+      points_.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+  }
+  [[nodiscard]] double white(const Target& target, const Eigen::Vector2d& at,
+                             const Eigen::Matrix2d& blur) const {
+    const Eigen::Matrix2d root = blur.llt().matrixL();
+    double sum = 0.0;
+    for (const Eigen::Vector2d& p : points_) sum += target.albedo(at + root * p).value_or(1.0);
+    return sum / static_cast<double>(points_.size());
+  }
+
+ private:
+  static double halton(int i, int base) {
+    double f = 1.0;
+    double r = 0.0;
+    for (; i > 0; i /= base) {
+      f /= base;
+      r += f * (i % base);
+    }
+    return r;
+  }
+  std::vector<Eigen::Vector2d> points_;
+};
+
+Eigen::Matrix2d spot(double major, double minor, double angle) {
+  const Eigen::Vector2d a(std::cos(angle), std::sin(angle));
+  const Eigen::Vector2d b(-a.y(), a.x());
+  return major * major * a * a.transpose() + minor * minor * b * b.transpose();
+}
+
+struct Case {
+  Eigen::Vector2d at;
+  Eigen::Matrix2d blur;
+};
+
+// Spots from round to six times as long as wide (3 : 1, tilted by 60°), from fine to coarse.
+std::vector<Case> cases(const BlurredPrint& print, int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Case> out;
+  const BoardOutline& o = print.outline();
+  for (int i = 0; i < count; ++i) {
+    const double minor = 0.0015 * std::exp(random.uniform(0.0, 2.2));
+    const double ratio = std::exp(random.uniform(0.0, std::log(6.0)));
+    out.push_back({{random.uniform(o.lower_left_m.x(), o.upper_right_m.x()),
+                    random.uniform(o.lower_left_m.y(), o.upper_right_m.y())},
+                   spot(ratio * minor, minor, random.uniform(0.0, 3.2))});
+  }
+  return out;
+}
+
+TEST(BlurredPrint, IsTheMeanOverTheSpot) {
+  const SpotPoints points(200'000);
+  double worst = 0.0;
+  for (const Target& target : {circles(), checkerboard()}) {
+    const BlurredPrint print(target);
+    for (const Case& c : cases(print, 60, 3)) {
+      const double expected = points.white(target, c.at, c.blur);
+      const double error = std::abs(print.at(c.at, c.blur).white - expected);
+      worst = std::max(worst, error);
+      EXPECT_LT(error, 1e-3) << c.at.transpose() << "\n" << c.blur;
+    }
+  }
+  RecordProperty("worst", std::to_string(worst));
+}
+
+TEST(BlurredPrint, HasItsEdgesWhereTheyAreDrawn) {
+  // Crossing of half white along a line over the lowest tag's left edge, x = 0.
+  const BlurredPrint print(circles());
+  for (const double sigma : {0.0015, 0.0031, 0.0077}) {
+    const Eigen::Matrix2d blur = sigma * sigma * Eigen::Matrix2d::Identity();
+    double low = -0.005;
+    double high = 0.005;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (print.at({middle, 0.06}, blur).white > 0.5 ? low : high) = middle;
+    }
+    // Other edges of the tag lie 15 mm away; they show in the widest blur.
+    EXPECT_NEAR(low, 0.0, sigma < 0.004 ? 3e-6 : 3e-4) << sigma;
+  }
+}
+
+TEST(BlurredPrint, DerivativesAreThoseOfTheValue) {
+  for (const Target& target : {circles(), checkerboard()}) {
+    const BlurredPrint print(target);
+    for (const Case& c : cases(print, 200, 5)) {
+      const PrintSample s = print.at(c.at, c.blur);
+      const double sigma = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c.blur)
+                                         .eigenvalues()(0));
+      const double h = 0.02 * sigma;
+      for (int k = 0; k < 2; ++k) {
+        const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(k);
+        const PrintSample up = print.at(c.at + step, c.blur);
+        const PrintSample down = print.at(c.at - step, c.blur);
+        EXPECT_NEAR(s.gradient_per_m(k), (up.white - down.white) / (2 * h), 3e-3 / sigma);
+        for (int l = 0; l < 2; ++l) {
+          EXPECT_NEAR(s.hessian_per_m2(k, l),
+                      (up.gradient_per_m(l) - down.gradient_per_m(l)) / (2 * h),
+                      4e-2 / (sigma * sigma));
+        }
+      }
+      // ∂A/∂S = ½∇∇ᵀA, along each entry of S.
+      const double grow = 0.05 * sigma * sigma;
+      for (int k = 0; k < 2; ++k) {
+        Eigen::Matrix2d wider = c.blur;
+        wider(k, k) += grow;
+        const double slope = (print.at(c.at, wider).white - s.white) / grow;
+        EXPECT_NEAR(slope, 0.5 * s.hessian_per_m2(k, k), 4e-2 / (sigma * sigma));
+      }
+    }
+  }
+}
+
+TEST(BlurredPrint, IsPlainWhereNoEdgeIsNear) {
+  const BlurredPrint print(circles());
+  const Eigen::Matrix2d blur = 4e-6 * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d middle_of_circle = circles().nodes().front().center_m;
+  EXPECT_EQ(print.at(middle_of_circle, blur).white, 0.0);
+  EXPECT_EQ(print.at(middle_of_circle, blur).gradient_per_m.norm(), 0.0);
+  EXPECT_EQ(print.at({-0.045, -0.045}, blur).white, 1.0);
+  // Beyond the outline it goes on white.
+  EXPECT_EQ(print.at({-10.0, 3.0}, blur).white, 1.0);
+}
+
+}  // namespace
+}  // namespace lvcalib

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Calibrates a dataset and prints what the joint solve over all returns says scene by scene; with
+// splits, how far random halves of the scenes disagree.
+//
+//   forward_probe DATASET [--crops] [--truth FILE] [--splits N]
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "base/random.h"
+#include "base/statistics.h"
+#include "pipeline/calibration.h"
+#include "report/result_file.h"
+#include "solve/forward_solver.h"
+
+namespace lvcalib {
+namespace {
+
+std::vector<ForwardScene> forward_scenes(const CalibrationResult& result) {
+  std::vector<ForwardScene> scenes;
+  std::size_t k = 0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!scene.view || !scene.refinement) continue;
+    const SceneSolution& solution = result.extrinsic.scenes[k++];
+    if (!solution.used) continue;
+    ForwardScene f;
+    f.name = scene.name;
+    for (std::size_t i = 0; i < scene.view->corners.size(); ++i) {
+      if (solution.corners[i].used) f.corners.push_back(scene.view->corners[i]);
+    }
+    f.board_points = &scene.board_points;
+    f.camera_from_board = solution.camera_from_board;
+    f.lidar_from_board = scene.refinement->lidar_from_board;
+    f.range_sigma_m = std::max(scene.refinement->plane.group_sigma_m[0],
+                               scene.refinement->plane.group_sigma_m[1]);
+    scenes.push_back(std::move(f));
+  }
+  return scenes;
+}
+
+void print_solution(const ForwardSolution& s, const std::vector<ForwardScene>& scenes) {
+  const Matrix6d& c = s.camera_from_lidar.covariance;
+  std::printf("t %.4f %.4f %.4f m; sigma %.3f %.3f %.3f mm, %.3f %.3f %.3f mrad; dof %.0f; %d iterations%s\n",
+              s.state.camera_from_lidar.translation.x(), s.state.camera_from_lidar.translation.y(),
+              s.state.camera_from_lidar.translation.z(), 1e3 * std::sqrt(c(0, 0)),
+              1e3 * std::sqrt(c(1, 1)), 1e3 * std::sqrt(c(2, 2)), 1e3 * std::sqrt(c(3, 3)),
+              1e3 * std::sqrt(c(4, 4)), 1e3 * std::sqrt(c(5, 5)), s.dof, s.iterations,
+              s.converged ? "" : ", NOT CONVERGED");
+  const Eigen::Matrix2d& b = s.state.beam.blur_rad2;
+  const Eigen::Matrix2d& j = s.state.beam.jitter_rad2;
+  std::printf("blur %.3f x %.3f mrad (cov %.3f), jitter %.3f x %.3f mrad; corner %.4f px; shared %.3f mm %.3f mm %.3f mm %.4f px %.4f\n",
+              1e3 * std::sqrt(b(0, 0)), 1e3 * std::sqrt(b(1, 1)), 1e6 * b(0, 1),
+              1e3 * std::sqrt(j(0, 0)), 1e3 * std::sqrt(j(1, 1)), s.noise.corner_px,
+              1e3 * std::sqrt(s.noise.shared[0]), 1e3 * std::sqrt(s.noise.shared[1]),
+              1e3 * std::sqrt(s.noise.shared[2]), std::sqrt(s.noise.shared[3]),
+              std::sqrt(s.noise.shared[4]));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const ForwardSceneResult& r = s.scenes[i];
+    std::printf("  %-6s rows %6zu of %6zu (%zu refused) corr %.3f margin %6.1f left %.3f chi r %.2f i %.2f c %.2f; range %.1f %.1f mm infl %.2f, levels %.1f %.1f noise %.2f %.2f infl %.2f\n",
+                scenes[i].name.c_str(), r.returns, r.on_board, r.refused, r.print_correlation,
+                r.print_margin, r.intensity_left, r.range_chi, r.intensity_chi, r.corner_chi,
+                1e3 * r.noise.range_white_m, 1e3 * r.noise.range_black_m, r.noise.range_inflation,
+                s.state.levels[i].white, s.state.levels[i].black, r.noise.intensity_white,
+                r.noise.intensity_black, r.noise.intensity_inflation);
+  }
+}
+
+void compare_truth(const char* name, const UncertainRigid3& x, const std::string& file) {
+  const auto truth = read_truth(file);
+  if (!truth) return;
+  const ExtrinsicError e = compare_extrinsics({x.transform, x.covariance}, *truth);
+  std::printf("%s: %.3f mm %.3f mrad off truth; in sigma", name, e.translation_mm, e.rotation_mrad);
+  for (int k = 0; k < 6; ++k) std::printf(" %.2f", e.normalized(k));
+  std::printf("\n");
+}
+
+}  // namespace
+}  // namespace lvcalib
+
+int main(int argc, char** argv) {
+  using namespace lvcalib;
+  using Clock = std::chrono::steady_clock;
+  if (argc < 2) return 2;
+  CalibrationRequest request;
+  std::string truth;
+  int splits = 0;
+  for (int i = 2; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--crops") == 0) request.use_crops = true;
+    if (std::strcmp(argv[i], "--truth") == 0) truth = argv[++i];
+    if (std::strcmp(argv[i], "--splits") == 0) splits = std::atoi(argv[++i]);
+  }
+  const auto dataset = open_dataset(argv[1]);
+  if (!dataset) return std::fprintf(stderr, "%s\n", dataset.error().text().c_str()), 3;
+  const auto result = calibrate(*dataset, request, {});
+  if (!result) return std::fprintf(stderr, "%s\n", result.error().text().c_str()), 1;
+  const auto scenes = forward_scenes(*result);
+  auto t0 = Clock::now();
+  const BlurredPrint print(result->target);
+  const auto solved =
+      solve_forward(scenes, print, result->camera, result->extrinsic.camera_from_lidar.transform,
+                    result->extrinsic.sigma_px, {}, {});
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - t0).count();
+  if (!solved) return std::fprintf(stderr, "%s\n", solved.error().text().c_str()), 1;
+  std::printf("calibrate %.0f ms, forward %.0f ms\n", result->times.total_ms, ms);
+  print_solution(*solved, scenes);
+  const Rigid3& a = result->extrinsic.camera_from_lidar.transform;
+  const Rigid3& b = solved->camera_from_lidar.transform;
+  std::printf("moved from the nodes' solution by %.2f mm %.3f mrad\n",
+              1e3 * translation_distance_m(a.inverse(), b.inverse()),
+              1e3 * rotation_distance_rad(a, b));
+  if (!truth.empty()) {
+    compare_truth("nodes  ", result->extrinsic.camera_from_lidar, truth);
+    compare_truth("forward", solved->camera_from_lidar, truth);
+  }
+  Random random(1);
+  std::vector<double> mm, mrad;
+  int inside = 0;
+  int components = 0;
+  double chi = 0.0;
+  for (int k = 0; k < splits; ++k) {
+    std::vector<std::size_t> order(scenes.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    for (std::size_t i = order.size(); i > 1; --i)
+      std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+    std::vector<ForwardScene> halves[2];
+    for (std::size_t i = 0; i < order.size(); ++i)
+      halves[i < order.size() / 2 ? 0 : 1].push_back(scenes[order[i]]);
+    const auto x = solve_forward(halves[0], print, result->camera, a, result->extrinsic.sigma_px, {}, {});
+    const auto y = solve_forward(halves[1], print, result->camera, a, result->extrinsic.sigma_px, {}, {});
+    if (!x || !y) continue;
+    const Rigid3& tx = x->camera_from_lidar.transform;
+    const Rigid3& ty = y->camera_from_lidar.transform;
+    mm.push_back(1e3 * translation_distance_m(tx.inverse(), ty.inverse()));
+    mrad.push_back(1e3 * rotation_distance_rad(tx, ty));
+    const Vector6d xi = se3_log(tx * ty.inverse());
+    const Matrix6d cov = x->camera_from_lidar.covariance + y->camera_from_lidar.covariance;
+    const double c2 = xi.dot(cov.ldlt().solve(xi)) / 6.0;
+    chi += c2;
+    for (int i = 0; i < 6; ++i, ++components)
+      inside += std::abs(xi(i)) < 2.0 * std::sqrt(cov(i, i)) ? 1 : 0;
+  }
+  if (!mm.empty()) {
+    std::printf("splits %zu: median %.2f mm %.3f mrad; within twice combined sigma %.1f %%; mean chi2/6 %.2f\n",
+                mm.size(), median(mm), median(mrad), 100.0 * inside / components,
+                chi / static_cast<double>(mm.size()));
+  }
+  return 0;
+}
