@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/statistics.h"
 #include "extrinsic/method_solvers.h"
@@ -44,20 +45,45 @@ class Comparison {
         raw_(input_of(raw_scenes_, camera, target, joint, options)) {}
 
   MethodResult evaluate(const Method& method, bool held_out) const {
-    MethodResult result;
-    result.name = method.name;
     const bool is_joint = method.objective == Objective::kJoint && method.refined;
-    result.camera_from_lidar = is_joint ? joint_.camera_from_lidar.transform
-                                        : solve(method, method.refined ? refined_ : raw_);
-    const Rigid3& joint = joint_.camera_from_lidar.transform;
-    result.translation_mm = 1e3 * translation_distance_m(result.camera_from_lidar, joint);
-    result.rotation_mrad = 1e3 * rotation_distance_rad(result.camera_from_lidar, joint);
-    measure_all(result);
-    if (held_out) hold_out(method, result);
+    const MethodInput& input = method.refined ? refined_ : raw_;
+    MethodResult result = measured(
+        method.name, is_joint ? joint_.camera_from_lidar.transform : solve(method, input));
+    if (!held_out) return result;
+    hold_out(result, [&](std::size_t s) -> std::optional<Rigid3> {
+      MethodInput without = input;
+      without.mask.scene[s] = false;
+      return solve(method, without);
+    });
+    return result;
+  }
+
+  MethodResult evaluate(const OtherMethod& other, bool held_out) const {
+    MethodResult result = measured(other.name, other.camera_from_lidar);
+    if (!held_out || !other.subset) return result;
+    hold_out(result, [&](std::size_t s) -> std::optional<Rigid3> {
+      std::vector<std::size_t> rest;
+      for (std::size_t i = 0; i < refined_.scenes.size(); ++i) {
+        if (i != s && refined_.mask.scene[i]) rest.push_back(i);
+      }
+      const auto solved = other.subset(rest);
+      return solved ? std::optional(solved->transform) : std::nullopt;
+    });
     return result;
   }
 
  private:
+  MethodResult measured(const std::string& name, const Rigid3& camera_from_lidar) const {
+    MethodResult result;
+    result.name = name;
+    result.camera_from_lidar = camera_from_lidar;
+    const Rigid3& joint = joint_.camera_from_lidar.transform;
+    result.translation_mm = 1e3 * translation_distance_m(camera_from_lidar, joint);
+    result.rotation_mrad = 1e3 * rotation_distance_rad(camera_from_lidar, joint);
+    measure_all(result);
+    return result;
+  }
+
   Rigid3 solve(const Method& method, const MethodInput& input) const {
     switch (method.objective) {
       case Objective::kSvd:
@@ -141,27 +167,28 @@ class Comparison {
     return out;
   }
 
-  void hold_out(const Method& method, MethodResult& result) const {
+  // `without` solves without one scene; a scene without which nothing is solved is not counted.
+  void hold_out(MethodResult& result,
+                const std::function<std::optional<Rigid3>(std::size_t)>& without) const {
     std::vector<double> px;
     std::vector<double> mm;
     std::size_t at = 0;
     for (std::size_t s = 0; s < refined_.scenes.size(); ++s) {
       if (!refined_.mask.scene[s]) continue;
-      MethodInput input = method.refined ? refined_ : raw_;
-      input.mask.scene[s] = false;
-      const Rigid3 without = solve(method, input);
+      const std::size_t place = at++;
+      const auto extrinsic = without(s);
+      if (!extrinsic) continue;
       ObservationMask only = refined_.mask;
       std::fill(only.scene.begin(), only.scene.end(), false);
       only.scene[s] = true;
       const auto boards =
-          solve_boards(refined_.scenes, refined_.camera, refined_.target, state_with(without),
+          solve_boards(refined_.scenes, refined_.camera, refined_.target, state_with(*extrinsic),
                        refined_.scales, only, refined_.options);
-      const MethodScene scene = measure(s, without, boards[s]);
-      result.scenes[at].heldout_px = scene.rms_px;
-      result.scenes[at].heldout_mm = scene.rms_mm;
+      const MethodScene scene = measure(s, *extrinsic, boards[s]);
+      result.scenes[place].heldout_px = scene.rms_px;
+      result.scenes[place].heldout_mm = scene.rms_mm;
       px.insert(px.end(), scene.errors_px.begin(), scene.errors_px.end());
       mm.insert(mm.end(), scene.errors_mm.begin(), scene.errors_mm.end());
-      ++at;
     }
     result.heldout_px = rms(px);
     result.heldout_mm = rms(mm);
@@ -189,6 +216,10 @@ std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& 
     const int fewest = target.has_circles() ? 2 : 4;
     results.push_back(
         comparison.evaluate(method, method_options.held_out && joint.used_scenes >= fewest));
+  }
+  if (method_options.other) {
+    results.push_back(comparison.evaluate(*method_options.other,
+                                          method_options.held_out && joint.used_scenes >= 2));
   }
   return results;
 }

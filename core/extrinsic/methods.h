@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "extrinsic/extrinsic_solver.h"
+#include "extrinsic/uncertainty.h"
 
 namespace lvcalib {
 
@@ -42,8 +43,16 @@ struct MethodResult {
   std::vector<MethodScene> scenes;  ///< The scenes in use.
 };
 
+/// A solution from elsewhere that is measured like the others.
+struct OtherMethod {
+  std::string name;
+  Rigid3 camera_from_lidar;
+  SubsetSolver subset;  ///< Solves it without a scene.
+};
+
 struct MethodOptions {
   bool held_out = true;  ///< Solve every method once more without each scene.
+  std::optional<OtherMethod> other = {};
 };
 
 /// The paper's comparison (LV-Calib, section IV-C) on the scenes, tags and nodes that the joint
@@ -54,6 +63,7 @@ struct MethodOptions {
 /// joint — the joint objective.
 /// Each with the centres as initialised (raw) and as refined. Boards without circles have no nodes
 /// to compare: joint_refined alone is listed, its rms_mm the heights over the planes.
+/// Behind them `other`, the joint solve over every return.
 std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& scenes,
                                           const Camera& camera, const Target& target,
                                           const ExtrinsicSolution& joint,

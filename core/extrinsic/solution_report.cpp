@@ -40,7 +40,7 @@ class SolutionReport {
                  const Camera& camera, const Target& target, const ExtrinsicOptions& options)
       : fit_(fit), scenes_(scenes), camera_(camera), target_(target), options_(options) {}
 
-  ExtrinsicSolution run() const {
+  ExtrinsicSolution run(bool leaving_out) const {
     ExtrinsicSolution solution;
     solution.camera_from_lidar.transform = fit_.fit.state.camera_from_lidar;
     solution.sigma_px = fit_.scales.sigma_px;
@@ -55,7 +55,7 @@ class SolutionReport {
       solution.scenes.push_back(report_scene(s, all_px, all_mm));
     solution.rms_px = std::sqrt(2.0) * rms(all_px);
     solution.rms_mm = rms(all_mm);
-    leave_one_out(solution);
+    if (leaving_out) leave_one_out(solution);
     return solution;
   }
 
@@ -156,8 +156,8 @@ class SolutionReport {
 ExtrinsicSolution report_solution(const RobustFit& fit,
                                   const std::vector<SceneObservations>& scenes,
                                   const Camera& camera, const Target& target,
-                                  const ExtrinsicOptions& options) {
-  return SolutionReport(fit, scenes, camera, target, options).run();
+                                  const ExtrinsicOptions& options, bool leave_one_out) {
+  return SolutionReport(fit, scenes, camera, target, options).run(leave_one_out);
 }
 
 }  // namespace lvcalib

@@ -27,8 +27,10 @@ Eigen::Matrix3d origin_covariance(const Matrix6d& covariance, const Eigen::Vecto
 class Splitter {
  public:
   Splitter(const std::vector<SceneObservations>& scenes, const Camera& camera, const Target& target,
-           const ExtrinsicSolution& joint, const ExtrinsicOptions& options)
-      : scenes_(scenes), camera_(camera), target_(target), joint_(joint), options_(options) {
+           const ExtrinsicSolution& joint, const ExtrinsicOptions& options,
+           const SubsetSolver& subset)
+      : subset_(subset),
+        scenes_(scenes), camera_(camera), target_(target), joint_(joint), options_(options) {
     start_.camera_from_lidar = joint.camera_from_lidar.transform;
     for (const SceneSolution& s : joint.scenes)
       start_.camera_from_board.push_back(s.camera_from_board);
@@ -71,6 +73,7 @@ class Splitter {
 
  private:
   [[nodiscard]] std::optional<UncertainRigid3> solve(const std::vector<std::size_t>& half) const {
+    if (subset_) return subset_(half);
     ObservationMask mask = mask_of(joint_);
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       mask.scene[s] = std::find(half.begin(), half.end(), s) != half.end();
@@ -98,6 +101,7 @@ class Splitter {
     return out;
   }
 
+  const SubsetSolver& subset_;
   const std::vector<SceneObservations>& scenes_;
   const Camera& camera_;
   const Target& target_;
@@ -108,7 +112,8 @@ class Splitter {
 
 void compare_halves(const std::vector<SceneObservations>& scenes, const Camera& camera,
                     const Target& target, const ExtrinsicSolution& joint,
-                    const ExtrinsicOptions& options, UncertaintyReport& report) {
+                    const ExtrinsicOptions& options, const SubsetSolver& subset,
+                    UncertaintyReport& report) {
   const int needed = target.has_circles() ? 4 : 6;
   if (joint.used_scenes < needed) {
     report.splits_reason =
@@ -116,7 +121,7 @@ void compare_halves(const std::vector<SceneObservations>& scenes, const Camera& 
         " in use, " + std::to_string(needed) + " needed";
     return;
   }
-  const Splitter splitter(scenes, camera, target, joint, options);
+  const Splitter splitter(scenes, camera, target, joint, options, subset);
   const auto add = [&](const char* name, const std::function<double(std::size_t)>& key) {
     if (auto split = splitter.split(name, key)) report.splits.push_back(std::move(*split));
   };
@@ -170,9 +175,9 @@ UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scene
                                      const Camera& camera, const Target& target,
                                      const ExtrinsicSolution& joint,
                                      const ExtrinsicOptions& options,
-                                     const UncertaintyOptions& how) {
+                                     const UncertaintyOptions& how, const SubsetSolver& subset) {
   UncertaintyReport report;
-  compare_halves(scenes, camera, target, joint, options, report);
+  compare_halves(scenes, camera, target, joint, options, subset, report);
   const Matrix6d& covariance = joint.camera_from_lidar.covariance;
   report.maps.push_back(map_over_image(camera, covariance, how.map_range_m, how.map_columns));
   for (const double range : how.ranges_m) {

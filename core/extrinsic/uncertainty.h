@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,13 +53,18 @@ struct UncertaintyOptions {
   int map_columns = 24;
 };
 
+/// The extrinsic from some of the scenes (indices); nothing if they do not determine it.
+using SubsetSolver =
+    std::function<std::optional<UncertainRigid3>(const std::vector<std::size_t>& scenes)>;
+
 /// Compares halves of the scenes, and projects the covariance. Halves need two scenes each; three
-/// for targets without circles.
+/// for targets without circles. Halves are solved by `subset`, or, without it, from nodes and planes.
 UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
                                      const Camera& camera, const Target& target,
                                      const ExtrinsicSolution& joint,
                                      const ExtrinsicOptions& options,
-                                     const UncertaintyOptions& how = {});
+                                     const UncertaintyOptions& how = {},
+                                     const SubsetSolver& subset = {});
 
 /// Covariance (px²) of the pixel of a point (camera frame) when the extrinsic has this one.
 /// Nothing where the camera sees no such point.

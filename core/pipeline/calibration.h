@@ -18,6 +18,7 @@
 #include "pipeline/options.h"
 #include "pipeline/stage_cache.h"
 #include "response/boundary_response.h"
+#include "solve/forward_solver.h"
 
 namespace lvcalib {
 
@@ -62,7 +63,10 @@ struct CalibrationResult {
   Camera camera;
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
-  ExtrinsicSolution extrinsic;
+  std::shared_ptr<const BlurredPrint> print;  ///< Of the target; shared by every solve.
+  ExtrinsicSolution extrinsic;  ///< Of the forward model where it could be solved.
+  /// The forward model behind it; empty where the nodes and planes alone had to do.
+  std::optional<ForwardSolution> forward;
   std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
   std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
   /// The extrinsic's covariance with the budget; zero before discover().

@@ -53,10 +53,13 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
 }
 
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery) {
-  result.extrinsic.camera_from_lidar = {discovery.state.camera_from_lidar, discovery.covariance};
+  // With nothing selected the calibration's own extrinsic stands: it rests on every return.
+  const bool changed = !discovery.model.empty();
+  if (changed)
+    result.extrinsic.camera_from_lidar = {discovery.state.camera_from_lidar, discovery.covariance};
   std::size_t next = 0;
   for (const SceneResult& scene : result.scenes) {
-    if (!takes_part(scene)) continue;
+    if (!changed || !takes_part(scene)) continue;
     for (SceneSolution& s : result.extrinsic.scenes) {
       if (s.name == scene.name && next < discovery.state.camera_from_board.size())
         s.camera_from_board = discovery.state.camera_from_board[next];

@@ -38,6 +38,7 @@ std::vector<OptionDeclaration> make_declarations() {
   using C = ConsensusOptions;
   using R = RefinementOptions;
   using E = ExtrinsicOptions;
+  using F = ForwardOptions;
   using P = ResponseOptions;
   using Q = QualityOptions;
   using M = DiscoveryOptions;
@@ -117,6 +118,19 @@ std::vector<OptionDeclaration> make_declarations() {
               &E::weak_direction_ratio),
       declare("extrinsic.max_iterations", "1", 1, 10000, "optimize",
               "Most iterations of one solve.", &O::extrinsic, &E::max_iterations),
+      declare("forward.robust_threshold", "1", 0.5, 1000, "optimize",
+              "Returns and corners farther off (in σ) weigh less.", &O::forward,
+              &F::robust_threshold),
+      declare("forward.patch_m", "m", 0.02, 10, "optimize",
+              "Side of the patches over which the print may move as one.", &O::forward,
+              &F::patch_m),
+      declare("forward.false_alarm", "1", 1e-9, 0.5, "optimize",
+              "How rarely chance alone may let errors that measurements share into the model.",
+              &O::forward, &F::false_alarm),
+      declare("forward.tolerance", "1", 1e-6, 1, "optimize",
+              "Done when the extrinsic moves by less of its σ.", &O::forward, &F::tolerance),
+      declare("forward.max_iterations", "1", 1, 1000, "optimize",
+              "Most iterations of the solve over all returns.", &O::forward, &F::max_iterations),
       declare("response.overlap_sigmas", "1", 0.1, 100, "optimize",
               "Half-width of the overlap region in units of the transition's width.", &O::response,
               &P::overlap_sigmas),

@@ -14,6 +14,7 @@
 #include "localization/scene_consensus.h"
 #include "refinement/board_refinement.h"
 #include "response/boundary_response.h"
+#include "solve/forward_solver.h"
 
 namespace lvcalib {
 
@@ -38,6 +39,7 @@ struct CalibrationOptions {
   ConsensusOptions consensus;
   RefinementOptions refinement;
   ExtrinsicOptions extrinsic;
+  ForwardOptions forward;
   ResponseOptions response;
   QualityOptions quality;
   DiscoveryOptions discovery;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "pipeline/calibration.h"
+#include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
 #include "pipeline/stopwatch.h"
 
@@ -56,6 +57,28 @@ Status respond(CalibrationResult& result, const CalibrationOptions& options,
   return Done{};
 }
 
+// Every corner and return in one model; where that fails, what nodes and planes say stands.
+Status solve_forward_model(CalibrationResult& result,
+                           const std::vector<SceneObservations>& observations,
+                           const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,
+                           const RunContext& context) {
+  if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
+  auto forward = solve_every_return(result, observations, index, nodes, result.options.forward, context);
+  result.forward.reset();
+  result.extrinsic = nodes;
+  if (!forward) {
+    if (forward.error().kind == ErrorKind::kCancelled) return forward.error();
+    result.warnings.push_back("result: the returns' own model could not be solved (" +
+                              forward.error().message +
+                              "): the extrinsic rests on nodes, planes and corners");
+    return Done{};
+  }
+  result.forward = std::move(*forward);
+  result.extrinsic = report_forward(*result.forward, nodes, observations, result.camera,
+                                    result.target, result.options.extrinsic);
+  return Done{};
+}
+
 }  // namespace
 
 bool can_be_used(const SceneResult& scene, const Target& target) {
@@ -82,7 +105,9 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     }
     return error;
   }
-  result.extrinsic = std::move(*solution);
+  const ExtrinsicSolution nodes = std::move(*solution);
+  if (Status status = solve_forward_model(result, observations, index, nodes, context); !status)
+    return status.error();
   for (std::size_t k = 0; k < index.size(); ++k) {
     SceneResult& scene = result.scenes[index[k]];
     const bool wanted = observations[k].use;
@@ -92,11 +117,17 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     scene.contradicts = !scene.used && !scene.reason.empty();
   }
   if (context.stopped()) return Error::cancelled();
-  result.methods = compare_methods(observations, result.camera, result.target, result.extrinsic,
-                                   options.extrinsic);
+  MethodOptions methods;
+  SubsetSolver subsets;
+  if (result.forward) {
+    subsets = forward_subsets(*result.forward, nodes);
+    methods.other = {"forward_model", result.extrinsic.camera_from_lidar.transform, subsets};
+  }
+  result.methods = compare_methods(observations, result.camera, result.target, nodes,
+                                   options.extrinsic, methods);
   if (context.stopped()) return Error::cancelled();
   result.uncertainty = assess_uncertainty(observations, result.camera, result.target,
-                                          result.extrinsic, options.extrinsic);
+                                          result.extrinsic, options.extrinsic, {}, subsets);
   if (Status status = respond(result, options, context); !status) return status.error();
   judge_quality(result, options.quality);
   return result;

@@ -137,6 +137,13 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
   out.refused += places.size() - kept;
   out.index.resize(kept);
 
+  // Some drivers fill the field with one number.
+  out.has_intensity =
+      cloud.has_intensity() && kept > 0 &&
+      std::any_of(out.index.begin(), out.index.end(), [&](std::uint32_t i) {
+        return cloud.intensity[i] != cloud.intensity[out.index.front()];
+      });
+
   out.successor.assign(kept, BoardReturns::kNone);
   std::map<std::uint16_t, std::uint32_t> last;
   for (std::uint32_t k = 0; k < kept; ++k) {
@@ -150,11 +157,11 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
   return out;
 }
 
-std::optional<PrintMatch> match_print(const Cloud& cloud, const BoardReturns& returns,
+std::optional<PrintMatch> match_print(const BoardReturns& returns,
                                       const BlurredPrint& print, const Rigid3& lidar_from_board,
                                       const PrintSearch& search) {
   constexpr std::size_t kFewest = 30;
-  if (!cloud.has_intensity() || returns.size() < kFewest) return std::nullopt;
+  if (!returns.has_intensity || returns.size() < kFewest) return std::nullopt;
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
   std::vector<Sample> samples;
   const std::size_t stride = std::max<std::size_t>(1, returns.size() / search.samples);

@@ -18,6 +18,7 @@ struct BoardReturns {
   const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> index;
   std::size_t on_board = 0;  ///< Rays that meet the board's inside, refused ones included.
+  bool has_intensity = false;  ///< And it is not the same on all of them.
   std::size_t refused = 0;   ///< Of them, those that lie off the plane or next to what covers it.
   /// Correlation of neighbours along a line is measured over these: places in `index` whose
   /// successor on the same line is the next place of `successor`, or kNone.
@@ -63,7 +64,7 @@ struct PrintSearch {
 
 /// Slides and turns the board on its plane until the intensities fit best. Nothing where no pose
 /// correlates.
-std::optional<PrintMatch> match_print(const Cloud& cloud, const BoardReturns& returns,
+std::optional<PrintMatch> match_print(const BoardReturns& returns,
                                       const BlurredPrint& print, const Rigid3& lidar_from_board,
                                       const PrintSearch& search = {});
 

@@ -25,9 +25,11 @@ constexpr double kSlopeSigma = 0.1;
 constexpr int kLineRows = 8;
 
 constexpr Eigen::Index kLidarFixed = 6 + kBlurParameters + kLevelParameters;
-constexpr Eigen::Index kRangeTerms = 15;
+// Constant and slopes are the board's own motion.
+constexpr Eigen::Index kRangeTerms = 12;
+constexpr Eigen::Index kBoardTerms = 6;  // Shift (2), normal (1), tilt (2), spin (1).
 
-// Products of Legendre polynomials up to total degree four, at (x, y) in [−1, 1]².
+// Products of Legendre polynomials of total degree two to four, at (x, y) in [−1, 1]².
 void legendre_products(double x, double y, double* out) {
   const auto series = [](double t, std::array<double, 5>& p) {
     p = {1.0, t, 0.5 * (3 * t * t - 1), 0.5 * (5 * t * t * t - 3 * t),
@@ -37,7 +39,7 @@ void legendre_products(double x, double y, double* out) {
   std::array<double, 5> py{};
   series(x, px);
   series(y, py);
-  for (std::size_t degree = 0; degree < 5; ++degree) {
+  for (std::size_t degree = 2; degree < 5; ++degree) {
     for (std::size_t i = 0; i <= degree; ++i) *out++ = px[i] * py[degree - i];
   }
 }
@@ -47,14 +49,15 @@ void legendre_products(double x, double y, double* out) {
 struct Layout {
   Eigen::Index size = kLidarFixed;
   Eigen::Index range_shape = -1;
-  Eigen::Index print_scene = -1;
+  Eigen::Index board = -1;
   Eigen::Index print_patch = -1;
   Eigen::Index line_gain = -1;
+  Eigen::Index line_range = -1;
   Eigen::Index corner_group = -1;  // Behind the LiDAR's.
   Eigen::Index corner_groups = 0;
   int patches_x = 0, patches_y = 0;
   std::map<int, int> corner_group_of;           // feature → group
-  std::map<std::uint16_t, int> line_gain_of;
+  std::map<std::uint16_t, int> line_of;
   SharedErrorColumns columns;
 };
 
@@ -82,24 +85,26 @@ Layout make_layout(const ForwardScene& scene, const BoardReturns& returns, const
     layout.size += count;
     return at;
   };
+  if (returns.cloud->has_line()) {
+    std::map<std::uint16_t, int> rows;
+    for (const std::uint32_t i : returns.index) ++rows[returns.cloud->line[i]];
+    for (const auto& [line, count] : rows) {
+      if (count >= kLineRows) layout.line_of.emplace(line, static_cast<int>(layout.line_of.size()));
+    }
+    // A single line's gain is the levels', its range the board's.
+    if (layout.line_of.size() < 2) layout.line_of.clear();
+  }
+  const auto lines = static_cast<Eigen::Index>(layout.line_of.size());
+  layout.board = place(SharedError::kBoardShift, 2);
+  place(SharedError::kBoardNormal, 1);
+  place(SharedError::kBoardTilt, 2);
+  place(SharedError::kBoardSpin, 1);
   layout.range_shape = place(SharedError::kRangeShape, kRangeTerms);
-  if (returns.cloud->has_intensity()) {
-    layout.print_scene = place(SharedError::kPrintScene, 2);
+  layout.line_range = place(SharedError::kLineRange, lines);
+  if (returns.has_intensity) {
     layout.print_patch = place(SharedError::kPrintPatch,
                                2 * static_cast<Eigen::Index>(layout.patches_x * layout.patches_y));
-    if (returns.cloud->has_line()) {
-      std::map<std::uint16_t, int> rows;
-      for (const std::uint32_t i : returns.index) ++rows[returns.cloud->line[i]];
-      for (const auto& [line, count] : rows) {
-        if (count < kLineRows) continue;
-        const int next = static_cast<int>(layout.line_gain_of.size());
-        layout.line_gain_of.emplace(line, next);
-      }
-      // One line's gain is the levels'.
-      if (layout.line_gain_of.size() < 2) layout.line_gain_of.clear();
-    }
-    layout.line_gain =
-        place(SharedError::kLineGain, static_cast<Eigen::Index>(layout.line_gain_of.size()));
+    layout.line_gain = place(SharedError::kLineGain, lines);
   }
   const bool tags = print.target().has_tags();
   for (const CornerObservation& c : scene.corners) {
@@ -114,7 +119,16 @@ Layout make_layout(const ForwardScene& scene, const BoardReturns& returns, const
 
 // One row's non-zero entries.
 struct SparseRow {
-  static constexpr int kMost = 32;
+  static constexpr int kMost = 40;
+  // Row times the shared errors u that start behind the LiDAR's fixed unknowns.
+  [[nodiscard]] double times(const Eigen::VectorXd& u) const {
+    double sum = 0.0;
+    for (int k = 0; k < count; ++k) {
+      const Eigen::Index i = at[static_cast<std::size_t>(k)] - kLidarFixed;
+      if (i >= 0 && i < u.size()) sum += value[static_cast<std::size_t>(k)] * u(i);
+    }
+    return sum;
+  }
   std::array<Eigen::Index, kMost> at{};
   std::array<double, kMost> value{};
   int count = 0;
@@ -185,13 +199,23 @@ class LidarRows {
         noise_(noise),
         layout_(layout),
         options_(options),
+        shared_(index < state.shared.size() ? state.shared[index] : Eigen::VectorXd()),
         predictor_(print, state.lidar_from_board(index), state.levels[index], state.beam),
         blur_by_factor_(blur_by_factor(blur_factor(state.beam.blur_rad2))),
         center_(print.outline().center_m()),
         half_(0.5 * print.outline().size_m()),
-        has_intensity_(returns.cloud->has_intensity()),
+        has_intensity_(returns.has_intensity),
         range_z(returns.size(), kUnused),
-        intensity_z(returns.size(), kUnused) {}
+        intensity_z(returns.size(), kUnused) {
+    // Left perturbation of lidar_from_board by a motion t, ω along the board's axes about its middle.
+    const Rigid3 board = state.lidar_from_board(index);
+    const Eigen::Matrix3d axes = board.rotation.toRotationMatrix();
+    const Eigen::Vector3d middle = board * Eigen::Vector3d(center_.x(), center_.y(), 0.0);
+    board_terms_.topLeftCorner<3, 3>() = axes;
+    board_terms_.topRightCorner<3, 3>() = skew(middle) * axes;
+    board_terms_.bottomLeftCorner<3, 3>().setZero();
+    board_terms_.bottomRightCorner<3, 3>() = axes;
+  }
 
   static constexpr float kUnused = 1e9F;
 
@@ -209,17 +233,20 @@ class LidarRows {
  private:
   void add_range(std::size_t k, double e, const ReturnPrediction& p, Accumulator& out) {
     const double sigma = blended(noise_.range_white_m, noise_.range_black_m, p.white);
-    const double z = e / sigma;
-    range_z[k] = static_cast<float>(z);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.range_by_pose(i));
+    add_board_terms(p.range_by_pose, row);
     if (layout_.range_shape >= 0) {
       const Eigen::Vector2d at = (p.board_m - center_).cwiseQuotient(half_);
       std::array<double, kRangeTerms> terms{};
       legendre_products(at.x(), at.y(), terms.data());
       for (std::size_t i = 0; i < terms.size(); ++i)
         row.add(layout_.range_shape + static_cast<Eigen::Index>(i), terms[i]);
+      if (const int line = line_of(k); line >= 0) row.add(layout_.line_range + line, 1.0);
     }
+    e -= row.times(shared_);
+    const double z = e / sigma;
+    range_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
     out.add(row, e, robust / (sigma * sigma * noise_.range_inflation));
     out.fit.range_squares += robust * z * z;
@@ -233,27 +260,23 @@ class LidarRows {
     const Eigen::Matrix2d& jitter = state_.beam.jitter_rad2;
     const double variance = plain * plain + by_angle * jitter * by_angle.transpose();
     const double sigma = std::sqrt(variance);
-    const double z = e / sigma;
-    intensity_z[k] = static_cast<float>(z);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.intensity_by_pose(i));
     const Eigen::RowVector3d by_factor = p.intensity_by_blur * blur_by_factor_;
     for (Eigen::Index i = 0; i < kBlurParameters; ++i) row.add(6 + i, by_factor(i));
     for (Eigen::Index i = 0; i < kLevelParameters; ++i)
       row.add(6 + kBlurParameters + i, p.intensity_by_levels(i));
-    if (layout_.print_scene >= 0) {
-      row.add(layout_.print_scene, p.intensity_by_shift(0));
-      row.add(layout_.print_scene + 1, p.intensity_by_shift(1));
+    add_board_terms(p.intensity_by_pose, row);
+    if (layout_.print_patch >= 0) {
       const Eigen::Index patch =
           layout_.print_patch + 2 * patch_of(layout_, print_.outline(), p.board_m);
       row.add(patch, p.intensity_by_shift(0));
       row.add(patch + 1, p.intensity_by_shift(1));
-      if (!layout_.line_gain_of.empty()) {
-        const auto gain = layout_.line_gain_of.find(returns_.cloud->line[returns_.index[k]]);
-        if (gain != layout_.line_gain_of.end())
-          row.add(layout_.line_gain + gain->second, p.intensity);
-      }
+      if (const int line = line_of(k); line >= 0) row.add(layout_.line_gain + line, p.intensity);
     }
+    e -= row.times(shared_);
+    const double z = e / sigma;
+    intensity_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
     out.add(row, e, robust / (variance * noise_.intensity_inflation));
     out.fit.intensity_squares += robust * z * z;
@@ -273,6 +296,19 @@ class LidarRows {
       out.fit.jitter_sums[i] += w * g(static_cast<Eigen::Index>(i)) * wanted;
   }
 
+  // The board's own motion: the pose's Jacobian along its axes, about its middle.
+  void add_board_terms(const Eigen::Matrix<double, 1, 6>& by_pose, SparseRow& row) const {
+    if (layout_.board < 0) return;
+    const Eigen::Matrix<double, 1, kBoardTerms> terms = by_pose * board_terms_;
+    for (Eigen::Index i = 0; i < kBoardTerms; ++i) row.add(layout_.board + i, terms(i));
+  }
+
+  [[nodiscard]] int line_of(std::size_t k) const {
+    if (layout_.line_of.empty()) return -1;
+    const auto line = layout_.line_of.find(returns_.cloud->line[returns_.index[k]]);
+    return line == layout_.line_of.end() ? -1 : line->second;
+  }
+
   static void note_noise(double white, double e, double sigma, std::size_t first,
                          Accumulator& out) {
     const bool is_white = white > 1.0 - kPlainShare;
@@ -288,11 +324,13 @@ class LidarRows {
   const SceneNoise& noise_;
   const Layout& layout_;
   const LinearizationOptions& options_;
+  Eigen::VectorXd shared_;
   BoardPredictor predictor_;
   Eigen::Matrix3d blur_by_factor_;
   Eigen::Vector2d center_;
   Eigen::Vector2d half_;
   bool has_intensity_;
+  Eigen::Matrix<double, 6, kBoardTerms> board_terms_;
 
  public:
   std::vector<float> range_z, intensity_z;  // Per return; kUnused where there is no row.
@@ -334,7 +372,7 @@ void update_noise(const SceneNoise& before, const Accumulator& sums, const Lidar
       sums.cut_rows[1] < kFewest ? fit.noise.range_white_m : sigma(1, before.range_black_m, 1e-5);
   // Whole numbers scatter by 1/√12 at least.
   constexpr double kStep = 0.2887;
-  const double floor = returns.cloud->has_intensity() && before.intensity_white > 2.0 ? kStep : 0.0;
+  const double floor = returns.has_intensity && before.intensity_white > 2.0 ? kStep : 0.0;
   fit.noise.intensity_white = sigma(2, before.intensity_white, std::max(floor, 1e-9));
   fit.noise.intensity_black = sums.cut_rows[3] < kFewest
                                   ? fit.noise.intensity_white
@@ -350,8 +388,7 @@ void update_noise(const SceneNoise& before, const Accumulator& sums, const Lidar
 }
 
 // Adds the corners: unknowns T_camera_board and the group's shift.
-void add_corners(const ForwardScene& scene, std::size_t index, const Camera& camera,
-                 const BlurredPrint& print, const ForwardState& state, double sigma_px,
+void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrint& print, const ForwardState& state, double sigma_px,
                  const Layout& layout, const LinearizationOptions& options, SceneEquations& out,
                  SceneFit& fit) {
   const Rigid3& camera_from_board = state.camera_from_board[index];
@@ -360,25 +397,39 @@ void add_corners(const ForwardScene& scene, std::size_t index, const Camera& cam
     const Eigen::Vector3d p =
         camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
     Eigen::Matrix<double, 2, 3> by_point;
-    const auto pixel = camera.project(p, &by_point);
+    Eigen::Matrix<double, 2, kIntrinsics> by_intrinsics;
+    const auto pixel = state.camera.project(p, &by_point, &by_intrinsics);
     if (!pixel) continue;
     Eigen::Matrix<double, 3, 6> moved;
     moved.leftCols<3>().setIdentity();
     moved.rightCols<3>() = -skew(p);
     const Eigen::Matrix<double, 2, 6> j = by_point * moved;
-    const Eigen::Vector2d e = c.pixel - *pixel;
+    Eigen::Vector2d e = c.pixel - *pixel;
+    Eigen::Index at = -1;
+    if (layout.corner_group >= 0) {
+      const int feature = tags ? c.feature_id : patch_of(layout, print.outline(), c.board_m);
+      const Eigen::Index own = layout.corner_group - kLidarFixed +
+                               2 * layout.corner_group_of.at(feature);
+      if (own + 1 < out.shared.size()) e -= out.shared.segment<2>(own);
+      at = kGlobals + kLocals + own;
+    }
     const double size = e.norm() / sigma_px;
     const double w = huber_weight(size, options.robust_threshold + 1.0) / (sigma_px * sigma_px);
     fit.corner_squares += w * e.squaredNorm();
     fit.corner_rows += 2;
     out.normal.block<6, 6>(kGlobals, kGlobals) += w * j.transpose() * j;
     out.gradient.segment<6>(kGlobals) += w * j.transpose() * e;
-    if (layout.corner_group < 0) continue;
-    const int feature = tags ? c.feature_id : patch_of(layout, print.outline(), c.board_m);
-    const Eigen::Index at = kGlobals + kLocals + (layout.corner_group - kLidarFixed) +
-                            2 * layout.corner_group_of.at(feature);
+    constexpr Eigen::Index kCamera = 6 + kBlurParameters;
+    out.normal.block<kIntrinsics, kIntrinsics>(kCamera, kCamera) +=
+        w * by_intrinsics.transpose() * by_intrinsics;
+    out.normal.block<6, kIntrinsics>(kGlobals, kCamera) += w * j.transpose() * by_intrinsics;
+    out.normal.block<kIntrinsics, 6>(kCamera, kGlobals) += w * by_intrinsics.transpose() * j;
+    out.gradient.segment<kIntrinsics>(kCamera) += w * by_intrinsics.transpose() * e;
+    if (at < 0) continue;
     out.normal.block<2, 6>(at, kGlobals) += w * j;
     out.normal.block<6, 2>(kGlobals, at) += w * j.transpose();
+    out.normal.block<2, kIntrinsics>(at, kCamera) += w * by_intrinsics;
+    out.normal.block<kIntrinsics, 2>(kCamera, at) += w * by_intrinsics.transpose();
     out.normal(at, at) += w;
     out.normal(at + 1, at + 1) += w;
     out.gradient.segment<2>(at) += w * e;
@@ -407,9 +458,8 @@ Eigen::Matrix3d blur_by_factor(const Eigen::Vector3d& f) {
 
 SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
                                const BoardReturns& returns, const BlurredPrint& print,
-                               const Camera& camera, const ForwardState& state,
-                               const ForwardNoise& noise, const LinearizationOptions& options,
-                               int threads, SceneFit& fit) {
+                               const ForwardState& state, const ForwardNoise& noise,
+                               const LinearizationOptions& options, int threads, SceneFit& fit) {
   // Chunks of a fixed size, summed in order: the result does not depend on the threads.
   constexpr std::size_t kChunk = 8192;
   const Layout layout = make_layout(scene, returns, print, options);
@@ -443,6 +493,9 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
   for (Eigen::Index i = kLidarFixed; i < lidar_size; ++i) map(i, kGlobals + kLocals + i - kLidarFixed) = 1.0;
   SceneEquations out;
   out.columns = layout.columns;
+  out.shared = index < state.shared.size() && state.shared[index].size() == shared
+                   ? state.shared[index]
+                   : Eigen::VectorXd(Eigen::VectorXd::Zero(shared));
   // Only the first six rows of the map are dense.
   Eigen::MatrixXd half = Eigen::MatrixXd::Zero(lidar_size, size);
   half.noalias() = sums.normal * map;
@@ -453,31 +506,72 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
     out.normal(at, at) += 1.0 / (kSlopeSigma * kSlopeSigma);
     out.gradient(at) -= state.levels[index].slope(i) / (kSlopeSigma * kSlopeSigma);
   }
-  add_corners(scene, index, camera, print, state, noise.corner_px, layout, options, out, fit);
+  add_corners(scene, index, print, state, noise.corner_px, layout, options, out, fit);
   return out;
 }
 
-GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes,
+std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& terms,
+                                      const GlobalPrior& prior) {
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kGlobals, kGlobals);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kGlobals);
+  for (const GlobalTerm* term : terms) {
+    if (!term->usable) continue;
+    information += term->information;
+    gradient += term->gradient;
+  }
+  const auto held = [&](Eigen::Index i) { return i >= 6 && !(prior.sigma(i) > 0.0); };
+  for (Eigen::Index i = 6; i < kGlobals; ++i) {
+    if (!held(i)) {
+      information(i, i) += 1.0 / (prior.sigma(i) * prior.sigma(i));
+      gradient(i) -= prior.offset(i) / (prior.sigma(i) * prior.sigma(i));
+      continue;
+    }
+    information.row(i).setZero();
+    information.col(i).setZero();
+    information(i, i) = 1.0;
+    gradient(i) = 0.0;
+  }
+  // Scaled to a unit diagonal, so that metres, radians and pixels compare.
+  const Eigen::VectorXd unit = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::LDLT<Eigen::MatrixXd> factor(unit.asDiagonal() * information * unit.asDiagonal());
+  constexpr double kSingular = 1e-13;
+  if (factor.info() != Eigen::Success || !factor.isPositive() || factor.rcond() < kSingular)
+    return std::nullopt;
+  GlobalStep out;
+  out.step = unit.asDiagonal() * factor.solve(unit.asDiagonal() * gradient);
+  out.covariance = unit.asDiagonal() *
+                   factor.solve(Eigen::MatrixXd::Identity(kGlobals, kGlobals)) * unit.asDiagonal();
+  for (Eigen::Index i = 6; i < kGlobals; ++i) {
+    if (!held(i)) continue;
+    out.covariance.row(i).setZero();
+    out.covariance.col(i).setZero();
+  }
+  out.decrement = out.step.dot(gradient);
+  if (!out.step.allFinite() || !out.covariance.allFinite()) return std::nullopt;
+  return out;
+}
+
+GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const GlobalPrior& prior,
                                const SharedVariances& variances, bool measure_shared, int threads) {
   GlobalSolution out;
   struct Eliminated {
     Eigen::LDLT<Eigen::MatrixXd> own;
     Eigen::MatrixXd to_globals;  // own⁻¹ · coupling
     Eigen::VectorXd rest;        // own⁻¹ · gradient
-    Eigen::MatrixXd information;
-    Eigen::VectorXd gradient;
-    bool usable = false;
   };
   std::vector<Eliminated> parts(scenes.size());
+  out.terms.resize(scenes.size());
   parallel_for(scenes.size(), threads, [&](std::size_t s) {
     const SceneEquations& scene = scenes[s];
     const Eigen::Index n = scene.normal.rows() - kGlobals;
     if (n <= 0) return;
     Eigen::MatrixXd own = scene.normal.bottomRightCorner(n, n);
+    Eigen::VectorXd gradient = scene.gradient.tail(n);
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
       for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
-        const Eigen::Index at = kLocals + scene.columns.first[k] + i;
-        own(at, at) += 1.0 / variances[k];
+        const Eigen::Index u = scene.columns.first[k] + i;
+        own(kLocals + u, kLocals + u) += 1.0 / variances[k];
+        gradient(kLocals + u) -= scene.shared(u) / variances[k];
       }
     }
     // Levels without any intensity row are nobody's.
@@ -488,33 +582,27 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes,
     part.own.compute(own);
     const Eigen::MatrixXd coupling = scene.normal.bottomLeftCorner(n, kGlobals);
     part.to_globals = part.own.solve(coupling);
-    part.rest = part.own.solve(scene.gradient.tail(n));
-    part.information = scene.normal.topLeftCorner<kGlobals, kGlobals>() -
+    part.rest = part.own.solve(gradient);
+    GlobalTerm& term = out.terms[s];
+    term.information = scene.normal.topLeftCorner<kGlobals, kGlobals>() -
                        coupling.transpose() * part.to_globals;
-    part.gradient = scene.gradient.head<kGlobals>() - coupling.transpose() * part.rest;
-    part.usable = part.information.allFinite() && part.gradient.allFinite();
+    term.gradient = scene.gradient.head<kGlobals>() - coupling.transpose() * part.rest;
+    term.usable = term.information.allFinite() && term.gradient.allFinite();
   });
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kGlobals, kGlobals);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kGlobals);
-  for (const Eliminated& part : parts) {
-    if (!part.usable) continue;
-    information += part.information;
-    gradient += part.gradient;
-  }
-  // A blur that no edge shows stays where it is.
-  for (Eigen::Index i = 6; i < kGlobals; ++i) information(i, i) += 1.0 / (0.01 * 0.01);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(information);
-  if (factor.info() != Eigen::Success || !factor.isPositive()) return out;
-  out.globals = factor.solve(gradient);
-  out.covariance = factor.solve(Eigen::MatrixXd::Identity(kGlobals, kGlobals));
-  out.decrement = out.globals.dot(gradient);
-  out.solvable = out.globals.allFinite() && out.covariance.allFinite();
-  if (!out.solvable) return out;
+  std::vector<const GlobalTerm*> terms;
+  for (const GlobalTerm& term : out.terms) terms.push_back(&term);
+  const auto solved = solve_terms(terms, prior);
+  if (!solved) return out;
+  out.globals = solved->step;
+  out.covariance = solved->covariance;
+  out.decrement = solved->decrement;
+  out.solvable = true;
   out.scenes.resize(scenes.size());
   std::vector<SharedVariances> squares(scenes.size());
   std::vector<SharedVariances> determined(scenes.size());
+  std::vector<SharedVariances> determined_squares(scenes.size());
   parallel_for(scenes.size(), threads, [&](std::size_t s) {
-    if (!parts[s].usable) return;
+    if (!out.terms[s].usable) return;
     out.scenes[s] = parts[s].rest - parts[s].to_globals * out.globals;
     if (!measure_shared) return;
     const Eigen::Index n = out.scenes[s].size();
@@ -524,16 +612,24 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes,
       for (Eigen::Index i = 0; i < scenes[s].columns.count[k]; ++i) {
         const Eigen::Index at = kLocals + scenes[s].columns.first[k] + i;
         const double variance = inverse(at, at) + spread.row(at).dot(parts[s].to_globals.row(at));
-        squares[s][k] += out.scenes[s](at) * out.scenes[s](at);
-        determined[s][k] += 1.0 - variance / variances[k];
+        const double u = scenes[s].shared(scenes[s].columns.first[k] + i) + out.scenes[s](at);
+        squares[s][k] += u * u;
+        const double share = std::max(0.0, 1.0 - variance / variances[k]);
+        determined[s][k] += share;
+        determined_squares[s][k] += share * share;
       }
     }
   });
+  SharedVariances second{};
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
       out.squares[k] += squares[s][k];
       out.determined[k] += determined[s][k];
+      second[k] += determined_squares[s][k];
     }
+  }
+  for (std::size_t k = 0; k < kSharedErrors; ++k) {
+    out.effective[k] = second[k] > 0.0 ? out.determined[k] * out.determined[k] / second[k] : 0.0;
   }
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct ForwardState {
   std::vector<Rigid3> camera_from_board;
   std::vector<BoardLevels> levels;
   BeamSpread beam;
+  Camera camera;
+  /// Per scene the shared errors as last estimated, in the order of its columns; empty before.
+  std::vector<Eigen::VectorXd> shared;
   [[nodiscard]] Rigid3 lidar_from_board(std::size_t scene) const {
     return camera_from_lidar.inverse() * camera_from_board[scene];
   }
@@ -49,25 +53,37 @@ struct SceneNoise {
 
 /// Errors that many measurements share, as random effects u ~ N(0, D): V = I + Z D Zᵀ.
 enum class SharedError {
-  kRangeShape,   ///< Range over the board: Legendre products of degree 0 to 4, per scene (m).
-  kPrintScene,   ///< The print as a whole moves, per scene (m).
+  kRangeShape,   ///< Range over the board: Legendre products of degree 2 to 4, per scene (m).
+  kBoardShift,   ///< Between what camera and LiDAR see, the board moves in its plane (m),
+  kBoardNormal,  ///< along its normal (m),
+  kBoardTilt,    ///< tilts (rad),
+  kBoardSpin,    ///< turns about its normal (rad); all about its middle, per scene.
   kPrintPatch,   ///< The print moves patch by patch of 0.2 m (m).
   kCornerGroup,  ///< The corners of one tag (or of one patch of a checkerboard) move (px).
   kLineGain,     ///< Intensities of one line in one scene are scaled (1).
+  kLineRange,    ///< Ranges of one line in one scene are off (m).
 };
-inline constexpr std::size_t kSharedErrors = 5;
+inline constexpr std::size_t kSharedErrors = 9;
 using SharedVariances = std::array<double, kSharedErrors>;
 
 /// Standard deviations of everything.
 struct ForwardNoise {
   double corner_px = 0.1;
   std::vector<SceneNoise> scenes;
-  SharedVariances shared{1e-7, 1e-7, 1e-7, 1e-3, 1e-4};
+  SharedVariances shared{};
 };
 
-/// Unknowns that all scenes share: the extrinsic's left perturbation (6) and the three numbers of the
-/// beam's blur, as its Cholesky factor (a, b, c): Σ = [a 0; b c][a 0; b c]ᵀ.
-inline constexpr Eigen::Index kGlobals = 6 + kBlurParameters;
+/// Unknowns that all scenes share: the extrinsic's left perturbation (6), the three numbers of the
+/// beam's blur, as its Cholesky factor (a, b, c): Σ = [a 0; b c][a 0; b c]ᵀ, and the camera's
+/// intrinsics (fx fy cx cy and eight distortion entries).
+inline constexpr Eigen::Index kIntrinsics = 12;
+inline constexpr Eigen::Index kGlobals = 6 + kBlurParameters + kIntrinsics;
+/// What is known of globals beforehand: standard deviation 0 holds one where it is.
+struct GlobalPrior {
+  Eigen::Matrix<double, kGlobals, 1> sigma = Eigen::Matrix<double, kGlobals, 1>::Zero();
+  /// Deviation of the present value from the prior's mean.
+  Eigen::Matrix<double, kGlobals, 1> offset = Eigen::Matrix<double, kGlobals, 1>::Zero();
+};
 /// And of one scene, before the shared errors: T_camera_board (6) and its levels.
 inline constexpr Eigen::Index kLocals = 6 + kLevelParameters;
 
@@ -84,6 +100,7 @@ struct SceneEquations {
   Eigen::MatrixXd normal;
   Eigen::VectorXd gradient;
   SharedErrorColumns columns;
+  Eigen::VectorXd shared;  ///< The shared errors at the linearization; x holds their change.
 };
 
 /// How well the rows of one scene fit at the state of the linearization.
@@ -108,17 +125,25 @@ struct LinearizationOptions {
 /// Linearizes corners, ranges and intensities of one scene at a state, in parallel.
 SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
                                const BoardReturns& returns, const BlurredPrint& print,
-                               const Camera& camera, const ForwardState& state,
-                               const ForwardNoise& noise, const LinearizationOptions& options,
+                               const ForwardState& state, const ForwardNoise& noise, const LinearizationOptions& options,
                                int threads, SceneFit& fit);
+
+/// What one scene says about the globals once its own unknowns are eliminated.
+struct GlobalTerm {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+  bool usable = false;
+};
 
 /// Solution of the normal equations of all scenes.
 struct GlobalSolution {
-  Eigen::VectorXd globals;                ///< 6 + 3.
+  std::vector<GlobalTerm> terms;           ///< Per scene.
+  Eigen::VectorXd globals;
   Eigen::MatrixXd covariance;             ///< Of the globals.
   std::vector<Eigen::VectorXd> scenes;    ///< Locals and shared errors of every scene.
-  SharedVariances squares{};              ///< Σu² per kind of shared error,
-  SharedVariances determined{};           ///< and how many of them the data determine.
+  SharedVariances squares{};              ///< Σu² of the shared errors after the step, per kind,
+  SharedVariances determined{};           ///< how many of them the data determine,
+  SharedVariances effective{};            ///< and how many count, if some are known far better.
   double decrement = 0.0;                 ///< xᵀNx of the globals' step: its size in σ, squared.
   bool solvable = false;
 };
@@ -126,7 +151,18 @@ struct GlobalSolution {
 /// Eliminates the scenes (Schur complement) and solves. `priors` of locals are in the equations.
 /// With `determined` also measures what the shared errors' variances should be.
 GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes,
-                               const SharedVariances& variances, bool measure_shared, int threads);
+                               const GlobalPrior& prior, const SharedVariances& variances,
+                               bool measure_shared, int threads);
+
+/// The globals' step and its covariance from some scenes' terms. Nothing if they do not determine
+/// the extrinsic.
+struct GlobalStep {
+  Eigen::VectorXd step;
+  Eigen::MatrixXd covariance;
+  double decrement = 0.0;
+};
+std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& terms,
+                                      const GlobalPrior& prior);
 
 /// The beam's blur as its Cholesky factor (a, b, c), and back.
 Eigen::Vector3d blur_factor(const Eigen::Matrix2d& blur_rad2);

@@ -17,13 +17,15 @@ constexpr double kCoarseBlur_m = 0.008;
 // Rows per scene until the end is near; all of them then.
 constexpr std::size_t kEarlyRows = 6000;
 constexpr int kCoarseIterations = 6;
-constexpr int kVarianceRounds = 8;
+constexpr int kVarianceRounds = 20;
 
 class ForwardSolver {
  public:
   ForwardSolver(const std::vector<ForwardScene>& scenes, const BlurredPrint& print,
                 const Camera& camera, const ForwardOptions& options, const RunContext& context)
-      : scenes_(scenes), print_(print), camera_(camera), options_(options), context_(context) {}
+      : scenes_(scenes), print_(print), given_(camera), options_(options), context_(context) {
+    solution_.state.camera = camera;
+  }
 
   Result<ForwardSolution> run(const Rigid3& start, double corner_sigma_px) {
     prepare(start, corner_sigma_px);
@@ -54,19 +56,19 @@ class ForwardSolver {
 
   void prepare(const Rigid3& start, double corner_sigma_px) {
     state().camera_from_lidar = start;
+    noise().shared = kAbsent;
     noise().corner_px = std::max(options_.sigma_px_floor, corner_sigma_px);
     solution_.scenes.resize(scenes_.size());
     const double blur = options_.first_blur_rad * options_.first_blur_rad;
     state().beam.blur_rad2 = blur * Eigen::Matrix2d::Identity();
     state().beam.jitter_rad2 = 0.1 * blur * Eigen::Matrix2d::Identity();
-    solution_.uses_intensity = true;
     for (const ForwardScene& scene : scenes_) {
       state().camera_from_board.push_back(scene.camera_from_board);
       state().levels.push_back({});
+      state().shared.emplace_back();
       SceneNoise n;
       n.range_white_m = n.range_black_m = scene.range_sigma_m;
       noise().scenes.push_back(n);
-      if (!scene.board_points->has_intensity()) solution_.uses_intensity = false;
     }
   }
 
@@ -78,6 +80,8 @@ class ForwardSolver {
                                    state().beam, std::max(n.range_white_m, n.range_black_m),
                                    options_.selection);
     });
+    solution_.uses_intensity =
+        std::any_of(returns_.begin(), returns_.end(), [](const auto& r) { return r.has_intensity; });
     return std::any_of(returns_.begin(), returns_.end(),
                        [](const BoardReturns& r) { return r.size() > 0; });
   }
@@ -88,7 +92,7 @@ class ForwardSolver {
     std::vector<std::optional<PrintMatch>> matches(scenes_.size());
     parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       if (context_.stopped()) return;
-      matches[s] = match_print(*scenes_[s].board_points, returns_[s], print_,
+      matches[s] = match_print(returns_[s], print_,
                                state().lidar_from_board(s), options_.search);
     });
     std::vector<Rigid3> votes{state().camera_from_lidar};
@@ -112,6 +116,7 @@ class ForwardSolver {
     const Rigid3 board = camera_from_lidar.inverse() * solution_.state.camera_from_board[s];
     const BoardPredictor predictor(print_, board, {}, {});
     const BoardReturns& returns = returns_[s];
+    if (!returns.has_intensity) return 0.0;
     double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
     const std::size_t stride = std::max<std::size_t>(1, returns.size() / 1500);
     for (std::size_t k = 0; k < returns.size(); k += stride) {
@@ -137,6 +142,7 @@ class ForwardSolver {
   void first_levels() {
     if (!solution_.uses_intensity) return;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (!returns_[s].has_intensity) continue;
       const BoardPredictor predictor(print_, state().lidar_from_board(s), {}, {});
       double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
       const std::size_t stride = std::max<std::size_t>(1, returns_[s].size() / kEarlyRows);
@@ -176,7 +182,7 @@ class ForwardSolver {
     state().beam.blur_rad2 =
         natural + std::max(0.0, wide - natural(0, 0)) * Eigen::Matrix2d::Identity();
     for (int i = 0; i < kCoarseIterations; ++i) {
-      const auto step = iterate(early(false), false);
+      const auto step = iterate(early_rows(), false);
       if (!step) return false;
       if (*step < 0.3) break;
     }
@@ -188,7 +194,7 @@ class ForwardSolver {
     // Few rows until the state stands still, then all of them, then all with shared errors.
     for (const bool all : {false, true}) {
       for (; rounds_left > 0; --rounds_left) {
-        const auto step = iterate(all ? final_rows(false) : early(true), true);
+        const auto step = iterate(all ? final_rows(false) : early_rows(), true);
         if (!step) return false;
         if (*step < (all ? 0.3 : 0.5)) break;
       }
@@ -205,7 +211,7 @@ class ForwardSolver {
     return true;
   }
 
-  [[nodiscard]] LinearizationOptions early(bool) const {
+  [[nodiscard]] LinearizationOptions early_rows() const {
     LinearizationOptions how;
     how.shared_errors = false;
     std::size_t most = 1;
@@ -231,23 +237,18 @@ class ForwardSolver {
     std::vector<SceneEquations> equations(scenes_.size());
     fits_.assign(scenes_.size(), {});
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      equations[s] = linearize_scene(scenes_[s], s, returns_[s], print_, camera_, state(), noise(),
-                                     how, context_.thread_count(), fits_[s]);
+      equations[s] = linearize_scene(scenes_[s], s, returns_[s], print_, state(), noise(), how,
+                                     context_.thread_count(), fits_[s]);
     }
-    if (!free_blur) {
-      for (SceneEquations& e : equations) {
-        e.normal.middleRows<kBlurParameters>(6).setZero();
-        e.normal.middleCols<kBlurParameters>(6).setZero();
-        e.gradient.segment<kBlurParameters>(6).setZero();
-      }
-    }
-    GlobalSolution step = solve_equations(equations, noise().shared, how.shared_errors,
+    prior_ = global_prior(free_blur, how.stride == 1);
+    GlobalSolution step = solve_equations(equations, prior_, noise().shared, how.shared_errors,
                                           context_.thread_count());
     if (!step.solvable) return std::nullopt;
     if (how.shared_errors) {
       for (int round = 0; round < kVarianceRounds; ++round) {
-        if (!update_shared(step)) break;
-        step = solve_equations(equations, noise().shared, true, context_.thread_count());
+        const bool moved = update_shared(step);
+        if (!moved && !admit_shared(step)) break;
+        step = solve_equations(equations, prior_, noise().shared, true, context_.thread_count());
         if (!step.solvable) return std::nullopt;
       }
       equations_ = std::move(equations);
@@ -258,6 +259,19 @@ class ForwardSolver {
     const Eigen::VectorXd move = last_.globals.head<6>();
     const Matrix6d covariance = last_.covariance.topLeftCorner<6, 6>();
     return std::sqrt(std::max(0.0, move.dot(covariance.ldlt().solve(move)) / 6.0));
+  }
+
+  [[nodiscard]] GlobalPrior global_prior(bool free_blur, bool free_intrinsics) const {
+    GlobalPrior prior;
+    // Wide: any beam is narrower than 10 mrad; keeps a blur that no edge shows where it is.
+    if (free_blur) prior.sigma.segment<kBlurParameters>(6).setConstant(0.01);
+    if (free_intrinsics) {
+      prior.sigma.segment<kIntrinsics>(6 + kBlurParameters) = options_.intrinsics_sigma;
+      const Camera& now = solution_.state.camera;
+      prior.offset.segment<kIntrinsics>(6 + kBlurParameters) << now.fx - given_.fx, now.fy - given_.fy,
+          now.cx - given_.cx, now.cy - given_.cy, now.distortion - given_.distortion;
+    }
+    return prior;
   }
 
   void apply(const GlobalSolution& step) {
@@ -271,7 +285,15 @@ class ForwardSolver {
     state().camera_from_lidar =
         se3_exp(scale * Vector6d(step.globals.head<6>())) * state().camera_from_lidar;
     Eigen::Vector3d factor = blur_factor(state().beam.blur_rad2);
-    const Eigen::Vector3d change = scale * step.globals.tail<kBlurParameters>();
+    const Eigen::Vector3d change = scale * step.globals.segment<kBlurParameters>(6);
+    const Eigen::VectorXd intrinsics = scale * step.globals.segment<kIntrinsics>(6 + kBlurParameters);
+
+    Camera& camera = state().camera;
+    camera.fx += intrinsics(0);
+    camera.fy += intrinsics(1);
+    camera.cx += intrinsics(2);
+    camera.cy += intrinsics(3);
+    camera.distortion += intrinsics.tail<8>();
     // Widths change by half at most in one step.
     const double most = 0.5 * factor.cwiseAbs().maxCoeff();
     factor += change * std::min(1.0, most / std::max(1e-15, change.norm()));
@@ -287,6 +309,11 @@ class ForwardSolver {
       levels.white += local(6);
       levels.black += local(7);
       levels.slope += local.tail<2>();
+      const Eigen::Index shared = step.scenes[s].size() - kLocals;
+      if (shared == 0) continue;
+      if (state().shared[s].size() != shared)
+        state().shared[s] = Eigen::VectorXd::Zero(shared);
+      state().shared[s] += scale * step.scenes[s].tail(shared);
     }
   }
 
@@ -294,14 +321,39 @@ class ForwardSolver {
   bool update_shared(const GlobalSolution& step) {
     bool moved = false;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (step.determined[k] < 0.05) continue;
+      if (!admitted_[k] || step.determined[k] < 0.02) continue;
       const double wanted = step.squares[k] / step.determined[k];
       const double bounded = std::clamp(wanted, 0.05 * noise().shared[k], 20.0 * noise().shared[k]);
-      const double next = std::max(bounded, kSmallestShared[k]);
+      const double next = std::max(bounded, kAbsent[k]);
       moved = moved || std::abs(std::log(next / noise().shared[k])) > 0.03;
       noise().shared[k] = next;
     }
     return moved;
+  }
+
+  // Score test: with a variance near nothing, T = (Σ score²)/(Σ information) = Σu²/(D·γ) is one on
+  // average if there is no such error, and n·T about χ² with n the number of errors that count.
+  // The clearest kind enters; the others are asked again with it in.
+  bool admit_shared(const GlobalSolution& step) {
+    std::size_t best = kSharedErrors;
+    double largest = 1.0;
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      if (admitted_[k] || step.effective[k] < 1.0) continue;
+      const double n = step.effective[k];
+      const double t = step.squares[k] / (noise().shared[k] * step.determined[k]);
+      const double gate =
+          chi_square_gate(static_cast<int>(std::lround(n)), options_.false_alarm) / n;
+      if (t / gate > largest) {
+        largest = t / gate;
+        best = k;
+      }
+    }
+    if (best == kSharedErrors) return false;
+    admitted_[best] = true;
+    // From where half of it would be told: the fixed point is there within a few rounds.
+    const double share = step.determined[best] / step.effective[best];
+    noise().shared[best] = std::max(noise().shared[best], noise().shared[best] / std::max(share, 1e-12));
+    return true;
   }
 
   void update_noise() {
@@ -341,8 +393,14 @@ class ForwardSolver {
     const Matrix6d covariance = last_.covariance.topLeftCorner<6, 6>();
     solution_.camera_from_lidar = {state().camera_from_lidar, covariance};
     const Eigen::Matrix3d by = blur_by_factor(blur_factor(state().beam.blur_rad2));
-    solution_.blur_covariance = by * last_.covariance.bottomRightCorner<3, 3>() * by.transpose();
+    solution_.blur_covariance = by * last_.covariance.block<3, 3>(6, 6) * by.transpose();
     solution_.dof = satterthwaite();
+    solution_.terms = last_.terms;
+    // The last step has been taken: what is left of each scene's gradient.
+    for (GlobalTerm& term : solution_.terms) {
+      if (term.usable) term.gradient -= term.information * last_.globals;
+    }
+    solution_.prior = prior_;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       ForwardSceneResult& scene = solution_.scenes[s];
       const SceneFit& fit = fits_[s];
@@ -373,11 +431,11 @@ class ForwardSolver {
     const double v = spread(last_);
     double variance = 0.0;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (last_.determined.empty()) break;
+      if (!admitted_[k]) continue;
       SharedVariances varied = noise().shared;
       varied[k] *= 1.0 + kStep;
       const GlobalSolution s =
-          solve_equations(equations_, varied, false, context_.thread_count());
+          solve_equations(equations_, prior_, varied, false, context_.thread_count());
       if (!s.solvable) continue;
       const double slope = (spread(s) - v) / kStep;  // By the logarithm of D.
       variance += slope * slope * 2.0 / std::max(1.0, last_.determined[k]);
@@ -386,22 +444,39 @@ class ForwardSolver {
     return variance > 0.0 ? std::min(kMany, 2.0 * v * v / variance) : kMany;
   }
 
-  // Floors of the shared errors' variances: a fiftieth of what any measurement could tell.
-  static constexpr SharedVariances kSmallestShared{1e-10, 1e-10, 1e-10, 1e-6, 1e-8};
+  // Variances so small that no data see them: a kind of shared error that is not there (m², rad²,
+  // px², 1).
+  static constexpr SharedVariances kAbsent{1e-12, 1e-12, 1e-12, 1e-12, 1e-12,
+                                           1e-12, 1e-7,  1e-9,  1e-12};
 
   const std::vector<ForwardScene>& scenes_;
   const BlurredPrint& print_;
-  const Camera& camera_;
+  const Camera& given_;
   const ForwardOptions& options_;
   const RunContext& context_;
   ForwardSolution solution_;
   std::vector<BoardReturns> returns_;
   std::vector<SceneFit> fits_;
-  std::vector<SceneEquations> equations_;
   GlobalSolution last_;
+  GlobalPrior prior_;
+  std::vector<SceneEquations> equations_;
+  std::array<bool, kSharedErrors> admitted_{};
 };
 
 }  // namespace
+
+std::optional<UncertainRigid3> solve_subset(const ForwardSolution& solution,
+                                            const std::vector<bool>& use) {
+  std::vector<const GlobalTerm*> terms;
+  for (std::size_t s = 0; s < solution.terms.size(); ++s) {
+    if (s < use.size() && use[s]) terms.push_back(&solution.terms[s]);
+  }
+  const auto step = solve_terms(terms, solution.prior);
+  if (!step) return std::nullopt;
+  return UncertainRigid3{
+      se3_exp(Vector6d(step->step.head<6>())) * solution.state.camera_from_lidar,
+      step->covariance.topLeftCorner<6, 6>()};
+}
 
 Result<ForwardSolution> solve_forward(const std::vector<ForwardScene>& scenes,
                                       const BlurredPrint& print, const Camera& camera,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct ForwardOptions {
   /// Done when the extrinsic moves by less than this share of its standard deviation.
   double tolerance = 0.01;
   double sigma_px_floor = 0.01;
+  /// A kind of shared error is taken into the model if chance alone makes it look as large so rarely.
+  double false_alarm = 0.01;
+  /// Standard deviations of what is known of the intrinsics (fx fy cx cy, distortion); 0: held.
+  Eigen::Matrix<double, kIntrinsics, 1> intrinsics_sigma =
+      Eigen::Matrix<double, kIntrinsics, 1>::Zero();
   /// First guess of the beam's blur, rad: between a Livox (1 mrad) and a spinning 16-liner (3).
   double first_blur_rad = 0.0015;
 };
@@ -46,10 +52,17 @@ struct ForwardSolution {
   ForwardNoise noise;
   Eigen::Matrix3d blur_covariance = Eigen::Matrix3d::Zero();  ///< Of (hh, hv, vv), rad⁴.
   std::vector<ForwardSceneResult> scenes;
+  std::vector<GlobalTerm> terms;  ///< What each scene says about the globals, at the solution.
+  GlobalPrior prior;
   int iterations = 0;
   bool converged = false;
   bool uses_intensity = false;
 };
+
+/// The extrinsic that some of the scenes give (`use` per scene), to first order about the solution of
+/// all, with the noise of all. Nothing if they do not determine it.
+std::optional<UncertainRigid3> solve_subset(const ForwardSolution& solution,
+                                            const std::vector<bool>& use);
 
 /// The joint solve: every corner, every range and every intensity on the boards, one extrinsic,
 /// one pose per board, one beam (Gauss–Newton; scenes eliminated; shared errors marginalised with

@@ -11,6 +11,11 @@ set(LVCALIB_VTK_MODULES CommonColor CommonCore CommonDataModel CommonExecutionMo
 find_package(VTK 9.1 REQUIRED COMPONENTS ${LVCALIB_VTK_MODULES})
 list(TRANSFORM LVCALIB_VTK_MODULES PREPEND "VTK::" OUTPUT_VARIABLE LVCALIB_VTK_LIBRARIES)
 
+lvcalib_precompiled_headers(widgets LIBRARY
+  HEADERS <QtCore> <QtGui> <QtWidgets>
+  LIBRARIES Eigen3::Eigen Qt6::Core Qt6::Gui Qt6::Widgets
+  DEFINITIONS QT_NO_FOREACH QT_NO_KEYWORDS QT_NO_CAST_TO_ASCII)
+
 # lvcalib_widgets_room(NAME SOURCES a.cpp a.h … [ROOMS style …] [LIBRARIES Foo::foo …])
 # One folder of widgets/ is one static library lvcalib_widgets_NAME; ROOMS are the folders it may
 # include. List headers with Q_OBJECT among the sources if they have no .cpp of the same name.
@@ -21,6 +26,7 @@ function(lvcalib_widgets_room NAME)
   set_target_properties(${target} PROPERTIES AUTOMOC ON)
   target_compile_definitions(${target} PRIVATE QT_NO_FOREACH QT_NO_KEYWORDS
                              QT_NO_CAST_TO_ASCII)
+  lvcalib_precompile(${target} widgets)
   target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}/widgets")
   target_link_libraries(${target} PUBLIC LVCalib::core Qt6::Core Qt6::Gui Qt6::Widgets
                         PRIVATE lvcalib_warnings Threads::Threads)
