@@ -227,6 +227,14 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   if (x.rank < 6)
     verdict.failed("the scenes determine only " + std::to_string(x.rank) +
                    " of 6 directions of the extrinsic");
+  if (!result.forward_failure.empty()) {
+    verdict.note("the model of every return could not be solved (" + result.forward_failure +
+                 "): the extrinsic rests on nodes, planes and corners");
+  } else if (result.forward && !result.forward->uses_intensity) {
+    verdict.note(
+        "the clouds' intensity is missing or the same everywhere: the extrinsic rests on planes and "
+        "corners, and the print does not hold it sideways");
+  }
   judge_precision(x, options, verdict);
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);

@@ -65,12 +65,12 @@ Status solve_forward_model(CalibrationResult& result,
   if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
   auto forward = solve_every_return(result, observations, index, nodes, result.options.forward, context);
   result.forward.reset();
+  result.forward_failure.clear();
   result.extrinsic = nodes;
   if (!forward) {
     if (forward.error().kind == ErrorKind::kCancelled) return forward.error();
-    result.warnings.push_back("result: the returns' own model could not be solved (" +
-                              forward.error().message +
-                              "): the extrinsic rests on nodes, planes and corners");
+    // Where nothing is to be had from the returns the nodes' solution stands, and says so.
+    result.forward_failure = forward.error().message;
     return Done{};
   }
   result.forward = std::move(*forward);

@@ -115,10 +115,11 @@ std::string method_boxes(const json& methods, const char* key, const char* label
     std::vector<double> five;
     for (const json& v : methods[k].at(key)) five.push_back(number_of(v));
     const std::string name = methods[k].at("name").get<std::string>();
-    plot.box(x, 0.3, five, name == "joint_refined" ? "#23793b" : "#345c9c");
+    plot.box(x, 0.3, five, name == "forward_model" ? "#23793b" : "#345c9c");
     // Two words on an axis that has room for one.
     const auto at = name.find('_');
-    names.emplace_back(x, name.substr(0, at) + (name.ends_with("raw") ? "·raw" : "·ref"));
+    const char* const centers = name.ends_with("raw") ? "·raw" : name.ends_with("refined") ? "·ref" : "";
+    names.emplace_back(x, name.substr(0, at) + centers);
   }
   plot.x_names(names);
   return plot.svg(std::string("residuals by method, ") + label);

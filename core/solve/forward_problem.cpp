@@ -555,7 +555,7 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const 
                                const SharedVariances& variances, bool measure_shared, int threads) {
   GlobalSolution out;
   struct Eliminated {
-    Eigen::LDLT<Eigen::MatrixXd> own;
+    Eigen::LLT<Eigen::MatrixXd> own;
     Eigen::MatrixXd to_globals;  // own⁻¹ · coupling
     Eigen::VectorXd rest;        // own⁻¹ · gradient
   };
@@ -580,6 +580,7 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const 
     }
     Eliminated& part = parts[s];
     part.own.compute(own);
+    if (part.own.info() != Eigen::Success) return;
     const Eigen::MatrixXd coupling = scene.normal.bottomLeftCorner(n, kGlobals);
     part.to_globals = part.own.solve(coupling);
     part.rest = part.own.solve(gradient);

@@ -17,7 +17,8 @@ constexpr double kCoarseBlur_m = 0.008;
 // Rows per scene until the end is near; all of them then.
 constexpr std::size_t kEarlyRows = 6000;
 constexpr int kCoarseIterations = 6;
-constexpr int kVarianceRounds = 20;
+// Of re-estimating the shared errors' variances within one linearization; they go on in the next.
+constexpr int kVarianceRounds = 12;
 
 class ForwardSolver {
  public:
@@ -33,7 +34,10 @@ class ForwardSolver {
       return Error::untrusted("no LiDAR return lies on the board where the start puts it", {},
                               "give a rough extrinsic with --init");
     }
-    if (solution_.uses_intensity) match();
+    if (solution_.uses_intensity) {
+      prepare_print();
+      match();
+    }
     if (context_.stopped()) return Error::cancelled();
     if (!select()) return Error::untrusted("no LiDAR return lies on the board");
     first_levels();
@@ -84,6 +88,16 @@ class ForwardSolver {
         std::any_of(returns_.begin(), returns_.end(), [](const auto& r) { return r.has_intensity; });
     return std::any_of(returns_.begin(), returns_.end(),
                        [](const BoardReturns& r) { return r.size() > 0; });
+  }
+
+  // The blurs that spots from the narrowest beam face on to the widest aslant, and the coarse
+  // stages, will ask for.
+  void prepare_print() const {
+    double nearest = 1e9;
+    for (std::size_t s = 0; s < scenes_.size(); ++s)
+      nearest = std::min(nearest, solution_.state.lidar_from_board(s).translation.norm());
+    print_.prepare(std::min(0.004, 0.6 * options_.first_blur_rad * nearest), 0.016,
+                   context_.thread_count());
   }
 
   // Each scene's print votes for an extrinsic; the vote under which all scenes' prints fit best

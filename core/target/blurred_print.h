@@ -25,9 +25,9 @@ struct PrintSample {
 ///
 /// Kept is the print under a series of isotropic blurs of widths σ_k = σ_0·q^k, each sampled with a
 /// spacing of σ_k/2 (value, both slopes and the mixed second derivative, for bicubic Hermite
-/// interpolation; the error of that is h⁴/384·max|A''''| = 2·10⁻⁴). A level is made when it is first
-/// asked for. Its source is the exact share of white in each cell, so that edges lie where they are
-/// drawn, whatever the spacing; the cell's own variance h²/12 is taken out of the blur.
+/// interpolation; the error of that is h⁴/384·max|A''''| = 2·10⁻⁴ a direction). A level is made when it is first
+/// asked for. Its samples are exact: the blur of a rectangle is a product of error functions, that of
+/// a disc a function of the distance from its middle.
 /// Between levels the value is interpolated by a parabola in σ². A blur that is longer in one
 /// direction is the isotropic one of its smaller axis, averaged along the larger one
 /// (a Gaussian is a Gaussian of Gaussians). Beyond the board's outline the print goes on white.
@@ -48,6 +48,10 @@ class BlurredPrint {
   /// The value alone under an isotropic blur, from the nearest sample: for coarse searches.
   [[nodiscard]] double coarse(const Eigen::Vector2d& board_m, double sigma_m) const;
 
+  /// Makes the levels that spots of these widths need, on several threads. What is not made ahead is
+  /// made when it is first asked for.
+  void prepare(double smallest_m, double largest_m, int threads) const;
+
   [[nodiscard]] double smallest_sigma_m() const;
   [[nodiscard]] double largest_sigma_m() const;
   [[nodiscard]] const Target& target() const { return target_; }
@@ -61,7 +65,7 @@ class BlurredPrint {
 
  private:
   struct Level;
-  static constexpr int kLevels = 40;
+  static constexpr int kLevels = 44;
   const Level& level(int index) const;
   [[nodiscard]] double sigma_m(int index) const;
   [[nodiscard]] int level_below(double sigma_m) const;
@@ -69,8 +73,9 @@ class BlurredPrint {
   Target target_;
   BoardOutline outline_;
   double first_sigma_m_ = 0.0;
+  // Each level has its own lock: two threads may make two levels.
   mutable std::array<std::atomic<const Level*>, kLevels> levels_{};
-  mutable std::mutex building_;
+  mutable std::array<std::mutex, kLevels> building_;
 };
 
 }  // namespace lvcalib

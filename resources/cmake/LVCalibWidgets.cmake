@@ -11,8 +11,15 @@ set(LVCALIB_VTK_MODULES CommonColor CommonCore CommonDataModel CommonExecutionMo
 find_package(VTK 9.1 REQUIRED COMPONENTS ${LVCALIB_VTK_MODULES})
 list(TRANSFORM LVCALIB_VTK_MODULES PREPEND "VTK::" OUTPUT_VARIABLE LVCALIB_VTK_LIBRARIES)
 
+# Not <QtGui> as a whole: it takes OpenGL's headers along, which must come after VTK's.
+set(LVCALIB_QT_HEADERS <QtCore> <QAction> <QApplication> <QCheckBox> <QColor> <QComboBox> <QDialog>
+  <QDockWidget> <QDoubleSpinBox> <QFileDialog> <QFont> <QFormLayout> <QGridLayout> <QHBoxLayout>
+  <QHeaderView> <QIcon> <QImage> <QLabel> <QLineEdit> <QListWidget> <QMainWindow> <QMenu>
+  <QMessageBox> <QPainter> <QPixmap> <QPushButton> <QScrollArea> <QSpinBox> <QSplitter>
+  <QStackedWidget> <QStyledItemDelegate> <QTabWidget> <QTableView> <QTextBrowser> <QToolBar>
+  <QToolButton> <QTreeView> <QVBoxLayout> <QWidget>)
 lvcalib_precompiled_headers(widgets LIBRARY
-  HEADERS <QtCore> <QtGui> <QtWidgets>
+  HEADERS ${LVCALIB_QT_HEADERS}
   LIBRARIES Eigen3::Eigen Qt6::Core Qt6::Gui Qt6::Widgets
   DEFINITIONS QT_NO_FOREACH QT_NO_KEYWORDS QT_NO_CAST_TO_ASCII)
 

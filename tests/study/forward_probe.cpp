@@ -152,6 +152,13 @@ int main(int argc, char** argv) {
     mrad.push_back(1e3 * rotation_distance_rad(tx, ty));
     const Vector6d xi = se3_log(tx * ty.inverse());
     const Matrix6d cov = x->camera_from_lidar.covariance + y->camera_from_lidar.covariance;
+    const Rigid3 d = tx.inverse() * ty;
+    std::printf("split %zu: camera in lidar %.1f %.1f %.1f mm, rotation %.2f %.2f %.2f mrad, sigma %.1f %.1f %.1f mm\n",
+                mm.size(), 1e3 * (ty.inverse().translation - tx.inverse().translation).x(),
+                1e3 * (ty.inverse().translation - tx.inverse().translation).y(),
+                1e3 * (ty.inverse().translation - tx.inverse().translation).z(),
+                1e3 * so3_log(d.rotation).x(), 1e3 * so3_log(d.rotation).y(), 1e3 * so3_log(d.rotation).z(),
+                1e3 * std::sqrt(cov(0, 0)), 1e3 * std::sqrt(cov(1, 1)), 1e3 * std::sqrt(cov(2, 2)));
     const double c2 = xi.dot(cov.ldlt().solve(xi)) / 6.0;
     chi += c2;
     for (int i = 0; i < 6; ++i, ++components)

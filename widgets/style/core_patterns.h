@@ -54,6 +54,12 @@ inline constexpr const char* kCorePatterns[] = {
                       "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an "
                       "effect is missing in the model"),
     QT_TRANSLATE_NOOP("Core", "another assignment of the board is nearly as good (margin %1)"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the model of every return could not be solved (%1): the extrinsic rests on "
+                      "nodes, planes and corners"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the clouds' intensity is missing or the same everywhere: the extrinsic rests "
+                      "on planes and corners, and the print does not hold it sideways"),
     // Weak directions.
     QT_TRANSLATE_NOOP("Core", "%1 is not determined: add scenes with the board turned differently"),
     QT_TRANSLATE_NOOP("Core", "%1 is known %2 times worse than the typical direction: %3"),

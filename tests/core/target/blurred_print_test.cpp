@@ -14,13 +14,13 @@
 namespace lvcalib {
 namespace {
 
-Target circles() {
+Target circle_grid() {
   Target t;
   t.tag_spacing = 0.1 / 0.12;
   return t;
 }
 
-Target checkerboard() {
+Target squares() {
   Target t;
   t.type = TargetType::kCheckerboard;
   t.corner_columns = 7;
@@ -91,7 +91,7 @@ std::vector<Case> cases(const BlurredPrint& print, int count, std::uint64_t seed
 TEST(BlurredPrint, IsTheMeanOverTheSpot) {
   const SpotPoints points(200'000);
   double worst = 0.0;
-  for (const Target& target : {circles(), checkerboard()}) {
+  for (const Target& target : {circle_grid(), squares()}) {
     const BlurredPrint print(target);
     for (const Case& c : cases(print, 60, 3)) {
       const double expected = points.white(target, c.at, c.blur);
@@ -105,7 +105,7 @@ TEST(BlurredPrint, IsTheMeanOverTheSpot) {
 
 TEST(BlurredPrint, HasItsEdgesWhereTheyAreDrawn) {
   // Crossing of half white along a line over the lowest tag's left edge, x = 0.
-  const BlurredPrint print(circles());
+  const BlurredPrint print(circle_grid());
   for (const double sigma : {0.0015, 0.0031, 0.0077}) {
     const Eigen::Matrix2d blur = sigma * sigma * Eigen::Matrix2d::Identity();
     double low = -0.005;
@@ -120,7 +120,7 @@ TEST(BlurredPrint, HasItsEdgesWhereTheyAreDrawn) {
 }
 
 TEST(BlurredPrint, DerivativesAreThoseOfTheValue) {
-  for (const Target& target : {circles(), checkerboard()}) {
+  for (const Target& target : {circle_grid(), squares()}) {
     const BlurredPrint print(target);
     for (const Case& c : cases(print, 200, 5)) {
       const PrintSample s = print.at(c.at, c.blur);
@@ -151,9 +151,9 @@ TEST(BlurredPrint, DerivativesAreThoseOfTheValue) {
 }
 
 TEST(BlurredPrint, IsPlainWhereNoEdgeIsNear) {
-  const BlurredPrint print(circles());
+  const BlurredPrint print(circle_grid());
   const Eigen::Matrix2d blur = 4e-6 * Eigen::Matrix2d::Identity();
-  const Eigen::Vector2d middle_of_circle = circles().nodes().front().center_m;
+  const Eigen::Vector2d middle_of_circle = circle_grid().nodes().front().center_m;
   EXPECT_EQ(print.at(middle_of_circle, blur).white, 0.0);
   EXPECT_EQ(print.at(middle_of_circle, blur).gradient_per_m.norm(), 0.0);
   EXPECT_EQ(print.at({-0.045, -0.045}, blur).white, 1.0);

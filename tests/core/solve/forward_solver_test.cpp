@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The joint solve over corners and returns, on rigs by the simulator.
+#include "solve/forward_solver.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "forward_rig.h"
+
+namespace lvcalib {
+namespace {
+
+using simulation::LidarKind;
+using test::forward_rig;
+using test::ForwardRig;
+using test::size_in_sigmas;
+using test::solve;
+
+simulation::SimulationOptions options(std::uint64_t seed, LidarKind kind, int scenes = 3) {
+  auto o = test::cloud_only_options(seed, kind);
+  o.scenes = scenes;
+  o.target.tag_spacing = 0.1 / 0.12;
+  return o;
+}
+
+Target checkerboard() {
+  Target t;
+  t.type = TargetType::kCheckerboard;
+  t.corner_columns = 7;
+  t.corner_rows = 5;
+  t.column_spacing_m = t.row_spacing_m = 0.1;
+  t.board_width_m = 0.9;
+  t.board_height_m = 0.7;
+  return t;
+}
+
+// Six centimetres and some milliradians in a direction of its own.
+Vector6d far_off(std::uint64_t seed) {
+  Random random(seed);
+  Vector6d off;
+  for (double& v : off) v = random.normal();
+  off.head<3>() *= 0.06 / off.head<3>().norm();
+  off.tail<3>() *= 0.004 / off.tail<3>().norm();
+  return off;
+}
+
+class ForwardSolver : public testing::TestWithParam<LidarKind> {};
+
+TEST_P(ForwardSolver, FindsTheExtrinsicWithinItsInterval) {
+  for (const TargetType type : {TargetType::kAprilGridCircles, TargetType::kAprilGrid}) {
+    auto o = options(31, GetParam());
+    o.target.type = type;
+    const ForwardRig rig = forward_rig(o);
+    const auto solution = solve(rig, Vector6d::Zero());
+    ASSERT_TRUE(solution) << solution.error().text();
+    EXPECT_TRUE(solution->converged);
+    EXPECT_TRUE(solution->uses_intensity);
+    EXPECT_LT(translation_distance_m(solution->camera_from_lidar.transform, rig.camera_from_lidar),
+              0.001);
+    EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.2);
+    // The beam: 1.2 and 0.8 mrad of footprint and 0.42 mrad of jitter, in quadrature.
+    const Eigen::Matrix2d& blur = solution->state.beam.blur_rad2;
+    EXPECT_NEAR(1e3 * std::sqrt(blur(0, 0)), 1.27, 0.05);
+    EXPECT_NEAR(1e3 * std::sqrt(blur(1, 1)), 0.90, 0.05);
+    EXPECT_NEAR(1e6 * blur(0, 0), 1.615, 5.0 * 1e6 * std::sqrt(solution->blur_covariance(0, 0)));
+    for (const ForwardSceneResult& scene : solution->scenes) {
+      EXPECT_LT(scene.intensity_left, 0.12);
+      // A clean scene loses less than a hundredth of its rows.
+      EXPECT_LT(100 * scene.refused, scene.on_board);
+    }
+  }
+}
+
+TEST_P(ForwardSolver, ComesBackFromSixCentimetres) {
+  for (std::uint64_t seed : {5, 6}) {
+    auto o = options(40 + seed, GetParam());
+    if (seed == 6) o.target = checkerboard();
+    const ForwardRig rig = forward_rig(o);
+    const auto near = solve(rig, Vector6d::Zero());
+    const auto far = solve(rig, far_off(seed));
+    ASSERT_TRUE(near && far);
+    EXPECT_LT(translation_distance_m(near->camera_from_lidar.transform,
+                                     far->camera_from_lidar.transform),
+              2e-5);
+    EXPECT_LT(size_in_sigmas(far->camera_from_lidar, rig.camera_from_lidar), 2.5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scanners, ForwardSolver,
+                         testing::Values(LidarKind::kRosette, LidarKind::kAvia,
+                                         LidarKind::kSpinning));
+
+TEST(ForwardSolver, OneSceneIsEnoughForAPrint) {
+  const ForwardRig rig = forward_rig(options(51, LidarKind::kAvia, 1));
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
+}
+
+TEST(ForwardSolver, WithoutIntensityRestsOnRangesAndSaysHowLittleTheyTell) {
+  ForwardRig rig = forward_rig(options(52, LidarKind::kAvia, 4));
+  const auto with = solve(rig, Vector6d::Zero());
+  ForwardRig constant = forward_rig(options(52, LidarKind::kAvia, 4));
+  for (Cloud& cloud : rig.clouds) cloud.intensity.clear();
+  for (Cloud& cloud : constant.clouds) std::fill(cloud.intensity.begin(), cloud.intensity.end(), 7.0F);
+  const auto without = solve(rig, Vector6d::Zero());
+  const auto same = solve(constant, Vector6d::Zero());
+  ASSERT_TRUE(with && without && same) << without.error().text();
+  EXPECT_FALSE(without->uses_intensity);
+  EXPECT_FALSE(same->uses_intensity);
+  EXPECT_EQ(without->camera_from_lidar.transform.translation,
+            same->camera_from_lidar.transform.translation);
+  EXPECT_GT(without->camera_from_lidar.covariance.trace(),
+            9.0 * with->camera_from_lidar.covariance.trace());
+  EXPECT_LT(size_in_sigmas(without->camera_from_lidar, rig.camera_from_lidar), 2.5);
+}
+
+TEST(ForwardSolver, APostBeforeTheBoardIsRefused) {
+  ForwardRig rig = forward_rig(options(53, LidarKind::kAvia));
+  // An upright post 4 cm wide, half a metre before the first board: black, so that its mixed edges
+  // would look like print.
+  Cloud& cloud = rig.clouds.front();
+  const Eigen::Vector2d c = rig.target.outline().center_m();
+  const Eigen::Vector3d middle = rig.lidar_from_board.front() * Eigen::Vector3d(c.x(), c.y(), 0.0);
+  const double azimuth = std::atan2(middle.y(), middle.x());
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
+    const double off = (std::atan2(p.y(), p.x()) - azimuth) * p.norm();
+    if (std::abs(off) > 0.02) continue;
+    cloud.points_m[i] = ((p.norm() - 0.5) * p.normalized()).cast<float>();
+    cloud.intensity[i] = 15.0F;
+    ++hidden;
+  }
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  EXPECT_GE(solution->scenes.front().refused, hidden * 8 / 10);
+  EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
+}
+
+TEST(ForwardSolver, SubsetsAreThoseSolvedByThemselves) {
+  ForwardRig rig = forward_rig(options(54, LidarKind::kRosette, 4));
+  const auto all = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(all);
+  const auto same = solve_subset(*all, {true, true, true, true});
+  ASSERT_TRUE(same);
+  EXPECT_LT(size_in_sigmas({same->transform, all->camera_from_lidar.covariance},
+                           all->camera_from_lidar.transform),
+            0.02);
+  const auto three = solve_subset(*all, {true, true, true, false});
+  rig.scenes.pop_back();
+  const auto alone = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(three && alone);
+  EXPECT_LT(size_in_sigmas(*three, alone->camera_from_lidar.transform), 0.2);
+  EXPECT_FALSE(solve_subset(*all, {false, false, false, false}));
+}
+
+TEST(ForwardSolver, DoesNotDependOnThreads) {
+  const ForwardRig rig = forward_rig(options(55, LidarKind::kAvia));
+  RunContext one;
+  one.threads = 1;
+  RunContext three;
+  three.threads = 3;
+  const auto a = solve(rig, Vector6d::Zero(), one);
+  const auto b = solve(rig, Vector6d::Zero(), three);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->camera_from_lidar.transform.translation, b->camera_from_lidar.transform.translation);
+  EXPECT_EQ(a->camera_from_lidar.covariance, b->camera_from_lidar.covariance);
+}
+
+TEST(ForwardSolver, StopsWhenAsked) {
+  const ForwardRig rig = forward_rig(options(56, LidarKind::kAvia));
+  std::stop_source stop;
+  stop.request_stop();
+  RunContext context;
+  context.stop = stop.get_token();
+  const auto solution = solve(rig, Vector6d::Zero(), context);
+  ASSERT_FALSE(solution);
+  EXPECT_EQ(solution.error().kind, ErrorKind::kCancelled);
+}
+
+TEST(ForwardSolver, NeedsReturnsOnTheBoard) {
+  ForwardRig rig = forward_rig(options(57, LidarKind::kAvia));
+  for (Cloud& cloud : rig.clouds) cloud = Cloud{};
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_FALSE(solution);
+  EXPECT_EQ(solution.error().kind, ErrorKind::kUntrusted);
+}
+
+TEST(ForwardSolver, ErrorsThatScenesShareWidenTheInterval) {
+  // Boards that moved by 3 mm between cloud and image, each its own way.
+  ForwardRig rig = forward_rig(options(58, LidarKind::kAvia, 6));
+  const auto clean = solve(rig, Vector6d::Zero());
+  Random random(9);
+  for (Cloud& cloud : rig.clouds) {
+    const Eigen::Vector3f shift(0.003F * static_cast<float>(random.normal()),
+                                0.003F * static_cast<float>(random.normal()),
+                                0.003F * static_cast<float>(random.normal()));
+    for (Eigen::Vector3f& p : cloud.points_m) p += shift;
+  }
+  const auto moved = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(clean && moved);
+  EXPECT_GT(moved->camera_from_lidar.covariance.trace(),
+            10.0 * clean->camera_from_lidar.covariance.trace());
+  EXPECT_LT(size_in_sigmas(moved->camera_from_lidar, rig.camera_from_lidar), 2.5);
+  EXPECT_LT(moved->dof, 100.0);
+}
+
+}  // namespace
+}  // namespace lvcalib
