@@ -1617,6 +1617,38 @@ were saved. Take them up again?</source>
         <source>Where it fits best it predicts scenes held out worse: %1; too few of them show it. To decide: %2.</source>
         <translation>在拟合最好的取值下，它对留出场景的预测反而更差：%1；能显示它的场景太少。要判定需要：%2。</translation>
     </message>
+    <message>
+        <source>the model of every return could not be solved (%1): the extrinsic rests on nodes, planes and corners</source>
+        <translation>无法求解全部回波的模型（%1）：外参仅依据圆心、平面和角点</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensity is missing or the same everywhere: the extrinsic rests on planes and corners, and the print does not hold it sideways</source>
+        <translation>点云没有强度或强度处处相同：外参仅依据平面和角点，印刷图案无法约束其横向位置</translation>
+    </message>
+    <message>
+        <source>Done when the extrinsic moves by less of its σ.</source>
+        <translation>外参的移动小于其 σ 的这一比例时结束。</translation>
+    </message>
+    <message>
+        <source>How rarely chance alone may let errors that measurements share into the model.</source>
+        <translation>仅凭偶然就把测量共有的误差纳入模型的概率上限。</translation>
+    </message>
+    <message>
+        <source>Most iterations of the solve over all returns.</source>
+        <translation>全部回波求解的最大迭代次数。</translation>
+    </message>
+    <message>
+        <source>Returns and corners farther off (in σ) weigh less.</source>
+        <translation>偏离更远（以 σ 计）的回波和角点权重降低。</translation>
+    </message>
+    <message>
+        <source>Side of the patches over which the print may move as one.</source>
+        <translation>印刷图案可整体移动的区块边长。</translation>
+    </message>
+    <message>
+        <source>patch</source>
+        <translation>区块</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -3210,6 +3242,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Not enough scenes for held-out residuals: two are needed.</source>
         <translation>场景不足以计算留出残差：需要两个。</translation>
+    </message>
+    <message>
+        <source>Every return</source>
+        <translation>全部回波</translation>
     </message>
 </context>
 <context>

@@ -47,8 +47,8 @@ class Comparison {
   MethodResult evaluate(const Method& method, bool held_out) const {
     const bool is_joint = method.objective == Objective::kJoint && method.refined;
     const MethodInput& input = method.refined ? refined_ : raw_;
-    MethodResult result = measured(
-        method.name, is_joint ? joint_.camera_from_lidar.transform : solve(method, input));
+    MethodResult result =
+        measured(method.name, is_joint ? joint_.camera_from_lidar.transform : solve(method, input));
     if (!held_out) return result;
     hold_out(result, [&](std::size_t s) -> std::optional<Rigid3> {
       MethodInput without = input;

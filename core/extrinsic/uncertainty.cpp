@@ -30,7 +30,11 @@ class Splitter {
            const ExtrinsicSolution& joint, const ExtrinsicOptions& options,
            const SubsetSolver& subset)
       : subset_(subset),
-        scenes_(scenes), camera_(camera), target_(target), joint_(joint), options_(options) {
+        scenes_(scenes),
+        camera_(camera),
+        target_(target),
+        joint_(joint),
+        options_(options) {
     start_.camera_from_lidar = joint.camera_from_lidar.transform;
     for (const SceneSolution& s : joint.scenes)
       start_.camera_from_board.push_back(s.camera_from_board);
@@ -174,8 +178,8 @@ std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
 UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
                                      const Camera& camera, const Target& target,
                                      const ExtrinsicSolution& joint,
-                                     const ExtrinsicOptions& options,
-                                     const UncertaintyOptions& how, const SubsetSolver& subset) {
+                                     const ExtrinsicOptions& options, const UncertaintyOptions& how,
+                                     const SubsetSolver& subset) {
   UncertaintyReport report;
   compare_halves(scenes, camera, target, joint, options, subset, report);
   const Matrix6d& covariance = joint.camera_from_lidar.covariance;

@@ -58,7 +58,8 @@ using SubsetSolver =
     std::function<std::optional<UncertainRigid3>(const std::vector<std::size_t>& scenes)>;
 
 /// Compares halves of the scenes, and projects the covariance. Halves need two scenes each; three
-/// for targets without circles. Halves are solved by `subset`, or, without it, from nodes and planes.
+/// for targets without circles. Halves are solved by `subset`, or, without it, from nodes and
+/// planes.
 UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
                                      const Camera& camera, const Target& target,
                                      const ExtrinsicSolution& joint,

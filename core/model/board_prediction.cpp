@@ -91,9 +91,8 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   const Eigen::Vector2d place = (met->board_m - center_m_) / half_size_m_;
   const double light = 1.0 + levels_.slope.dot(place);
   const double plain = levels_.black + contrast * print.white;
-  const Eigen::RowVector2d by_hit =
-      light * contrast * print.gradient_per_m.transpose() +
-      plain * levels_.slope.transpose() / half_size_m_;
+  const Eigen::RowVector2d by_hit = light * contrast * print.gradient_per_m.transpose() +
+                                    plain * levels_.slope.transpose() / half_size_m_;
   out.intensity = plain * light;
   out.intensity_by_pose = by_hit * hit_by_pose;
   out.intensity_by_shift = -light * contrast * print.gradient_per_m.transpose();
@@ -101,8 +100,8 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   out.intensity_by_levels << light * print.white, light * (1.0 - print.white), plain * place.x(),
       plain * place.y();
   // ∂A/∂S = ½∇∇ᵀA.
-  const Eigen::Matrix2d by_blur = 0.5 * light * contrast *
-                                  hit_by_angle.transpose() * print.hessian_per_m2 * hit_by_angle;
+  const Eigen::Matrix2d by_blur =
+      0.5 * light * contrast * hit_by_angle.transpose() * print.hessian_per_m2 * hit_by_angle;
   out.intensity_by_blur << by_blur(0, 0), 2.0 * by_blur(0, 1), by_blur(1, 1);
 
   // The darker part of the footprint weighs less.
@@ -110,7 +109,10 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   const double power = std::max(plain, floor);
   const Eigen::Vector2d log_power = contrast / power * print.gradient_per_m;
   const Eigen::RowVector2d pull = range_by_angle * footprint_rad2_ * hit_by_angle.transpose();
-  out.range_m = r + pull.dot(log_power);
+  // A plane's range is curved over the angles: r·(δᵢⱼ + 2 ∂ᵢr ∂ⱼr/r²).
+  const double curved = 0.5 * (r * footprint_rad2_.trace() +
+                               2.0 / r * range_by_angle.dot(range_by_angle * footprint_rad2_));
+  out.range_m = r + pull.dot(log_power) + curved;
   const Eigen::Matrix2d log_power_slope =
       contrast / power * print.hessian_per_m2 - log_power * log_power.transpose();
   out.range_by_pose = hit_range_by_pose + pull * log_power_slope * hit_by_pose;

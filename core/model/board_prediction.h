@@ -36,9 +36,9 @@ inline constexpr int kBlurParameters = 3;
 /// What one return on the board should say, and how that depends on the state.
 struct ReturnPrediction {
   Eigen::Vector2d board_m = Eigen::Vector2d::Zero();  ///< Where the ray meets the board.
-  double range_m = 0.0;      ///< Mean over the footprint, weighted with the received power.
+  double range_m = 0.0;  ///< Mean over the footprint, weighted with the received power.
   double intensity = 0.0;
-  double white = 0.0;        ///< Share of white in the blurred spot, A.
+  double white = 0.0;  ///< Share of white in the blurred spot, A.
   double cos_incidence = 1.0;
   double inside_sigmas = 0.0;  ///< Distance to the board's outline in widths of the spot.
   /// By the left perturbation of lidar_from_board, order (translation, rotation); m, m/rad, 1/m.
@@ -56,7 +56,7 @@ struct ReturnPrediction {
 /// covariance S = J Σ Jᵀ with J = ∂(u, v)/∂(angles), which holds the stretch by 1/cos θ. The mean
 /// intensity follows from the print blurred by S, A = print ⊗ N(0, S) (see BlurredPrint). The range
 /// is the mean over the footprint weighted with the received power P ∝ black + (white − black)·A:
-/// r + ∇rᵀ Σ_f ∇ln P (Stein's lemma; exact for a plane and a Gaussian footprint).
+/// r + ∇rᵀ Σ_f ∇ln P + ½ tr(Σ_f ∇∇ᵀr) (Stein's lemma, to second order in the footprint).
 class BoardPredictor {
  public:
   BoardPredictor(const BlurredPrint& print, const Rigid3& lidar_from_board,

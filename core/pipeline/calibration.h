@@ -64,10 +64,10 @@ struct CalibrationResult {
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
   std::shared_ptr<const BlurredPrint> print;  ///< Of the target; shared by every solve.
-  ExtrinsicSolution extrinsic;  ///< Of the forward model where it could be solved.
+  ExtrinsicSolution extrinsic;                ///< Of the forward model where it could be solved.
   /// The forward model behind it; empty where the nodes and planes alone had to do.
   std::optional<ForwardSolution> forward;
-  std::string forward_failure;  ///< Why it is empty, in words.
+  std::string forward_failure;     ///< Why it is empty, in words.
   std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
   std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
   /// The extrinsic's covariance with the budget; zero before discover().

@@ -46,16 +46,14 @@ ExtrinsicSolution report_forward(const ForwardSolution& forward, const Extrinsic
   fit.fit.iterations = forward.iterations;
   fit.fit.converged = forward.converged;
   fit.fit.state.camera_from_lidar = forward.state.camera_from_lidar;
-  fit.fit.information =
-      forward.camera_from_lidar.covariance.ldlt().solve(Matrix6d::Identity());
+  fit.fit.information = forward.camera_from_lidar.covariance.ldlt().solve(Matrix6d::Identity());
   std::size_t next = 0;
   for (const SceneSolution& scene : start.scenes) {
     fit.reasons.push_back(scene.reason);
-    fit.fit.state.camera_from_board.push_back(
-        scene.used ? forward.state.camera_from_board[next++] : scene.camera_from_board);
+    fit.fit.state.camera_from_board.push_back(scene.used ? forward.state.camera_from_board[next++]
+                                                         : scene.camera_from_board);
   }
-  ExtrinsicSolution solution =
-      report_solution(fit, observations, camera, target, options, false);
+  ExtrinsicSolution solution = report_solution(fit, observations, camera, target, options, false);
   const SubsetSolver subset = forward_subsets(forward, start);
   const Rigid3& all = forward.state.camera_from_lidar;
   const int fewest = forward.uses_intensity ? 2 : fewest_to_leave_one_out(target);

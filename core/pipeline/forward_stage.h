@@ -9,9 +9,9 @@
 
 namespace lvcalib {
 
-/// The joint solve over every corner and return of the scenes that `start` uses; `index` tells which
-/// scene of the result an observation is. Clouds whose intensity is missing or the same everywhere
-/// take part with their ranges.
+/// The joint solve over every corner and return of the scenes that `start` uses; `index` tells
+/// which scene of the result an observation is. Clouds whose intensity is missing or the same
+/// everywhere take part with their ranges.
 Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                                            const std::vector<SceneObservations>& observations,
                                            const std::vector<std::size_t>& index,

@@ -232,7 +232,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                  "): the extrinsic rests on nodes, planes and corners");
   } else if (result.forward && !result.forward->uses_intensity) {
     verdict.note(
-        "the clouds' intensity is missing or the same everywhere: the extrinsic rests on planes and "
+        "the clouds' intensity is missing or the same everywhere: the extrinsic rests on planes "
+        "and "
         "corners, and the print does not hold it sideways");
   }
   judge_precision(x, options, verdict);

@@ -63,7 +63,8 @@ Status solve_forward_model(CalibrationResult& result,
                            const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,
                            const RunContext& context) {
   if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
-  auto forward = solve_every_return(result, observations, index, nodes, result.options.forward, context);
+  auto forward =
+      solve_every_return(result, observations, index, nodes, result.options.forward, context);
   result.forward.reset();
   result.forward_failure.clear();
   result.extrinsic = nodes;

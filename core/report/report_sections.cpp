@@ -118,7 +118,9 @@ std::string method_boxes(const json& methods, const char* key, const char* label
     plot.box(x, 0.3, five, name == "forward_model" ? "#23793b" : "#345c9c");
     // Two words on an axis that has room for one.
     const auto at = name.find('_');
-    const char* const centers = name.ends_with("raw") ? "·raw" : name.ends_with("refined") ? "·ref" : "";
+    const char* const centers = name.ends_with("raw")       ? "·raw"
+                                : name.ends_with("refined") ? "·ref"
+                                                            : "";
     names.emplace_back(x, name.substr(0, at) + centers);
   }
   plot.x_names(names);

@@ -76,7 +76,8 @@ double correlation(const std::vector<Sample>& samples, const BlurredPrint& print
   double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
   for (const Sample& sample : samples) {
     const Eigen::Vector2d d = sample.board_m - center - trial.shift_m;
-    const Eigen::Vector2d p = center + Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
+    const Eigen::Vector2d p =
+        center + Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
     const double white = print.coarse(p, sigma_m);
     n += 1;
     a += white;
@@ -138,11 +139,10 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
   out.index.resize(kept);
 
   // Some drivers fill the field with one number.
-  out.has_intensity =
-      cloud.has_intensity() && kept > 0 &&
-      std::any_of(out.index.begin(), out.index.end(), [&](std::uint32_t i) {
-        return cloud.intensity[i] != cloud.intensity[out.index.front()];
-      });
+  out.has_intensity = cloud.has_intensity() && kept > 0 &&
+                      std::any_of(out.index.begin(), out.index.end(), [&](std::uint32_t i) {
+                        return cloud.intensity[i] != cloud.intensity[out.index.front()];
+                      });
 
   out.successor.assign(kept, BoardReturns::kNone);
   std::map<std::uint16_t, std::uint32_t> last;
@@ -157,9 +157,8 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
   return out;
 }
 
-std::optional<PrintMatch> match_print(const BoardReturns& returns,
-                                      const BlurredPrint& print, const Rigid3& lidar_from_board,
-                                      const PrintSearch& search) {
+std::optional<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
+                                      const Rigid3& lidar_from_board, const PrintSearch& search) {
   constexpr std::size_t kFewest = 30;
   if (!returns.has_intensity || returns.size() < kFewest) return std::nullopt;
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
@@ -234,8 +233,7 @@ std::optional<PrintMatch> match_print(const BoardReturns& returns,
   const Eigen::Vector3d shifted =
       middle + Eigen::Vector3d(winner.shift_m.x(), winner.shift_m.y(), 0.0);
   const Eigen::Matrix3d spin = so3_exp({0.0, 0.0, winner.turn_rad}).toRotationMatrix();
-  match.lidar_from_board =
-      lidar_from_board * Rigid3::from_matrix(spin, shifted - spin * middle);
+  match.lidar_from_board = lidar_from_board * Rigid3::from_matrix(spin, shifted - spin * middle);
   return match;
 }
 

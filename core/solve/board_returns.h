@@ -17,9 +17,9 @@ namespace lvcalib {
 struct BoardReturns {
   const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> index;
-  std::size_t on_board = 0;  ///< Rays that meet the board's inside, refused ones included.
+  std::size_t on_board = 0;    ///< Rays that meet the board's inside, refused ones included.
   bool has_intensity = false;  ///< And it is not the same on all of them.
-  std::size_t refused = 0;   ///< Of them, those that lie off the plane or next to what covers it.
+  std::size_t refused = 0;     ///< Of them, those that lie off the plane or next to what covers it.
   /// Correlation of neighbours along a line is measured over these: places in `index` whose
   /// successor on the same line is the next place of `successor`, or kNone.
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -57,15 +57,15 @@ struct PrintMatch {
 };
 
 struct PrintSearch {
-  double reach_m = 0.075;    ///< Moves tried along each axis of the board.
-  double turn_rad = 0.1;     ///< Turns tried about its normal.
+  double reach_m = 0.075;  ///< Moves tried along each axis of the board.
+  double turn_rad = 0.1;   ///< Turns tried about its normal.
   std::size_t samples = 1500;
 };
 
 /// Slides and turns the board on its plane until the intensities fit best. Nothing where no pose
 /// correlates.
-std::optional<PrintMatch> match_print(const BoardReturns& returns,
-                                      const BlurredPrint& print, const Rigid3& lidar_from_board,
+std::optional<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
+                                      const Rigid3& lidar_from_board,
                                       const PrintSearch& search = {});
 
 }  // namespace lvcalib

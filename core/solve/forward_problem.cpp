@@ -56,7 +56,7 @@ struct Layout {
   Eigen::Index corner_group = -1;  // Behind the LiDAR's.
   Eigen::Index corner_groups = 0;
   int patches_x = 0, patches_y = 0;
-  std::map<int, int> corner_group_of;           // feature → group
+  std::map<int, int> corner_group_of;  // feature → group
   std::map<std::uint16_t, int> line_of;
   SharedErrorColumns columns;
 };
@@ -68,8 +68,8 @@ int patch_of(const Layout& layout, const BoardOutline& outline, const Eigen::Vec
   return y * layout.patches_x + x;
 }
 
-Layout make_layout(const ForwardScene& scene, const BoardReturns& returns, const BlurredPrint& print,
-                   const LinearizationOptions& options) {
+Layout make_layout(const ForwardScene& scene, const BoardReturns& returns,
+                   const BlurredPrint& print, const LinearizationOptions& options) {
   Layout layout;
   if (!options.shared_errors) return layout;
   const BoardOutline& outline = print.outline();
@@ -188,6 +188,17 @@ double blended(double white, double black, double share) {
   return std::exp(share * std::log(white) + (1.0 - share) * std::log(black));
 }
 
+// Left perturbation of lidar_from_board by a motion (t, ω) along the board's axes about its middle.
+Eigen::Matrix<double, 6, kBoardTerms> board_motion(const Rigid3& lidar_from_board,
+                                                   const Eigen::Vector2d& center_m) {
+  const Eigen::Matrix3d axes = lidar_from_board.rotation.toRotationMatrix();
+  const Eigen::Vector3d middle =
+      lidar_from_board * Eigen::Vector3d(center_m.x(), center_m.y(), 0.0);
+  Eigen::Matrix<double, 6, kBoardTerms> motion;
+  motion << axes, skew(middle) * axes, Eigen::Matrix3d::Zero(), axes;
+  return motion;
+}
+
 class LidarRows {
  public:
   LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
@@ -207,14 +218,11 @@ class LidarRows {
         has_intensity_(returns.has_intensity),
         range_z(returns.size(), kUnused),
         intensity_z(returns.size(), kUnused) {
-    // Left perturbation of lidar_from_board by a motion t, ω along the board's axes about its middle.
-    const Rigid3 board = state.lidar_from_board(index);
-    const Eigen::Matrix3d axes = board.rotation.toRotationMatrix();
-    const Eigen::Vector3d middle = board * Eigen::Vector3d(center_.x(), center_.y(), 0.0);
-    board_terms_.topLeftCorner<3, 3>() = axes;
-    board_terms_.topRightCorner<3, 3>() = skew(middle) * axes;
-    board_terms_.bottomLeftCorner<3, 3>().setZero();
-    board_terms_.bottomRightCorner<3, 3>() = axes;
+    // The board's own motion moves a row as its pose does.
+    if (layout.board >= 0 && shared_.size() == layout.columns.total) {
+      board_ = board_motion(state.lidar_from_board(index), center_) *
+               shared_.segment<kBoardTerms>(layout.board - kLidarFixed);
+    }
   }
 
   static constexpr float kUnused = 1e9F;
@@ -235,7 +243,6 @@ class LidarRows {
     const double sigma = blended(noise_.range_white_m, noise_.range_black_m, p.white);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.range_by_pose(i));
-    add_board_terms(p.range_by_pose, row);
     if (layout_.range_shape >= 0) {
       const Eigen::Vector2d at = (p.board_m - center_).cwiseQuotient(half_);
       std::array<double, kRangeTerms> terms{};
@@ -244,7 +251,7 @@ class LidarRows {
         row.add(layout_.range_shape + static_cast<Eigen::Index>(i), terms[i]);
       if (const int line = line_of(k); line >= 0) row.add(layout_.line_range + line, 1.0);
     }
-    e -= row.times(shared_);
+    e -= row.times(shared_) + p.range_by_pose * board_;
     const double z = e / sigma;
     range_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
@@ -266,7 +273,6 @@ class LidarRows {
     for (Eigen::Index i = 0; i < kBlurParameters; ++i) row.add(6 + i, by_factor(i));
     for (Eigen::Index i = 0; i < kLevelParameters; ++i)
       row.add(6 + kBlurParameters + i, p.intensity_by_levels(i));
-    add_board_terms(p.intensity_by_pose, row);
     if (layout_.print_patch >= 0) {
       const Eigen::Index patch =
           layout_.print_patch + 2 * patch_of(layout_, print_.outline(), p.board_m);
@@ -274,7 +280,7 @@ class LidarRows {
       row.add(patch + 1, p.intensity_by_shift(1));
       if (const int line = line_of(k); line >= 0) row.add(layout_.line_gain + line, p.intensity);
     }
-    e -= row.times(shared_);
+    e -= row.times(shared_) + p.intensity_by_pose * board_;
     const double z = e / sigma;
     intensity_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
@@ -294,13 +300,6 @@ class LidarRows {
     out.fit.jitter_normal += w * g * g.transpose();
     for (std::size_t i = 0; i < 2; ++i)
       out.fit.jitter_sums[i] += w * g(static_cast<Eigen::Index>(i)) * wanted;
-  }
-
-  // The board's own motion: the pose's Jacobian along its axes, about its middle.
-  void add_board_terms(const Eigen::Matrix<double, 1, 6>& by_pose, SparseRow& row) const {
-    if (layout_.board < 0) return;
-    const Eigen::Matrix<double, 1, kBoardTerms> terms = by_pose * board_terms_;
-    for (Eigen::Index i = 0; i < kBoardTerms; ++i) row.add(layout_.board + i, terms(i));
   }
 
   [[nodiscard]] int line_of(std::size_t k) const {
@@ -330,7 +329,7 @@ class LidarRows {
   Eigen::Vector2d center_;
   Eigen::Vector2d half_;
   bool has_intensity_;
-  Eigen::Matrix<double, 6, kBoardTerms> board_terms_;
+  Vector6d board_ = Vector6d::Zero();  // Left perturbation that the board's own motion makes.
 
  public:
   std::vector<float> range_z, intensity_z;  // Per return; kUnused where there is no row.
@@ -380,17 +379,16 @@ void update_noise(const SceneNoise& before, const Accumulator& sums, const Lidar
   fit.noise.range_inflation = inflation(returns, rows.range_z);
   fit.noise.intensity_inflation = inflation(returns, rows.intensity_z);
   if (sums.weight > 0.0) {
-    const double variance =
-        sums.squares / sums.weight - std::pow(sums.sum / sums.weight, 2);
+    const double variance = sums.squares / sums.weight - std::pow(sums.sum / sums.weight, 2);
     if (variance > 0.0)
       fit.intensity_variance_share = sums.residual_squares / sums.weight / variance;
   }
 }
 
 // Adds the corners: unknowns T_camera_board and the group's shift.
-void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrint& print, const ForwardState& state, double sigma_px,
-                 const Layout& layout, const LinearizationOptions& options, SceneEquations& out,
-                 SceneFit& fit) {
+void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrint& print,
+                 const ForwardState& state, double sigma_px, const Layout& layout,
+                 const LinearizationOptions& options, SceneEquations& out, SceneFit& fit) {
   const Rigid3& camera_from_board = state.camera_from_board[index];
   const bool tags = print.target().has_tags();
   for (const CornerObservation& c : scene.corners) {
@@ -408,8 +406,8 @@ void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrin
     Eigen::Index at = -1;
     if (layout.corner_group >= 0) {
       const int feature = tags ? c.feature_id : patch_of(layout, print.outline(), c.board_m);
-      const Eigen::Index own = layout.corner_group - kLidarFixed +
-                               2 * layout.corner_group_of.at(feature);
+      const Eigen::Index own =
+          layout.corner_group - kLidarFixed + 2 * layout.corner_group_of.at(feature);
       if (own + 1 < out.shared.size()) e -= out.shared.segment<2>(own);
       at = kGlobals + kLocals + own;
     }
@@ -461,14 +459,13 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
                                const ForwardState& state, const ForwardNoise& noise,
                                const LinearizationOptions& options, int threads, SceneFit& fit) {
   // Chunks of a fixed size, summed in order: the result does not depend on the threads.
-  constexpr std::size_t kChunk = 8192;
+  constexpr std::size_t kChunk = 4096;
   const Layout layout = make_layout(scene, returns, print, options);
   LidarRows rows(returns, print, state, index, noise.scenes[index], layout, options);
   const std::size_t stride = options.stride;
   const std::size_t chunk = kChunk * stride;
   const std::size_t chunks = (returns.size() + chunk - 1) / chunk;
-  const Eigen::Index lidar_size =
-      layout.corner_group < 0 ? layout.size : layout.corner_group;
+  const Eigen::Index lidar_size = layout.corner_group < 0 ? layout.size : layout.corner_group;
   Accumulator sums(lidar_size);
   std::vector<Accumulator> parts(chunks, Accumulator(0));
   parallel_for(chunks, threads, [&](std::size_t c) {
@@ -490,7 +487,12 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
   map.block<6, 6>(0, kGlobals) = ad;
   map.block<3, 3>(6, 6).setIdentity();
   map.block<4, 4>(9, kGlobals + 6).setIdentity();
-  for (Eigen::Index i = kLidarFixed; i < lidar_size; ++i) map(i, kGlobals + kLocals + i - kLidarFixed) = 1.0;
+  for (Eigen::Index i = kLidarFixed; i < lidar_size; ++i)
+    map(i, kGlobals + kLocals + i - kLidarFixed) = 1.0;
+  if (layout.board >= 0) {
+    map.block<6, kBoardTerms>(0, kGlobals + kLocals + layout.board - kLidarFixed) =
+        board_motion(state.lidar_from_board(index), print.outline().center_m());
+  }
   SceneEquations out;
   out.columns = layout.columns;
   out.shared = index < state.shared.size() && state.shared[index].size() == shared
@@ -519,6 +521,7 @@ std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& term
     information += term->information;
     gradient += term->gradient;
   }
+  if (!(information.topLeftCorner<6, 6>().diagonal().minCoeff() > 0.0)) return std::nullopt;
   const auto held = [&](Eigen::Index i) { return i >= 6 && !(prior.sigma(i) > 0.0); };
   for (Eigen::Index i = 6; i < kGlobals; ++i) {
     if (!held(i)) {
@@ -539,8 +542,8 @@ std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& term
     return std::nullopt;
   GlobalStep out;
   out.step = unit.asDiagonal() * factor.solve(unit.asDiagonal() * gradient);
-  out.covariance = unit.asDiagonal() *
-                   factor.solve(Eigen::MatrixXd::Identity(kGlobals, kGlobals)) * unit.asDiagonal();
+  out.covariance = unit.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(kGlobals, kGlobals)) *
+                   unit.asDiagonal();
   for (Eigen::Index i = 6; i < kGlobals; ++i) {
     if (!held(i)) continue;
     out.covariance.row(i).setZero();
@@ -585,8 +588,8 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const 
     part.to_globals = part.own.solve(coupling);
     part.rest = part.own.solve(gradient);
     GlobalTerm& term = out.terms[s];
-    term.information = scene.normal.topLeftCorner<kGlobals, kGlobals>() -
-                       coupling.transpose() * part.to_globals;
+    term.information =
+        scene.normal.topLeftCorner<kGlobals, kGlobals>() - coupling.transpose() * part.to_globals;
     term.gradient = scene.gradient.head<kGlobals>() - coupling.transpose() * part.rest;
     term.usable = term.information.allFinite() && term.gradient.allFinite();
   });

@@ -19,13 +19,14 @@
 
 namespace lvcalib {
 
-/// What one scene brings to the joint solve: corners that are in use, and the points about the board.
+/// What one scene brings to the joint solve: corners that are in use, and the points about the
+/// board.
 struct ForwardScene {
   std::string name;
   std::vector<CornerObservation> corners;
   const Cloud* board_points = nullptr;
-  Rigid3 camera_from_board;  ///< Start, from the corners alone.
-  Rigid3 lidar_from_board;   ///< Start, from the cloud alone.
+  Rigid3 camera_from_board;     ///< Start, from the corners alone.
+  Rigid3 lidar_from_board;      ///< Start, from the cloud alone.
   double range_sigma_m = 0.01;  ///< Start.
 };
 
@@ -106,7 +107,7 @@ struct SceneEquations {
 /// How well the rows of one scene fit at the state of the linearization.
 struct SceneFit {
   std::size_t range_rows = 0, intensity_rows = 0, corner_rows = 0;
-  double range_squares = 0.0;      ///< Σ w (e/σ)², robust.
+  double range_squares = 0.0;  ///< Σ w (e/σ)², robust.
   double intensity_squares = 0.0;
   double corner_squares = 0.0;
   double intensity_variance_share = 1.0;  ///< Var(residual)/Var(intensity), robust weights applied.
@@ -116,8 +117,8 @@ struct SceneFit {
 };
 
 struct LinearizationOptions {
-  bool shared_errors = true;    ///< Off while the solve is still far from its end.
-  std::size_t stride = 1;       ///< Every how many-th return; 1 at the end.
+  bool shared_errors = true;      ///< Off while the solve is still far from its end.
+  std::size_t stride = 1;         ///< Every how many-th return; 1 at the end.
   double robust_threshold = 3.0;  ///< Huber's, in σ.
   double patch_m = 0.2;
 };
@@ -125,8 +126,8 @@ struct LinearizationOptions {
 /// Linearizes corners, ranges and intensities of one scene at a state, in parallel.
 SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
                                const BoardReturns& returns, const BlurredPrint& print,
-                               const ForwardState& state, const ForwardNoise& noise, const LinearizationOptions& options,
-                               int threads, SceneFit& fit);
+                               const ForwardState& state, const ForwardNoise& noise,
+                               const LinearizationOptions& options, int threads, SceneFit& fit);
 
 /// What one scene says about the globals once its own unknowns are eliminated.
 struct GlobalTerm {
@@ -137,22 +138,21 @@ struct GlobalTerm {
 
 /// Solution of the normal equations of all scenes.
 struct GlobalSolution {
-  std::vector<GlobalTerm> terms;           ///< Per scene.
+  std::vector<GlobalTerm> terms;  ///< Per scene.
   Eigen::VectorXd globals;
-  Eigen::MatrixXd covariance;             ///< Of the globals.
-  std::vector<Eigen::VectorXd> scenes;    ///< Locals and shared errors of every scene.
-  SharedVariances squares{};              ///< Σu² of the shared errors after the step, per kind,
-  SharedVariances determined{};           ///< how many of them the data determine,
-  SharedVariances effective{};            ///< and how many count, if some are known far better.
-  double decrement = 0.0;                 ///< xᵀNx of the globals' step: its size in σ, squared.
+  Eigen::MatrixXd covariance;           ///< Of the globals.
+  std::vector<Eigen::VectorXd> scenes;  ///< Locals and shared errors of every scene.
+  SharedVariances squares{};            ///< Σu² of the shared errors after the step, per kind,
+  SharedVariances determined{};         ///< how many of them the data determine,
+  SharedVariances effective{};          ///< and how many count, if some are known far better.
+  double decrement = 0.0;               ///< xᵀNx of the globals' step: its size in σ, squared.
   bool solvable = false;
 };
 
 /// Eliminates the scenes (Schur complement) and solves. `priors` of locals are in the equations.
 /// With `determined` also measures what the shared errors' variances should be.
-GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes,
-                               const GlobalPrior& prior, const SharedVariances& variances,
-                               bool measure_shared, int threads);
+GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const GlobalPrior& prior,
+                               const SharedVariances& variances, bool measure_shared, int threads);
 
 /// The globals' step and its covariance from some scenes' terms. Nothing if they do not determine
 /// the extrinsic.

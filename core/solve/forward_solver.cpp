@@ -84,20 +84,24 @@ class ForwardSolver {
                                    state().beam, std::max(n.range_white_m, n.range_black_m),
                                    options_.selection);
     });
-    solution_.uses_intensity =
-        std::any_of(returns_.begin(), returns_.end(), [](const auto& r) { return r.has_intensity; });
+    solution_.uses_intensity = std::any_of(returns_.begin(), returns_.end(),
+                                           [](const auto& r) { return r.has_intensity; });
     return std::any_of(returns_.begin(), returns_.end(),
                        [](const BoardReturns& r) { return r.size() > 0; });
   }
 
-  // The blurs that spots from the narrowest beam face on to the widest aslant, and the coarse
-  // stages, will ask for.
+  // The blurs that most spots will ask for, made on all cores; others are made when they are asked
+  // for.
   void prepare_print() const {
     double nearest = 1e9;
-    for (std::size_t s = 0; s < scenes_.size(); ++s)
-      nearest = std::min(nearest, solution_.state.lidar_from_board(s).translation.norm());
-    print_.prepare(std::min(0.004, 0.6 * options_.first_blur_rad * nearest), 0.016,
-                   context_.thread_count());
+    double farthest = 0.0;
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      const double range = solution_.state.lidar_from_board(s).translation.norm();
+      nearest = std::min(nearest, range);
+      farthest = std::max(farthest, range);
+    }
+    print_.prepare(0.6 * options_.first_blur_rad * nearest,
+                   0.8 * options_.first_blur_rad * farthest, context_.thread_count());
   }
 
   // Each scene's print votes for an extrinsic; the vote under which all scenes' prints fit best
@@ -106,8 +110,7 @@ class ForwardSolver {
     std::vector<std::optional<PrintMatch>> matches(scenes_.size());
     parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       if (context_.stopped()) return;
-      matches[s] = match_print(returns_[s], print_,
-                               state().lidar_from_board(s), options_.search);
+      matches[s] = match_print(returns_[s], print_, state().lidar_from_board(s), options_.search);
     });
     std::vector<Rigid3> votes{state().camera_from_lidar};
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
@@ -205,17 +208,15 @@ class ForwardSolver {
 
   bool fine() {
     int rounds_left = options_.max_iterations;
-    // Few rows until the state stands still, then all of them, then all with shared errors.
-    for (const bool all : {false, true}) {
-      for (; rounds_left > 0; --rounds_left) {
-        const auto step = iterate(all ? final_rows(false) : early_rows(), true);
-        if (!step) return false;
-        if (*step < (all ? 0.3 : 0.5)) break;
-      }
-      if (!all && !select()) return false;
-    }
+    // Few rows until the state stands still, then all of them, with shared errors.
     for (; rounds_left > 0; --rounds_left) {
-      const auto step = iterate(final_rows(true), true);
+      const auto step = iterate(early_rows(), true);
+      if (!step) return false;
+      if (*step < 0.5) break;
+    }
+    if (!select()) return false;
+    for (; rounds_left > 0; --rounds_left) {
+      const auto step = iterate(final_rows(), true);
       if (!step) return false;
       if (*step < options_.tolerance) {
         solution_.converged = true;
@@ -236,9 +237,8 @@ class ForwardSolver {
     return how;
   }
 
-  [[nodiscard]] LinearizationOptions final_rows(bool shared) const {
+  [[nodiscard]] LinearizationOptions final_rows() const {
     LinearizationOptions how;
-    how.shared_errors = shared;
     how.robust_threshold = options_.robust_threshold;
     how.patch_m = options_.patch_m;
     return how;
@@ -282,8 +282,9 @@ class ForwardSolver {
     if (free_intrinsics) {
       prior.sigma.segment<kIntrinsics>(6 + kBlurParameters) = options_.intrinsics_sigma;
       const Camera& now = solution_.state.camera;
-      prior.offset.segment<kIntrinsics>(6 + kBlurParameters) << now.fx - given_.fx, now.fy - given_.fy,
-          now.cx - given_.cx, now.cy - given_.cy, now.distortion - given_.distortion;
+      prior.offset.segment<kIntrinsics>(6 + kBlurParameters) << now.fx - given_.fx,
+          now.fy - given_.fy, now.cx - given_.cx, now.cy - given_.cy,
+          now.distortion - given_.distortion;
     }
     return prior;
   }
@@ -300,7 +301,8 @@ class ForwardSolver {
         se3_exp(scale * Vector6d(step.globals.head<6>())) * state().camera_from_lidar;
     Eigen::Vector3d factor = blur_factor(state().beam.blur_rad2);
     const Eigen::Vector3d change = scale * step.globals.segment<kBlurParameters>(6);
-    const Eigen::VectorXd intrinsics = scale * step.globals.segment<kIntrinsics>(6 + kBlurParameters);
+    const Eigen::VectorXd intrinsics =
+        scale * step.globals.segment<kIntrinsics>(6 + kBlurParameters);
 
     Camera& camera = state().camera;
     camera.fx += intrinsics(0);
@@ -325,8 +327,7 @@ class ForwardSolver {
       levels.slope += local.tail<2>();
       const Eigen::Index shared = step.scenes[s].size() - kLocals;
       if (shared == 0) continue;
-      if (state().shared[s].size() != shared)
-        state().shared[s] = Eigen::VectorXd::Zero(shared);
+      if (state().shared[s].size() != shared) state().shared[s] = Eigen::VectorXd::Zero(shared);
       state().shared[s] += scale * step.scenes[s].tail(shared);
     }
   }
@@ -366,7 +367,8 @@ class ForwardSolver {
     admitted_[best] = true;
     // From where half of it would be told: the fixed point is there within a few rounds.
     const double share = step.determined[best] / step.effective[best];
-    noise().shared[best] = std::max(noise().shared[best], noise().shared[best] / std::max(share, 1e-12));
+    noise().shared[best] =
+        std::max(noise().shared[best], noise().shared[best] / std::max(share, 1e-12));
     return true;
   }
 
@@ -487,9 +489,8 @@ std::optional<UncertainRigid3> solve_subset(const ForwardSolution& solution,
   }
   const auto step = solve_terms(terms, solution.prior);
   if (!step) return std::nullopt;
-  return UncertainRigid3{
-      se3_exp(Vector6d(step->step.head<6>())) * solution.state.camera_from_lidar,
-      step->covariance.topLeftCorner<6, 6>()};
+  return UncertainRigid3{se3_exp(Vector6d(step->step.head<6>())) * solution.state.camera_from_lidar,
+                         step->covariance.topLeftCorner<6, 6>()};
 }
 
 Result<ForwardSolution> solve_forward(const std::vector<ForwardScene>& scenes,

@@ -16,10 +16,12 @@ struct ForwardOptions {
   double robust_threshold = 3.0;  ///< Huber's, in standard deviations.
   double patch_m = 0.2;           ///< Side of the patches over which the print may move.
   int max_iterations = 30;
-  /// Done when the extrinsic moves by less than this share of its standard deviation.
-  double tolerance = 0.01;
+  /// Done when a step moves the extrinsic by less than this share of its standard deviation; the
+  /// next would be far smaller.
+  double tolerance = 0.03;
   double sigma_px_floor = 0.01;
-  /// A kind of shared error is taken into the model if chance alone makes it look as large so rarely.
+  /// A kind of shared error is taken into the model if chance alone makes it look as large so
+  /// rarely.
   double false_alarm = 0.01;
   /// Standard deviations of what is known of the intrinsics (fx fy cx cy, distortion); 0: held.
   Eigen::Matrix<double, kIntrinsics, 1> intrinsics_sigma =
@@ -59,8 +61,8 @@ struct ForwardSolution {
   bool uses_intensity = false;
 };
 
-/// The extrinsic that some of the scenes give (`use` per scene), to first order about the solution of
-/// all, with the noise of all. Nothing if they do not determine it.
+/// The extrinsic that some of the scenes give (`use` per scene), to first order about the solution
+/// of all, with the noise of all. Nothing if they do not determine it.
 std::optional<UncertainRigid3> solve_subset(const ForwardSolution& solution,
                                             const std::vector<bool>& use);
 

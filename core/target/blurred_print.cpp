@@ -49,15 +49,14 @@ void add_tag(const Target& t, const TargetTag& tag, BlackShapes& shapes) {
   const double bit = t.tag_bit_m();
   const int border = t.tag_border_bits;
   const int side = static_cast<int>(std::lround(t.tag_size_m / bit));
-  const Eigen::Vector2d origin =
-      tag.center_m - 0.5 * t.tag_size_m * Eigen::Vector2d(1.0, 1.0);
+  const Eigen::Vector2d origin = tag.center_m - 0.5 * t.tag_size_m * Eigen::Vector2d(1.0, 1.0);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side;) {
       const auto white = [&](int column) {
         const int c = column - border;
         const int r = side - 1 - y - border;
-        return pattern != nullptr && c >= 0 && r >= 0 && c < pattern->width &&
-               r < pattern->width && pattern->at(r, c);
+        return pattern != nullptr && c >= 0 && r >= 0 && c < pattern->width && r < pattern->width &&
+               pattern->at(r, c);
       };
       if (white(x)) {
         ++x;
@@ -111,7 +110,8 @@ class DiscProfile {
       const double angle = std::numbers::pi * (i + 0.5) / kStrips;
       const double y = most * std::cos(angle);
       const auto k = static_cast<std::size_t>(i);
-      weight[k] = normal_density(y / sigma) / sigma * most * std::sin(angle) * std::numbers::pi / kStrips;
+      weight[k] =
+          normal_density(y / sigma) / sigma * most * std::sin(angle) * std::numbers::pi / kStrips;
       chord[k] = std::sqrt(std::max(0.0, radius * radius - y * y));
     }
     for (int n = 0; n < count; ++n) {
@@ -122,7 +122,8 @@ class DiscProfile {
         const double far = (rho - chord[k]) / sigma;
         d[0] += weight[k] * (normal_below(near) - normal_below(far));
         d[1] += weight[k] * (normal_density(near) - normal_density(far)) / sigma;
-        d[2] += weight[k] * (far * normal_density(far) - near * normal_density(near)) / (sigma * sigma);
+        d[2] +=
+            weight[k] * (far * normal_density(far) - near * normal_density(near)) / (sigma * sigma);
       }
       table_.push_back(d);
     }
@@ -206,7 +207,8 @@ Quadrature quadrature(double excess_ratio) {
   }
   constexpr double kExtent = 3.5;
   const double step = 1.35 / std::sqrt(1.0 + excess_ratio);
-  const int half = std::min((Quadrature::kMost - 1) / 2, static_cast<int>(std::ceil(kExtent / step)));
+  const int half =
+      std::min((Quadrature::kMost - 1) / 2, static_cast<int>(std::ceil(kExtent / step)));
   double sum = 0.0;
   double variance = 0.0;
   for (int i = -half; i <= half; ++i) {
@@ -262,7 +264,8 @@ struct BlurredPrint::Level {
   };
   [[nodiscard]] Strip strip(double a, double b, double start, int count, double sigma) const {
     Strip s;
-    s.first = std::clamp(static_cast<int>(std::floor((a - kReach * sigma - start) / step)), 0, count);
+    s.first =
+        std::clamp(static_cast<int>(std::floor((a - kReach * sigma - start) / step)), 0, count);
     const int last =
         std::clamp(static_cast<int>(std::ceil((b + kReach * sigma - start) / step)), 0, count - 1);
     for (int i = s.first; i <= last; ++i) {
@@ -348,8 +351,8 @@ struct BlurredPrint::Level {
       return w.v0 * p0[k] + w.s0 * p0[k + 1] + w.v1 * p1[k] + w.s1 * p1[k + 1];
     };
     const auto combine = [&](const HermiteWeights& wx, const HermiteWeights& wy) {
-      return wy.v0 * along(wx, a, b, 0) + wy.s0 * along(wx, a, b, 2) +
-             wy.v1 * along(wx, d, e, 0) + wy.s1 * along(wx, d, e, 2);
+      return wy.v0 * along(wx, a, b, 0) + wy.s0 * along(wx, a, b, 2) + wy.v1 * along(wx, d, e, 0) +
+             wy.s1 * along(wx, d, e, 2);
     };
     const double first = weight / step;
     const double second = first / step;

@@ -25,13 +25,12 @@ struct PrintSample {
 ///
 /// Kept is the print under a series of isotropic blurs of widths σ_k = σ_0·q^k, each sampled with a
 /// spacing of σ_k/2 (value, both slopes and the mixed second derivative, for bicubic Hermite
-/// interpolation; the error of that is h⁴/384·max|A''''| = 2·10⁻⁴ a direction). A level is made when it is first
-/// asked for. Its samples are exact: the blur of a rectangle is a product of error functions, that of
-/// a disc a function of the distance from its middle.
-/// Between levels the value is interpolated by a parabola in σ². A blur that is longer in one
-/// direction is the isotropic one of its smaller axis, averaged along the larger one
-/// (a Gaussian is a Gaussian of Gaussians). Beyond the board's outline the print goes on white.
-/// Safe to use from several threads.
+/// interpolation; the error of that is h⁴/384·max|A''''| = 2·10⁻⁴ a direction). A level is made
+/// when it is first asked for. Its samples are exact: the blur of a rectangle is a product of error
+/// functions, that of a disc a function of the distance from its middle. Between levels the value
+/// is interpolated by a parabola in σ². A blur that is longer in one direction is the isotropic one
+/// of its smaller axis, averaged along the larger one (a Gaussian is a Gaussian of Gaussians).
+/// Beyond the board's outline the print goes on white. Safe to use from several threads.
 class BlurredPrint {
  public:
   /// Errors are the target's own: it must pass check().
@@ -48,8 +47,8 @@ class BlurredPrint {
   /// The value alone under an isotropic blur, from the nearest sample: for coarse searches.
   [[nodiscard]] double coarse(const Eigen::Vector2d& board_m, double sigma_m) const;
 
-  /// Makes the levels that spots of these widths need, on several threads. What is not made ahead is
-  /// made when it is first asked for.
+  /// Makes the levels that spots of these widths need, on several threads. What is not made ahead
+  /// is made when it is first asked for.
   void prepare(double smallest_m, double largest_m, int threads) const;
 
   [[nodiscard]] double smallest_sigma_m() const;

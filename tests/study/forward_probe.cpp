@@ -44,39 +44,50 @@ std::vector<ForwardScene> forward_scenes(const CalibrationResult& result) {
 
 void print_solution(const ForwardSolution& s, const std::vector<ForwardScene>& scenes) {
   const Matrix6d& c = s.camera_from_lidar.covariance;
-  std::printf("t %.4f %.4f %.4f m; sigma %.3f %.3f %.3f mm, %.3f %.3f %.3f mrad; dof %.0f; %d iterations%s\n",
-              s.state.camera_from_lidar.translation.x(), s.state.camera_from_lidar.translation.y(),
-              s.state.camera_from_lidar.translation.z(), 1e3 * std::sqrt(c(0, 0)),
-              1e3 * std::sqrt(c(1, 1)), 1e3 * std::sqrt(c(2, 2)), 1e3 * std::sqrt(c(3, 3)),
-              1e3 * std::sqrt(c(4, 4)), 1e3 * std::sqrt(c(5, 5)), s.dof, s.iterations,
-              s.converged ? "" : ", NOT CONVERGED");
+  std::printf(
+      "t %.4f %.4f %.4f m; sigma %.3f %.3f %.3f mm, %.3f %.3f %.3f mrad; dof %.0f; %d "
+      "iterations%s\n",
+      s.state.camera_from_lidar.translation.x(), s.state.camera_from_lidar.translation.y(),
+      s.state.camera_from_lidar.translation.z(), 1e3 * std::sqrt(c(0, 0)), 1e3 * std::sqrt(c(1, 1)),
+      1e3 * std::sqrt(c(2, 2)), 1e3 * std::sqrt(c(3, 3)), 1e3 * std::sqrt(c(4, 4)),
+      1e3 * std::sqrt(c(5, 5)), s.dof, s.iterations, s.converged ? "" : ", NOT CONVERGED");
   const Eigen::Matrix2d& b = s.state.beam.blur_rad2;
   const Eigen::Matrix2d& j = s.state.beam.jitter_rad2;
   std::printf("blur %.3f x %.3f mrad (cov %.3f), jitter %.3f x %.3f mrad; corner %.4f px; \n",
               1e3 * std::sqrt(b(0, 0)), 1e3 * std::sqrt(b(1, 1)), 1e6 * b(0, 1),
               1e3 * std::sqrt(j(0, 0)), 1e3 * std::sqrt(j(1, 1)), s.noise.corner_px);
-  std::printf("camera %.2f %.2f %.2f %.2f %.5f %.5f %.5f %.5f\n", s.state.camera.fx, s.state.camera.fy, s.state.camera.cx, s.state.camera.cy, s.state.camera.distortion(0), s.state.camera.distortion(1), s.state.camera.distortion(2), s.state.camera.distortion(3));
+  std::printf("camera %.2f %.2f %.2f %.2f %.5f %.5f %.5f %.5f\n", s.state.camera.fx,
+              s.state.camera.fy, s.state.camera.cx, s.state.camera.cy, s.state.camera.distortion(0),
+              s.state.camera.distortion(1), s.state.camera.distortion(2),
+              s.state.camera.distortion(3));
   std::printf("shared:");
   for (const double v : s.noise.shared) std::printf(" %.4f", 1e3 * std::sqrt(v));
   std::printf(" (x 1e-3)\n");
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const ForwardSceneResult& r = s.scenes[i];
-    std::printf("  %-6s rows %6zu of %6zu (%zu refused) corr %.3f margin %6.1f left %.3f chi r %.2f i %.2f c %.2f; range %.1f %.1f mm infl %.2f, levels %.1f %.1f noise %.2f %.2f infl %.2f\n",
-                scenes[i].name.c_str(), r.returns, r.on_board, r.refused, r.print_correlation,
-                r.print_margin, r.intensity_left, r.range_chi, r.intensity_chi, r.corner_chi,
-                1e3 * r.noise.range_white_m, 1e3 * r.noise.range_black_m, r.noise.range_inflation,
-                s.state.levels[i].white, s.state.levels[i].black, r.noise.intensity_white,
-                r.noise.intensity_black, r.noise.intensity_inflation);
+    std::printf(
+        "  %-6s rows %6zu of %6zu (%zu refused) corr %.3f margin %6.1f left %.3f chi r %.2f i %.2f "
+        "c %.2f; range %.1f %.1f mm infl %.2f, levels %.1f %.1f noise %.2f %.2f infl %.2f\n",
+        scenes[i].name.c_str(), r.returns, r.on_board, r.refused, r.print_correlation,
+        r.print_margin, r.intensity_left, r.range_chi, r.intensity_chi, r.corner_chi,
+        1e3 * r.noise.range_white_m, 1e3 * r.noise.range_black_m, r.noise.range_inflation,
+        s.state.levels[i].white, s.state.levels[i].black, r.noise.intensity_white,
+        r.noise.intensity_black, r.noise.intensity_inflation);
     const Eigen::VectorXd& u = s.state.shared[i];
     if (u.size() > 0)
-      std::printf("         board %.2f %.2f %.2f mm %.2f %.2f %.2f mrad\n", 1e3 * u(0), 1e3 * u(1), 1e3 * u(2), 1e3 * u(3), 1e3 * u(4), 1e3 * u(5));
+      std::printf("         board %.2f %.2f %.2f mm %.2f %.2f %.2f mrad\n", 1e3 * u(0), 1e3 * u(1),
+                  1e3 * u(2), 1e3 * u(3), 1e3 * u(4), 1e3 * u(5));
     if (u.size() > 0) {
       const Rigid3 lb = s.state.lidar_from_board(i);
       const Eigen::Vector3d c = lb * Eigen::Vector3d(0.19, 0.285, 0);
       const Eigen::Vector3d d = lb.rotation * Eigen::Vector3d(u(0), u(1), u(2));
       const BeamAxes axes = beam_axes(c.normalized());
       const auto px = s.state.camera.project(s.state.camera_from_lidar * c);
-      std::printf("         at az %.1f el %.1f deg r %.2f; moved h %.2f v %.2f mm; pixel %.0f %.0f\n", 57.3 * std::atan2(c.y(), c.x()), 57.3 * std::asin(c.z() / c.norm()), c.norm(), 1e3 * d.dot(axes.horizontal), 1e3 * d.dot(axes.vertical), px ? px->x() : 0.0, px ? px->y() : 0.0);
+      std::printf(
+          "         at az %.1f el %.1f deg r %.2f; moved h %.2f v %.2f mm; pixel %.0f %.0f\n",
+          57.3 * std::atan2(c.y(), c.x()), 57.3 * std::asin(c.z() / c.norm()), c.norm(),
+          1e3 * d.dot(axes.horizontal), 1e3 * d.dot(axes.vertical), px ? px->x() : 0.0,
+          px ? px->y() : 0.0);
     }
   }
 }
@@ -104,7 +115,8 @@ int main(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     if (std::strcmp(argv[i], "--crops") == 0) request.use_crops = true;
     if (std::strcmp(argv[i], "--truth") == 0) truth = argv[++i];
-    if (std::strcmp(argv[i], "--free") == 0) how.intrinsics_sigma << 6, 6, 0.01, 0.01, 0.0001, 0.0001, 0.0001, 0.0001, 0, 0, 0, 0;
+    if (std::strcmp(argv[i], "--free") == 0)
+      how.intrinsics_sigma << 6, 6, 0.01, 0.01, 0.0001, 0.0001, 0.0001, 0.0001, 0, 0, 0, 0;
     if (std::strcmp(argv[i], "--splits") == 0) splits = std::atoi(argv[++i]);
   }
   const auto dataset = open_dataset(argv[1]);
@@ -143,8 +155,10 @@ int main(int argc, char** argv) {
     std::vector<ForwardScene> halves[2];
     for (std::size_t i = 0; i < order.size(); ++i)
       halves[i < order.size() / 2 ? 0 : 1].push_back(scenes[order[i]]);
-    const auto x = solve_forward(halves[0], print, result->camera, a, result->extrinsic.sigma_px, how, {});
-    const auto y = solve_forward(halves[1], print, result->camera, a, result->extrinsic.sigma_px, how, {});
+    const auto x =
+        solve_forward(halves[0], print, result->camera, a, result->extrinsic.sigma_px, how, {});
+    const auto y =
+        solve_forward(halves[1], print, result->camera, a, result->extrinsic.sigma_px, how, {});
     if (!x || !y) continue;
     const Rigid3& tx = x->camera_from_lidar.transform;
     const Rigid3& ty = y->camera_from_lidar.transform;
@@ -153,21 +167,25 @@ int main(int argc, char** argv) {
     const Vector6d xi = se3_log(tx * ty.inverse());
     const Matrix6d cov = x->camera_from_lidar.covariance + y->camera_from_lidar.covariance;
     const Rigid3 d = tx.inverse() * ty;
-    std::printf("split %zu: camera in lidar %.1f %.1f %.1f mm, rotation %.2f %.2f %.2f mrad, sigma %.1f %.1f %.1f mm\n",
-                mm.size(), 1e3 * (ty.inverse().translation - tx.inverse().translation).x(),
-                1e3 * (ty.inverse().translation - tx.inverse().translation).y(),
-                1e3 * (ty.inverse().translation - tx.inverse().translation).z(),
-                1e3 * so3_log(d.rotation).x(), 1e3 * so3_log(d.rotation).y(), 1e3 * so3_log(d.rotation).z(),
-                1e3 * std::sqrt(cov(0, 0)), 1e3 * std::sqrt(cov(1, 1)), 1e3 * std::sqrt(cov(2, 2)));
+    std::printf(
+        "split %zu: camera in lidar %.1f %.1f %.1f mm, rotation %.2f %.2f %.2f mrad, sigma %.1f "
+        "%.1f %.1f mm\n",
+        mm.size(), 1e3 * (ty.inverse().translation - tx.inverse().translation).x(),
+        1e3 * (ty.inverse().translation - tx.inverse().translation).y(),
+        1e3 * (ty.inverse().translation - tx.inverse().translation).z(),
+        1e3 * so3_log(d.rotation).x(), 1e3 * so3_log(d.rotation).y(), 1e3 * so3_log(d.rotation).z(),
+        1e3 * std::sqrt(cov(0, 0)), 1e3 * std::sqrt(cov(1, 1)), 1e3 * std::sqrt(cov(2, 2)));
     const double c2 = xi.dot(cov.ldlt().solve(xi)) / 6.0;
     chi += c2;
     for (int i = 0; i < 6; ++i, ++components)
       inside += std::abs(xi(i)) < 2.0 * std::sqrt(cov(i, i)) ? 1 : 0;
   }
   if (!mm.empty()) {
-    std::printf("splits %zu: median %.2f mm %.3f mrad; within twice combined sigma %.1f %%; mean chi2/6 %.2f\n",
-                mm.size(), median(mm), median(mrad), 100.0 * inside / components,
-                chi / static_cast<double>(mm.size()));
+    std::printf(
+        "splits %zu: median %.2f mm %.3f mrad; within twice combined sigma %.1f %%; mean chi2/6 "
+        "%.2f\n",
+        mm.size(), median(mm), median(mrad), 100.0 * inside / components,
+        chi / static_cast<double>(mm.size()));
   }
   return 0;
 }

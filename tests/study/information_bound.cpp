@@ -37,7 +37,8 @@ double edge_density(const simulation::ImageOptions& image) {
   double sum = 0.0;
   constexpr double kStep = 0.02;
   for (double x = -5.0 * blur; x <= 5.0 * blur; x += kStep) {
-    const double level = black + (white - black) * 0.5 * (1.0 + std::erf(x / blur / std::numbers::sqrt2));
+    const double level =
+        black + (white - black) * 0.5 * (1.0 + std::erf(x / blur / std::numbers::sqrt2));
     const double slope = (white - black) * std::exp(-0.5 * x * x / (blur * blur)) /
                          (blur * std::sqrt(2.0 * std::numbers::pi));
     const double variance =
@@ -52,7 +53,9 @@ Matrix6d camera_information(const simulation::SimulatedRig& rig, const Rigid3& c
   const double bit = target.tag_bit_m();
   const double density = edge_density(rig.options.image);
   Matrix6d information = Matrix6d::Zero();
-  const auto is_white = [&](const Eigen::Vector2d& p) { return target.albedo(p).value_or(1.0) > 0.5; };
+  const auto is_white = [&](const Eigen::Vector2d& p) {
+    return target.albedo(p).value_or(1.0) > 0.5;
+  };
   // One side of a bit, from a to b in board coordinates.
   const auto add_edge = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     const auto image = [&](const Eigen::Vector2d& p) {
@@ -76,9 +79,13 @@ Matrix6d camera_information(const simulation::SimulatedRig& rig, const Rigid3& c
     const Eigen::Vector2d origin = tag.center_m - 0.5 * target.tag_size_m * Eigen::Vector2d(1, 1);
     for (int i = 0; i <= side; ++i) {
       for (int k = 0; k < side; ++k) {
-        const auto at = [&](double x, double y) { return Eigen::Vector2d(origin + bit * Eigen::Vector2d(x, y)); };
-        if (is_white(at(i - 0.5, k + 0.5)) != is_white(at(i + 0.5, k + 0.5))) add_edge(at(i, k), at(i, k + 1));
-        if (is_white(at(k + 0.5, i - 0.5)) != is_white(at(k + 0.5, i + 0.5))) add_edge(at(k, i), at(k + 1, i));
+        const auto at = [&](double x, double y) {
+          return Eigen::Vector2d(origin + bit * Eigen::Vector2d(x, y));
+        };
+        if (is_white(at(i - 0.5, k + 0.5)) != is_white(at(i + 0.5, k + 0.5)))
+          add_edge(at(i, k), at(i, k + 1));
+        if (is_white(at(k + 0.5, i - 0.5)) != is_white(at(k + 0.5, i + 0.5)))
+          add_edge(at(k, i), at(k + 1, i));
       }
     }
   }
@@ -113,7 +120,8 @@ class BlurredRaster {
       std::vector<double> k;
       const int n = static_cast<int>(std::ceil(4.0 * sigma / kStep));
       double sum = 0.0;
-      for (int i = -n; i <= n; ++i) k.push_back(std::exp(-0.5 * std::pow(i * kStep / sigma, 2))), sum += k.back();
+      for (int i = -n; i <= n; ++i)
+        k.push_back(std::exp(-0.5 * std::pow(i * kStep / sigma, 2))), sum += k.back();
       for (double& v : k) v /= sum;
       return k;
     };
@@ -125,14 +133,16 @@ class BlurredRaster {
       for (int c = 0; c < columns_; ++c) {
         double sum = 0.0;
         for (int i = -nx; i <= nx; ++i)
-          sum += kx[static_cast<std::size_t>(i + nx)] * sharp[place(std::clamp(c + i, 0, columns_ - 1), r)];
+          sum += kx[static_cast<std::size_t>(i + nx)] *
+                 sharp[place(std::clamp(c + i, 0, columns_ - 1), r)];
         half[place(c, r)] = sum;
       }
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c) {
         double sum = 0.0;
         for (int i = -ny; i <= ny; ++i)
-          sum += ky[static_cast<std::size_t>(i + ny)] * half[place(c, std::clamp(r + i, 0, rows_ - 1))];
+          sum += ky[static_cast<std::size_t>(i + ny)] *
+                 half[place(c, std::clamp(r + i, 0, rows_ - 1))];
         value_[place(c, r)] = sum;
       }
   }
@@ -155,7 +165,8 @@ class BlurredRaster {
  private:
   static constexpr double kStep = 0.001;
   [[nodiscard]] std::size_t place(int c, int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(c);
   }
   Eigen::Vector2d low_;
   int columns_ = 0, rows_ = 0;
@@ -163,11 +174,13 @@ class BlurredRaster {
 };
 
 // Information of all returns about the board's pose in the LiDAR frame.
-Matrix6d lidar_information(const simulation::SimulatedRig& rig, const simulation::SimulatedScene& scene) {
+Matrix6d lidar_information(const simulation::SimulatedRig& rig,
+                           const simulation::SimulatedScene& scene) {
   const simulation::LidarOptions& lidar = rig.options.lidar;
   const Rigid3& pose = scene.lidar_from_board;
   const Rigid3 board_from_lidar = pose.inverse();
-  const Eigen::Matrix<double, 2, 3> to_board = board_from_lidar.rotation.toRotationMatrix().topRows<2>();
+  const Eigen::Matrix<double, 2, 3> to_board =
+      board_from_lidar.rotation.toRotationMatrix().topRows<2>();
   const Eigen::Vector3d normal = pose.rotation * Eigen::Vector3d::UnitZ();
   const double jitter = lidar.angle_sigma_deg * std::numbers::pi / 180.0;
   const double wide = std::hypot(1e-3 * lidar.beam_horizontal_mrad, jitter);
@@ -213,14 +226,14 @@ Matrix6d lidar_information(const simulation::SimulatedRig& rig, const simulation
     const double range_sigma =
         lidar.range_sigma_m * std::pow(kWhite / reflectivity, lidar.range_dark_exponent);
     const Row6 range_row = normal.transpose() * point_by_pose(hit) / along;
-    information.topLeftCorner<6, 6>() += range_row.transpose() * range_row / (range_sigma * range_sigma);
+    information.topLeftCorner<6, 6>() +=
+        range_row.transpose() * range_row / (range_sigma * range_sigma);
 
     const Eigen::RowVector2d gradient = print.gradient(on_board);
     const Axes beam = axes(ray, range);
-    const double variance =
-        lidar.intensity_sigma * lidar.intensity_sigma + 1.0 / 12.0 +
-        std::pow(contrast * jitter, 2) *
-            (std::pow(gradient.dot(beam.h), 2) + std::pow(gradient.dot(beam.v), 2));
+    const double variance = lidar.intensity_sigma * lidar.intensity_sigma + 1.0 / 12.0 +
+                            std::pow(contrast * jitter, 2) * (std::pow(gradient.dot(beam.h), 2) +
+                                                              std::pow(gradient.dot(beam.v), 2));
     const Eigen::Matrix3d relative = ray * normal.transpose() / along - Eigen::Matrix3d::Identity();
     const Eigen::Vector2d place = (on_board - c) / half;
     const double level = contrast * white + kBlack * lidar.intensity_scale;

@@ -157,9 +157,11 @@ void summarize_kind(const std::vector<RigOutcome>& all, int scanner, bool circle
     sum += o.bound_chi;
   }
   if (t.empty()) return;
-  std::printf("%-8s %-15s %3zu rigs: median %.3f mm, %.3f mrad; e'Fe/6 mean %.2f, median %.2f (nodes and planes %.2f)\n",
-              kNames[scanner], circles ? "circles" : "without circles", t.size(), median(t),
-              median(r), sum / static_cast<double>(t.size()), median(chi), median(nodes));
+  std::printf(
+      "%-8s %-15s %3zu rigs: median %.3f mm, %.3f mrad; e'Fe/6 mean %.2f, median %.2f (nodes and "
+      "planes %.2f)\n",
+      kNames[scanner], circles ? "circles" : "without circles", t.size(), median(t), median(r),
+      sum / static_cast<double>(t.size()), median(chi), median(nodes));
 }
 
 void summarize(const std::vector<RigOutcome>& all) {
@@ -195,7 +197,8 @@ void summarize(const std::vector<RigOutcome>& all) {
               nodes.size(), rms(corners), corners.size());
   double chi = 0.0;
   for (const RigOutcome& o : all) chi += o.solved ? o.bound_chi : 0.0;
-  std::printf("mean of e'Fe/6 over all rigs: %.3f\n", chi / std::max<double>(1.0, static_cast<double>(t.size())));
+  std::printf("mean of e'Fe/6 over all rigs: %.3f\n",
+              chi / std::max<double>(1.0, static_cast<double>(t.size())));
   for (int scanner = 0; scanner < 3; ++scanner) {
     for (const bool circles : {true, false}) summarize_kind(all, scanner, circles);
   }
@@ -221,8 +224,8 @@ int main(int argc, char** argv) {
     const RigOutcome& o = all.back();
     std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.0f,%s\n",
                 static_cast<unsigned long long>(seed), o.scenes, o.found, o.wrong, o.translation_mm,
-                o.rotation_mrad, o.bound_mm, o.bound_mrad, o.stated_mm, o.stated_mrad,
-                o.bound_chi, o.node_chi, o.dof, o.quality.c_str());
+                o.rotation_mrad, o.bound_mm, o.bound_mrad, o.stated_mm, o.stated_mrad, o.bound_chi,
+                o.node_chi, o.dof, o.quality.c_str());
     std::fflush(stdout);
   }
   summarize(all);

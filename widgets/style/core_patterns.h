@@ -57,9 +57,10 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "the model of every return could not be solved (%1): the extrinsic rests on "
                       "nodes, planes and corners"),
-    QT_TRANSLATE_NOOP("Core",
-                      "the clouds' intensity is missing or the same everywhere: the extrinsic rests "
-                      "on planes and corners, and the print does not hold it sideways"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "the clouds' intensity is missing or the same everywhere: the extrinsic rests "
+        "on planes and corners, and the print does not hold it sideways"),
     // Weak directions.
     QT_TRANSLATE_NOOP("Core", "%1 is not determined: add scenes with the board turned differently"),
     QT_TRANSLATE_NOOP("Core", "%1 is known %2 times worse than the typical direction: %3"),

@@ -27,7 +27,8 @@ Rigid3 board_pose(double tilt, double roll, double distance) {
   const Eigen::Quaterniond turn = so3_exp({0, 0, tilt}) * so3_exp({roll, 0, 0});
   const Eigen::Matrix3d r = turn.toRotationMatrix() * facing;
   const Eigen::Vector2d c = circles().outline().center_m();
-  return Rigid3::from_matrix(r, Eigen::Vector3d(distance, 0.1, -0.05) - r * Eigen::Vector3d(c.x(), c.y(), 0));
+  return Rigid3::from_matrix(
+      r, Eigen::Vector3d(distance, 0.1, -0.05) - r * Eigen::Vector3d(c.x(), c.y(), 0));
 }
 
 Eigen::Vector3d towards(const Rigid3& lidar_from_board, const Eigen::Vector2d& board_m) {
@@ -65,7 +66,8 @@ BruteForce integrate(const Target& target, const Rigid3& pose, const Eigen::Vect
     // Vogel's spiral, with the radii of a Gaussian.
     const double radius = std::sqrt(-2.0 * std::log(1.0 - (i + 0.5) / kRays));
     const double angle = 2.399963229728653 * i;
-    const Eigen::Vector2d a = root * Eigen::Vector2d(radius * std::cos(angle), radius * std::sin(angle));
+    const Eigen::Vector2d a =
+        root * Eigen::Vector2d(radius * std::cos(angle), radius * std::sin(angle));
     // Directions a small angle away, to first order as the model's hit is.
     const Eigen::Vector3d ray = direction + a.x() * horizontal + a.y() * vertical;
     const double r = normal.dot(pose.translation) / normal.dot(ray);
@@ -94,7 +96,8 @@ std::vector<Eigen::Vector2d> places(int count, std::uint64_t seed) {
 TEST(BoardPrediction, IsTheMeanOverTheFootprint) {
   const Target target = circles();
   const BlurredPrint print(target);
-  for (const auto& [tilt, roll] : {std::pair(0.0, 0.0), std::pair(0.6, 0.2), std::pair(-1.0, 0.1)}) {
+  for (const auto& [tilt, roll] :
+       {std::pair(0.0, 0.0), std::pair(0.6, 0.2), std::pair(-1.0, 0.1)}) {
     const Rigid3 pose = board_pose(tilt, roll, 3.0);
     const BoardPredictor predictor(print, pose, levels(), beam(false));
     for (const Eigen::Vector2d& p : places(20, 7)) {
@@ -124,8 +127,10 @@ TEST(BoardPrediction, JacobiansAreThoseOfThePrediction) {
       ASSERT_TRUE(up && down);
       // An edge three millimetres wide changes the intensity by 108 over that: 1 % of it.
       const double scale = 108.0 / 0.003 * (k < 3 ? 1.0 : 3.0);
-      EXPECT_NEAR(at->intensity_by_pose(k), (up->intensity - down->intensity) / (2 * h), 0.01 * scale);
-      EXPECT_NEAR(at->range_by_pose(k), (up->range_m - down->range_m) / (2 * h), k < 3 ? 0.03 : 0.09);
+      EXPECT_NEAR(at->intensity_by_pose(k), (up->intensity - down->intensity) / (2 * h),
+                  0.01 * scale);
+      EXPECT_NEAR(at->range_by_pose(k), (up->range_m - down->range_m) / (2 * h),
+                  k < 3 ? 0.03 : 0.09);
     }
     for (int k = 0; k < kLevelParameters; ++k) {
       const double h = 1e-4;
@@ -145,7 +150,8 @@ TEST(BoardPrediction, JacobiansAreThoseOfThePrediction) {
         if (k == 2) b.blur_rad2(1, 1) += by;
         return BoardPredictor(print, pose, levels(), b).predict(d)->intensity;
       };
-      EXPECT_NEAR(at->intensity_by_blur(k), (changed(h) - changed(-h)) / (2 * h), 0.03 * 108.0 / 1e-6);
+      EXPECT_NEAR(at->intensity_by_blur(k), (changed(h) - changed(-h)) / (2 * h),
+                  0.03 * 108.0 / 1e-6);
     }
   }
 }
@@ -158,7 +164,8 @@ TEST(BoardPrediction, SeesTheFrontOnly) {
   EXPECT_FALSE(predictor.predict(-Eigen::Vector3d::UnitX()));
   // From behind.
   const Rigid3 turned = pose * Rigid3{so3_exp({std::numbers::pi, 0, 0}), {}};
-  EXPECT_FALSE(BoardPredictor(print, turned, levels(), beam(false)).predict(Eigen::Vector3d::UnitX()));
+  EXPECT_FALSE(
+      BoardPredictor(print, turned, levels(), beam(false)).predict(Eigen::Vector3d::UnitX()));
 }
 
 TEST(BoardPrediction, TheDarkerPartOfATiltedFootprintPullsLess) {

@@ -198,7 +198,13 @@ TEST(Calibrate, EvidenceFollowsTheScenesInUse) {
   const test::SimulatedDataset data(test::dataset_options(1, 4));
   const auto all = calibrate(data.open(), {}, {});
   ASSERT_TRUE(all.ok()) << all.error().text();
-  EXPECT_EQ(all->methods.size(), 8U);
+  ASSERT_EQ(all->methods.size(), 9U);
+  EXPECT_EQ(all->methods.back().name, "forward_model");
+  EXPECT_EQ(all->methods.back().camera_from_lidar.translation,
+            all->extrinsic.camera_from_lidar.transform.translation);
+  ASSERT_TRUE(all->forward);
+  EXPECT_TRUE(all->forward->uses_intensity);
+  EXPECT_EQ(all->extrinsic.leave_one_out.size(), 4U);
   EXPECT_EQ(all->uncertainty.splits.size(), 3U);
   ASSERT_TRUE(all->response.all.has_value()) << all->response.reason;
   EXPECT_EQ(all->response.scenes.size(), 4U);

@@ -214,7 +214,7 @@ TEST_F(HtmlReportTest, StopsWhenAsked) {
 // What calibrate leaves in result.json for everything downstream.
 TEST_F(HtmlReportTest, TheResultFileHoldsTheEvidence) {
   const auto j = nlohmann::json::parse(result_as_json(*result_));
-  ASSERT_EQ(j["methods"].size(), 8U);
+  ASSERT_EQ(j["methods"].size(), 9U);
   for (const auto& m : j["methods"]) {
     EXPECT_EQ(m["scenes"].size(), 3U);
     EXPECT_EQ(m["box_mm"].size(), 5U);
@@ -222,7 +222,15 @@ TEST_F(HtmlReportTest, TheResultFileHoldsTheEvidence) {
     EXPECT_EQ(m["T_camera_lidar"].size(), 4U);
   }
   EXPECT_EQ(j["methods"][7]["name"], "joint_refined");
-  EXPECT_NEAR(j["methods"][7]["rms_px"].get<double>(), j["rms_px"].get<double>(), 1e-3);
+  EXPECT_EQ(j["methods"][8]["name"], "forward_model");
+  EXPECT_NEAR(j["methods"][8]["rms_px"].get<double>(), j["rms_px"].get<double>(), 1e-3);
+  // The result is that of the forward model, and what it measured stands beside it.
+  EXPECT_EQ(j["methods"][8]["T_camera_lidar"], j["T_camera_lidar"]["matrix"]);
+  EXPECT_EQ(j["applies_to"], "raw");
+  EXPECT_GT(j["dof"].get<double>(), 1.0);
+  EXPECT_GT(j["footprint"]["covariance_mrad2"][0][0].get<double>(), 0.5);
+  EXPECT_LT(j["footprint"]["sigma_mrad2"][0].get<double>(), 0.2);
+  EXPECT_TRUE(j["refused"].is_array());
   const auto& response = j["boundary_response"];
   ASSERT_EQ(response["scenes"].size(), 3U);
   for (const char* key : {"n", "mean_pitch_deg", "mean_yaw_deg", "mean_range_mm", "std_pitch_deg",

@@ -71,7 +71,8 @@ TEST(BoardReturns, ThePrintFindsItsPlace) {
 TEST(BoardReturns, APlainBoardMatchesNothing) {
   auto rig = test::forward_rig(options(5));
   Random random(1);
-  for (float& i : rig.clouds.front().intensity) i = static_cast<float>(100.0 + 5.0 * random.normal());
+  for (float& i : rig.clouds.front().intensity)
+    i = static_cast<float>(100.0 + 5.0 * random.normal());
   const BlurredPrint print(rig.target);
   const Rigid3& truth = rig.lidar_from_board.front();
   const BoardReturns returns = select_returns(rig.clouds.front(), print, truth, beam(), 0.016);

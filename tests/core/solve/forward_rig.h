@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Simulated rigs for tests of the joint solve: clouds by the simulator, corners by projection of the
-// truth with noise, so that no image need be searched.
+// Simulated rigs for tests of the joint solve: clouds by the simulator, corners by projection of
+// the truth with noise, so that no image need be searched.
 
 #include <deque>
 #include <vector>
@@ -21,9 +21,7 @@ struct ForwardRig {
   std::vector<Rigid3> lidar_from_board;
 
   /// The rig with its extrinsic known to `off` (left perturbation) only.
-  [[nodiscard]] Rigid3 start(const Vector6d& off) const {
-    return se3_exp(off) * camera_from_lidar;
-  }
+  [[nodiscard]] Rigid3 start(const Vector6d& off) const { return se3_exp(off) * camera_from_lidar; }
 };
 
 inline constexpr double kRigCornerSigma_px = 0.03;
@@ -65,7 +63,8 @@ inline ForwardRig forward_rig(const simulation::SimulationOptions& options) {
       const Eigen::Vector2d noise(random.normal(), random.normal());
       forward.corners.push_back({feature, corner, at, *pixel + kRigCornerSigma_px * noise, 0.0});
     };
-    for (const TargetTag& tag : rig.target.has_tags() ? rig.target.tags() : std::vector<TargetTag>{}) {
+    for (const TargetTag& tag :
+         rig.target.has_tags() ? rig.target.tags() : std::vector<TargetTag>{}) {
       const auto corners = rig.target.tag_corners_m(tag);
       for (std::size_t k = 0; k < corners.size(); ++k) add(tag.id, static_cast<int>(k), corners[k]);
     }

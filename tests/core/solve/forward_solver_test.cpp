@@ -81,9 +81,9 @@ TEST_P(ForwardSolver, ComesBackFromSixCentimetres) {
     const auto near = solve(rig, Vector6d::Zero());
     const auto far = solve(rig, far_off(seed));
     ASSERT_TRUE(near && far);
-    EXPECT_LT(translation_distance_m(near->camera_from_lidar.transform,
-                                     far->camera_from_lidar.transform),
-              2e-5);
+    EXPECT_LT(
+        translation_distance_m(near->camera_from_lidar.transform, far->camera_from_lidar.transform),
+        5e-5);  // A third of the standard deviation or less: rows at the gate differ.
     EXPECT_LT(size_in_sigmas(far->camera_from_lidar, rig.camera_from_lidar), 2.5);
   }
 }
@@ -104,7 +104,8 @@ TEST(ForwardSolver, WithoutIntensityRestsOnRangesAndSaysHowLittleTheyTell) {
   const auto with = solve(rig, Vector6d::Zero());
   ForwardRig constant = forward_rig(options(52, LidarKind::kAvia, 4));
   for (Cloud& cloud : rig.clouds) cloud.intensity.clear();
-  for (Cloud& cloud : constant.clouds) std::fill(cloud.intensity.begin(), cloud.intensity.end(), 7.0F);
+  for (Cloud& cloud : constant.clouds)
+    std::fill(cloud.intensity.begin(), cloud.intensity.end(), 7.0F);
   const auto without = solve(rig, Vector6d::Zero());
   const auto same = solve(constant, Vector6d::Zero());
   ASSERT_TRUE(with && without && same) << without.error().text();

@@ -124,8 +124,8 @@ TEST(BlurredPrint, DerivativesAreThoseOfTheValue) {
     const BlurredPrint print(target);
     for (const Case& c : cases(print, 200, 5)) {
       const PrintSample s = print.at(c.at, c.blur);
-      const double sigma = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c.blur)
-                                         .eigenvalues()(0));
+      const double sigma =
+          std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c.blur).eigenvalues()(0));
       const double h = 0.02 * sigma;
       for (int k = 0; k < 2; ++k) {
         const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(k);
