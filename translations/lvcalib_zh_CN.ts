@@ -3526,6 +3526,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>Missing effects</source>
         <translation>缺失的效应</translation>
     </message>
+    <message>
+        <source>Every return</source>
+        <translation type="unfinished">全部回波</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::PlotView</name>

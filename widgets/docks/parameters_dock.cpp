@@ -206,8 +206,8 @@ void ParametersDock::retranslate() {
   const std::pair<const char*, QString> names[] = {
       {"detection", tr("Detection")}, {"localization", tr("Localisation")},
       {"consensus", tr("Consensus")}, {"refinement", tr("Refinement")},
-      {"extrinsic", tr("Extrinsic")}, {"response", tr("Boundary response")},
-      {"quality", tr("Quality")},     {"discovery", tr("Missing effects")}};
+      {"extrinsic", tr("Extrinsic")}, {"forward", tr("Every return")},
+      {"response", tr("Boundary response")}, {"quality", tr("Quality")},     {"discovery", tr("Missing effects")}};
   for (auto& [section, heading] : headings_) {
     heading->setText(QString::fromStdString(section));
     for (const auto& [key, text] : names) {

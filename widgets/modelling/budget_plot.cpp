@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "modelling/model_text.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -31,6 +32,7 @@ BudgetPlot::BudgetPlot(QWidget* parent) : PlotView(parent) {
   xAxis->setSubTicks(false);
   yAxis->setSubTicks(false);
   yAxis->ticker()->setTickCount(3);
+  follow_language(this, [this] { rebuild(); });
   connect(this, &PlotView::clicked, this, [this](const QPointF& place) {
     const int step = stepAt(xAxis->pixelToCoord(place.x()));
     if (step >= 0) Q_EMIT stepClicked(step);

@@ -56,6 +56,7 @@ ResidualMapPlot::ResidualMapPlot(Plane plane, QWidget* parent) : PlotView(parent
     setToolTip(
         tr("Mean residual of each cell. Outlined: different from zero beyond chance, all cells "
            "taken together. Corners are arrows, enlarged."));
+    rebuild();
   });
   connect(selectionRect(), &QCPSelectionRect::changed, this, [this](const QRect& rect) {
     const QRect r = rect.normalized();

@@ -32,6 +32,7 @@ ResidualPlot::ResidualPlot(QWidget* parent) : PlotView(parent) {
            "means of groups with two standard deviations, filled where they differ from zero "
            "beyond chance. Dashed lines: the noise of a single residual. Grey: the means of the "
            "base model."));
+    rebuild();
   });
   connect(selectionRect(), &QCPSelectionRect::changed, this,
           [this](const QRect& rect) { emitBrush(rect); });
