@@ -3528,7 +3528,7 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     </message>
     <message>
         <source>Every return</source>
-        <translation type="unfinished">全部回波</translation>
+        <translation>全部回波</translation>
     </message>
 </context>
 <context>

@@ -88,6 +88,9 @@ class RetranslationTest : public ::testing::Test {
     ASSERT_TRUE(test::wait_for_result(*window_));
     auto* tabs = find<QTabWidget>(*window_, "pages");
     for (int k = 0; k < tabs->count(); ++k) {
+      // The model starts when its page is seen, and how far it gets depends on the machine; its
+      // texts have their own tests.
+      if (tabs->widget(k)->objectName() == "model_page") continue;
       tabs->setCurrentIndex(k);
       QTest::qWait(20);
     }
