@@ -133,56 +133,6 @@ ordered_json refused_json(const CalibrationResult& result) {
   return list;
 }
 
-// The beam as measured: total blur and the jitter in it, beam frame (horizontal, vertical).
-ordered_json footprint_json(const ForwardSolution& forward) {
-  constexpr double kMrad2 = 1e6;
-  const Eigen::Matrix2d blur = kMrad2 * forward.state.beam.blur_rad2;
-  const Eigen::Matrix2d jitter = kMrad2 * forward.state.beam.jitter_rad2;
-  const Eigen::Vector3d sigma =
-      kMrad2 * forward.blur_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  return {{"covariance_mrad2", {{blur(0, 0), blur(0, 1)}, {blur(1, 0), blur(1, 1)}}},
-          {"jitter_mrad2", {{jitter(0, 0), jitter(0, 1)}, {jitter(1, 0), jitter(1, 1)}}},
-          {"sigma_mrad2", {sigma(0), sigma(1), sigma(2)}}};
-}
-
-// What the solve left out of scenes that take part.
-ordered_json refused_json(const CalibrationResult& result) {
-  ordered_json list = ordered_json::array();
-  std::size_t next = 0;
-  for (const SceneSolution& scene : result.extrinsic.scenes) {
-    if (!scene.used) continue;
-    if (result.forward && next < result.forward->scenes.size()) {
-      const ForwardSceneResult& forward = result.forward->scenes[next++];
-      if (forward.refused > 0) {
-        list.push_back({{"scene", scene.name},
-                        {"what", "points"},
-                        {"where", "on the board"},
-                        {"points", forward.refused},
-                        {"reason", "off the board's plane, or beside what stands before it"}});
-      }
-    }
-    for (const NodeResidual& node : scene.nodes) {
-      if (node.used) continue;
-      list.push_back({{"scene", scene.name},
-                      {"what", "node"},
-                      {"where", "circle " + std::to_string(node.id)},
-                      {"points", 0},
-                      {"reason", "not found well, or contradicts the others"}});
-    }
-    int last = -1;
-    for (const CornerResidual& corner : scene.corners) {
-      if (corner.used || corner.feature_id == last) continue;
-      last = corner.feature_id;
-      list.push_back({{"scene", scene.name},
-                      {"what", "tag"},
-                      {"where", "corners of " + std::to_string(corner.feature_id)},
-                      {"points", 0},
-                      {"reason", "misses the board's pose by more than the gate"}});
-    }
-  }
-  return list;
-}
-
 const SceneSolution* solution_of(const CalibrationResult& result, const std::string& name) {
   for (const SceneSolution& s : result.extrinsic.scenes) {
     if (s.name == name) return &s;
@@ -197,12 +147,6 @@ ordered_json to_json(const CalibrationResult& result) {
   j["dataset"] = result.dataset;
   j["T_camera_lidar"] = pose_json(x.camera_from_lidar.transform);
   j["covariance"] = rows_of(x.camera_from_lidar.covariance);
-  j["applies_to"] = result.model.empty() ? "raw" : "corrected";
-  if (result.forward) {
-    j["dof"] = result.forward->dof;
-    j["footprint"] = footprint_json(*result.forward);
-  }
-  j["refused"] = refused_json(result);
   j["applies_to"] = result.model.empty() ? "raw" : "corrected";
   if (result.forward) {
     j["dof"] = result.forward->dof;
