@@ -10,7 +10,7 @@ namespace {
 
 // What stands before the board is nearer by more than any range effect moves a return.
 constexpr double kCover_m = 0.03;
-constexpr double kCoverSpots = 3.0;
+constexpr double kCoverSpots = 3.0;  // Widths of a Gaussian spot, beyond which 1 % of it lies.
 
 // Square cells over the board that something covers.
 class CoveredCells {
@@ -159,7 +159,7 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
 
 std::optional<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
                                       const Rigid3& lidar_from_board, const PrintSearch& search) {
-  constexpr std::size_t kFewest = 30;
+  constexpr std::size_t kFewest = 30;  // A correlation of 0.3, asked for below, is then 1.6 σ.
   if (!returns.has_intensity || returns.size() < kFewest) return std::nullopt;
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
   std::vector<Sample> samples;

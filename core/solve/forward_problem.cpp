@@ -13,7 +13,8 @@
 namespace lvcalib {
 namespace {
 
-// Print plainer than this counts as white or black when their noise is measured.
+// Print plainer than this counts as white or black when their noise is measured: what is left of an
+// edge then adds a hundredth of the contrast, less than any intensity noise seen.
 constexpr double kPlainShare = 0.01;
 // Residuals are cut here before they are squared and averaged, and the mean corrected for what
 // Gaussian noise loses: E[min(z², 9)] = 0.9904.
@@ -21,7 +22,8 @@ constexpr double kCut = 3.0;
 constexpr double kCutMean = 0.9904;
 // Light changes over a board by some per cent; this is one σ.
 constexpr double kSlopeSigma = 0.1;
-// A line has a gain of its own if so many of its returns are on the board.
+// A line has a gain of its own if so many of its returns are on the board; with fewer its mean is
+// known little better than a single return.
 constexpr int kLineRows = 8;
 
 constexpr Eigen::Index kLidarFixed = 6 + kBlurParameters + kLevelParameters;
