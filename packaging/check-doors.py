@@ -31,7 +31,7 @@ DOORS = {
     "model": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic"],
     "solve": ["base", "target", "camera", "cloud", "detection", "model"],
     "discovery": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic",
-                  "model"],
+                  "model", "solve"],
     "simulation": ["base", "target", "camera", "cloud"],
 }
 DOORS["pipeline"] = sorted(DOORS)

@@ -100,6 +100,27 @@ bool improves_scenes(const Candidate& candidate, const DiscoveryOptions& options
          static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
 }
 
+// Where an effect acts. A channel that holds less than a hundredth of a parameter's squared effect
+// does not show it: what moves edges moves the intensities of plain print by a trace.
+void note_acting(const Linearization& linear, const EffectColumns& c, Candidate& out) {
+  constexpr double kTrace = 0.01;
+  out.acting_share.fill(0.0);
+  for (int k = 0; k < c.count(); ++k) {
+    std::array<double, kChannels> squares{};
+    for (const Channel channel : kAllChannels)
+      squares[static_cast<std::size_t>(channel)] = linear.squares(channel, c.first + k);
+    for (const Channel channel : kAllChannels) {
+      const auto at = static_cast<std::size_t>(channel);
+      if (!(squares[at] > kTrace * total(squares))) continue;
+      out.acting_share[at] =
+          std::max(out.acting_share[at], linear.acting_share(channel, c.first + k));
+      if (channel == Channel::kIntensity &&
+          squares[at] > squares[static_cast<std::size_t>(Channel::kBoundary)])
+        out.must_show = Channel::kIntensity;
+    }
+  }
+}
+
 Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
   const Eigen::MatrixXd l = m.llt().matrixL();
   return l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(m.rows(), m.cols()));
@@ -218,14 +239,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
       without[k] += reference.heldout[s][k];
     }
   }
-  for (const Channel channel : kAllChannels) {
-    double& share = out.acting_share[static_cast<std::size_t>(channel)];
-    share = 0.0;
-    for (int k = 0; k < c.count(); ++k)
-      share = std::max(share, linear.acting_share(channel, c.first + k));
-  }
-  if (out.acting_share[static_cast<std::size_t>(Channel::kIntensity)] > 0.0)
-    out.must_show = Channel::kIntensity;
+  note_acting(linear, c, out);
   out.set_heldout(with, without, row_counts(linear));
   const Vector6d move = out.fit.solution.head<6>() - reference.fit.solution.head<6>();
   const Matrix6d covariance = reference.fit.covariance.topLeftCorner<6, 6>();

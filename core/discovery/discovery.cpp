@@ -14,6 +14,7 @@
 #include "discovery/sensitivity_budget.h"
 #include "discovery/structure_scan.h"
 #include "discovery/wanted_effects.h"
+#include "solve/print_table.h"
 
 namespace lvcalib {
 namespace {
@@ -122,6 +123,10 @@ class Discoverer {
 }  // namespace
 
 MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options) {
+  if (input.print) {
+    return print_table(input.scenes, input.print, input.camera, input.state, input.noise,
+                       input.sigma_px, options, {});
+  }
   TableOptions how = options;
   how.refinement = input.refinement;
   return build_table(input.scenes, input.target, input.camera, input.state, input.sigma_px, how);

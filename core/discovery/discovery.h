@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "model/model_scales.h"
 #include "model/table_builder.h"
 #include "model/user_effect.h"
+#include "solve/forward_problem.h"
 
 namespace lvcalib {
 
@@ -172,6 +174,10 @@ struct DiscoveryInput {
   ModelState state;
   double sigma_px = 0.0;
   RefinementOptions refinement;  ///< How the circles were refined.
+  /// Of a calibration that rests on every return: the print, and the noise that it found. The state
+  /// then has levels and the beam. Null: edges are those of the circles.
+  std::shared_ptr<const BlurredPrint> print;
+  ForwardNoise noise;
 };
 
 /// The measurements of a calibration, with every covariate.

@@ -51,10 +51,15 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
       context_(context),
       in_use_(std::move(in_use)),
       natural_{natural_footprint(), 0.0, Eigen::VectorXd::Ones(1)} {
+  if (table.print) natural_ = {beam_blur(), 0.0, Eigen::VectorXd::Zero(3)};
+  std::copy_n(table.structure_variances.begin(),
+              std::min(table.structure_variances.size(), variances_.group.size()),
+              variances_.group.begin());
   refit();
 }
 
 bool EffectSearch::natural() const {
+  if (table().print) return table().has_intensity;
   return !table().boundary.empty() &&
          std::none_of(in_use_.begin(), in_use_.end(), [](const EffectInUse& use) {
            return describes_footprint(use.effect->info().id);
@@ -86,7 +91,7 @@ ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
   }
   if (natural()) {
     append_columns(columns.list()[in_use_.size()], &natural_.values, subset);
-    subset.prior_mean.back() += 1.0;  // about what the transitions tell
+    if (!table().print) subset.prior_mean.back() += 1.0;  // about what the transitions tell
   }
   return subset;
 }
@@ -127,6 +132,13 @@ void EffectSearch::refit() {
     if (context_.stopped()) return;
     reference_ = make_reference(linear_, own_subset(columns), variances_, {});
     variances_ = reference_.fit.variances;
+    if (std::getenv("LVDBG")) {
+      std::fprintf(stderr, "refit in_use %zu step %d channel", in_use_.size(), step);
+      for (double v : variances_.channel) std::fprintf(stderr, " %.3f", v);
+      std::fprintf(stderr, " group");
+      for (double v : variances_.group) std::fprintf(stderr, " %.3g", std::sqrt(v));
+      std::fprintf(stderr, " blur %.3g %.3g %.3g\n", state_.beam.blur_rad2(0,0), state_.beam.blur_rad2(0,1), state_.beam.blur_rad2(1,1));
+    }
     const Eigen::VectorXd& x = reference_.fit.solution;
     std::vector<Vector6d> boards;
     for (const Eigen::VectorXd& local : reference_.fit.local) boards.push_back(local.head<6>());
@@ -135,12 +147,45 @@ void EffectSearch::refit() {
     const bool settled = (x.head<6>().cwiseAbs().array() < 0.01 * sigma.array()).all();
     if (settled && step > 0) break;
     state_ = moved(state_, x.head<6>(), boards);
+    move_levels();
     Eigen::Index at = 6;
     for (EffectInUse& use : in_use_) {
       use.values += x.segment(at, use.values.size());
       at += use.values.size();
     }
-    if (natural()) natural_.values(0) += x(at);
+    if (!natural()) continue;
+    if (table().print) {
+      move_blur(x.segment<3>(at));
+    } else {
+      natural_.values(0) += x(at);
+    }
+  }
+}
+
+// Levels of tables with a print are part of the state.
+void EffectSearch::move_levels() {
+  for (std::size_t s = 0; s < state_.levels.size(); ++s) {
+    const Eigen::VectorXd step =
+        reference_.fit.local[s].segment<kLevelParameters>(LocalLayout::kPose);
+    BoardLevels& levels = state_.levels[s];
+    levels.white += step(0);
+    levels.black += step(1);
+    levels.slope += step.tail<2>();
+  }
+}
+
+// As far as the blur stays one: a covariance has no negative axis.
+void EffectSearch::move_blur(const Eigen::Vector3d& step) {
+  Eigen::Matrix2d change;
+  change << step(0), step(1), step(1), step(2);
+  Eigen::Matrix2d& blur = state_.beam.blur_rad2;
+  for (double share = 1.0; share > 1e-3; share *= 0.5) {
+    const Eigen::Matrix2d next = blur + share * change;
+    // Widths change by half at most in one step: the print is linearised about them.
+    if (next.determinant() > 0.1 * blur.determinant() && next(0, 0) > 0.25 * blur(0, 0)) {
+      blur = next;
+      return;
+    }
   }
 }
 
@@ -217,7 +262,7 @@ void EffectSearch::rank() {
   reference_ = make_reference(linear_, subset, variances_, {});
   variances_ = reference_.fit.variances;
   bare_.reset();
-  if (natural()) bare_ = without_natural();
+  if (natural() && !table().print) bare_ = without_natural();
   const std::size_t first = own_count();
   candidates_.resize(columns.list().size() - first);
   const auto evaluate = [&](std::size_t k, std::size_t columns_at, const MixedModelOptions& how) {

@@ -80,6 +80,8 @@ class EffectSearch {
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
 
  private:
+  void move_levels();
+  void move_blur(const Eigen::Vector3d& step);
   // Judges promising candidates again after a full refit, until one is accepted.
   void refit_promising();
   // Takes accepted candidates off the list that white and black print contradict.

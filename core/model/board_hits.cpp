@@ -12,41 +12,6 @@
 #include "model/transition_width.h"
 
 namespace lvcalib {
-namespace {
-
-// Values of one print; pairs of neighbours on the same line tell their noise.
-class Replicates {
- public:
-  void add(const BoardHit& hit, double value) {
-    at_.push_back(hit.beam.board_m);
-    values_.push_back(value);
-    strata_.push_back(hit.beam.line);
-  }
-  // Zero if there are too few pairs even of farther neighbours.
-  [[nodiscard]] double sigma() const {
-    constexpr int kPairs = 60;
-    constexpr double kNearest = 0.003;
-    constexpr double kFarthest = 0.05;
-    double sigma = 0.0;
-    for (double distance = kNearest; distance < kFarthest && sigma == 0.0; distance *= 2.0)
-      sigma = replicate_sigma(at_, values_, strata_, distance, kPairs);
-    return sigma;
-  }
-
-  // Of all values about their median; zero if there are hardly any.
-  [[nodiscard]] double spread() const {
-    constexpr std::size_t kFewest = 10;
-    constexpr double kLeast = 0.01;  // Levels may be whole numbers, and all the same.
-    return values_.size() < kFewest ? 0.0 : std::max(kLeast, mad_sigma(values_));
-  }
-
- private:
-  std::vector<Eigen::Vector2d> at_;
-  std::vector<double> values_;
-  std::vector<int> strata_;
-};
-
-}  // namespace
 
 BoardHits::BoardHits(const SceneMeasurements& input, int scene, const SceneGeometry& geometry,
                      const Target& target, const TableOptions& options)
@@ -163,9 +128,9 @@ PrintNoise BoardHits::noise() const {
     Replicates logs;
     for (const BoardHit& hit : hits_) {
       if (hit.print != static_cast<Print>(k) || !hit.pure) continue;
-      ranges.add(hit, hit.residual_m);
+      ranges.add(hit.beam, hit.residual_m);
       const double raw = cloud.has_intensity() ? cloud.intensity[hit.point] : 0.0;
-      if (hit.plain) logs.add(hit, std::log(std::max(raw, 1e-3)));
+      if (hit.plain) logs.add(hit.beam, std::log(std::max(raw, 1e-3)));
     }
     out.range_m[k] = ranges.sigma();
     if (out.range_m[k] == 0.0) {

@@ -52,7 +52,8 @@ std::optional<BoardPredictor::Hit> BoardPredictor::hit(const Eigen::Vector3d& di
   return Hit{(board_from_lidar_ * (range * direction - origin_)).head<2>(), range};
 }
 
-std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& direction) const {
+std::optional<ReturnPrediction> BoardPredictor::predict(
+    const Eigen::Vector3d& direction, const Eigen::Vector2d& print_shift_m) const {
   const auto met = hit(direction);
   if (!met) return std::nullopt;
   const double along = normal_.dot(direction);
@@ -72,7 +73,7 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   ReturnPrediction out;
   out.board_m = met->board_m;
   out.cos_incidence = -along;
-  const PrintSample print = print_.at(met->board_m, spot);
+  const PrintSample print = print_.at(met->board_m - print_shift_m, spot);
   out.white = print.white;
   const double widest = std::sqrt(0.5 * (spot(0, 0) + spot(1, 1)) +
                                   std::hypot(0.5 * (spot(0, 0) - spot(1, 1)), spot(0, 1)));

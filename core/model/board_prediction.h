@@ -64,7 +64,12 @@ class BoardPredictor {
 
   /// Of a return reported along the unit vector `direction`. Nothing if the ray does not meet the
   /// board's front side at less than 80° of incidence.
-  [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction) const;
+  [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction) const {
+    return predict(direction, Eigen::Vector2d::Zero());
+  }
+  /// The same with the print displaced on the board by `print_shift_m`.
+  [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction,
+                                                        const Eigen::Vector2d& print_shift_m) const;
 
   /// Where a ray meets the board's plane, in board coordinates, and its range; the cheap part.
   struct Hit {

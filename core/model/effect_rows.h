@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,40 @@
 #include "model/scene_geometry.h"
 
 namespace lvcalib {
+
+/// How a predicted intensity depends on what effects change, in the units of its row.
+struct PrintSensitivity {
+  Eigen::RowVector2d by_shift = Eigen::RowVector2d::Zero();  ///< Print displaced on the board (m).
+  Eigen::RowVector3d by_blur = Eigen::RowVector3d::Zero();   ///< Beam's blur: hh, hv, vv (rad²).
+  double by_log_intensity = 0.0;
+
+  /// What one unit of each parameter of an effect changes.
+  struct Change {
+    std::span<const Eigen::Vector2d> shift_m;
+    std::span<const Eigen::Vector3d> blur_rad2;
+    std::span<const double> log_intensity;
+  };
+  [[nodiscard]] double of(const Change& change, std::size_t k) const {
+    return by_shift.dot(change.shift_m[k]) + by_blur.dot(change.blur_rad2[k]) +
+           by_log_intensity * change.log_intensity[k];
+  }
+  /// Turns displacements of a measured point (LiDAR frame), or of the board under it, into
+  /// displacements of the print as the beam sees it; what happens along the ray does not count.
+  struct Moves {
+    Moves(const SceneGeometry& geometry, const Eigen::Matrix3d& lidar_from_board,
+          const Eigen::Vector3d& direction, const BoundaryRow* edge)
+        : rotation(lidar_from_board) {
+      const Eigen::Vector3d& n = geometry.normal();
+      const Eigen::Matrix3d along =
+          Eigen::Matrix3d::Identity() - direction * n.transpose() / n.dot(direction);
+      shift_by_move = lidar_from_board.leftCols<2>().transpose() * along;
+      if (edge != nullptr) outward << std::cos(edge->psi_rad), std::sin(edge->psi_rad);
+    }
+    const Eigen::Matrix3d& rotation;
+    Eigen::Matrix<double, 2, 3> shift_by_move;
+    Eigen::Vector2d outward = Eigen::Vector2d::Zero();
+  };
+};
 
 /// Turns what effects move into what rows measure. Every hook is called for every row; effects
 /// write nothing where they have nothing to say.
@@ -97,6 +132,40 @@ class EffectRows {
     }
   }
 
+  /// Of a return beside the print's prediction; `edge`: its row, if it is in the blur of one.
+  template <class Sink>
+  void reading(const IntensityRow& r, const BoundaryRow* edge, const PrintSensitivity::Moves& moves,
+               Sink&& sink) {
+    for (const EffectColumns& c : columns_) {
+      const std::size_t n = c.parameters.size();
+      reset(n);
+      std::fill_n(scalars_.begin(), n, 0.0);
+      outward_.assign(n, 0.0);
+      blur_.assign(n, Eigen::Vector3d::Zero());
+      shift_.assign(n, Eigen::Vector2d::Zero());
+      c.effect->intensity(r, table_, c.shape, std::span(scalars_).first(n));
+      if (c.print_contrast) {
+        // A difference between the prints: edges have both.
+        for (std::size_t k = 0; k < n; ++k)
+          scalars_[k] *= edge != nullptr ? 0.0 : r.print == Print::kWhite ? 1.0 : -1.0;
+      } else {
+        c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
+        c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
+                        std::span(board_).first(n));
+        c.effect->blur(r.beam, table_, c.shape, blur_);
+        if (edge != nullptr) c.effect->edge(*edge, table_, c.shape, outward_);
+        for (std::size_t k = 0; k < n; ++k) {
+          const Eigen::Vector3d move = moves_[k] + moves.rotation * board_[k];
+          shift_[k] = moves.shift_by_move * move;
+          // What is left of a move along the ray is rounding.
+          if (shift_[k].squaredNorm() < 1e-18 * move.squaredNorm()) shift_[k].setZero();
+          shift_[k] += outward_[k] * moves.outward;
+        }
+      }
+      sink(c, PrintSensitivity::Change{shift_, blur_, std::span(scalars_).first(n)});
+    }
+  }
+
   template <class Sink>
   void intensity(const IntensityRow& r, Sink&& sink) {
     for (const EffectColumns& c : columns_) {
@@ -145,6 +214,9 @@ class EffectRows {
   std::vector<Eigen::Vector3d> board_;
   std::vector<Eigen::Vector2d> pixels_;
   std::vector<double> scalars_;
+  std::vector<double> outward_;
+  std::vector<Eigen::Vector3d> blur_;
+  std::vector<Eigen::Vector2d> shift_;
 };
 
 /// A corner's prediction and derivatives.

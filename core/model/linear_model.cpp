@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
 #include "model/effect_rows.h"
+#include "model/print_rows.h"
 #include "model/scene_geometry.h"
 
 namespace lvcalib {
 namespace {
+
+constexpr double kPatch_m = 0.2;  // As in the joint solve: about a tag's size.
 
 // A row with few non-zero columns, whitened.
 class SparseRow {
@@ -84,9 +88,19 @@ class SceneAccumulator {
         in_use_columns_(columns_in_use(in_use, table)),
         used_rows_(table, in_use_columns_.list()),
         candidate_rows_(table, columns.list()) {
-    out_.layout.nodes = static_cast<int>(table.scenes[scene].nodes.size());
-    out_.layout.tags =
+    LocalLayout& layout = out_.layout;
+    layout.nodes = static_cast<int>(table.scenes[scene].nodes.size());
+    layout.tags =
         table.target.has_tags() ? static_cast<int>(table.scenes[scene].features.size()) : 0;
+    if (table.print) {
+      const Eigen::Vector2d size = table.print->outline().size_m();
+      layout.print = true;
+      layout.patches_x = std::max(1, static_cast<int>(std::ceil(size.x() / kPatch_m)));
+      layout.patches_y = std::max(1, static_cast<int>(std::ceil(size.y() / kPatch_m)));
+      layout.lines = table.lines.size() > 1 ? static_cast<int>(table.lines.size()) : 0;
+      if (layout.tags == 0) layout.tags = layout.patches_x * layout.patches_y;
+      print_.emplace(table, state, scene, in_use);
+    }
     extrinsic_ = out_.layout.size();
     effects_ = extrinsic_ + 6;
     residual_ = effects_ + columns.columns();
@@ -95,6 +109,11 @@ class SceneAccumulator {
   }
 
   SceneProducts run() {
+    if (print_) {
+      run_print();
+      for (auto& m : out_.products) m.triangularView<Eigen::StrictlyLower>() = m.transpose();
+      return std::move(out_);
+    }
     for (const RangeRow& row : table_.range) {
       if (row.beam.scene == scene_) range(row);
     }
@@ -160,6 +179,82 @@ class SceneAccumulator {
       row_.set(effects_ + c.first + static_cast<int>(k), by[k]);
   }
 
+  void run_print() {
+    for (const RangeRow& r : table_.range) {
+      if (r.beam.scene != scene_) continue;
+      const auto row = print_->range(r);
+      if (!row) continue;
+      begin(*row);
+      std::array<double, 15> z{};
+      board_polynomials(unit_point(table_.target, r.beam.board_m), z);
+      const int high = LocalLayout::kFixed + LocalLayout::kLow;
+      for (int k = 0; k < LocalLayout::kHigh; ++k)
+        row_.set(high + k, z[static_cast<std::size_t>(3 + k)]);
+      set_board_motion(*row);
+      const int line = line_of(r.beam);
+      if (line >= 0) row_.set(out_.layout.line_column() + line, 1.0);
+      set_extrinsic(row->by_board_pose);
+      candidate_rows_.range(
+          r, geometry_.range_row(r.beam.direction), rotation_,
+          [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
+      finish(Channel::kRange, row->residual, r.sigma_m);
+    }
+    for (const BoundaryRow& r : table_.boundary) {
+      if (r.beam.scene != scene_) continue;
+      const Print side = r.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+      reading(Channel::kBoundary, {r.beam, side, 0.0, r.sigma_m, r.reading}, &r);
+    }
+    for (const IntensityRow& r : table_.intensity) {
+      if (r.beam.scene == scene_) reading(Channel::kIntensity, r, nullptr);
+    }
+    for (const CornerRow& r : table_.corner) {
+      if (r.scene == scene_) corner(r);
+    }
+  }
+
+  void begin(const PrintRow& row) {
+    row_.clear();
+    set_pose(row.by_board_pose);
+    for (int k = 0; k < LocalLayout::kLevels; ++k)
+      row_.set(LocalLayout::kPose + k, row.by_levels(k));
+  }
+  void set_board_motion(const PrintRow& row) {
+    for (int k = 0; k < 6; ++k) row_.set(out_.layout.board_column() + k, row.by_board_motion(k));
+  }
+  [[nodiscard]] int line_of(const BeamPoint& beam) const {
+    return out_.layout.lines > 0 ? index_in(table_.lines, beam.line) : -1;
+  }
+  [[nodiscard]] int patch_of(const Eigen::Vector2d& board_m) const {
+    const LocalLayout& layout = out_.layout;
+    const Eigen::Vector2d share = 0.5 * (unit_point(table_.target, board_m).array() + 1.0);
+    const int x =
+        std::clamp(static_cast<int>(share.x() * layout.patches_x), 0, layout.patches_x - 1);
+    const int y =
+        std::clamp(static_cast<int>(share.y() * layout.patches_y), 0, layout.patches_y - 1);
+    return y * layout.patches_x + x;
+  }
+
+  void reading(Channel channel, const IntensityRow& r, const BoundaryRow* edge) {
+    const auto row = edge != nullptr ? print_->edge(*edge) : print_->intensity(r);
+    if (!row) return;
+    begin(*row);
+    set_board_motion(*row);
+    const int patch = out_.layout.patch_column() + 2 * patch_of(r.beam.board_m);
+    row_.set(patch, row->print.by_shift(0));
+    row_.set(patch + 1, row->print.by_shift(1));
+    const int line = line_of(r.beam);
+    if (line >= 0)
+      row_.set(out_.layout.line_column() + out_.layout.lines + line, row->print.by_log_intensity);
+    set_extrinsic(row->by_board_pose);
+    const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction, edge);
+    candidate_rows_.reading(
+        r, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
+          for (std::size_t k = 0; k < by.shift_m.size(); ++k)
+            row_.set(effects_ + c.first + static_cast<int>(k), row->print.of(by, k));
+        });
+    finish(channel, row->residual, r.sigma);
+  }
+
   void boundary(const BoundaryRow& r) {
     const Eigen::Vector3d moved =
         used_rows_.displacement(r, rotation_, [&](const EffectColumns& c, std::size_t j) {
@@ -200,11 +295,16 @@ class SceneAccumulator {
                         for (std::size_t k = 0; k < by.size(); ++k)
                           residual -= by[k] * use.values(static_cast<Eigen::Index>(k));
                       });
-    const int tag = index_in(table_.scenes[static_cast<std::size_t>(scene_)].features, r.feature);
+    // Corners of one tag err together; without tags those of one patch, where that is modelled.
+    const bool tags = table_.target.has_tags();
+    const int tag =
+        tags     ? index_in(table_.scenes[static_cast<std::size_t>(scene_)].features, r.feature)
+        : print_ ? patch_of(r.board_m)
+                 : 0;
     for (int axis = 0; axis < 2; ++axis) {
       row_.clear();
       set_pose(p->by_pose.row(axis).transpose());
-      if (table_.target.has_tags()) row_.set(out_.layout.tag_column() + 2 * tag + axis, 1.0);
+      if (tags || print_) row_.set(out_.layout.tag_column() + 2 * tag + axis, 1.0);
       candidate_rows_.corner(r, p->normalized, p->by_board_move,
                              [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
                                for (std::size_t k = 0; k < by.size(); ++k)
@@ -240,6 +340,7 @@ class SceneAccumulator {
   EffectColumnsList in_use_columns_;
   EffectRows used_rows_;
   EffectRows candidate_rows_;
+  std::optional<PrintRows> print_;  // Of a table with a print.
   SceneProducts out_;
   SparseRow row_;
   int extrinsic_ = 0;
@@ -271,6 +372,20 @@ std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
       return {node_column(), 3 * nodes};
     case VarianceGroup::kTag:
       return {tag_column(), 2 * tags};
+    case VarianceGroup::kBoardShift:
+      return {board_column(), print ? 2 : 0};
+    case VarianceGroup::kBoardNormal:
+      return {board_column() + 2, print ? 1 : 0};
+    case VarianceGroup::kBoardTilt:
+      return {board_column() + 3, print ? 2 : 0};
+    case VarianceGroup::kBoardSpin:
+      return {board_column() + 5, print ? 1 : 0};
+    case VarianceGroup::kPrintPatch:
+      return {patch_column(), 2 * patches_x * patches_y};
+    case VarianceGroup::kLineRange:
+      return {line_column(), lines};
+    case VarianceGroup::kLineGain:
+      return {line_column() + lines, lines};
     case VarianceGroup::kIntensity:
       break;
   }
@@ -305,10 +420,20 @@ double Linearization::acting_share(Channel channel, int effect_column) const {
   return std::min(1.0, 3.0 * squares * squares / (rows * fourth));
 }
 
+double Linearization::squares(Channel channel, int effect_column) const {
+  double sum = 0.0;
+  for (const SceneProducts& s : scenes) {
+    const int column = s.layout.size() + 6 + effect_column;
+    sum += s.products[static_cast<std::size_t>(channel)](column, column);
+  }
+  return sum;
+}
+
 ModelState moved(const ModelState& state, const Vector6d& extrinsic,
                  const std::vector<Vector6d>& boards) {
-  ModelState out;
+  ModelState out = state;
   out.camera_from_lidar = se3_exp(extrinsic) * state.camera_from_lidar;
+  out.camera_from_board.clear();
   for (std::size_t s = 0; s < boards.size(); ++s)
     out.camera_from_board.push_back(se3_exp(boards[s]) * state.camera_from_board[s]);
   return out;

@@ -55,23 +55,41 @@ enum class VarianceGroup {
   kNode = 2,       ///< Per node: shift in two directions and radius.
   kTag = 3,        ///< Per tag: shift in the image.
   kIntensity = 4,  ///< Per scene: polynomials of degree 1 and 2 in the log-intensity.
+  // Of tables with a print, instead of kRangeLow, kNode and kIntensity:
+  kBoardShift = 5,   ///< Per scene: the board between camera and LiDAR, in its plane (m),
+  kBoardNormal = 6,  ///< along its normal (m),
+  kBoardTilt = 7,    ///< tilted (rad),
+  kBoardSpin = 8,    ///< turned about its normal (rad).
+  kPrintPatch = 9,   ///< Per patch of 0.2 m: shift of the print (m).
+  kLineRange = 10,   ///< Per scene and line: offset of the ranges (m).
+  kLineGain = 11,    ///< Per scene and line: gain of the intensities (1).
 };
-constexpr std::size_t kVarianceGroups = 5;
+constexpr std::size_t kVarianceGroups = 12;
+/// Variances that are told from zero (µm, a hundredth of a milliradian, a ten-thousandth of a
+/// pixel): a group at its own is held there, as absent.
+constexpr std::array<double, kVarianceGroups> kAbsentVariance{
+    1e-12, 1e-12, 1e-12, 1e-8, 1e-8, 1e-12, 1e-12, 1e-12, 1e-12, 1e-12, 1e-12, 1e-9};
 
-/// Columns that belong to one scene: board pose (6, left perturbation), intensity levels, then
-/// the random effects.
+/// Columns that belong to one scene: board pose (6, left perturbation), intensity levels (one per
+/// print; of tables with a print white, black and two slopes), then the random effects.
 struct LocalLayout {
   static constexpr int kPose = 6;
-  static constexpr int kLevels = static_cast<int>(kPrints);
+  static constexpr int kLevels = kLevelParameters;
   static constexpr int kFixed = kPose + kLevels;
   static constexpr int kLow = 3;
   static constexpr int kHigh = 12;
   static constexpr int kIntensityTerms = 5;
   int nodes = 0;
   int tags = 0;
+  int patches_x = 0, patches_y = 0;
+  int lines = 0;
+  bool print = false;  ///< Of a table with a print.
   [[nodiscard]] int node_column() const { return kFixed + kLow + kHigh + kIntensityTerms; }
   [[nodiscard]] int tag_column() const { return node_column() + 3 * nodes; }
-  [[nodiscard]] int size() const { return tag_column() + 2 * tags; }
+  [[nodiscard]] int board_column() const { return tag_column() + 2 * tags; }
+  [[nodiscard]] int patch_column() const { return board_column() + (print ? 6 : 0); }
+  [[nodiscard]] int line_column() const { return patch_column() + 2 * patches_x * patches_y; }
+  [[nodiscard]] int size() const { return line_column() + 2 * lines; }
   /// First column and number of columns of a group.
   [[nodiscard]] std::pair<int, int> columns_of(VarianceGroup group) const;
 };
@@ -96,6 +114,8 @@ struct Linearization {
   /// the column's kurtosis about zero: 1 if it is spread over the rows like a normal variable or
   /// more evenly, s if it is so on a share s of the rows and zero elsewhere.
   [[nodiscard]] double acting_share(Channel channel, int effect_column) const;
+  /// Sum of the squares of a whitened effect column over a channel's rows.
+  [[nodiscard]] double squares(Channel channel, int effect_column) const;
 };
 
 /// Computes the cross products; scenes in parallel. Cost is linear in rows and in the number of

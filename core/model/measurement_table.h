@@ -11,6 +11,7 @@
 
 #include "base/rigid3.h"
 #include "camera/camera.h"
+#include "model/board_prediction.h"
 #include "model/channel.h"
 #include "refinement/board_refinement.h"
 #include "target/target.h"
@@ -59,13 +60,23 @@ struct RangeRow {
   double sigma_m = 0.0;
 };
 
+/// A return's intensity beside the print that the model predicts there. Its residual is measured
+/// minus predicted intensity over `unit`: the slope of the print for what is told as a distance,
+/// the predicted intensity for what is told as a logarithm.
+struct IntensityReading {
+  double measured = 0.0;  ///< Raw.
+  double unit = 1.0;      ///< Raw intensity in one unit of the row's channel.
+};
+
 /// How much of an edge a laser line saw.
 struct LineShare {
   int line = 0;
   double share = 0.0;
 };
 
-/// The mid-level crossing of one angular bin of one node.
+/// An edge of the print as the LiDAR sees it: of tables with a print a single return in the blur of
+/// an edge, told as the distance by which the edge lies off; else the mid-level crossing of one
+/// angular bin of one node.
 struct BoundaryRow {
   BeamPoint beam;                ///< Its line is the one that saw most of the edge.
   std::vector<LineShare> lines;  ///< Shares add up to one; empty: the beam's line alone.
@@ -82,6 +93,7 @@ struct BoundaryRow {
   Eigen::Vector2d edge_normal_rad = Eigen::Vector2d::Zero();
   double log_contrast = 0.0;  ///< ln(outer level / inner level).
   double sigma_m = 0.0;
+  IntensityReading reading;
 };
 
 /// A corner of a tag or checkerboard: two residuals.
@@ -102,6 +114,7 @@ struct IntensityRow {
   Print print = Print::kWhite;
   double log_intensity = 0.0;
   double sigma = 0.0;  ///< Of the logarithm.
+  IntensityReading reading = {};
 };
 
 /// One scene of the table and its place in the model.
@@ -112,10 +125,13 @@ struct TableScene {
   double clock = 0.0;         ///< 0…1 over the scenes in their order.
 };
 
-/// State that the measurements are predicted from: extrinsic and a board pose per scene.
+/// State that the measurements are predicted from: extrinsic and a board pose per scene; of tables
+/// with a print also its levels per scene and the beam.
 struct ModelState {
   Rigid3 camera_from_lidar;
   std::vector<Rigid3> camera_from_board;
+  std::vector<BoardLevels> levels = {};
+  BeamSpread beam = {};
 };
 
 struct TableSource;
@@ -142,6 +158,12 @@ struct MeasurementTable {
   double log_contrast = 0.0;
   /// The state by which points were told to lie on which print.
   ModelState placed_by;
+  /// The print that every return is predicted from. Null: of a table of circles' edges and plain
+  /// print.
+  std::shared_ptr<const BlurredPrint> print;
+  /// Variances of structure that nothing explains, as the joint solve found them, in the order of
+  /// VarianceGroup; empty: the fit starts from usual ones.
+  std::vector<double> structure_variances;
   /// What the table was made of, to make it again (see remeasured()); null if that is gone.
   std::shared_ptr<const TableSource> source;
 

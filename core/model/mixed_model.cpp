@@ -9,9 +9,6 @@
 namespace lvcalib {
 namespace {
 
-// Smallest variances that are told from zero: a micrometre, a ten-thousandth of a pixel.
-constexpr std::array<double, kVarianceGroups> kFloor{1e-12, 1e-12, 1e-12, 1e-8, 1e-8};
-
 // Columns of a scene's products that a subset uses.
 struct Indices {
   int local = 0;
@@ -191,10 +188,10 @@ class Fitter {
     };
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
       double& value = fit_.variances.group[k];
-      if (value <= kFloor[k]) continue;
+      if (value <= kAbsentVariance[k]) continue;
       // At most a hundredfold at a time, either way.
       const double next = squares[k] / std::max(determined[k], 1e-3);
-      move(value, std::max(kFloor[k], std::clamp(next, 0.01 * value, 100.0 * value)));
+      move(value, std::max(kAbsentVariance[k], std::clamp(next, 0.01 * value, 100.0 * value)));
     }
     for (std::size_t c = 0; c < kChannels; ++c) {
       if (freedom[c] < 2.0) continue;

@@ -25,7 +25,37 @@ class NaturalFootprint final : public CatalogueEffect {
   }
 };
 
+class BeamBlur final : public CatalogueEffect {
+ public:
+  BeamBlur()
+      : CatalogueEffect({.id = "beam_blur",
+                         .group = "beam",
+                         .title = "Beam blur",
+                         .physics = "Footprint and pointing jitter blur the print.",
+                         .formula = "A = print * N(0, S)",
+                         .source = "derived",
+                         .breaker = "boards at near and far distance",
+                         .needs = {.intensity = true}},
+                        {blur("horizontal"), blur("mixed"), blur("vertical")}) {}
+
+  void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<Eigen::Vector3d> by) const override {
+    for (std::size_t k = 0; k < 3; ++k) by[k] = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k));
+  }
+
+ private:
+  // No LiDAR's beam is wider than a hundredth of a radian.
+  static EffectParameter blur(const char* name) {
+    return {
+        .name = name, .unit = "mrad²", .unit_in_si = 1e-6, .material = 1e-7, .prior_sigma = 1e-4};
+  }
+};
+
 }  // namespace
+
+EffectPtr beam_blur() {
+  return std::make_shared<BeamBlur>();
+}
 
 EffectPtr natural_footprint() {
   return std::make_shared<NaturalFootprint>();

@@ -14,6 +14,10 @@ EffectPtr natural_footprint();
 /// well where intensities are not quite linear and footprints not quite normal.
 inline constexpr double kNaturalSpread = 0.3;
 
+/// The beam's blur in tables with a print: increments of the three numbers of its covariance. Part
+/// of every model there, as a nuisance with a size of its own.
+EffectPtr beam_blur();
+
 /// True for effects that describe the footprint themselves and take its place in the model.
 bool describes_footprint(const std::string& effect_id);
 

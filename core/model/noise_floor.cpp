@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "base/statistics.h"
@@ -26,9 +27,39 @@ double replicate_sigma(const std::vector<Eigen::Vector2d>& board_m,
     squares.push_back(d * d);
     last.erase(entry);
   }
-  constexpr double kMedianOfSquare = 0.4549;
   if (static_cast<int>(squares.size()) < min_pairs) return 0.0;
-  return std::sqrt(median(std::move(squares)) / (2.0 * kMedianOfSquare));
+  // The mean of the squares, each cut at three standard deviations: a median would be nothing where
+  // numbers are coarse. E[min(z², 9)] = 0.9904.
+  constexpr double kCut = 9.0;
+  constexpr double kCutMean = 0.9904;
+  constexpr double kMedianOfSquare = 0.4549;
+  std::vector<double> sorted = squares;
+  double variance = median(std::move(sorted)) / kMedianOfSquare;
+  if (!(variance > 0.0))
+    variance =
+        std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
+  for (int round = 0; round < 5; ++round) {
+    double sum = 0.0;
+    for (const double d : squares) sum += std::min(d, kCut * variance);
+    variance = sum / (kCutMean * static_cast<double>(squares.size()));
+  }
+  return std::sqrt(0.5 * variance);
+}
+
+double Replicates::sigma() const {
+  constexpr int kPairs = 60;
+  constexpr double kNearest = 0.003;
+  constexpr double kFarthest = 0.05;
+  double sigma = 0.0;
+  for (double distance = kNearest; distance < kFarthest && sigma == 0.0; distance *= 2.0)
+    sigma = replicate_sigma(at_, values_, strata_, distance, kPairs);
+  return sigma;
+}
+
+double Replicates::spread() const {
+  constexpr std::size_t kFewest = 10;
+  constexpr double kLeast = 0.01;  // Levels may be whole numbers, and all the same.
+  return values_.size() < kFewest ? 0.0 : std::max(kLeast, mad_sigma(values_));
 }
 
 double corner_noise(const MeasurementTable& table, const ModelState& state, double fallback_px) {

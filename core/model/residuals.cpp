@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <deque>
 
 #include "model/effect_rows.h"
+#include "model/print_rows.h"
 #include "model/scene_geometry.h"
 
 namespace lvcalib {
@@ -19,8 +21,10 @@ class Collector {
         in_use_(in_use),
         columns_(columns_in_use(in_use, table)),
         rows_(table, columns_.list()) {
-    for (std::size_t s = 0; s < table.scenes.size(); ++s)
+    for (std::size_t s = 0; s < table.scenes.size(); ++s) {
       geometry_.emplace_back(state.camera_from_lidar, state.camera_from_board[s]);
+      if (table.print) print_.emplace_back(table, state, s, in_use);
+    }
   }
 
   ChannelResiduals run(Channel channel) {
@@ -78,8 +82,17 @@ class Collector {
     }
   }
 
+  void push(const std::optional<PrintRow>& row, double sigma, int scene, std::size_t k) {
+    if (!row) return;
+    NuisanceRow nuisance;
+    nuisance << row->by_board_pose, row->by_levels;
+    push(row->residual, sigma, scene, k, nuisance);
+  }
+  PrintRows& print_of(int scene) { return print_[static_cast<std::size_t>(scene)]; }
+
   void range(std::size_t k) {
     const RangeRow& r = table_.range[k];
+    if (table_.print) return push(print_of(r.beam.scene).range(r), r.sigma_m, r.beam.scene, k);
     const SceneGeometry& g = geometry_[static_cast<std::size_t>(r.beam.scene)];
     const auto predicted = g.range_m(r.beam.direction);
     if (!predicted) return;
@@ -95,6 +108,7 @@ class Collector {
 
   void boundary(std::size_t k) {
     const BoundaryRow& r = table_.boundary[k];
+    if (table_.print) return push(print_of(r.beam.scene).edge(r), r.sigma_m, r.beam.scene, k);
     const SceneGeometry& g = geometry_[static_cast<std::size_t>(r.beam.scene)];
     const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
     const Eigen::Vector3d moved =
@@ -116,6 +130,7 @@ class Collector {
 
   void intensity(std::size_t k) {
     const IntensityRow& r = table_.intensity[k];
+    if (table_.print) return push(print_of(r.beam.scene).intensity(r), r.sigma, r.beam.scene, k);
     double residual = r.log_intensity - std::log(table_.level_of(r.print));
     rows_.intensity(
         r, [&](const EffectColumns& c, std::span<const double> by) { residual -= used(c, by); });
@@ -130,6 +145,7 @@ class Collector {
   EffectColumnsList columns_;
   EffectRows rows_;
   std::vector<SceneGeometry> geometry_;
+  std::deque<PrintRows> print_;  // Of a table with a print.
   ChannelResiduals out_;
 };
 
@@ -141,7 +157,7 @@ ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& s
 }
 
 void remove_levels(const MeasurementTable& table, ChannelResiduals& residuals) {
-  if (residuals.channel != Channel::kIntensity) return;
+  if (residuals.channel != Channel::kIntensity || table.print) return;
   struct Level {
     double sum = 0.0;
     double weight = 0.0;

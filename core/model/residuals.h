@@ -24,7 +24,7 @@ ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& s
                               const std::vector<EffectInUse>& in_use, Channel channel);
 
 /// Takes each scene's own level of each print out of intensities: levels are unknowns that no state
-/// holds. Other channels stay as they are.
+/// holds, but for tables with a print, whose state has them. Other channels stay as they are.
 void remove_levels(const MeasurementTable& table, ChannelResiduals& residuals);
 
 }  // namespace lvcalib

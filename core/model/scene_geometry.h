@@ -35,6 +35,11 @@ class SceneGeometry {
   [[nodiscard]] Vector6d by_board_pose(const Eigen::Vector3d& row,
                                        const Eigen::Vector3d& point_m) const;
 
+  /// Derivative by the left perturbation of T_camera_board from that by the one of T_lidar_board.
+  [[nodiscard]] Vector6d by_camera_pose(const Vector6d& by_lidar_pose) const {
+    return lidar_by_camera_.transpose() * by_lidar_pose;
+  }
+
   /// Fills direction, range, angles, board point, incidence and slope of a beam.
   [[nodiscard]] bool describe(const Eigen::Vector3d& direction, BeamPoint& beam) const;
 

@@ -44,6 +44,13 @@ DiscoveryInput discovery_input(const CalibrationResult& result) {
     input.scenes.push_back(std::move(m));
     input.state.camera_from_board.push_back(solution->camera_from_board);
   }
+  if (result.forward && result.forward->state.levels.size() == input.scenes.size()) {
+    const ForwardSolution& forward = *result.forward;
+    input.print = result.print;
+    input.noise = forward.noise;
+    input.state = {forward.state.camera_from_lidar, forward.state.camera_from_board,
+                   forward.state.levels, forward.state.beam};
+  }
   return input;
 }
 

@@ -72,6 +72,7 @@ struct ForwardNoise {
   double corner_px = 0.1;
   std::vector<SceneNoise> scenes;
   SharedVariances shared{};
+  std::array<bool, kSharedErrors> admitted{};  ///< Kinds of shared error that the data show.
 };
 
 /// Unknowns that all scenes share: the extrinsic's left perturbation (6), the three numbers of the

@@ -336,7 +336,7 @@ class ForwardSolver {
   bool update_shared(const GlobalSolution& step) {
     bool moved = false;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (!admitted_[k] || step.determined[k] < 0.02) continue;
+      if (!noise().admitted[k] || step.determined[k] < 0.02) continue;
       const double wanted = step.squares[k] / step.determined[k];
       const double bounded = std::clamp(wanted, 0.05 * noise().shared[k], 20.0 * noise().shared[k]);
       const double next = std::max(bounded, kAbsent[k]);
@@ -353,7 +353,7 @@ class ForwardSolver {
     std::size_t best = kSharedErrors;
     double largest = 1.0;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (admitted_[k] || step.effective[k] < 1.0) continue;
+      if (noise().admitted[k] || step.effective[k] < 1.0) continue;
       const double n = step.effective[k];
       const double t = step.squares[k] / (noise().shared[k] * step.determined[k]);
       const double gate =
@@ -364,7 +364,7 @@ class ForwardSolver {
       }
     }
     if (best == kSharedErrors) return false;
-    admitted_[best] = true;
+    noise().admitted[best] = true;
     // From where half of it would be told: the fixed point is there within a few rounds.
     const double share = step.determined[best] / step.effective[best];
     noise().shared[best] =
@@ -447,7 +447,7 @@ class ForwardSolver {
     const double v = spread(last_);
     double variance = 0.0;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (!admitted_[k]) continue;
+      if (!noise().admitted[k]) continue;
       SharedVariances varied = noise().shared;
       varied[k] *= 1.0 + kStep;
       const GlobalSolution s =
@@ -476,7 +476,6 @@ class ForwardSolver {
   GlobalSolution last_;
   GlobalPrior prior_;
   std::vector<SceneEquations> equations_;
-  std::array<bool, kSharedErrors> admitted_{};
 };
 
 }  // namespace

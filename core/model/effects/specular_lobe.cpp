@@ -27,8 +27,9 @@ class SpecularLobe final : public CatalogueEffect {
   void intensity(const IntensityRow& row, const MeasurementTable& table, double shape,
                  std::span<double> by) const override {
     const double lobe = std::exp(-0.5 * std::pow(row.beam.incidence_rad / shape, 2));
-    // Relative to the white level: black print gains by its contrast more.
-    by[0] = lobe * table.level_of(Print::kWhite) / table.level_of(row.print);
+    // Relative to the white level: black print gains by its contrast more, a mixture by its own.
+    by[0] = lobe * (table.print ? std::exp(row.beam.darkness * table.log_contrast)
+                                : table.level_of(Print::kWhite) / table.level_of(row.print));
   }
 };
 

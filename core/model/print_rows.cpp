@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/print_rows.h"
+
+#include <cmath>
+
+namespace lvcalib {
+namespace {
+
+Matrix6d motion_about(const Rigid3& lidar_from_board, const Eigen::Vector2d& center_m) {
+  const Eigen::Matrix3d axes = lidar_from_board.rotation.toRotationMatrix();
+  const Eigen::Vector3d middle =
+      lidar_from_board * Eigen::Vector3d(center_m.x(), center_m.y(), 0.0);
+  Matrix6d motion;
+  motion << axes, skew(middle) * axes, Eigen::Matrix3d::Zero(), axes;
+  return motion;
+}
+
+}  // namespace
+
+PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std::size_t scene,
+                     const std::vector<EffectInUse>& in_use)
+    : in_use_(in_use),
+      columns_(columns_in_use(in_use, table)),
+      rows_(table, columns_.list()),
+      geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
+      rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
+      predictor_(*table.print, geometry_.lidar_from_board(), state.levels[scene], state.beam),
+      motion_(motion_about(geometry_.lidar_from_board(), table.print->outline().center_m())) {}
+
+void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
+  out.by_board_pose = geometry_.by_camera_pose(by_lidar_pose);
+  out.by_board_motion = motion_.transpose() * by_lidar_pose;
+}
+
+std::optional<PrintRow> PrintRows::range(const RangeRow& row) {
+  const auto p = predictor_.predict(row.beam.direction);
+  if (!p) return std::nullopt;
+  PrintRow out;
+  out.residual = row.measured_m - p->range_m;
+  set_pose(p->range_by_pose.transpose(), out);
+  const Eigen::Vector3d a = geometry_.range_row(row.beam.direction);
+  rows_.range(row, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
+    for (std::size_t k = 0; k < by.size(); ++k) out.residual -= by[k] * value(c, k);
+  });
+  return out;
+}
+
+std::optional<PrintRow> PrintRows::edge(const BoundaryRow& row) {
+  const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+  return reading({row.beam, side, 0.0, 1.0, row.reading}, &row);
+}
+
+std::optional<PrintRow> PrintRows::intensity(const IntensityRow& row) {
+  return reading(row, nullptr);
+}
+
+std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const BoundaryRow* edge) {
+  const Eigen::Vector3d& direction = row.beam.direction;
+  // Sums of what the effects in use do: the print's displacement under the beam, the blur, the
+  // logarithm of the intensity.
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  Eigen::Vector3d blur = Eigen::Vector3d::Zero();
+  double log = 0.0;
+  PrintSensitivity::Moves moves(geometry_, rotation_, direction, edge);
+  rows_.reading(row, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
+    for (std::size_t k = 0; k < by.shift_m.size(); ++k) {
+      const double v = value(c, k);
+      shift += v * by.shift_m[k];
+      blur += v * by.blur_rad2[k];
+      log += v * by.log_intensity[k];
+    }
+  });
+  const auto p = predictor_.predict(direction, shift);
+  if (!p) return std::nullopt;
+  PrintRow out;
+  const double unit = row.reading.unit;
+  const double gain = std::exp(log);
+  const double predicted = gain * (p->intensity + p->intensity_by_blur.dot(blur));
+  out.residual = (row.reading.measured - predicted) / unit;
+  set_pose(gain / unit * p->intensity_by_pose.transpose(), out);
+  out.by_levels = gain / unit * p->intensity_by_levels.transpose();
+  out.print.by_shift = gain / unit * p->intensity_by_shift;
+  out.print.by_blur = gain / unit * p->intensity_by_blur;
+  out.print.by_log_intensity = predicted / unit;
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/board_prediction.h"
+#include "model/effect_rows.h"
+#include "model/linear_model.h"
+#include "model/scene_geometry.h"
+
+namespace lvcalib {
+
+/// A return's residual against the prediction of the print, and the derivatives of what is
+/// predicted, all in the units of the row's channel (see IntensityReading).
+struct PrintRow {
+  double residual = 0.0;                      ///< Measured − predicted, effects in use taken out.
+  Vector6d by_board_pose = Vector6d::Zero();  ///< Left perturbation of T_camera_board; that by the
+                                              ///< extrinsic is its negative.
+  /// By the board's motion between camera and LiDAR about its middle, board axes: shift (2), along
+  /// the normal, tilt (2), spin.
+  Vector6d by_board_motion = Vector6d::Zero();
+  Eigen::Matrix<double, kLevelParameters, 1> by_levels =
+      Eigen::Matrix<double, kLevelParameters, 1>::Zero();
+  PrintSensitivity print;
+};
+
+/// Rows of one scene of a table with a print, predicted by BoardPredictor with effects in use: the
+/// ray that the LiDAR reports is moved to the true one (in the print's coordinates), everything
+/// else is added to first order.
+class PrintRows {
+ public:
+  PrintRows(const MeasurementTable& table, const ModelState& state, std::size_t scene,
+            const std::vector<EffectInUse>& in_use);
+
+  // What it refers to lies within itself.
+  PrintRows(const PrintRows&) = delete;
+  PrintRows& operator=(const PrintRows&) = delete;
+
+  [[nodiscard]] std::optional<PrintRow> range(const RangeRow& row);
+  [[nodiscard]] std::optional<PrintRow> edge(const BoundaryRow& row);
+  [[nodiscard]] std::optional<PrintRow> intensity(const IntensityRow& row);
+
+  /// Rotation of T_lidar_board.
+  [[nodiscard]] const Eigen::Matrix3d& lidar_from_board() const { return rotation_; }
+  [[nodiscard]] const SceneGeometry& geometry() const { return geometry_; }
+
+ private:
+  std::optional<PrintRow> reading(const IntensityRow& row, const BoundaryRow* edge);
+  [[nodiscard]] double value(const EffectColumns& c, std::size_t k) const {
+    const auto at = static_cast<std::size_t>(&c - columns_.list().data());
+    return in_use_[at].values(static_cast<Eigen::Index>(k));
+  }
+  void set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const;
+
+  const std::vector<EffectInUse>& in_use_;
+  EffectColumnsList columns_;
+  EffectRows rows_;
+  SceneGeometry geometry_;
+  Eigen::Matrix3d rotation_;
+  BoardPredictor predictor_;
+  Matrix6d motion_;  // Left perturbation of T_lidar_board by the board's motion.
+};
+
+}  // namespace lvcalib

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/print_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include <boost/math/distributions/normal.hpp>
+
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "model/noise_floor.h"
+#include "model/scan_velocity.h"
+#include "model/scene_geometry.h"
+#include "solve/board_returns.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr int kCells = 16;  // Board cells along a side, for even thinning.
+// Print plainer than this is white or black: what is left of an edge adds a hundredth.
+constexpr double kPlainShare = 0.01;
+// Where the print changes by less than a tenth of its contrast over the spot's width there is no
+// edge to be off, as within the fine patterns of a tag seen from far away.
+constexpr double kLeastEdge = 0.1;
+// Black that returns next to nothing has no logarithm: a hundredth of white stands for it.
+constexpr double kLeastShare = 0.01;
+constexpr double kRobust = 3.0;  // Huber's threshold, as in the joint solve.
+
+// A return and what is predicted of it.
+struct Return {
+  BeamPoint beam;
+  double measured_m = 0.0;
+  double range_residual_m = 0.0;
+  double intensity = 0.0;
+  double predicted = 0.0;
+  double white = 1.0;    // Share in the blurred spot.
+  double slope = 0.0;    // Of the intensity across the edge, per metre.
+  double width_m = 0.0;  // Of the spot across the edge.
+  double jitter = 0.0;   // Standard deviation that the jitter gives the intensity.
+
+  [[nodiscard]] bool is_plain() const { return white > 1.0 - kPlainShare || white < kPlainShare; }
+  [[nodiscard]] std::size_t surface() const { return white > 0.5 ? 0 : 1; }
+};
+
+struct SurfaceNoise {
+  std::array<double, 2> range_m{};  // White, black.
+  std::array<double, 2> intensity{};
+};
+
+double robust_sigma(double sigma, double residual) {
+  return sigma / std::sqrt(huber_weight(residual / sigma, kRobust));
+}
+
+class SceneRows {
+ public:
+  SceneRows(const SceneMeasurements& input, int scene, const BlurredPrint& print,
+            const ModelState& state, const SceneNoise& noise)
+      : input_(input),
+        scene_(scene),
+        print_(print),
+        levels_(state.levels[static_cast<std::size_t>(scene)]),
+        geometry_(state.camera_from_lidar,
+                  state.camera_from_board[static_cast<std::size_t>(scene)]) {
+    collect(state.beam, noise);
+    measure_noise(noise);
+  }
+
+  [[nodiscard]] bool has_intensity() const { return has_intensity_; }
+  [[nodiscard]] const BoardLevels& levels() const { return levels_; }
+
+  // `white`, `log_contrast`: the usual ones of all scenes, to which darkness refers.
+  void add_rows(MeasurementTable& table, std::size_t most) {
+    const double white = table.level_of(Print::kWhite);
+    for (Return& r : returns_) {
+      if (!(table.log_contrast > 0.0)) break;
+      const double level = std::max(r.predicted, kLeastShare * white);
+      r.beam.darkness = std::log(white / level) / table.log_contrast;
+    }
+    for (const std::size_t k : thinned([](const Return&) { return true; }, most))
+      add_range(returns_[k], table);
+    if (!has_intensity_) return;
+    for (const std::size_t k : thinned([](const Return& r) { return r.width_m > 0.0; }, most))
+      add_edge(returns_[k], table);
+    for (const std::size_t k : thinned([](const Return& r) { return !(r.width_m > 0.0); }, most))
+      add_intensity(returns_[k], table);
+  }
+
+ private:
+  void collect(const BeamSpread& beam, const SceneNoise& noise) {
+    const Cloud& cloud = *input_.board_points;
+    const BoardReturns kept = select_returns(cloud, print_, geometry_.lidar_from_board(), beam,
+                                             std::max(noise.range_white_m, noise.range_black_m));
+    has_intensity_ = kept.has_intensity;
+    const std::vector<Eigen::Vector2d> velocities = scan_velocities(cloud);
+    const BoardPredictor predictor(print_, geometry_.lidar_from_board(), levels_, beam);
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const std::uint32_t i = kept.index[k];
+      Return r;
+      r.measured_m = kept.point_m(k).norm();
+      r.beam.scene = scene_;
+      const Eigen::Vector3d direction = kept.point_m(k) / r.measured_m;
+      const auto p = predictor.predict(direction);
+      if (!p || !geometry_.describe(direction, r.beam)) continue;
+      if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
+      if (cloud.has_line()) r.beam.line = cloud.line[i];
+      if (!velocities.empty()) r.beam.scan_rad_s = velocities[i];
+      r.range_residual_m = r.measured_m - p->range_m;
+      r.white = p->white;
+      if (has_intensity_) describe_print(*p, beam, kept.intensity(k), r);
+      returns_.push_back(r);
+    }
+    // In the order of the scan, whatever order the file has.
+    const auto key = [](const Return& r) {
+      return std::tuple{r.beam.time_s, r.beam.line, r.beam.azimuth_rad, r.beam.elevation_rad,
+                        r.measured_m};
+    };
+    std::sort(returns_.begin(), returns_.end(),
+              [&](const Return& a, const Return& b) { return key(a) < key(b); });
+  }
+
+  void describe_print(const ReturnPrediction& p, const BeamSpread& beam, double intensity,
+                      Return& r) const {
+    r.intensity = intensity;
+    r.predicted = p.intensity;
+    const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
+    r.jitter = std::sqrt(std::max(0.0, by_angle.dot(by_angle * beam.jitter_rad2)));
+    if (r.is_plain()) return;
+    const double slope = p.intensity_by_shift.norm();
+    const double width =
+        std::sqrt(by_angle.dot(by_angle * beam.blur_rad2)) / std::max(slope, 1e-12);
+    if (slope * width < kLeastEdge * std::abs(levels_.white - levels_.black)) return;
+    r.slope = slope;
+    r.width_m = width;
+    // A print moved along its own growing whiteness gets darker.
+    const Eigen::RowVector2d outward = -p.intensity_by_shift;
+    r.beam.edge = NearEdge{
+        width * boost::math::quantile(boost::math::normal(), std::clamp(r.white, 1e-4, 1.0 - 1e-4)),
+        std::atan2(outward.y(), outward.x()), width};
+  }
+
+  void measure_noise(const SceneNoise& fallback) {
+    std::array<Replicates, 2> ranges;
+    std::array<Replicates, 2> intensities;
+    for (const Return& r : returns_) {
+      if (!r.is_plain()) continue;
+      ranges[r.surface()].add(r.beam, r.range_residual_m);
+      if (has_intensity_) intensities[r.surface()].add(r.beam, r.intensity - r.predicted);
+    }
+    const std::array<double, 2> range{fallback.range_white_m, fallback.range_black_m};
+    const std::array<double, 2> intensity{fallback.intensity_white, fallback.intensity_black};
+    for (std::size_t k = 0; k < 2; ++k) {
+      noise_.range_m[k] = ranges[k].sigma();
+      if (noise_.range_m[k] <= 0.0) noise_.range_m[k] = range[k];
+      noise_.range_m[k] = std::max(noise_.range_m[k], 1e-5);
+      noise_.intensity[k] = intensities[k].sigma();
+      // Whole numbers: most replicates may be alike.
+      constexpr double kStep = 0.2887;
+      if (noise_.intensity[k] < kStep) noise_.intensity[k] = std::max(1e-9, intensity[k]);
+    }
+  }
+
+  // Places of the returns wanted, at most `most`, evenly over board cells and surfaces.
+  template <class Wanted>
+  [[nodiscard]] std::vector<std::size_t> thinned(const Wanted& wanted, std::size_t most) const {
+    std::map<int, std::vector<std::size_t>> cells;
+    std::size_t all = 0;
+    const BoardOutline& outline = print_.outline();
+    for (std::size_t k = 0; k < returns_.size(); ++k) {
+      if (!wanted(returns_[k])) continue;
+      const Eigen::Vector2d share =
+          (returns_[k].beam.board_m - outline.lower_left_m).cwiseQuotient(outline.size_m());
+      const int x = std::clamp(static_cast<int>(share.x() * kCells), 0, kCells - 1);
+      const int y = std::clamp(static_cast<int>(share.y() * kCells), 0, kCells - 1);
+      cells[2 * (y * kCells + x) + static_cast<int>(returns_[k].surface())].push_back(k);
+      ++all;
+    }
+    std::vector<std::size_t> out;
+    const double quota =
+        static_cast<double>(most) / static_cast<double>(std::max<std::size_t>(1, cells.size()));
+    for (const auto& [cell, members] : cells) {
+      const std::size_t take =
+          all <= most ? members.size()
+                      : std::min(members.size(), static_cast<std::size_t>(std::max(1.0, quota)));
+      for (std::size_t k = 0; k < take; ++k) out.push_back(members[k * members.size() / take]);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  void add_range(const Return& r, MeasurementTable& table) const {
+    RangeRow row;
+    row.beam = r.beam;
+    row.measured_m = r.measured_m;
+    row.intensity = r.intensity;
+    row.print = r.surface() == 0 ? Print::kWhite : Print::kBlack;
+    row.sigma_m = robust_sigma(noise_.range_m[r.surface()], r.range_residual_m);
+    table.range.push_back(row);
+  }
+
+  [[nodiscard]] double intensity_sigma(const Return& r) const {
+    const double plain = std::exp(r.white * std::log(noise_.intensity[0]) +
+                                  (1.0 - r.white) * std::log(noise_.intensity[1]));
+    return robust_sigma(std::hypot(plain, r.jitter), r.intensity - r.predicted);
+  }
+
+  void add_edge(const Return& r, MeasurementTable& table) const {
+    BoundaryRow row;
+    row.beam = r.beam;
+    row.psi_rad = r.beam.edge->psi_rad;
+    row.transition_m = r.width_m;
+    const double white = std::max(levels_.white, 1e-12);
+    row.log_contrast = std::log(white / std::max(levels_.black, kLeastShare * white));
+    row.sigma_m = intensity_sigma(r) / r.slope;
+    row.edge_normal_rad = edge_normal(geometry_, r.beam, row.psi_rad);
+    row.reading = {r.intensity, -r.slope};
+    row.node = -1;
+    const double radius = print_.target().circle_radius_m;
+    for (const TargetNode& node : print_.target().nodes()) {
+      if (std::abs((r.beam.board_m - node.center_m).norm() - radius) > 3.0 * r.width_m) continue;
+      row.node = node.id;
+      row.center_m = node.center_m;
+      row.radius_m = radius;
+    }
+    table.boundary.push_back(row);
+  }
+
+  void add_intensity(const Return& r, MeasurementTable& table) const {
+    const double sigma = intensity_sigma(r);
+    // Told as a logarithm as far as there is one.
+    const double unit = std::max(r.predicted, 3.0 * sigma);
+    table.intensity.push_back({r.beam,
+                               r.surface() == 0 ? Print::kWhite : Print::kBlack,
+                               std::log(std::max(r.intensity, 1e-3 * unit)),
+                               sigma / unit,
+                               {r.intensity, unit}});
+  }
+
+  const SceneMeasurements& input_;
+  int scene_;
+  const BlurredPrint& print_;
+  BoardLevels levels_;
+  SceneGeometry geometry_;
+  std::vector<Return> returns_;
+  SurfaceNoise noise_;
+  bool has_intensity_ = false;
+};
+
+void add_corners(const SceneMeasurements& input, int scene, const ModelState& state,
+                 double sigma_px, MeasurementTable& table) {
+  TableScene& out = table.scenes[static_cast<std::size_t>(scene)];
+  const Rigid3& camera_from_board = state.camera_from_board[static_cast<std::size_t>(scene)];
+  for (const CornerObservation& c : input.corners) {
+    CornerRow row;
+    row.scene = scene;
+    row.feature = c.feature_id;
+    row.corner = c.corner;
+    row.board_m = c.board_m;
+    row.pixel = c.pixel;
+    row.sigma_px = sigma_px;
+    if (const auto tag = table.target.tag(c.feature_id); table.target.has_tags() && tag) {
+      row.from_tag_m = c.board_m - tag->center_m;
+      const auto center = table.camera.project(
+          camera_from_board * Eigen::Vector3d(tag->center_m.x(), tag->center_m.y(), 0.0));
+      if (center) row.from_tag_px = c.pixel - *center;
+    }
+    if (std::find(out.features.begin(), out.features.end(), c.feature_id) == out.features.end())
+      out.features.push_back(c.feature_id);
+    table.corner.push_back(row);
+  }
+}
+
+// The joint solve's variances by the groups of the search; what was not admitted there stays
+// absent.
+std::vector<double> structure_variances(const ForwardNoise& noise) {
+  std::vector<double> out(kAbsentVariance.begin(), kAbsentVariance.end());
+  const auto take = [&](VarianceGroup to, SharedError from) {
+    if (noise.admitted[static_cast<std::size_t>(from)])
+      out[static_cast<std::size_t>(to)] = noise.shared[static_cast<std::size_t>(from)];
+  };
+  take(VarianceGroup::kRangeHigh, SharedError::kRangeShape);
+  take(VarianceGroup::kTag, SharedError::kCornerGroup);
+  take(VarianceGroup::kBoardShift, SharedError::kBoardShift);
+  take(VarianceGroup::kBoardNormal, SharedError::kBoardNormal);
+  take(VarianceGroup::kBoardTilt, SharedError::kBoardTilt);
+  take(VarianceGroup::kBoardSpin, SharedError::kBoardSpin);
+  take(VarianceGroup::kPrintPatch, SharedError::kPrintPatch);
+  take(VarianceGroup::kLineRange, SharedError::kLineRange);
+  take(VarianceGroup::kLineGain, SharedError::kLineGain);
+  return out;
+}
+
+}  // namespace
+
+MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
+                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
+                             const ModelState& state, const ForwardNoise& noise, double sigma_px,
+                             const TableOptions& options, const RunContext& context) {
+  MeasurementTable table;
+  table.print = print;
+  table.target = print->target();
+  table.camera = camera;
+  table.placed_by = state;
+  table.structure_variances = structure_variances(noise);
+  table.has_time = !scenes.empty();
+  bool has_line = !scenes.empty();
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    const double last = std::max<double>(1.0, static_cast<double>(scenes.size()) - 1.0);
+    table.scenes.push_back({scenes[s].name, {}, {}, static_cast<double>(s) / last});
+    table.has_time = table.has_time && scenes[s].board_points->has_time();
+    has_line = has_line && scenes[s].board_points->has_line();
+  }
+  std::vector<std::optional<SceneRows>> rows(scenes.size());
+  parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
+    if (!context.stopped())
+      rows[s].emplace(scenes[s], static_cast<int>(s), *print, state, noise.scenes[s]);
+  });
+  if (context.stopped()) return table;
+  std::vector<double> white;
+  std::vector<double> black;
+  table.has_intensity = !scenes.empty();
+  for (const auto& scene : rows) {
+    table.has_intensity = table.has_intensity && scene->has_intensity();
+    white.push_back(scene->levels().white);
+    black.push_back(std::max(scene->levels().black, kLeastShare * scene->levels().white));
+  }
+  if (table.has_intensity) {
+    table.level = {median(white), median(black), median(black)};
+    table.log_contrast = std::log(table.level[0] / table.level[1]);
+  }
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    add_corners(scenes[s], static_cast<int>(s), state, sigma_px, table);
+    rows[s]->add_rows(table, static_cast<std::size_t>(options.max_rows_per_scene));
+    rows[s].reset();
+  }
+  const double noise_px = corner_noise(table, state, sigma_px);
+  for (CornerRow& row : table.corner) row.sigma_px = noise_px;
+  if (has_line) {
+    for (const RangeRow& row : table.range) table.lines.push_back(row.beam.line);
+    std::sort(table.lines.begin(), table.lines.end());
+    table.lines.erase(std::unique(table.lines.begin(), table.lines.end()), table.lines.end());
+  }
+  return table;
+}
+
+}  // namespace lvcalib

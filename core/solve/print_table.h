@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/linear_model.h"
+#include "model/table_builder.h"
+#include "solve/forward_problem.h"
+
+namespace lvcalib {
+
+/// Every measurement of a joint solve with every covariate: corners, and of the returns that the
+/// solve keeps (what it has refused stays out) the ranges, the intensities on plain print, and
+/// those in the blur of an edge, which are told as the distance by which that edge lies off.
+///
+/// Noise is that of replicates (see Replicates), so that what is missing in the model does not
+/// count as noise; in edges the beam's jitter joins it. Rows that the solve weighs down keep their
+/// weight, the same whatever is added to the model. `state` needs a pose and levels per scene;
+/// variances of structure are those of `noise`. More than options.max_rows_per_scene of a kind are
+/// thinned evenly over the board.
+MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
+                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
+                             const ModelState& state, const ForwardNoise& noise, double sigma_px,
+                             const TableOptions& options, const RunContext& context);
+
+}  // namespace lvcalib
