@@ -128,6 +128,38 @@ Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
 
 }  // namespace
 
+ExtrinsicMove usual_tolerance(const ModelFit& fit) {
+  constexpr double kShare = 0.5;
+  constexpr double kTranslation_m = 5e-4;
+  constexpr double kRotation_rad = 2e-4;
+  const auto worst = [](const Eigen::Matrix3d& c) {
+    return std::sqrt(
+        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c, Eigen::EigenvaluesOnly)
+                          .eigenvalues()(2)));
+  };
+  return {std::max(kTranslation_m, kShare * worst(fit.covariance.topLeftCorner<3, 3>())),
+          std::max(kRotation_rad, kShare * worst(fit.covariance.block<3, 3>(3, 3)))};
+}
+
+// The move is M θ; over θ̂ + L z with |z|² at its 95 % quantile it is at most |M θ̂| + q |M L|.
+ExtrinsicMove move_limit(const ModelFit& fit, Eigen::Index p) {
+  Eigen::MatrixXd h = fit.prior.information;
+  h.bottomRightCorner(p, p).setZero();
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  const Eigen::Index q = h.rows() - p;
+  const Eigen::MatrixXd by =
+      h.topLeftCorner(q, q).ldlt().solve(Eigen::MatrixXd(h.topRightCorner(q, p)));
+  const Eigen::VectorXd theta = fit.solution.tail(p);
+  const Eigen::MatrixXd root = fit.covariance.bottomRightCorner(p, p).llt().matrixL();
+  const double quantile = p == 1 ? kUpper95 : std::sqrt(chi_square_gate(static_cast<int>(p), 0.05));
+  const auto most = [&](const Eigen::MatrixXd& rows) {
+    const Eigen::MatrixXd spread = rows * root;
+    return (rows * theta).norm() +
+           quantile * Eigen::JacobiSVD<Eigen::MatrixXd>(spread).singularValues()(0);
+  };
+  return {most(by.topRows<3>()), most(by.middleRows<3>(3))};
+}
+
 double Candidate::total_gain() const {
   return std::accumulate(scene_gain.begin(), scene_gain.end(), 0.0);
 }
@@ -225,7 +257,9 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   append_columns(c, nullptr, subset);
   out.fit = fit_model(linear, subset, reference.fit.variances, options);
   out.p_value = f_test(out.fit, c.count());
-  out.material = is_material(c, out.fit);
+  out.tolerance = usual_tolerance(reference.fit);
+  out.limit = move_limit(out.fit, c.count());
+  out.material = is_material(c, out.fit) || out.limit.exceeds(out.tolerance);
   out.possible = is_possible(c, out.fit);
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};

@@ -17,6 +17,23 @@ enum class Contradiction {
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
 };
 
+/// A movement of the extrinsic: of the origin (m) and about it (rad).
+struct ExtrinsicMove {
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+  [[nodiscard]] bool exceeds(const ExtrinsicMove& other) const {
+    return translation_m > other.translation_m || rotation_rad > other.rotation_rad;
+  }
+};
+
+/// What does not matter to a user who names no tolerance: half of what the scenes leave open anyway
+/// (the worst axis), but never less than half a millimetre and 0.2 mrad.
+ExtrinsicMove usual_tolerance(const ModelFit& fit);
+
+/// How far the extrinsic may move (upper 95 % limit over the joint confidence region of the values)
+/// if the last p unknowns of a fit are left out.
+ExtrinsicMove move_limit(const ModelFit& fit, Eigen::Index p);
+
 /// One effect at one shape number, tried in addition to the model.
 struct Candidate {
   std::size_t columns = 0;  ///< Index into the linearisation's list.
@@ -32,8 +49,11 @@ struct Candidate {
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
   /// It may be as large as matters: some parameter's upper 95 % limit is, and so is the limit of
-  /// what all of them do together to the measurements (see is_material in the source).
+  /// what all of them do together to the measurements (see is_material in the source); or leaving
+  /// it out may move the extrinsic by more than the tolerance.
   bool material = true;
+  ExtrinsicMove limit;      ///< Of the extrinsic, at most (95 %), if the effect is left out.
+  ExtrinsicMove tolerance;  ///< What such a move has to exceed to matter.
   /// The channel that has to show it: of an effect that changes intensities these. Edges alone
   /// cannot tell it from what else moves edges.
   std::optional<Channel> must_show;

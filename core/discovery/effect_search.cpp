@@ -123,22 +123,16 @@ void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape)
 }
 
 void EffectSearch::refit() {
-  constexpr int kSteps = 4;
+  // A print is seen through a blur of millimetres: far from linear in what moves it.
+  const int steps = table().print ? 10 : 4;
   joint_covariance_.reset();
   shape_sigmas_.clear();
-  for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
+  for (int step = 0; step < steps && !context_.stopped(); ++step) {
     const EffectColumnsList columns = own_columns();
     linear_ = linearize(table(), state_, model(), columns, context_);
     if (context_.stopped()) return;
     reference_ = make_reference(linear_, own_subset(columns), variances_, {});
     variances_ = reference_.fit.variances;
-    if (std::getenv("LVDBG")) {
-      std::fprintf(stderr, "refit in_use %zu step %d channel", in_use_.size(), step);
-      for (double v : variances_.channel) std::fprintf(stderr, " %.3f", v);
-      std::fprintf(stderr, " group");
-      for (double v : variances_.group) std::fprintf(stderr, " %.3g", std::sqrt(v));
-      std::fprintf(stderr, " blur %.3g %.3g %.3g\n", state_.beam.blur_rad2(0,0), state_.beam.blur_rad2(0,1), state_.beam.blur_rad2(1,1));
-    }
     const Eigen::VectorXd& x = reference_.fit.solution;
     std::vector<Vector6d> boards;
     for (const Eigen::VectorXd& local : reference_.fit.local) boards.push_back(local.head<6>());
@@ -190,6 +184,7 @@ void EffectSearch::move_blur(const Eigen::Vector3d& step) {
 }
 
 void EffectSearch::remeasure() {
+  if (base_->print) return remake();
   constexpr int kRounds = 2;  // What is taken out is better known from what is left without it.
   for (int round = 0; round < kRounds; ++round) {
     auto again = lvcalib::remeasured(*base_, state_, in_use_, context_);
@@ -198,6 +193,26 @@ void EffectSearch::remeasure() {
     table_ = remeasured_ ? remeasured_.get() : base_;
     refit();
     if (!is_outdated(*table_, state_, in_use_)) return;
+  }
+}
+
+// Rows of a table with a print: weights and classes follow the model, until both stand still.
+void EffectSearch::remake() {
+  if (!base_->again || (in_use_.empty() && table_ == base_)) return;
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
+    const Rigid3 before = state_.camera_from_lidar;
+    auto next = std::make_shared<MeasurementTable>(base_->again(state_, in_use_));
+    if (context_.stopped()) return;
+    next->again = base_->again;
+    remeasured_ = std::move(next);
+    table_ = remeasured_.get();
+    refit();
+    // A twentieth of a standard deviation: what is left is far below what is known.
+    constexpr double kStands = 0.05;
+    const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().head<6>().cwiseSqrt();
+    const Vector6d moved = se3_log(state_.camera_from_lidar * before.inverse());
+    if ((moved.array().abs() < kStands * sigma.array()).all()) return;
   }
 }
 

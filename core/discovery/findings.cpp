@@ -237,20 +237,24 @@ class Judge {
   void judge_size(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
     const Eigen::Index p = columns.count();
     Eigen::VectorXd limit(p);
-    bool excluded = true;
+    // A size is no excuse: what may move the extrinsic by more than the tolerance is not absent.
+    bool excluded = !c.limit.exceeds(c.tolerance);
     bool visible = true;
     for (Eigen::Index k = 0; k < p; ++k) {
       const ParameterEstimate& e = f.parameters[static_cast<std::size_t>(k)];
       const double material = columns.parameters[static_cast<std::size_t>(k)].material;
       limit(k) = std::max(material, std::abs(e.value) + kUpper95 * e.sigma);
-      excluded = excluded && std::abs(e.value) + kUpper95 * e.sigma < material;
       visible = visible && material > options_.testable * e.sigma;
     }
     set_move(bias_if_omitted(c.fit, limit, &f.kept), f);
     const std::string moved = " would move the extrinsic by " + move_text(f);
     if (excluded) {
       f.verdict = EffectVerdict::kAbsent;
-      f.explanation = "Not there: " + values_text(f) + ", below the size that matters.";
+      f.extrinsic_move_mm = 1e3 * c.limit.translation_m;
+      f.extrinsic_move_mrad = 1e3 * c.limit.rotation_rad;
+      f.explanation = (is_sure(c, search_.candidates().size(), options_) ? "Too small to matter: "
+                                                                         : "Not there: ") +
+                      values_text(f) + "; it moves the extrinsic by " + move_text(f) + " at most.";
       return;
     }
     f.verdict = EffectVerdict::kNotTestable;

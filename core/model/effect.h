@@ -98,6 +98,10 @@ class Effect {
   /// Outward shift (m) of the mid-level crossing.
   virtual void edge(const BoundaryRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
                     std::span<double> /*by_parameter*/) const {}
+  /// Displacement (LiDAR frame, m) of the place whose light is measured from the place that the
+  /// reported direction meets. Seen where a print is predicted.
+  virtual void spot(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
+                    std::span<Eigen::Vector3d> /*by_parameter*/) const {}
   /// Change (rad²) of the beam's blur: horizontal, mixed, vertical. Seen where a print is
   /// predicted.
   virtual void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,

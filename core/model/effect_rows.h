@@ -152,6 +152,10 @@ class EffectRows {
         c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
         c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
                         std::span(board_).first(n));
+        // What moves the light alone adds to what moves the whole return.
+        spot_.assign(n, Eigen::Vector3d::Zero());
+        c.effect->spot(r.beam, table_, c.shape, spot_);
+        for (std::size_t k = 0; k < n; ++k) moves_[k] += spot_[k];
         c.effect->blur(r.beam, table_, c.shape, blur_);
         if (edge != nullptr) c.effect->edge(*edge, table_, c.shape, outward_);
         for (std::size_t k = 0; k < n; ++k) {
@@ -216,6 +220,7 @@ class EffectRows {
   std::vector<double> scalars_;
   std::vector<double> outward_;
   std::vector<Eigen::Vector3d> blur_;
+  std::vector<Eigen::Vector3d> spot_;
   std::vector<Eigen::Vector2d> shift_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -135,6 +136,7 @@ struct ModelState {
 };
 
 struct TableSource;
+struct EffectInUse;
 
 /// All measurements that a finished calibration keeps, thinned evenly over the boards, with every
 /// covariate. Rows are grouped by scene.
@@ -161,6 +163,10 @@ struct MeasurementTable {
   /// The print that every return is predicted from. Null: of a table of circles' edges and plain
   /// print.
   std::shared_ptr<const BlurredPrint> print;
+  /// Makes a table with a print again for another state and effects in use: which returns are in
+  /// the blur of an edge, and how far single ones are weighed down, follows what the model
+  /// predicts.
+  std::function<MeasurementTable(const ModelState&, const std::vector<EffectInUse>&)> again;
   /// Variances of structure that nothing explains, as the joint solve found them, in the order of
   /// VarianceGroup; empty: the fit starts from usual ones.
   std::vector<double> structure_variances;

@@ -54,6 +54,12 @@ class ShapeSlope final : public Effect {
     difference<double>(0.0, by,
                        [&](double shape, auto out) { effect_->edge(row, table, shape, out); });
   }
+  void spot(const BeamPoint& beam, const MeasurementTable& table, double,
+            std::span<Eigen::Vector3d> by) const override {
+    difference<Eigen::Vector3d>(Eigen::Vector3d::Zero(), by, [&](double shape, auto out) {
+      effect_->spot(beam, table, shape, out);
+    });
+  }
   void blur(const BeamPoint& beam, const MeasurementTable& table, double,
             std::span<Eigen::Vector3d> by) const override {
     difference<Eigen::Vector3d>(Eigen::Vector3d::Zero(), by, [&](double shape, auto out) {

@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "model/effect_rows.h"
 #include "model/noise_floor.h"
 #include "model/scan_velocity.h"
 #include "model/scene_geometry.h"
@@ -22,9 +23,9 @@ namespace {
 constexpr int kCells = 16;  // Board cells along a side, for even thinning.
 // Print plainer than this is white or black: what is left of an edge adds a hundredth.
 constexpr double kPlainShare = 0.01;
-// Where the print changes by less than a tenth of its contrast over the spot's width there is no
-// edge to be off, as within the fine patterns of a tag seen from far away.
-constexpr double kLeastEdge = 0.1;
+// A spot sees one edge if the print's slope is that of one within a fifth: at a corner, half a
+// width from it, it is a third less.
+constexpr double kOneEdge = 0.2;
 // Black that returns next to nothing has no logarithm: a hundredth of white stands for it.
 constexpr double kLeastShare = 0.01;
 constexpr double kRobust = 3.0;  // Huber's threshold, as in the joint solve.
@@ -36,10 +37,12 @@ struct Return {
   double range_residual_m = 0.0;
   double intensity = 0.0;
   double predicted = 0.0;
-  double white = 1.0;    // Share in the blurred spot.
-  double slope = 0.0;    // Of the intensity across the edge, per metre.
-  double width_m = 0.0;  // Of the spot across the edge.
-  double jitter = 0.0;   // Standard deviation that the jitter gives the intensity.
+  double plain_level = 0.0;  // Predicted without what effects do to intensities.
+  double white = 1.0;        // Share in the blurred spot.
+  double slope = 0.0;        // Of the intensity across the edge, per metre.
+  double width_m = 0.0;      // Of the spot across the edge.
+  bool mixed = false;        // Several edges in the spot.
+  double jitter = 0.0;       // Standard deviation that the jitter gives the intensity.
 
   [[nodiscard]] bool is_plain() const { return white > 1.0 - kPlainShare || white < kPlainShare; }
   [[nodiscard]] std::size_t surface() const { return white > 0.5 ? 0 : 1; }
@@ -54,17 +57,76 @@ double robust_sigma(double sigma, double residual) {
   return sigma / std::sqrt(huber_weight(residual / sigma, kRobust));
 }
 
+// What effects in use do to single returns: the displacement of the print under the beam, the
+// logarithm of the intensity, the range.
+class ReturnEffects {
+ public:
+  ReturnEffects(const MeasurementTable& table, const std::vector<EffectInUse>& in_use)
+      : table_(table),
+        in_use_(in_use),
+        columns_(columns_in_use(in_use, table)),
+        rows_(table, columns_.list()) {}
+  ReturnEffects(const ReturnEffects&) = delete;
+  ReturnEffects& operator=(const ReturnEffects&) = delete;
+
+  struct Sum {
+    Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();
+    double log_intensity = 0.0;
+    double range_m = 0.0;
+  };
+  Sum of(const SceneGeometry& geometry, const Eigen::Matrix3d& rotation, BeamPoint beam,
+         double predicted) {
+    Sum out;
+    if (in_use_.empty()) return out;
+    beam.darkness = darkness(table_, predicted);
+    const Print side = beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+    const PrintSensitivity::Moves moves(geometry, rotation, beam.direction, nullptr);
+    rows_.reading({beam, side, 0.0, 1.0, {}}, nullptr, moves,
+                  [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
+                    for (std::size_t k = 0; k < by.shift_m.size(); ++k) {
+                      out.shift_m += value(c, k) * by.shift_m[k];
+                      out.log_intensity += value(c, k) * by.log_intensity[k];
+                    }
+                  });
+    RangeRow range;
+    range.beam = beam;
+    range.print = side;
+    range.intensity = predicted;
+    rows_.range(range, geometry.range_row(beam.direction), rotation,
+                [&](const EffectColumns& c, std::span<const double> by) {
+                  for (std::size_t k = 0; k < by.size(); ++k) out.range_m += value(c, k) * by[k];
+                });
+    return out;
+  }
+
+  static double darkness(const MeasurementTable& table, double predicted) {
+    if (!(table.log_contrast > 0.0)) return 0.0;
+    const double white = table.level_of(Print::kWhite);
+    return std::log(white / std::max(predicted, kLeastShare * white)) / table.log_contrast;
+  }
+
+ private:
+  [[nodiscard]] double value(const EffectColumns& c, std::size_t k) const {
+    const auto at = static_cast<std::size_t>(&c - columns_.list().data());
+    return in_use_[at].values(static_cast<Eigen::Index>(k));
+  }
+  const MeasurementTable& table_;
+  const std::vector<EffectInUse>& in_use_;
+  EffectColumnsList columns_;
+  EffectRows rows_;
+};
+
 class SceneRows {
  public:
   SceneRows(const SceneMeasurements& input, int scene, const BlurredPrint& print,
-            const ModelState& state, const SceneNoise& noise)
+            const ModelState& state, const SceneNoise& noise, ReturnEffects& effects)
       : input_(input),
         scene_(scene),
         print_(print),
         levels_(state.levels[static_cast<std::size_t>(scene)]),
         geometry_(state.camera_from_lidar,
                   state.camera_from_board[static_cast<std::size_t>(scene)]) {
-    collect(state.beam, noise);
+    collect(state.beam, noise, effects);
     measure_noise(noise);
   }
 
@@ -73,23 +135,20 @@ class SceneRows {
 
   // `white`, `log_contrast`: the usual ones of all scenes, to which darkness refers.
   void add_rows(MeasurementTable& table, std::size_t most) {
-    const double white = table.level_of(Print::kWhite);
-    for (Return& r : returns_) {
-      if (!(table.log_contrast > 0.0)) break;
-      const double level = std::max(r.predicted, kLeastShare * white);
-      r.beam.darkness = std::log(white / level) / table.log_contrast;
-    }
+    for (Return& r : returns_) r.beam.darkness = ReturnEffects::darkness(table, r.plain_level);
     for (const std::size_t k : thinned([](const Return&) { return true; }, most))
       add_range(returns_[k], table);
     if (!has_intensity_) return;
     for (const std::size_t k : thinned([](const Return& r) { return r.width_m > 0.0; }, most))
       add_edge(returns_[k], table);
-    for (const std::size_t k : thinned([](const Return& r) { return !(r.width_m > 0.0); }, most))
+    for (const std::size_t k :
+         thinned([](const Return& r) { return !(r.width_m > 0.0) && !r.mixed; }, most))
       add_intensity(returns_[k], table);
   }
 
  private:
-  void collect(const BeamSpread& beam, const SceneNoise& noise) {
+  void collect(const BeamSpread& beam, const SceneNoise& noise, ReturnEffects& effects) {
+    const Eigen::Matrix3d rotation = geometry_.lidar_from_board().rotation.toRotationMatrix();
     const Cloud& cloud = *input_.board_points;
     const BoardReturns kept = select_returns(cloud, print_, geometry_.lidar_from_board(), beam,
                                              std::max(noise.range_white_m, noise.range_black_m));
@@ -102,14 +161,18 @@ class SceneRows {
       r.measured_m = kept.point_m(k).norm();
       r.beam.scene = scene_;
       const Eigen::Vector3d direction = kept.point_m(k) / r.measured_m;
-      const auto p = predictor.predict(direction);
+      auto p = predictor.predict(direction);
       if (!p || !geometry_.describe(direction, r.beam)) continue;
       if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
       if (cloud.has_line()) r.beam.line = cloud.line[i];
       if (!velocities.empty()) r.beam.scan_rad_s = velocities[i];
-      r.range_residual_m = r.measured_m - p->range_m;
+      const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity);
+      if (!sum.shift_m.isZero()) p = predictor.predict(direction, sum.shift_m);
+      r.range_residual_m = r.measured_m - p->range_m - sum.range_m;
       r.white = p->white;
-      if (has_intensity_) describe_print(*p, beam, kept.intensity(k), r);
+      r.plain_level = p->intensity;
+      if (has_intensity_)
+        describe_print(*p, beam, kept.intensity(k), std::exp(sum.log_intensity), r);
       returns_.push_back(r);
     }
     // In the order of the scan, whatever order the file has.
@@ -122,16 +185,23 @@ class SceneRows {
   }
 
   void describe_print(const ReturnPrediction& p, const BeamSpread& beam, double intensity,
-                      Return& r) const {
+                      double gain, Return& r) const {
     r.intensity = intensity;
-    r.predicted = p.intensity;
+    r.predicted = gain * p.intensity;
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
     r.jitter = std::sqrt(std::max(0.0, by_angle.dot(by_angle * beam.jitter_rad2)));
     if (r.is_plain()) return;
     const double slope = p.intensity_by_shift.norm();
     const double width =
         std::sqrt(by_angle.dot(by_angle * beam.blur_rad2)) / std::max(slope, 1e-12);
-    if (slope * width < kLeastEdge * std::abs(levels_.white - levels_.black)) return;
+    // Of one straight edge the slope follows from the share of white; where it does not, the spot
+    // sees several edges, and what widens dark print is not what moves them.
+    const boost::math::normal normal;
+    const double z = boost::math::quantile(normal, std::clamp(r.white, 1e-4, 1.0 - 1e-4));
+    const double one_edge =
+        std::abs(levels_.white - levels_.black) * boost::math::pdf(normal, z) / width;
+    r.mixed = std::abs(std::log(slope / one_edge)) > kOneEdge;
+    if (r.mixed) return;
     r.slope = slope;
     r.width_m = width;
     // A print moved along its own growing whiteness gets darker.
@@ -292,12 +362,12 @@ std::vector<double> structure_variances(const ForwardNoise& noise) {
   return out;
 }
 
-}  // namespace
-
-MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
-                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
-                             const ModelState& state, const ForwardNoise& noise, double sigma_px,
-                             const TableOptions& options, const RunContext& context) {
+// `like`: the table that it replaces, to whose usual levels and lines effects in use refer.
+MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
+                            const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
+                            const ModelState& state, const ForwardNoise& noise, double sigma_px,
+                            const TableOptions& options, const RunContext& context,
+                            const MeasurementTable* like, const std::vector<EffectInUse>& in_use) {
   MeasurementTable table;
   table.print = print;
   table.target = print->target();
@@ -312,23 +382,32 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
     table.has_time = table.has_time && scenes[s].board_points->has_time();
     has_line = has_line && scenes[s].board_points->has_line();
   }
+  if (like != nullptr) {
+    table.level = like->level;
+    table.log_contrast = like->log_contrast;
+    table.lines = like->lines;
+    table.has_intensity = like->has_intensity;
+  }
   std::vector<std::optional<SceneRows>> rows(scenes.size());
   parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
-    if (!context.stopped())
-      rows[s].emplace(scenes[s], static_cast<int>(s), *print, state, noise.scenes[s]);
+    if (context.stopped()) return;
+    ReturnEffects effects(table, in_use);
+    rows[s].emplace(scenes[s], static_cast<int>(s), *print, state, noise.scenes[s], effects);
   });
   if (context.stopped()) return table;
-  std::vector<double> white;
-  std::vector<double> black;
-  table.has_intensity = !scenes.empty();
-  for (const auto& scene : rows) {
-    table.has_intensity = table.has_intensity && scene->has_intensity();
-    white.push_back(scene->levels().white);
-    black.push_back(std::max(scene->levels().black, kLeastShare * scene->levels().white));
-  }
-  if (table.has_intensity) {
-    table.level = {median(white), median(black), median(black)};
-    table.log_contrast = std::log(table.level[0] / table.level[1]);
+  if (like == nullptr) {
+    std::vector<double> white;
+    std::vector<double> black;
+    table.has_intensity = !scenes.empty();
+    for (const auto& scene : rows) {
+      table.has_intensity = table.has_intensity && scene->has_intensity();
+      white.push_back(scene->levels().white);
+      black.push_back(std::max(scene->levels().black, kLeastShare * scene->levels().white));
+    }
+    if (table.has_intensity) {
+      table.level = {median(white), median(black), median(black)};
+      table.log_contrast = std::log(table.level[0] / table.level[1]);
+    }
   }
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     add_corners(scenes[s], static_cast<int>(s), state, sigma_px, table);
@@ -337,11 +416,52 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
   }
   const double noise_px = corner_noise(table, state, sigma_px);
   for (CornerRow& row : table.corner) row.sigma_px = noise_px;
-  if (has_line) {
+  if (has_line && like == nullptr) {
     for (const RangeRow& row : table.range) table.lines.push_back(row.beam.line);
     std::sort(table.lines.begin(), table.lines.end());
     table.lines.erase(std::unique(table.lines.begin(), table.lines.end()), table.lines.end());
   }
+  return table;
+}
+
+// What a table is made of, for as long as it may be made again.
+struct KeptScenes {
+  std::vector<SceneMeasurements> scenes;
+  std::vector<Cloud> clouds;
+};
+
+}  // namespace
+
+MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
+                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
+                             const ModelState& state, const ForwardNoise& noise, double sigma_px,
+                             const TableOptions& options, const RunContext& context) {
+  return make_table(scenes, print, camera, state, noise, sigma_px, options, context, nullptr, {});
+}
+
+MeasurementTable lasting_print_table(const std::vector<SceneMeasurements>& scenes,
+                                     const std::shared_ptr<const BlurredPrint>& print,
+                                     const Camera& camera, const ModelState& state,
+                                     const ForwardNoise& noise, double sigma_px,
+                                     const TableOptions& options, const RunContext& context) {
+  const auto kept = std::make_shared<KeptScenes>();
+  kept->scenes = scenes;
+  for (const SceneMeasurements& scene : scenes) kept->clouds.push_back(*scene.board_points);
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    kept->scenes[s].board_points = &kept->clouds[s];
+    kept->scenes[s].refinement = nullptr;
+  }
+  MeasurementTable table = make_table(kept->scenes, print, camera, state, noise, sigma_px, options,
+                                      context, nullptr, {});
+  const auto like = std::make_shared<MeasurementTable>();
+  like->level = table.level;
+  like->log_contrast = table.log_contrast;
+  like->lines = table.lines;
+  like->has_intensity = table.has_intensity;
+  table.again = [=](const ModelState& at, const std::vector<EffectInUse>& in_use) {
+    return make_table(kept->scenes, print, camera, at, noise, sigma_px, options, {}, like.get(),
+                      in_use);
+  };
   return table;
 }
 

@@ -123,10 +123,9 @@ simulation::SimulationOptions effect_rig_options(const EffectTask& task) {
   options.target.tag_spacing = 0.1 / 0.12;
   options.lidar.kind = simulation::LidarKind::kAvia;
   options.lidar.points = 120'000;
-  // Nothing but what is planted: these three are effects of the catalogue themselves.
+  // Nothing but what is planted: these two are effects of the catalogue themselves.
   options.lidar.incidence_exponent = 0.0;
   options.lidar.range_exponent = 0.0;
-  options.lidar.range_follows_power = task.planted.contains("boundary_range_pull");
   options.placement.min_distance_m = 1.5;
   options.placement.max_distance_m = 4.0;
   options.placement.max_tilt_deg = 50.0;
@@ -150,7 +149,6 @@ std::map<std::string, double> true_parameters(const std::string& id,
   static const std::map<std::string, std::string> same = {{"range_offset", "a"},
                                                           {"range_scale", "m"},
                                                           {"range_incidence", "a"},
-                                                          {"boundary_range_pull", "a"},
                                                           {"angle_scale", "azimuth"},
                                                           {"axis_wobble", "i"},
                                                           {"beam_origin_offset", "horizontal"},
@@ -168,6 +166,8 @@ std::map<std::string, double> true_parameters(const std::string& id,
     out.merge(per_line(rig, id, "line_azimuth_mrad", "c"));
     return out;
   }
+  // The model has nature's share; the effect is what goes beyond.
+  if (id == "boundary_range_pull") return {{"a", si - 1.0}};
   if (id == "beam_divergence") return {{"γ²", si * si + kJitterRad * kJitterRad}};
   if (id == "intensity_geometry") return {{"n", si}};
   if (id == "intrinsics_error") {

@@ -25,7 +25,6 @@ inline simulation::SimulationOptions hidden_options(std::uint64_t seed,
   options.target.tag_spacing = 0.1 / 0.12;
   options.lidar.incidence_exponent = 0.0;
   options.lidar.range_exponent = 0.0;
-  options.lidar.range_follows_power = false;
   options.placement.min_distance_m = 1.5;
   options.placement.max_distance_m = 4.0;
   options.placement.max_tilt_deg = 50.0;

@@ -20,9 +20,15 @@ class DetectorLag final : public CatalogueEffect {
              .needs = {.time = true, .circles = true, .intensity = true}},
             {{"τ", "µs", 1e-6, 2e-6, 1e-3, 0.0}}) {}
 
-  void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
+  void edge(const BoundaryRow& row, const MeasurementTable& table, double /*shape*/,
             std::span<double> by) const override {
+    if (table.print) return;  // See spot().
     by[0] = row.beam.scan_rad_s.dot(row.edge_normal_rad);
+  }
+  void spot(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<Eigen::Vector3d> by) const override {
+    const AngleAxes axes = angle_axes(beam);
+    by[0] = beam.scan_rad_s.x() * axes.azimuth_m + beam.scan_rad_s.y() * axes.elevation_m;
   }
 };
 
