@@ -237,13 +237,14 @@ class Judge {
   void judge_size(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
     const Eigen::Index p = columns.count();
     Eigen::VectorXd limit(p);
-    // A size is no excuse: what may move the extrinsic by more than the tolerance is not absent.
+    // Smallness is no excuse: what may move the extrinsic by more than the tolerance is not absent.
     bool excluded = !c.limit.exceeds(c.tolerance);
     bool visible = true;
     for (Eigen::Index k = 0; k < p; ++k) {
       const ParameterEstimate& e = f.parameters[static_cast<std::size_t>(k)];
       const double material = columns.parameters[static_cast<std::size_t>(k)].material;
       limit(k) = std::max(material, std::abs(e.value) + kUpper95 * e.sigma);
+      excluded = excluded && std::abs(e.value) + kUpper95 * e.sigma < material;
       visible = visible && material > options_.testable * e.sigma;
     }
     set_move(bias_if_omitted(c.fit, limit, &f.kept), f);
