@@ -58,7 +58,15 @@ std::string names_of(const Recording& recording, const Indices& indices) {
   return joined(names, ", ");
 }
 
+bool holds_messages(const Recording& recording) {
+  return std::any_of(recording.topics().begin(), recording.topics().end(),
+                     [](const Topic& topic) { return topic.count > 0; });
+}
+
 Error not_recorded(const Recording& recording, MessageKind kind) {
+  if (!holds_messages(recording)) {
+    return Error::input("holds no messages", recording.path().string());
+  }
   const bool images = kind == MessageKind::kImage;
   const MessageKind raw = images ? MessageKind::kRawVideo : MessageKind::kRawPackets;
   const std::string where = recording.path().string();
@@ -79,7 +87,7 @@ Error not_recorded(const Recording& recording, MessageKind kind) {
   }
   return Error::input(images ? "holds no images (sensor_msgs/Image or CompressedImage)"
                              : "holds no clouds (sensor_msgs/PointCloud2 or Livox CustomMsg)",
-                      where, "lvcalib import --list shows what was recorded");
+                      where);
 }
 
 Result<std::size_t> by_name(const Recording& recording, const std::string& name, MessageKind kind,
@@ -215,6 +223,10 @@ Result<TopicChoice> choose_topics(const Recording& recording, const TopicNames& 
 Result<std::vector<std::string>> check_recording(const Recording& recording,
                                                  const RunContext& context) {
   std::vector<std::string> out;
+  if (!holds_messages(recording)) {
+    out.push_back(recording.path().string() + ": holds no messages");
+    return out;
+  }
   const Indices images = topics_of(recording, MessageKind::kImage);
   const Indices clouds = topics_of(recording, MessageKind::kCloud);
   const Indices infos = topics_of(recording, MessageKind::kCameraInfo);
