@@ -45,7 +45,7 @@ class Container {
 
 /// Largest chunk and largest message that are read: a bag's recorder cuts chunks at some hundred
 /// kilobytes, or at one message, and no camera or LiDAR fills more at once.
-inline constexpr std::uint64_t kMostChunkBytes = std::uint64_t{256} << 20U;
+inline constexpr std::uint64_t kMostChunkBytes = std::uint64_t{192} << 20U;
 /// Topics and chunks that a file may name, so that lists stay small beside the messages.
 inline constexpr std::size_t kMostTopics = 4096;
 

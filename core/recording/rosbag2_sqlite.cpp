@@ -5,6 +5,7 @@
 
 #include <sqlite3.h>
 
+#include "recording/byte_reader.h"
 #include "recording/container.h"
 
 namespace lvcalib {
@@ -52,11 +53,35 @@ Database open_database(const std::filesystem::path& path) {
   Database database(raw);
   if (code != SQLITE_OK) return nullptr;
   sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostChunkBytes));
-  sqlite3_db_config(raw, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  // Otherwise a file that is shorter than it says is not opened at all.
+  sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
   return database;
+}
+
+// Whether the file ends before the pages that its header counts.
+bool is_cut_off(const std::filesystem::path& path) {
+  const auto file = RandomFile::open(path);
+  if (!file) return false;
+  std::string header;
+  file->read(0, 32, header);
+  ByteReader reader(header, true);
+  reader.take(16);
+  const auto stated = reader.number<std::uint16_t>();
+  const std::uint64_t page_bytes = stated == 1 ? 65536 : stated;
+  reader.take(10);
+  const auto pages = reader.number<std::uint32_t>();
+  return !reader.failed() && page_bytes * pages > file->size();
+}
+
+// SQLite reads a missing page as zeros. It notices unless the page is the last one of a message,
+// whose part of it is then longer than this.
+bool ends_in_missing_page(std::string_view data) {
+  constexpr std::size_t least_bytes = 256;
+  return data.size() >= least_bytes &&
+         data.substr(data.size() - least_bytes).find_first_not_of('\0') == std::string_view::npos;
 }
 
 // Ends queries that take long when a stop is asked for.
@@ -71,7 +96,10 @@ class SqliteCursor : public MessageCursor {
   // memory as the file.
   SqliteCursor(const std::filesystem::path& path, const std::map<std::int64_t, std::size_t>& topics,
                const std::vector<char>& wanted, const TimeSpan& span, std::stop_token stop)
-      : name_(path.string()), database_(open_database(path)), stop_(std::move(stop)) {
+      : name_(path.string()),
+        database_(open_database(path)),
+        cut_off_(is_cut_off(path)),
+        stop_(std::move(stop)) {
     if (!database_) return;
     sqlite3_progress_handler(database_.get(), kInstructionsBetweenLooks, stop_wanted, &stop_);
     const Statement rows = prepare(
@@ -109,6 +137,10 @@ class SqliteCursor : public MessageCursor {
       const int size = sqlite3_column_bytes(fetch_.get(), 0);
       message = {entry.topic, entry.time_ns, {}};
       if (data != nullptr) message.data = {data, static_cast<std::size_t>(size)};
+      if (cut_off_ && ends_in_missing_page(message.data)) {
+        warn_of_damage();
+        continue;
+      }
       return true;
     }
     if (stop_.stop_requested()) return Error::cancelled();
@@ -130,6 +162,7 @@ class SqliteCursor : public MessageCursor {
 
   std::string name_;
   Database database_;
+  bool cut_off_;
   Statement fetch_;
   std::stop_token stop_;
   std::vector<Entry> order_;

@@ -115,13 +115,12 @@ std::vector<SampleRun> find_runs(std::size_t samples, const Moved& has_moved) {
   return joined;
 }
 
+// What a sample stands for on either side: half of the time to the next one. A single sample stands
+// for a stretch that is just long enough.
 template <class Look>
-std::int64_t begin_of(const Track<Look>& track, const SampleRun& run) {
-  return track.time_ns(run.first) - track.period_ns() / 2;
-}
-template <class Look>
-std::int64_t end_of(const Track<Look>& track, const SampleRun& run) {
-  return track.time_ns(run.last) + track.period_ns() / 2;
+std::int64_t reach_of(const Track<Look>& track, const StillOptions& options) {
+  return track.size() < 2 ? static_cast<std::int64_t>(1e9 * options.min_still_s)
+                          : track.period_ns() / 2;
 }
 
 std::size_t sharpest(const ImageTrack& images, std::size_t first, std::size_t last) {
@@ -146,8 +145,10 @@ SampleRun samples_within(const Track<Look>& track, SampleRun run, std::int64_t f
 void add_stretches(const ImageTrack& images, const SampleRun& run, const CloudTrack& clouds,
                    const std::vector<SampleRun>& cloud_runs, const StillOptions& options,
                    std::vector<StillStretch>& out) {
-  const std::int64_t first = begin_of(images, run);
-  const std::int64_t last = end_of(images, run);
+  const std::int64_t reach = reach_of(images, options);
+  const std::int64_t cloud_reach = reach_of(clouds, options);
+  const std::int64_t first = images.time_ns(run.first) - reach;
+  const std::int64_t last = images.time_ns(run.last) + reach;
   const double length_s = 1e-9 * static_cast<double>(last - first);
   // Of what is shorter than half of the least nobody expects a scene.
   if (length_s < 0.5 * options.min_still_s) return;
@@ -161,9 +162,9 @@ void add_stretches(const ImageTrack& images, const SampleRun& run, const CloudTr
   bool any_cloud = false;
   for (const SampleRun& cloud_run : cloud_runs) {
     StillStretch stretch = whole;
-    stretch.first_ns = std::max(first, begin_of(clouds, cloud_run));
-    stretch.last_ns = std::min(last, end_of(clouds, cloud_run));
-    if (stretch.last_ns < stretch.first_ns) continue;
+    stretch.first_ns = std::max(first, clouds.time_ns(cloud_run.first) - cloud_reach);
+    stretch.last_ns = std::min(last, clouds.time_ns(cloud_run.last) + cloud_reach);
+    if (stretch.last_ns <= stretch.first_ns) continue;
     any_cloud = true;
     if (stretch.length_s() < options.min_still_s) continue;
     const SampleRun i = samples_within(images, run, stretch.first_ns, stretch.last_ns);

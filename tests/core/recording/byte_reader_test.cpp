@@ -37,15 +37,18 @@ TEST(ByteReader, AlignsFromItsOrigin) {
 }
 
 TEST(ByteReader, StaysFailedBeyondTheEnd) {
-  ByteReader reader("\x05\0\0\0abc"s);
+  const std::string short_block = "\x05\0\0\0abc"s;
+  ByteReader reader(short_block);
   EXPECT_EQ(reader.block(), "");
   EXPECT_TRUE(reader.failed());
   EXPECT_EQ(reader.left(), 0U);
   EXPECT_EQ(reader.number<std::uint8_t>(), 0);
-  ByteReader huge("\xff\xff\xff\xffx"s);
+  const std::string huge_block = "\xff\xff\xff\xffx"s;
+  ByteReader huge(huge_block);
   EXPECT_EQ(huge.block(), "");
   EXPECT_TRUE(huge.failed());
-  ByteReader whole("\x03\0\0\0abc"s);
+  const std::string whole_block = "\x03\0\0\0abc"s;
+  ByteReader whole(whole_block);
   EXPECT_EQ(whole.block(), "abc");
   EXPECT_FALSE(whole.failed());
 }

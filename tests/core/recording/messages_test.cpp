@@ -164,7 +164,7 @@ TEST_P(EveryWire, ImageAndCompressedImage) {
   const std::string jpeg(
       "\xFF\xD8\xFF\xE0\0\x04zz\xFF\xC0\0\x0B\x08\x01\xE0\x02\x80\x01\x01\x11\0"
       "\xFF\xD9",
-      22);
+      23);
   const auto packed =
       decode_image(topic_of("sensor_msgs/CompressedImage", GetParam()),
                    test::compressed_image(GetParam(), kStamp, "rgb8; jpeg compressed bgr8", jpeg));
