@@ -96,21 +96,19 @@ fs::path target_path(const Options& options) {
   return fs::is_regular_file(beside, code) ? beside : fs::path{};
 }
 
-// The board that the dataset will name. Stretches without it are left out where it is known.
+// The board that the dataset will name, the default one if none is given. Stretches without it are
+// left out.
 Status set_target(const Options& options, Session& session, ImportOptions& out) {
   const fs::path path = target_path(options);
-  if (path.empty()) {
-    out.target_yaml = to_yaml(Target{});
-    session.warn(
-        "no --target: the dataset's target.yaml describes the default board; replace it "
-        "if yours is another");
-    return Done{};
+  Target target;
+  out.board_is_certain = !path.empty();
+  if (out.board_is_certain) {
+    const auto file = read_target(path);
+    if (!file) return file.error();
+    warn_all(file->warnings, session);
+    target = file->target;
   }
-  const auto file = read_target(path);
-  if (!file) return file.error();
-  warn_all(file->warnings, session);
-  out.target_yaml = to_yaml(file->target);
-  const Target target = file->target;
+  out.target_yaml = to_yaml(target);
   const RunContext context = session.context;
   out.board_check = [target, context](const fs::path& image, const Camera& camera) -> std::string {
     const auto pixels = read_image(image);

@@ -20,6 +20,8 @@ namespace {
 
 // Points of a scene: what a calibration takes in its stride, and 100 MB in memory.
 constexpr std::size_t kMostScenePoints = 5'000'000;
+// By so much a message's way to the recorder may vary; beyond it clocks were set.
+constexpr double kMostLatency_s = 0.3;
 
 // What the first pass found out.
 struct Survey {
@@ -241,12 +243,20 @@ Result<Cloud> Importer::accumulate(const StillStretch& stretch, const Survey& su
   RunContext silent = context_;
   silent.progress = nullptr;
   std::int64_t first_ns = 0;
+  std::int64_t first_stamp_ns = 0;
   auto read = recording_.read(
       {topics_.cloud}, span, silent, "scene", [&](const RecordedMessage& m) -> Result<bool> {
         auto sweep = decode_cloud(cloud_topic(), m.data);
         if (!sweep) return true;  // Counted in the first pass.
-        if (sweeps == 0) first_ns = m.time_ns;
-        const auto later_s = static_cast<float>(1e-9 * static_cast<double>(m.time_ns - first_ns));
+        if (sweeps == 0) {
+          first_ns = m.time_ns;
+          first_stamp_ns = sweep->stamp_ns;
+        }
+        // The sender's clock is the finer one, if it runs at all.
+        const double recorded_s = 1e-9 * static_cast<double>(m.time_ns - first_ns);
+        const double stamped_s = 1e-9 * static_cast<double>(sweep->stamp_ns - first_stamp_ns);
+        const bool agree = stamped_s >= 0.0 && std::abs(stamped_s - recorded_s) < kMostLatency_s;
+        const auto later_s = static_cast<float>(agree ? stamped_s : recorded_s);
         for (float& time : sweep->cloud.time_s) time += later_s;
         const auto keeps = [&](auto& column, const auto& more) {
           if (column.size() != out.points_m.size() || more.empty()) {
@@ -291,7 +301,9 @@ Result<std::string> Importer::write_scene(const StillStretch& stretch, const Sur
   if (!reason.empty()) return reason;
   if (camera && options_.board_check) {
     reason = options_.board_check(image_path, *camera);
-    if (!reason.empty()) return "the board is not found in its image: " + reason;
+    if (!reason.empty()) reason = "the board is not found in its image: " + reason;
+    if (!reason.empty() && options_.board_is_certain) return reason;
+    out.board_complaint = reason;
   }
   const auto cloud = accumulate(stretch, survey, out.sweeps);
   if (!cloud) return cloud.error();
@@ -448,6 +460,25 @@ void add_warnings(const Survey& survey, const TopicChoice& topics, const ImportO
   }
 }
 
+// Where some scenes show the guessed board it was guessed well, and the others do not show it.
+void judge_guessed_board(const fs::path& folder, ImportSummary& out) {
+  const auto shows = [](const ImportedStretch& s) { return s.taken && s.board_complaint.empty(); };
+  if (std::none_of(out.stretches.begin(), out.stretches.end(), shows)) {
+    out.warnings.push_back(
+        "no scene shows the default board, which target.yaml describes; put the description of "
+        "yours in its place, or import with --target");
+    return;
+  }
+  for (ImportedStretch& s : out.stretches) {
+    if (!s.taken || s.board_complaint.empty()) continue;
+    std::error_code code;
+    fs::remove_all(folder / "scenes" / s.scene, code);
+    s.taken = false;
+    s.scene.clear();
+    s.reason = s.board_complaint;
+  }
+}
+
 std::string scene_name(std::size_t number) {
   return formatted("%03.0f", static_cast<double>(number));
 }
@@ -503,6 +534,7 @@ Result<ImportSummary> import_recording(const Recording& recording, const ImportO
     out.stretches.push_back(std::move(entry));
   }
   if (scenes == 0) return nothing_usable(recording, out);
+  judge_guessed_board(folder->path(), out);
   add_warnings(*survey, *topics, options, out);
   std::vector<std::pair<std::string, std::string>> files = {
       {"target.yaml", options.target_yaml}, {"import.json", import_json(recording, out)}};

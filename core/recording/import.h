@@ -52,6 +52,8 @@ struct ImportOptions {
   /// Says why the board cannot be seen in an image (a file of the dataset); empty: it can. Not
   /// asked without intrinsics.
   std::function<std::string(const std::filesystem::path& image, const Camera& camera)> board_check;
+  /// False if the board is a guess: stretches without it are left only if others show it.
+  bool board_is_certain = true;
   bool force = false;  ///< Replace an earlier import.
 };
 
@@ -66,6 +68,7 @@ struct ImportedStretch {
   std::size_t images = 0;  ///< To choose from.
   std::size_t sweeps = 0;
   std::size_t points = 0;
+  std::string board_complaint;  ///< Why a scene that was taken does not show the guessed board.
 };
 
 struct ImportSummary {

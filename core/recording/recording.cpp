@@ -117,7 +117,8 @@ Result<Opened> open_file(const fs::path& path, const RunContext& context) {
   std::vector<std::string> warnings;
   auto unpacked = UnpackedFile::unpack(path, context, warnings);
   if (!unpacked) return unpacked.error();
-  auto inner = open_plain(unpacked->path(), context);
+  const std::string unpacked_name = unpacked->path().string();
+  auto inner = open_plain(unpacked_name, context);
   if (!inner) {
     Error error = inner.error();
     error.where = path.string();
@@ -125,6 +126,12 @@ Result<Opened> open_file(const fs::path& path, const RunContext& context) {
   }
   Opened out{std::make_unique<UnpackedContainer>(std::move(inner->container), std::move(*unpacked)),
              inner->kind};
+  // Users know the file by its own name, not by that of its unpacked copy.
+  for (std::string& warning : out.container->warnings) {
+    if (warning.starts_with(unpacked_name)) {
+      warning.replace(0, unpacked_name.size(), path.string());
+    }
+  }
   for (std::string& warning : warnings) out.container->warnings.push_back(std::move(warning));
   return out;
 }
@@ -420,6 +427,7 @@ Result<std::vector<std::string>> Recording::read(const std::vector<std::size_t>&
   MessageUnpacker unpacker;
   RecordedMessage message;
   std::size_t damaged = 0;
+  double reported = -1.0;
   while (true) {
     const auto more = cursor.next(message);
     if (!more) return more.error();
@@ -427,7 +435,10 @@ Result<std::vector<std::string>> Recording::read(const std::vector<std::size_t>&
     if (context.stopped()) return Error::cancelled();
     const double done =
         length > 0.0 ? (static_cast<double>(message.time_ns) - first) / length : 1.0;
-    context.report(stage, std::clamp(done, 0.0, 1.0), topics_[message.topic].name);
+    if (done >= reported + 0.002) {
+      reported = done;
+      context.report(stage, std::clamp(done, 0.0, 1.0), topics_[message.topic].name);
+    }
     if (topics_[message.topic].encoding != "ros1" && !unpacker.unpack(message)) {
       ++damaged;
       continue;

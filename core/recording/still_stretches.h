@@ -25,7 +25,8 @@ CloudLook look_at_cloud(const Cloud& cloud);
 
 /// What to compare, and how.
 struct StillOptions {
-  double min_still_s = 1.0;  ///< Shorter stretches give no scene.
+  /// Shorter stretches give no scene: of rests of a second, what both sensors see in full.
+  double min_still_s = 0.8;
   /// Samples of each sensor that are looked at, per second: motion of a hand-held board within a
   /// tenth of a second shows between two of them.
   double sample_rate_hz = 10.0;

@@ -29,6 +29,7 @@ inline void read_fuzzed(const Result<std::unique_ptr<Container>>& opened) {
   }
   static volatile std::size_t sink;
   sink = bytes;
+  static_cast<void>(sink);
 }
 
 }  // namespace lvcalib::test

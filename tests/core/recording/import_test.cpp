@@ -197,6 +197,27 @@ TEST_F(Import, RepeatsAndBoardsThatAreNotSeenAreLeft) {
   EXPECT_FALSE(fs::exists(dataset_ / "scenes" / "003"));
 }
 
+TEST_F(Import, GuessedBoardDecidesOnlyWhereItIsSeen) {
+  const Recording recording = record(test::simulated_walk(small_rig(), {}));
+  ImportOptions options;
+  options.force = true;
+  options.board_is_certain = false;
+  int asked = 0;
+  options.board_check = [&](const fs::path&, const Camera&) -> std::string {
+    return ++asked == 1 ? "" : "no tags";
+  };
+  const auto one = import(recording, options);
+  ASSERT_TRUE(one.ok()) << one.error().text();
+  EXPECT_EQ(one->scene_count(), 1U);
+  EXPECT_THAT(one->stretches[2].reason, HasSubstr("no tags"));
+  EXPECT_FALSE(fs::exists(dataset_ / "scenes" / "002"));
+  options.board_check = [](const fs::path&, const Camera&) -> std::string { return "no tags"; };
+  const auto none = import(recording, options);
+  ASSERT_TRUE(none.ok());
+  EXPECT_EQ(none->scene_count(), 3U);
+  EXPECT_THAT(none->warnings, Contains(HasSubstr("default board")));
+}
+
 TEST_F(Import, MissingFieldsAreTold) {
   test::WalkOptions walk;
   walk.intensity = false;
