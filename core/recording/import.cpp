@@ -191,8 +191,8 @@ Result<std::vector<StillStretch>> Importer::choose(const Survey& survey) const {
 ImportedStretch Importer::describe(const StillStretch& stretch, const Survey& survey,
                                    const std::vector<StillStretch>& all) const {
   ImportedStretch out;
-  out.first_s = seconds(stretch.first_ns);
-  out.last_s = seconds(stretch.last_ns);
+  out.first_s = std::max(0.0, seconds(stretch.first_ns));
+  out.last_s = std::min(seconds(recording_.span().last_ns), seconds(stretch.last_ns));
   out.images = stretch.last_image - stretch.first_image + 1;
   out.image_s = seconds(survey.images.time_ns(stretch.sharpest_image));
   out.taken = stretch.verdict == StretchVerdict::kTaken;

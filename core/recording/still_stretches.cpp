@@ -30,8 +30,16 @@ constexpr double kRangeTolerance_m = 0.02;
 // The least noise of a cell's mean that is believed, in 1/256 grey level: images that are repeated
 // bit by bit, as by a simulator or a video codec, have none.
 constexpr float kLeastSigma = 0.05F * 256.0F;
-// |x| of a normal distribution lies below 0.3186 σ in one of four cases.
-constexpr double kLowerQuartile = 0.3186;
+// What part of a recording must be at rest for its noise to be measured: a tenth, or a quarter
+// where there are too few samples to tell a tenth. |x| of a normal distribution lies below `sigmas`
+// in this part of all cases.
+struct NoiseQuantile {
+  double part = 0.0;
+  double sigmas = 0.0;
+};
+constexpr NoiseQuantile kOfManyPairs{0.10, 0.12566};
+constexpr NoiseQuantile kOfFewPairs{0.25, 0.31864};
+constexpr std::size_t kManyPairs = 100;
 
 constexpr std::size_t kImageBytes = std::size_t{60} << 20U;
 constexpr std::size_t kCloudBytes = std::size_t{60} << 20U;
@@ -286,15 +294,15 @@ ImageComparison::ImageComparison(const ImageTrack& track) : track_(track) {
   if (track.size() == 0) return;
   sigma_.assign(track.look(0).cells.size(), kLeastSigma);
   if (differences.empty()) return;
-  // The lower quartile over time is noise as long as things stand still for a quarter of it.
+  // What changes least over time is noise as long as things stand still for some of it.
   std::vector<float> column(differences.size());
-  const auto quartile = static_cast<std::ptrdiff_t>(column.size() / 4);
+  const NoiseQuantile quantile = column.size() < kManyPairs ? kOfFewPairs : kOfManyPairs;
+  const auto rank = static_cast<std::size_t>(quantile.part * static_cast<double>(column.size()));
   for (std::size_t c = 0; c < sigma_.size(); ++c) {
     for (std::size_t i = 0; i < column.size(); ++i) column[i] = differences[i][c];
-    std::nth_element(column.begin(), column.begin() + quartile, column.end());
-    sigma_[c] =
-        std::max(kLeastSigma,
-                 static_cast<float>(column[static_cast<std::size_t>(quartile)] / kLowerQuartile));
+    std::nth_element(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(rank),
+                     column.end());
+    sigma_[c] = std::max(kLeastSigma, static_cast<float>(column[rank] / quantile.sigmas));
   }
   // Where they do not, cells with much contrast seem to be noisy: none is much more than most are.
   std::vector<float> sorted = sigma_;
