@@ -22,6 +22,7 @@ DOORS = {
     "target": ["base"],
     "camera": ["base"],
     "cloud": ["base"],
+    "recording": ["base", "camera", "cloud"],
     "detection": ["base", "target", "camera", "cloud"],
     "localization": ["base", "target", "camera", "cloud", "detection"],
     "refinement": ["base", "target", "camera", "cloud", "detection", "localization"],

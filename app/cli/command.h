@@ -17,6 +17,7 @@ struct Session {
   RunContext context;
   bool quiet = false;
   std::function<void(const std::string&)> warn;  ///< One line to standard error.
+  std::function<void(const std::string&)> note;  ///< The same, no warning; not with --quiet.
 };
 
 /// A command registers its options on the application and returns what to run. The returned
@@ -35,6 +36,7 @@ Command add_discover_command(CLI::App& app);
 Command add_correct_command(CLI::App& app);
 Command add_evaluate_command(CLI::App& app);
 Command add_export_command(CLI::App& app);
+Command add_import_command(CLI::App& app);
 Command add_plan_command(CLI::App& app);
 Command add_report_command(CLI::App& app);
 

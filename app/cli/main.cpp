@@ -74,6 +74,7 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
       add_calibrate_command(app), add_discover_command(app), add_evaluate_command(app),
       add_export_command(app),    add_report_command(app),   add_target_command(app),
       add_simulate_command(app),  add_plan_command(app),     add_correct_command(app),
+      add_import_command(app),
   };
   CommonOptions common;
   for (const Command& command : commands) add_common_options(*command.app, common);
@@ -87,6 +88,9 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
     session.context.progress = [&printer](const Progress& progress) { printer.show(progress); };
   }
   session.warn = [&printer](const std::string& text) { printer.line("lvcalib: warning: " + text); };
+  session.note = [&printer, quiet = common.quiet](const std::string& text) {
+    if (!quiet) printer.line(text);
+  };
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     const Result<std::string> summary = command.run(session);

@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/file_io.h"
+#include "base/image_header.h"
 #include "detection/board_view.h"
 #include "detection/color_image.h"
-#include "detection/image_header.h"
 
 namespace lvcalib {
 namespace {

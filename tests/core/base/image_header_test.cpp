@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "detection/image_header.h"
+#include "base/image_header.h"
 
 #include <string>
 

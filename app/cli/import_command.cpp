@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "base/yaml_file.h"
+#include "camera/camera.h"
+#include "command.h"
+#include "detection/board_view.h"
+#include "recording/import.h"
+#include "recording/messages.h"
+#include "target/target.h"
+
+namespace lvcalib::cli {
+namespace {
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string recording;
+  std::string output;
+  bool list = false;
+  std::string target;
+  std::string camera;
+  std::string scenes = "auto";
+  ImportOptions import;
+};
+
+void warn_all(const std::vector<std::string>& warnings, const Session& session) {
+  for (const std::string& warning : warnings) session.warn(warning);
+}
+
+// A table of topics, as text of several lines.
+Result<std::string> list(const Recording& recording, Session& session) {
+  const auto complaints = check_recording(recording, session.context);
+  if (!complaints) return complaints.error();
+  warn_all(*complaints, session);
+  const TimeSpan span = recording.span();
+  const auto seconds = [&](std::int64_t t) {
+    return 1e-9 * static_cast<double>(t - span.first_ns);
+  };
+  const bool empty = span.first_ns > span.last_ns;
+  char line[160];
+  std::snprintf(line, sizeof line, "%s, %.1f s, %zu topics\n", recording.kind().c_str(),
+                empty ? 0.0 : seconds(span.last_ns), recording.topics().size());
+  std::string out = line;
+  std::snprintf(line, sizeof line, "%9s %9s %9s %9s  %-28s %s", "messages", "rate Hz", "first s",
+                "last s", "type", "topic");
+  out += line;
+  for (const Topic& topic : recording.topics()) {
+    if (topic.count == 0) {
+      std::snprintf(line, sizeof line, "\n%9d %9s %9s %9s  ", 0, "-", "-", "-");
+    } else {
+      std::snprintf(line, sizeof line, "\n%9llu %9.2f %9.2f %9.2f  ",
+                    static_cast<unsigned long long>(topic.count), topic.rate_hz(),
+                    seconds(topic.first_ns), seconds(topic.last_ns));
+    }
+    std::string type = topic.type;
+    type.resize(std::max<std::size_t>(type.size(), 28), ' ');
+    out += line + type + " " + topic.name;
+    if (!readable_encoding(topic.encoding)) out += " (" + topic.encoding + ")";
+    if (const std::string converter = converter_of(topic.type); !converter.empty()) {
+      out += " (raw: convert it with " + converter + ")";
+    }
+  }
+  return out;
+}
+
+Result<std::vector<double>> scene_times(const std::string& text) {
+  std::vector<double> out;
+  if (text == "auto") return out;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    double value = 0.0;
+    if (!parse_number(text.substr(begin, end - begin), value) || value < 0.0) {
+      return Error::usage("'" + text.substr(0, 100) +
+                              "' is no list of times; expected auto, or seconds from the first "
+                              "message: 4.5,12,20",
+                          "--scenes");
+    }
+    out.push_back(value);
+    begin = end + 1;
+  }
+  return out;
+}
+
+// --target, or a target.yaml that lies with the recording.
+fs::path target_path(const Options& options) {
+  if (!options.target.empty()) return options.target;
+  std::error_code code;
+  const fs::path recording = options.recording;
+  const fs::path beside =
+      (fs::is_directory(recording, code) ? recording : recording.parent_path()) / "target.yaml";
+  return fs::is_regular_file(beside, code) ? beside : fs::path{};
+}
+
+// The board that the dataset will name, the default one if none is given. Stretches without it are
+// left out.
+Status set_target(const Options& options, Session& session, ImportOptions& out) {
+  const fs::path path = target_path(options);
+  Target target;
+  out.board_is_certain = !path.empty();
+  if (out.board_is_certain) {
+    const auto file = read_target(path);
+    if (!file) return file.error();
+    warn_all(file->warnings, session);
+    target = file->target;
+  }
+  out.target_yaml = to_yaml(target);
+  const RunContext context = session.context;
+  out.board_check = [target, context](const fs::path& image, const Camera& camera) -> std::string {
+    const auto pixels = read_image(image);
+    if (!pixels) return pixels.error().message;
+    RunContext silent = context;
+    silent.progress = nullptr;
+    const auto view = find_board_in_image(*pixels, target, camera, {}, silent);
+    return view ? std::string{} : view.error().message;
+  };
+  return Done{};
+}
+
+std::string summary_of(const ImportSummary& summary, const std::string& output) {
+  const std::size_t scenes = summary.scene_count();
+  return std::to_string(scenes) + (scenes == 1 ? " scene" : " scenes") + " of " +
+         std::to_string(summary.stretches.size()) + " still stretches in " +
+         [&] {
+           char text[40];
+           std::snprintf(text, sizeof text, "%.1f s", summary.length_s);
+           return std::string(text);
+         }() +
+         " -> " + output;
+}
+
+void tell_stretches(const ImportSummary& summary, const Session& session) {
+  for (const ImportedStretch& s : summary.stretches) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%8.1f s to %8.1f s: ", s.first_s, s.last_s);
+    std::string line = text;
+    if (s.taken) {
+      std::snprintf(text, sizeof text, "scene %s, %zu sweeps, %zu points, image at %.2f s",
+                    s.scene.c_str(), s.sweeps, s.points, s.image_s);
+      line += text;
+    } else {
+      line += "left: " + s.reason;
+    }
+    session.note(line);
+  }
+}
+
+Result<std::string> run(const Options& options, Session& session) {
+  if (!options.list && options.output.empty()) {
+    return Error::usage("-o,--output is missing", "import",
+                        "give a folder for the dataset, or --list to look only");
+  }
+  const auto recording = Recording::open(options.recording, session.context);
+  if (!recording) return recording.error();
+  warn_all(recording->warnings(), session);
+  if (options.list) return list(*recording, session);
+
+  ImportOptions import = options.import;
+  auto times = scene_times(options.scenes);
+  if (!times) return times.error();
+  import.scene_times_s = std::move(*times);
+  if (!options.camera.empty()) {
+    const auto camera = read_camera(options.camera);
+    if (!camera) return camera.error();
+    warn_all(camera->warnings, session);
+    import.camera = camera->camera;
+  }
+  if (Status s = set_target(options, session, import); !s) return s.error();
+  const auto summary = import_recording(*recording, import, options.output, session.context);
+  if (!summary) return summary.error();
+  tell_stretches(*summary, session);
+  warn_all(summary->warnings, session);
+  return summary_of(*summary, options.output);
+}
+
+}  // namespace
+
+Command add_import_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  ImportOptions& import = options->import;
+  CLI::App* command =
+      app.add_subcommand("import", "Make a dataset of a recording (ROS 1 bag, rosbag2, MCAP)");
+  command
+      ->add_option("RECORDING", options->recording,
+                   "a .bag, .db3 or .mcap file, or a rosbag2 folder")
+      ->required();
+  command->add_option("-o,--output", options->output,
+                      "folder of the dataset; import.json in it says what became of each stretch");
+  command->add_flag("--list", options->list,
+                    "only show the topics, and what could stand in the way");
+  command->add_option("--image-topic", import.topics.image,
+                      "images (default: the only topic of images)");
+  command->add_option("--cloud-topic", import.topics.cloud,
+                      "clouds (default: the only topic of clouds)");
+  command->add_option("--info-topic", import.topics.info,
+                      "CameraInfo (default: that of the images' camera)");
+  command
+      ->add_option("--scenes", options->scenes,
+                   "auto: every stretch in which rig and board stand still; or times of scenes, "
+                   "s from the first message: 4.5,12,20")
+      ->capture_default_str();
+  command->add_option("--target", options->target,
+                      "target.yaml of the board; stretches without it in their image are left out");
+  command->add_option("--camera", options->camera, "camera.yaml to use instead of CameraInfo");
+  command
+      ->add_option("--min-still", import.still.min_still_s,
+                   "shortest stretch that gives a scene, s")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  command
+      ->add_option("--max-scene", import.max_scene_s,
+                   "sweeps of a scene beyond this time are left out, s")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  command
+      ->add_option("--time-offset", import.image_time_offset_s,
+                   "s to add to the images' times, where they were recorded with another clock")
+      ->check(CLI::Range(-1e9, 1e9));
+  command->add_flag("--force", import.force, "replace an earlier import");
+  return {command, [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace lvcalib::cli
