@@ -112,6 +112,21 @@ bool shows_another(const std::vector<BoardTag>& all, const std::vector<BoardTag>
   return other.size() >= 2;
 }
 
+// Half of the ids, two at least, seen more than once: no pose need be found to know it.
+bool seen_twice(const std::vector<BoardTag>& tags, const Target& target) {
+  std::map<int, int> counts;
+  for (const BoardTag& tag : tags) counts[tag.id] += tag.refined ? 1 : 0;
+  const auto several =
+      std::count_if(counts.begin(), counts.end(), [](const auto& c) { return c.second > 1; });
+  return several >= std::min(2, target.tag_count()) &&
+         2 * several >= static_cast<std::ptrdiff_t>(counts.size());
+}
+
+Error twice_in_image() {
+  return Error::input("the board, or one with the same tags, is in the image twice", {},
+                      "cover one of them, or leave this scene out");
+}
+
 // How many of the tags lie where a target has them.
 std::size_t fitting_tags(std::vector<BoardTag> tags, const Target& target, const Camera& camera,
                          const DetectionOptions& options) {
@@ -195,7 +210,13 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
                           "show it nearer or sharper");
     }
   }
+  if (seen_twice(tags, target)) return twice_in_image();
   const std::vector<BoardTag> seen = tags;
+  // Small dictionaries read a few markers into a mirrored image as well.
+  const auto misplaced = [&]() -> Error {
+    if (tags_in_mirror(image, target, options, context) > seen.size()) return explain_mirrored();
+    return misplaced_tags(tags.size(), seen, target, camera, options);
+  };
   auto pose = estimate_board_pose(
       to_observations(unambiguous(tags, fewest_tags(target, options)), target), camera, options);
   if (!pose) return pose.error();
@@ -203,19 +224,17 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
                                         options.max_reprojection_px);
   if (const auto error = other_layout(tags.size(), seen, target, camera, options)) return *error;
   if (shows_another(seen, tags, target, camera, options)) {
-    return Error::input("the board, or one with the same tags, is in the image twice", {},
-                        "cover one of them, or leave this scene out");
+    return twice_in_image();
   }
   // Few of the tags fit many a wrong description.
-  if (2 * tags.size() < seen.size() && seen.size() > 2)
-    return misplaced_tags(tags.size(), seen, target, camera, options);
+  if (2 * tags.size() < seen.size() && seen.size() > 2) return misplaced();
   if (enough()) {
     complete_board_tags(tags, image, target, camera, pose->camera_from_board.transform, context);
     drop_outliers(tags, target, camera, pose->camera_from_board.transform,
                   options.max_reprojection_px);
     if (context.stopped()) return Error::cancelled();
   }
-  if (!enough()) return misplaced_tags(tags.size(), seen, target, camera, options);
+  if (!enough()) return misplaced();
   std::vector<CornerObservation> corners = to_observations(tags, target);
   pose = estimate_board_pose(corners, camera, options);
   if (!pose) return pose.error();

@@ -116,6 +116,19 @@ std::optional<Error> other_family(const GrayImage& image, const Target& target,
 
 }  // namespace
 
+std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
+                           const DetectionOptions& options, const RunContext& context) {
+  const std::set<int> ids = ids_seen(mirrored(image), target.tag_family, target.tag_border_bits,
+                                     options.quad_decimate, context, 2);
+  return static_cast<std::size_t>(
+      std::count_if(ids.begin(), ids.end(), [&](int id) { return target.tag(id).has_value(); }));
+}
+
+Error explain_mirrored() {
+  return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror", {},
+                      "turn off flipping in the camera driver, or print the board again");
+}
+
 Error explain_missing_tags(const GrayImage& image, const Target& target, int found,
                            const DetectionOptions& options, const RunContext& context) {
   const int border = target.tag_border_bits;
@@ -151,8 +164,7 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
            .empty() ||
       !ids_seen(mirror, target.tag_family, other_border, options.quad_decimate, context, fewest)
            .empty()) {
-    return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror",
-                        {}, "turn off flipping in the camera driver, or print the board again");
+    return explain_mirrored();
   }
   // AprilTags are in OpenCV's dictionaries as well: what the target is decides whose word comes
   // first.

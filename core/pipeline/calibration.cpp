@@ -123,16 +123,13 @@ class Calibration {
       // Perhaps the board hangs flush on a wall: look on larger planes, everywhere.
       if (Status s = search_again(std::nullopt); !s) return s;
       consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
-      if (!consensus) {
-        // Or the LiDAR does not see the print.
-        if (Status s = search_plain_boards(); !s) return s;
-        consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
-      }
     } else if (consensus->agreeing >= 2 && missing_scenes(*consensus)) {
       result_.consensus = *consensus;
       if (Status s = search_again(consensus->camera_from_lidar.transform); !s) return s;
       consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
     }
+    // Or the LiDAR does not see the print, and what a scene took for it is something else.
+    if (Status s = consider_plain_boards(consensus); !s) return s;
     if (!consensus) return not_found();
     result_.consensus = std::move(*consensus);
     for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
@@ -174,6 +171,24 @@ class Calibration {
           !status)
         return status;
       looked_twice_[s] = 1;
+    }
+    return Done{};
+  }
+
+  // Where not even half of the scenes agree on the print's place: looks for boards whose print the
+  // LiDAR does not see, and takes them if more scenes agree on those.
+  Status consider_plain_boards(std::optional<SceneConsensus>& consensus) {
+    int views = 0;
+    for (const SceneResult& scene : result_.scenes) views += scene.view ? 1 : 0;
+    const int agreeing = consensus ? consensus->agreeing : 0;
+    if (agreeing > 0 && 2 * agreeing >= views) return Done{};
+    const std::vector<SceneResult> before = result_.scenes;
+    if (Status s = search_plain_boards(); !s) return s;
+    auto plain = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
+    if (plain && plain->agreeing > agreeing) {
+      consensus = std::move(plain);
+    } else {
+      result_.scenes = before;
     }
     return Done{};
   }
@@ -251,7 +266,9 @@ class Calibration {
     context_.report("localize", 0.7, "other sizes of the board");
     const auto scale = find_scaled_board(dataset_, request_, result_, context_);
     if (context_.stopped()) return Error::cancelled();
-    if (!scale) return std::nullopt;
+    // A board of the right size was found before, and refused for another reason.
+    constexpr double kSame = 0.005;
+    if (!scale || std::abs(*scale - 1.0) < kSame) return std::nullopt;
     const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
     return Error::untrusted(
         "LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
@@ -300,8 +317,28 @@ class Calibration {
     if (context_.stopped()) return Error::cancelled();
     const bool any = std::any_of(result_.scenes.begin(), result_.scenes.end(),
                                  [](const SceneResult& scene) { return scene.used; });
+    if (any || use_without_circles()) return Done{};
     // What was taken for the board was not: on the board some circles would be found.
-    return any ? Status(Done{}) : not_found();
+    return not_found();
+  }
+
+  // Where most scenes, three at least, agree on the print's place and no circle can be measured
+  // (numbers in coarse steps, few lines), the print as a whole still tells. True if so.
+  bool use_without_circles() {
+    int views = 0;
+    for (const SceneResult& scene : result_.scenes) views += scene.view ? 1 : 0;
+    const int agreeing = result_.consensus.agreeing;
+    if (agreeing < 3 || 2 * agreeing < views) return false;
+    bool any = false;
+    for (SceneResult& scene : result_.scenes) {
+      if (!scene.chosen || !scene.refinement) continue;
+      scene.refinement->warnings.push_back("its circles cannot be measured: " + scene.reason);
+      scene.refinement->nodes.clear();
+      scene.refinement->scale_sigma = 0.0;
+      scene.reason.clear();
+      scene.used = any = true;
+    }
+    return any;
   }
 
   Result<BoardRefinement> refine_scene(std::size_t s) {

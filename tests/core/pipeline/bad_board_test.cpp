@@ -184,8 +184,7 @@ std::vector<Spoiled> cases() {
   all.push_back({"WhiteCheckerboard", fine_checkerboard(), white_board, {"no contrast"}, true});
   all.push_back({"CoveredCircles", circles, [](auto& rig) { cover(rig, 0.6); }, {"cover"}});
   all.push_back({"CoveredGrid", grid(), [](auto& rig) { cover(rig, 0.6); }, {"cover"}});
-  all.push_back(
-      {"CoveredCharuco", test::charuco_target(), [](auto& rig) { cover(rig, 0.6); }, {"cover"}});
+  all.push_back({"CoveredCharuco", test::charuco_target(), [](auto& rig) { cover(rig, 0.6); }, {}});
   all.push_back({"CoveredALittle", grid(), [](auto& rig) { cover(rig, 0.2); }, {}, true});
   all.push_back({"SaturatedGrid", grid(), saturate, {"saturated"}, true});
   all.push_back({"SaturatedCircles", circles, saturate, {"saturated"}, true});
