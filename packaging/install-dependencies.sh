@@ -8,7 +8,7 @@ set -euo pipefail
 
 build_packages=(
   build-essential cmake ninja-build ccache pkg-config
-  libeigen3-dev libopencv-dev libceres-dev libapriltag-dev
+  libeigen3-dev libopencv-dev libopencv-contrib-dev libceres-dev libapriltag-dev
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libcairo2-dev liblzf-dev libboost-dev libssl-dev
   libmuparser-dev libzstd-dev liblz4-dev libbz2-dev libsqlite3-dev
   qt6-base-dev libqt6opengl6-dev qt6-svg-dev libqt6svg6 qt6-tools-dev qt6-l10n-tools

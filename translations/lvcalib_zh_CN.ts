@@ -1626,6 +1626,62 @@ were saved. Take them up again?</source>
         <translation>点云没有强度或强度处处相同：外参仅依据平面和角点，印刷图案无法约束其横向位置</translation>
     </message>
     <message>
+        <source>the print has no contrast for this LiDAR: the extrinsic rests on planes and corners, and the print does not hold it sideways</source>
+        <translation>该激光雷达看不出印刷图案的对比度：外参仅依据平面和角点，印刷图案无法约束其横向位置</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensities do not follow the target&apos;s print: the extrinsic rests on planes and corners, and the print does not hold it sideways; does target.yaml describe this board?</source>
+        <translation>点云强度与标定板的印刷图案不符：外参仅依据平面和角点，印刷图案无法约束其横向位置；target.yaml 描述的是这块标定板吗？</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensity is missing or the same everywhere in scene %1: planes and corners are used there</source>
+        <translation>场景 %1 的点云没有强度或强度处处相同：那里仅使用平面和角点</translation>
+    </message>
+    <message>
+        <source>the print has no contrast for this LiDAR in scene %1: planes and corners are used there</source>
+        <translation>在场景 %1 中，该激光雷达看不出印刷图案的对比度：那里仅使用平面和角点</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensities do not follow the target&apos;s print in scene %1: planes and corners are used there; does target.yaml describe this board?</source>
+        <translation>场景 %1 的点云强度与标定板的印刷图案不符：那里仅使用平面和角点；target.yaml 描述的是这块标定板吗？</translation>
+    </message>
+    <message>
+        <source>the LiDAR sees %1 % of the board only: something covers it, or it is cut off</source>
+        <translation>激光雷达只看到标定板的 %1 %：有物体遮挡，或标定板被截断</translation>
+    </message>
+    <message>
+        <source>the intensities are saturated on part of the board: scene %1; lower the LiDAR&apos;s gain or print the white greyer</source>
+        <translation>标定板部分区域的强度已饱和：场景 %1；请降低激光雷达增益，或将白色印得灰一些</translation>
+    </message>
+    <message>
+        <source>ambiguous: another place of the print on the board fits the intensities of all scenes nearly as well (log-likelihood %1 less)</source>
+        <translation>存在歧义：印刷图案在标定板上的另一位置对所有场景的强度拟合得几乎一样好（对数似然仅低 %1）</translation>
+    </message>
+    <message>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR sees the print %1 % larger than target.yaml says; %2 would fit; measure the print</source>
+        <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达看到的印刷图案比 target.yaml 大 %1 %；%2 才相符；请测量打印件</translation>
+    </message>
+    <message>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR sees the print %1 % smaller than target.yaml says; %2 would fit; measure the print</source>
+        <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达看到的印刷图案比 target.yaml 小 %1 %；%2 才相符；请测量打印件</translation>
+    </message>
+    <message>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR sees the print %1 % as wide and %2 % as high as target.yaml says; %3 would fit; measure the print</source>
+        <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达看到的印刷图案宽为 target.yaml 的 %1 %，高为 %2 %；%3 才相符；请测量打印件</translation>
+    </message>
+    <message>
+        <source>its checkerboard has black and white squares the other way round than in most scenes: is it another board, or is the image mirrored?</source>
+        <translation>其棋盘格的黑白方格与大多数场景相反：是另一块标定板，还是图像被镜像了？</translation>
+    </message>
+    <message>
+        <source>the board, or one with the same tags, is in the image twice (cover one of them, or leave this scene out)</source>
+        <translation>图像中出现了两块标定板（或标签相同的标定板）（请遮住其中一块，或弃用该场景）</translation>
+    </message>
+    <message>
+        <source>two checkerboards of this size are in the image (cover one of them, or leave this scene out)</source>
+        <translation>图像中有两块该尺寸的棋盘格（请遮住其中一块，或弃用该场景）</translation>
+    </message>
+    <message>
         <source>Done when the extrinsic moves by less of its σ.</source>
         <translation>外参的移动小于其 σ 的这一比例时结束。</translation>
     </message>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/cloud.h"
 
+#include <algorithm>
+#include <functional>
 #include <new>
 #include <stdexcept>
 
@@ -30,6 +32,11 @@ Result<Cloud> read(Input& input, PointChoice choice) {
 }
 
 }  // namespace
+
+bool Cloud::has_contrast() const {
+  return std::adjacent_find(intensity.begin(), intensity.end(), std::not_equal_to<>()) !=
+         intensity.end();
+}
 
 Result<Cloud> read_cloud(const std::filesystem::path& path, std::stop_token stop,
                          PointChoice choice) {

@@ -34,6 +34,9 @@ struct Cloud {
 
   [[nodiscard]] std::size_t size() const { return points_m.size(); }
   [[nodiscard]] bool has_intensity() const { return !intensity.empty(); }
+  /// Whether intensities tell surfaces apart: there are some, and they are not all the same (some
+  /// drivers fill the field with one number).
+  [[nodiscard]] bool has_contrast() const;
   [[nodiscard]] bool has_time() const { return !time_s.empty(); }
   [[nodiscard]] bool has_line() const { return !line.empty(); }
 };

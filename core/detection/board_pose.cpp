@@ -23,13 +23,14 @@ Eigen::Vector3d on_board(const CornerObservation& corner) {
 
 // Standard deviations relative to the typical corner's, with a floor: what is called noise-free
 // still has errors of the model of a few hundredths of a pixel.
-std::vector<double> relative_sigmas(const std::vector<CornerObservation>& corners) {
+std::vector<double> relative_sigmas(const std::vector<CornerObservation>& corners,
+                                    double& typical) {
   constexpr double kModelError_px = 0.02;
   std::vector<double> sigmas;
   for (const CornerObservation& corner : corners) {
     sigmas.push_back(std::hypot(corner.sigma_px, kModelError_px));
   }
-  const double typical = median(sigmas);
+  typical = median(sigmas);
   for (double& sigma : sigmas) sigma /= typical;
   return sigmas;
 }
@@ -38,12 +39,14 @@ std::vector<double> relative_sigmas(const std::vector<CornerObservation>& corner
 class PoseFit {
  public:
   PoseFit(const std::vector<CornerObservation>& corners, const Camera& camera)
-      : corners_(corners), camera_(camera), sigmas_(relative_sigmas(corners)) {}
+      : corners_(corners), camera_(camera), sigmas_(relative_sigmas(corners, typical_)) {}
 
   /// Distances from the reprojections in units of the relative sigmas; infinite where the camera
   /// does not image the point.
   [[nodiscard]] std::vector<double> distances(const Rigid3& pose) const;
   [[nodiscard]] double relative_sigma(std::size_t i) const { return sigmas_[i]; }
+  /// What the corners state, with the model's own error.
+  [[nodiscard]] double typical_sigma_px() const { return typical_; }
   /// Robust minimum near a start. False if it fails.
   bool refine(Rigid3& pose) const;
   [[nodiscard]] Matrix6d information(const Rigid3& pose, const std::vector<double>& weights,
@@ -58,6 +61,7 @@ class PoseFit {
 
   const std::vector<CornerObservation>& corners_;
   const Camera& camera_;
+  double typical_ = 0.0;  // Set with sigmas_, so before them.
   std::vector<double> sigmas_;
 };
 
@@ -72,8 +76,12 @@ std::vector<double> PoseFit::distances(const Rigid3& pose) const {
 }
 
 // The median distance of a two-dimensional Gaussian is √(2 ln 2) = 1.1774 σ; at least a few
-// thousandths of a pixel, so that exact data do not divide by zero.
+// thousandths of a pixel, so that exact data do not divide by zero. Of the four corners of a lone
+// tag none can be told to be an outlier: the largest distance is then the scale.
 double distance_sigma(const std::vector<double>& distances) {
+  constexpr std::size_t kFewestToReject = 6;
+  if (distances.size() < kFewestToReject)
+    return std::max(*std::max_element(distances.begin(), distances.end()), 0.003);
   return std::max(median(distances) / 1.1774, 0.003);
 }
 
@@ -257,7 +265,14 @@ Result<BoardPose> estimate_board_pose(const std::vector<CornerObservation>& corn
     pixel_squares += out.residual_px[i] * out.residual_px[i];
   }
   if (2 * count <= kPoseUnknowns) return Error::input("the corners fit no pose of a flat board");
-  out.sigma_px = std::sqrt(squares / (2 * count - kPoseUnknowns));
+  // With two or four degrees of freedom left the residuals alone may say next to nothing: the
+  // corners' stated σ then counts as much as six more.
+  constexpr double kFewDegrees = 12.0;
+  constexpr double kPriorDegrees = 6.0;
+  const double degrees = 2.0 * count - kPoseUnknowns;
+  const double prior = degrees < kFewDegrees ? kPriorDegrees : 0.0;
+  const double stated = fit.typical_sigma_px();
+  out.sigma_px = std::sqrt((squares + prior * stated * stated) / (degrees + prior));
   out.rms_px = std::sqrt(pixel_squares / (2 * count));
   const Matrix6d normal = fit.information(pose, weights, nullptr);
   out.camera_from_board = {pose,

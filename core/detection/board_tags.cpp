@@ -14,9 +14,13 @@ namespace {
 
 // Refines one tag in place; what cannot be refined keeps its corners.
 void refine(BoardTag& tag, const GrayImage& image, const Target& target, const Camera& camera,
-            const TagRefinementOptions& options) {
+            TagRefinementOptions options) {
   const TagPattern* pattern = tag_pattern(target.tag_family, tag.id);
   if (pattern == nullptr) return;
+  // What is black beyond the gap must not be taken for the surround, nor its blur.
+  constexpr double kGapShare = 0.6;
+  options.surround_bits =
+      std::min(options.surround_bits, kGapShare * target.tag_gap_m() / target.tag_bit_m());
   const auto fit =
       refine_tag(image, *pattern, target.tag_border_bits, tag.corners, &camera, options);
   if (!fit) return;
@@ -50,16 +54,20 @@ std::optional<TagCorners> predict(const Target& target, const TargetTag& tag, co
 
 }  // namespace
 
+int fewest_tags(const Target& target, const DetectionOptions& options) {
+  return std::max(1, std::min(options.min_tags, target.tag_count()));
+}
+
 Result<std::vector<BoardTag>> find_board_tags(const GrayImage& image, const Target& target,
                                               const Camera& camera, const DetectionOptions& options,
                                               const RunContext& context) {
   TagSearchOptions search;
   search.decimate = options.quad_decimate;
   search.first_id = target.first_tag_id;
-  search.id_count = target.tag_columns * target.tag_rows;
+  search.id_count = target.tag_count();
   auto found = find_tags(image, target.tag_family, target.tag_border_bits, search, context);
   if (!found) return found.error();
-  if (distinct(*found) < static_cast<std::size_t>(std::max(options.min_tags, 1))) {
+  if (distinct(*found) < static_cast<std::size_t>(fewest_tags(target, options))) {
     search.thorough = true;
     found = find_tags(image, target.tag_family, target.tag_border_bits, search, context);
     if (!found) return found.error();

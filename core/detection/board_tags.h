@@ -20,8 +20,11 @@ struct BoardTag {
   double contrast = 0.0;  ///< Grey levels; 0 unless refined.
 };
 
+/// Tags that an image must show: options.min_tags, or all if the board has fewer.
+int fewest_tags(const Target& target, const DetectionOptions& options);
+
 /// The target's tags in an image, corners refined; an id may appear more than once.
-/// A quick search first; a thorough one if it leaves fewer than options.min_tags.
+/// A quick search first; a thorough one if it leaves fewer than fewest_tags().
 /// Errors: kCancelled.
 Result<std::vector<BoardTag>> find_board_tags(const GrayImage& image, const Target& target,
                                               const Camera& camera, const DetectionOptions& options,

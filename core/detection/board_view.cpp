@@ -9,6 +9,7 @@
 #include "detection/board_pose.h"
 #include "detection/board_tags.h"
 #include "detection/checkerboard_detector.h"
+#include "detection/tag_arrangement.h"
 #include "detection/tag_diagnosis.h"
 
 namespace lvcalib {
@@ -85,6 +86,88 @@ std::vector<BoardTag> unambiguous(const std::vector<BoardTag>& tags, int min_tag
   return out.size() >= static_cast<std::size_t>(std::max(min_tags, 1)) ? out : tags;
 }
 
+// A second copy of the board: tags with ids that are also on the first one, but lie elsewhere and
+// fit a pose of their own. Of a single tag one copy is enough.
+bool shows_another(const std::vector<BoardTag>& all, const std::vector<BoardTag>& kept,
+                   const Target& target, const Camera& camera, const DetectionOptions& options) {
+  const auto center = [](const BoardTag& tag) -> Eigen::Vector2d {
+    return 0.25 * (tag.corners[0] + tag.corners[1] + tag.corners[2] + tag.corners[3]);
+  };
+  std::vector<BoardTag> other;
+  for (const BoardTag& tag : all) {
+    if (!tag.refined) continue;
+    const auto twin =
+        std::find_if(kept.begin(), kept.end(), [&](const BoardTag& k) { return k.id == tag.id; });
+    if (twin == kept.end()) continue;
+    const double size_px = (twin->corners[0] - twin->corners[2]).norm();
+    if ((center(*twin) - center(tag)).norm() > 0.5 * size_px) other.push_back(tag);
+  }
+  if (other.empty()) return false;
+  if (target.tag_count() == 1) return true;
+  if (other.size() < 2) return false;
+  const auto pose = estimate_board_pose(to_observations(other, target), camera, options);
+  if (!pose) return false;
+  drop_outliers(other, target, camera, pose->camera_from_board.transform,
+                options.max_reprojection_px);
+  return other.size() >= 2;
+}
+
+// Half of the ids, two at least, seen more than once: no pose need be found to know it.
+bool seen_twice(const std::vector<BoardTag>& tags, const Target& target) {
+  std::map<int, int> counts;
+  for (const BoardTag& tag : tags) counts[tag.id] += tag.refined ? 1 : 0;
+  const auto several =
+      std::count_if(counts.begin(), counts.end(), [](const auto& c) { return c.second > 1; });
+  return several >= std::min(2, target.tag_count()) &&
+         2 * several >= static_cast<std::ptrdiff_t>(counts.size());
+}
+
+Error twice_in_image() {
+  return Error::input("the board, or one with the same tags, is in the image twice", {},
+                      "cover one of them, or leave this scene out");
+}
+
+// How many of the tags lie where a target has them.
+std::size_t fitting_tags(std::vector<BoardTag> tags, const Target& target, const Camera& camera,
+                         const DetectionOptions& options) {
+  const auto pose = estimate_board_pose(to_observations(tags, target), camera, options);
+  if (!pose) return 0;
+  drop_outliers(tags, target, camera, pose->camera_from_board.transform,
+                options.max_reprojection_px);
+  return tags.size();
+}
+
+// Too few tags lie where the target has them: says so, and what would fit.
+Error misplaced_tags(std::size_t fitting, const std::vector<BoardTag>& seen, const Target& target,
+                     const Camera& camera, const DetectionOptions& options) {
+  if (const auto other = other_arrangement(seen, target, camera, options)) {
+    return Error::input("the tags lie as on a board " + *other, {},
+                        "use a board as lvcalib target draws it: tags upright, ids from the bottom "
+                        "left");
+  }
+  return Error::input("only " + std::to_string(fitting) + " of the " + std::to_string(seen.size()) +
+                          " tags seen lie where the target has them",
+                      {},
+                      target.type == TargetType::kCharuco
+                          ? "check targetCols, targetRows, firstMarkerId, legacyPattern and the "
+                            "intrinsics"
+                          : "check tagCols, tagRows, tagSpacing and the intrinsics");
+}
+
+// ChArUco boards come in two layouts with the same markers; half of them lie alike in both, one
+// square off.
+std::optional<Error> other_layout(std::size_t fitting, const std::vector<BoardTag>& seen,
+                                  const Target& target, const Camera& camera,
+                                  const DetectionOptions& options) {
+  if (target.type != TargetType::kCharuco || fitting == seen.size()) return std::nullopt;
+  Target other = target;
+  other.legacy_pattern = !target.legacy_pattern;
+  if (fitting_tags(seen, other, camera, options) <= fitting) return std::nullopt;
+  const std::string value = other.legacy_pattern ? "true" : "false";
+  return Error::input("the markers lie as on a board with legacyPattern: " + value, {},
+                      "set legacyPattern: " + value);
+}
+
 std::string id_list(const std::set<int>& ids) {
   std::string out;
   for (const int id : ids) out += (out.empty() ? "" : ", ") + std::to_string(id);
@@ -114,28 +197,44 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
   const auto enough = [&] {
     std::set<int> ids;
     for (const BoardTag& tag : tags) ids.insert(tag.id);
-    return !ids.empty() && static_cast<int>(ids.size()) >= options.min_tags;
+    return static_cast<int>(ids.size()) >= fewest_tags(target, options);
   };
   if (!enough()) {
     return explain_missing_tags(image, target, static_cast<int>(tags.size()), options, context);
   }
-  const std::size_t seen = tags.size();
-  auto pose = estimate_board_pose(to_observations(unambiguous(tags, options.min_tags), target),
-                                  camera, options);
+  // Nothing else confirms a lone tag: its bits must be found in the image again.
+  if (target.tag_count() == 1) {
+    std::erase_if(tags, [](const BoardTag& tag) { return !tag.refined; });
+    if (tags.empty()) {
+      return Error::input("the tag in the image is too small or too blurred", {},
+                          "show it nearer or sharper");
+    }
+  }
+  if (seen_twice(tags, target)) return twice_in_image();
+  const std::vector<BoardTag> seen = tags;
+  // Small dictionaries read a few markers into a mirrored image as well.
+  const auto misplaced = [&]() -> Error {
+    if (tags_in_mirror(image, target, options, context) > seen.size()) return explain_mirrored();
+    return misplaced_tags(tags.size(), seen, target, camera, options);
+  };
+  auto pose = estimate_board_pose(
+      to_observations(unambiguous(tags, fewest_tags(target, options)), target), camera, options);
   if (!pose) return pose.error();
   std::set<int> dropped = drop_outliers(tags, target, camera, pose->camera_from_board.transform,
                                         options.max_reprojection_px);
+  if (const auto error = other_layout(tags.size(), seen, target, camera, options)) return *error;
+  if (shows_another(seen, tags, target, camera, options)) {
+    return twice_in_image();
+  }
+  // Few of the tags fit many a wrong description.
+  if (2 * tags.size() < seen.size() && seen.size() > 2) return misplaced();
   if (enough()) {
     complete_board_tags(tags, image, target, camera, pose->camera_from_board.transform, context);
     drop_outliers(tags, target, camera, pose->camera_from_board.transform,
                   options.max_reprojection_px);
     if (context.stopped()) return Error::cancelled();
   }
-  if (!enough()) {
-    return Error::input("only " + std::to_string(tags.size()) + " of the " + std::to_string(seen) +
-                            " tags seen lie where the target has them",
-                        {}, "check tagCols, tagRows, tagSpacing and the intrinsics");
-  }
+  if (!enough()) return misplaced();
   std::vector<CornerObservation> corners = to_observations(tags, target);
   pose = estimate_board_pose(corners, camera, options);
   if (!pose) return pose.error();
@@ -151,11 +250,13 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
 Result<BoardView> view_checkerboard(const GrayImage& image, const Target& target,
                                     const Camera& camera, const DetectionOptions& options,
                                     const RunContext& context) {
-  auto corners = find_checkerboard(image, target, context);
-  if (!corners) return corners.error();
-  const auto pose = estimate_board_pose(*corners, camera, options);
+  auto found = find_checkerboard(image, target, context);
+  if (!found) return found.error();
+  const auto pose = estimate_board_pose(found->corners, camera, options);
   if (!pose) return pose.error();
-  return make_view(std::move(corners).value(), *pose);
+  BoardView view = make_view(std::move(found->corners), *pose);
+  view.other_colors = found->other_colors;
+  return view;
 }
 
 }  // namespace

@@ -45,9 +45,12 @@ struct CornerObservation {
 /// What one image tells about the board.
 struct BoardView {
   std::vector<CornerObservation> corners;
-  int tag_count = 0;  ///< Tags found (checkerboard: 0).
+  int tag_count = 0;  ///< Tags or markers found (checkerboard: 0).
   /// Board pose from the corners alone; covariance of the left perturbation.
   UncertainRigid3 camera_from_board;
+  /// A checkerboard whose squares have the other colours than the target has (see
+  /// Target::white_first).
+  bool other_colors = false;
   /// The other pose of the planar ambiguity, if its fit is not clearly worse.
   std::optional<Rigid3> alternative_pose;
   double sigma_px =
@@ -62,7 +65,7 @@ struct DetectionOptions {
   double quad_decimate = 2.0;
   /// A tag whose corners miss the board's pose by more is dropped.
   double max_reprojection_px = 5.0;
-  int min_tags = 2;  ///< Fewer make the image unusable.
+  int min_tags = 2;  ///< Fewer make the image unusable; a board of one tag needs that one.
   /// Corners that could not be refined have about this standard deviation.
   double unrefined_sigma_px = 0.3;
   /// The other pose of the planar ambiguity is reported unless its likelihood is so much smaller
@@ -70,12 +73,12 @@ struct DetectionOptions {
   double ambiguity_tail = 1e-6;
 };
 
-/// Finds the board in an image: tags or checkerboard corners, refined to sub-pixel accuracy, and
-/// its pose with covariance and resolved planar ambiguity.
-/// A checkerboard that looks the same when turned gets the one of its frames whose y axis points
-/// most upwards in the image (x when that is a tie); it is never mirrored.
-/// Errors (kInput): image size differs from the intrinsics; no tags (and whether the mirrored
-/// image has some); tags of other ids; too few tags; no checkerboard.
+/// Finds the board in an image: tags, markers or checkerboard corners, refined to sub-pixel
+/// accuracy, and its pose with covariance and resolved planar ambiguity. A checkerboard that looks
+/// the same when turned gets the one of its frames whose y axis points most upwards in the image (x
+/// when that is a tie); it is never mirrored. Errors (kInput): image size differs from the
+/// intrinsics; no tags (and whether the mirrored image has some); tags of other ids; too few tags;
+/// the board twice; no checkerboard.
 Result<BoardView> find_board_in_image(const GrayImage& image, const Target& target,
                                       const Camera& camera, const DetectionOptions& options,
                                       const RunContext& context);

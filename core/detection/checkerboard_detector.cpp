@@ -127,7 +127,7 @@ bool right_handed(const Grid& grid) {
 }
 
 // Mean grey of the squares that are white in the target's frame minus that of the black ones.
-double color_match(const Grid& grid, const cv::Mat& image) {
+double color_match(const Grid& grid, const cv::Mat& image, const Target& target) {
   double sum = 0.0;
   for (int row = 0; row + 1 < grid.rows; ++row) {
     for (int column = 0; column + 1 < grid.columns; ++column) {
@@ -137,7 +137,7 @@ double color_match(const Grid& grid, const cv::Mat& image) {
       const int x = std::clamp(static_cast<int>(std::lround(center.x())), 0, image.cols - 1);
       const int y = std::clamp(static_cast<int>(std::lround(center.y())), 0, image.rows - 1);
       const double gray = image.at<unsigned char>(y, x);
-      sum += ((row + column) & 1) == 0 ? -gray : gray;  // see Target::albedo
+      sum += target.square_is_black(column, row) ? -gray : gray;
     }
   }
   return sum;
@@ -155,7 +155,7 @@ Grid oriented(const Grid& found, const cv::Mat& image, const Target& target) {
       }
     }
   }
-  const auto matches = [&](const Grid& grid) { return color_match(grid, image) > 0.0; };
+  const auto matches = [&](const Grid& grid) { return color_match(grid, image, target) > 0.0; };
   if (std::any_of(frames.begin(), frames.end(), matches)) {
     std::erase_if(frames, [&](const Grid& grid) { return !matches(grid); });
   }
@@ -188,14 +188,33 @@ bool search(const cv::Mat& image, Grid& grid, const RunContext& context) {
   return false;
 }
 
+// Looks for a second board once the first is painted over, in a small image: it would be about as
+// large as the first.
+bool shows_another(cv::Mat& image, const Grid& first) {
+  const Eigen::Vector2d along = x_axis(first) / (2.0 * (first.columns - 1));
+  const Eigen::Vector2d up = y_axis(first) / (2.0 * (first.rows - 1));
+  // Over the outer squares, whose inner corners are the grid's.
+  const Eigen::Vector2d corners[] = {first.at(0, 0) - along - up,
+                                     first.at(0, first.columns - 1) + along - up,
+                                     first.at(first.rows - 1, first.columns - 1) + along + up,
+                                     first.at(first.rows - 1, 0) - along + up};
+  std::vector<cv::Point> polygon;
+  for (const Eigen::Vector2d& p : corners)
+    polygon.emplace_back(static_cast<int>(p.x()), static_cast<int>(p.y()));
+  cv::fillConvexPoly(image, polygon, cv::Scalar(128));
+  const double reduction = std::max(1.0, std::max(image.cols, image.rows) / 700.0);
+  Grid second{first.columns, first.rows, {}};
+  return find_grid(image, reduction, Method::kSectors, second);
+}
+
 }  // namespace
 
-Result<std::vector<CornerObservation>> find_checkerboard(const GrayImage& image,
-                                                         const Target& target,
-                                                         const RunContext& context) {
+Result<CheckerboardCorners> find_checkerboard(const GrayImage& image, const Target& target,
+                                              const RunContext& context) {
   Grid grid{target.corner_columns, target.corner_rows, {}};
+  bool other_colors = false;
   try {
-    const cv::Mat mat = to_mat(image);
+    cv::Mat mat = to_mat(image);
     if (!search(mat, grid, context)) {
       if (context.stopped()) return Error::cancelled();
       return Error::input("no checkerboard with " + std::to_string(target.corner_columns) + " × " +
@@ -204,13 +223,19 @@ Result<std::vector<CornerObservation>> find_checkerboard(const GrayImage& image,
     }
     refine(mat, grid);
     grid = oriented(grid, mat, target);
+    other_colors = color_match(grid, mat, target) < 0.0;
+    if (shows_another(mat, grid)) {
+      return Error::input("two checkerboards of this size are in the image", {},
+                          "cover one of them, or leave this scene out");
+    }
   } catch (const cv::Exception&) {
     return Error::input("the image cannot be searched for a checkerboard");
   }
   const std::vector<Eigen::Vector2d> board = target.checkerboard_corners_m();
-  std::vector<CornerObservation> out;
+  CheckerboardCorners out;
+  out.other_colors = other_colors;
   for (std::size_t i = 0; i < board.size(); ++i) {
-    out.push_back({static_cast<int>(i), 0, board[i], grid.points[i], 0.0});
+    out.corners.push_back({static_cast<int>(i), 0, board[i], grid.points[i], 0.0});
   }
   return out;
 }

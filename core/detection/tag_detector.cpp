@@ -15,6 +15,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/parallel.h"
+#include "detection/marker_detector.h"
 
 namespace lvcalib {
 namespace {
@@ -298,6 +299,8 @@ Result<std::vector<TagDetection>> find_tags(const GrayImage& image, const std::s
                                             int border_bits, const TagSearchOptions& options,
                                             const RunContext& context) {
   if (const Status status = check(family, border_bits, options); !status) return status.error();
+  if (is_marker_dictionary(family))
+    return find_markers(image, family, border_bits, options, context);
   // The library divides by the number of 4-pixel tiles of the reduced image.
   if (std::min(image.width_px, image.height_px) < 16 * options.decimate) {
     return std::vector<TagDetection>{};

@@ -39,10 +39,10 @@ struct TagSearchOptions {
   double min_margin = 20.0;
 };
 
-/// Finds all tags of a family. `border_bits` is the width of the black border: 1 (AprilTag) or 2
-/// (Kalibr). The same id may appear more than once. Corners are those of the AprilTag library
-/// (errors up to about half a pixel), see refine_tag().
-/// Errors (kUsage): unknown family, border or ids; kCancelled.
+/// Finds all tags of a family (or markers of a dictionary, see find_markers()). `border_bits` is
+/// the width of the black border: 1 (AprilTag) or 2 (Kalibr). The same id may appear more than
+/// once. Corners are those of the AprilTag library (errors up to about half a pixel), see
+/// refine_tag(). Errors (kUsage): unknown family, border or ids; kCancelled.
 Result<std::vector<TagDetection>> find_tags(const GrayImage& image, const std::string& family,
                                             int border_bits, const TagSearchOptions& options,
                                             const RunContext& context);

@@ -2,9 +2,11 @@
 #include "detection/tag_diagnosis.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
+#include "detection/board_tags.h"
 #include "detection/tag_detector.h"
 
 namespace lvcalib {
@@ -22,7 +24,7 @@ GrayImage mirrored(const GrayImage& image) {
 // Distinct ids seen. A lone tag with corrected bits may be chance among so many attempts, and the
 // smallest family reads tags into any texture: two faultless ones are asked for.
 std::set<int> ids_seen(const GrayImage& image, const std::string& family, int border_bits,
-                       double decimate, const RunContext& context) {
+                       double decimate, const RunContext& context, std::size_t fewest) {
   TagSearchOptions search;
   search.decimate = decimate;
   search.max_hamming = 0;
@@ -31,7 +33,7 @@ std::set<int> ids_seen(const GrayImage& image, const std::string& family, int bo
   if (tags) {
     for (const TagDetection& tag : *tags) ids.insert(tag.id);
   }
-  const std::size_t enough = family == "tag16h5" ? 4 : 2;
+  const std::size_t enough = family == "tag16h5" || family.starts_with("DICT_4X4") ? 4 : fewest;
   return ids.size() >= enough ? ids : std::set<int>{};
 }
 
@@ -52,53 +54,126 @@ std::string border_name(int bits) {
 
 std::string expected_ids(const Target& target) {
   return std::to_string(target.first_tag_id) + " to " +
-         std::to_string(target.first_tag_id + target.tag_columns * target.tag_rows - 1);
+         std::to_string(target.first_tag_id + target.tag_count() - 1);
+}
+
+std::string checked_fields(const Target& target) {
+  switch (target.type) {
+    case TargetType::kCharuco:
+      return "check firstMarkerId, targetCols and targetRows, or use the right board";
+    case TargetType::kAprilTag:
+      return "check tagId, or use the right board";
+    default:
+      return "check firstTagId, tagCols and tagRows, or use the right board";
+  }
+}
+
+// Of each size of OpenCV's markers the largest dictionary; the smaller ones are its beginnings.
+std::vector<std::string> distinct_dictionaries() {
+  return {"DICT_5X5_1000",       "DICT_6X6_1000",      "DICT_7X7_1000", "DICT_ARUCO_ORIGINAL",
+          "DICT_APRILTAG_36h11", "DICT_APRILTAG_25h9", "DICT_4X4_1000"};
+}
+
+bool shares_markers(const std::string& a, const std::string& b) {
+  // "DICT_5X5".
+  return a.substr(0, 8) == b.substr(0, 8) && (a == b || !a.starts_with("DICT_A"));
+}
+
+std::optional<Error> other_dictionary(const GrayImage& image, const Target& target,
+                                      const DetectionOptions& options, const RunContext& context) {
+  for (const std::string& dictionary : distinct_dictionaries()) {
+    if (context.stopped()) return std::nullopt;
+    if (shares_markers(dictionary, target.tag_family) ||
+        ids_seen(image, dictionary, 1, options.quad_decimate, context, 3).empty())
+      continue;
+    return Error::input(
+        "markers of " + dictionary + " found; the target says " + target.tag_family, {},
+        target.type == TargetType::kCharuco ? "set dictionary: " + dictionary
+                                            : "describe the board with target_type: charuco");
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> other_family(const GrayImage& image, const Target& target,
+                                  const DetectionOptions& options, const RunContext& context,
+                                  std::size_t fewest) {
+  for (const char* family : {"tag36h11", "tag36h10", "tag25h9", "tag16h5"}) {
+    for (const int bits : {1, 2}) {
+      if (family == target.tag_family) continue;
+      if (context.stopped()) return std::nullopt;
+      if (ids_seen(image, family, bits, options.quad_decimate, context, fewest).empty()) continue;
+      return Error::input(std::string("tags of family ") + family + " with a " + border_name(bits) +
+                              " found; the target says " + target.tag_family,
+                          {},
+                          target.type == TargetType::kCharuco
+                              ? "describe the board with target_type: aprilgrid or apriltag"
+                              : std::string("set tagFamily: ") + family +
+                                    " and tagBorder: " + std::to_string(bits));
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
+std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
+                           const DetectionOptions& options, const RunContext& context) {
+  const std::set<int> ids = ids_seen(mirrored(image), target.tag_family, target.tag_border_bits,
+                                     options.quad_decimate, context, 2);
+  return static_cast<std::size_t>(
+      std::count_if(ids.begin(), ids.end(), [&](int id) { return target.tag(id).has_value(); }));
+}
+
+Error explain_mirrored() {
+  return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror", {},
+                      "turn off flipping in the camera driver, or print the board again");
+}
+
 Error explain_missing_tags(const GrayImage& image, const Target& target, int found,
                            const DetectionOptions& options, const RunContext& context) {
   const int border = target.tag_border_bits;
+  // A board of one tag shows no second one.
+  const std::size_t fewest = target.tag_count() == 1 ? 1 : 2;
   const int other_border = 3 - border;
   const std::set<int> same =
-      ids_seen(image, target.tag_family, border, options.quad_decimate, context);
+      ids_seen(image, target.tag_family, border, options.quad_decimate, context, fewest);
   const bool foreign =
       std::any_of(same.begin(), same.end(), [&](int id) { return !target.tag(id).has_value(); });
   if (foreign) {
     return Error::input("the image shows tags " + listed(same) + " of " + target.tag_family +
                             "; the target has " + expected_ids(target),
-                        {}, "check firstTagId, tagCols and tagRows, or use the right board");
+                        {}, checked_fields(target));
   }
   if (found > 0) {
     return Error::input("only " + std::to_string(found) + " of the board's " +
-                            std::to_string(target.tags().size()) +
-                            " tags found, expected at least " + std::to_string(options.min_tags),
+                            std::to_string(target.tag_count()) + " tags found, expected at least " +
+                            std::to_string(fewest_tags(target, options)),
                         {}, "show more of the board, nearer, sharper or better lit");
   }
   if (context.stopped()) return Error::cancelled();
-  if (!ids_seen(image, target.tag_family, other_border, options.quad_decimate, context).empty()) {
+  if (target.type != TargetType::kCharuco &&
+      !ids_seen(image, target.tag_family, other_border, options.quad_decimate, context, fewest)
+           .empty()) {
     return Error::input("the tags in the image have a " + border_name(other_border) +
                             "; the target says " + border_name(border),
                         {}, "set tagBorder: " + std::to_string(other_border));
   }
   if (context.stopped()) return Error::cancelled();
   const GrayImage mirror = mirrored(image);
-  if (!ids_seen(mirror, target.tag_family, border, options.quad_decimate, context).empty() ||
-      !ids_seen(mirror, target.tag_family, other_border, options.quad_decimate, context).empty()) {
-    return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror",
-                        {}, "turn off flipping in the camera driver, or print the board again");
+  if (!ids_seen(mirror, target.tag_family, border, options.quad_decimate, context, fewest)
+           .empty() ||
+      !ids_seen(mirror, target.tag_family, other_border, options.quad_decimate, context, fewest)
+           .empty()) {
+    return explain_mirrored();
   }
-  for (const char* family : {"tag36h11", "tag36h10", "tag25h9", "tag16h5"}) {
-    for (const int bits : {1, 2}) {
-      if (family == target.tag_family) continue;
-      if (context.stopped()) return Error::cancelled();
-      if (ids_seen(image, family, bits, options.quad_decimate, context).empty()) continue;
-      return Error::input(
-          std::string("tags of family ") + family + " with a " + border_name(bits) +
-              " found; the target says " + target.tag_family,
-          {}, std::string("set tagFamily: ") + family + " and tagBorder: " + std::to_string(bits));
-    }
+  // AprilTags are in OpenCV's dictionaries as well: what the target is decides whose word comes
+  // first.
+  const bool charuco = target.type == TargetType::kCharuco;
+  for (const bool markers : {charuco, !charuco}) {
+    const auto other = markers ? other_dictionary(image, target, options, context)
+                               : other_family(image, target, options, context, fewest);
+    if (context.stopped()) return Error::cancelled();
+    if (other) return *other;
   }
   return Error::input("no tags in the image", {},
                       "the board must be in view, sharp, and neither dark nor overexposed");

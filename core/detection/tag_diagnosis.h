@@ -12,4 +12,12 @@ namespace lvcalib {
 Error explain_missing_tags(const GrayImage& image, const Target& target, int found,
                            const DetectionOptions& options, const RunContext& context);
 
+/// How many of the target's tags can be read, without a fault, in the mirrored image. Of small
+/// dictionaries some can be misread in either.
+std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
+                           const DetectionOptions& options, const RunContext& context);
+
+/// The image, or the print, is mirrored.
+Error explain_mirrored();
+
 }  // namespace lvcalib

@@ -168,7 +168,8 @@ class BoardSearch {
                           separation_m(), kPosesPerPatch, context_);
   }
 
-  // Two poses closer than half a tag pitch are the same local maximum.
+  // Two poses closer than half a tag pitch (or half a ChArUco board's square) are the same local
+  // maximum.
   [[nodiscard]] double separation_m() const {
     return target_.has_tags() ? 0.5 * target_.tag_pitch_m() : 0.25 * size_.minCoeff();
   }
@@ -372,7 +373,7 @@ PatternPyramid::PatternPyramid(const Target& target) {
 bool matches_by_pattern(const Target& target, const Cloud& cloud) {
   // Which square of a checkerboard is black is not part of its description, so its intensities
   // have no sign to look for.
-  return target.has_tags() && cloud.has_intensity();
+  return target.has_tags() && cloud.has_contrast();
 }
 
 BoardSearchResult search_board(const Cloud& cloud, const Target& target,

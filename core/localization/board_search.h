@@ -54,8 +54,9 @@ struct PatternPyramid {
 };
 
 /// Looks for the board in a cloud without any initial guess: flat patches of about its size, in
-/// which the intensity follows the printed pattern (checkerboards and clouds without intensity:
-/// whose outline fits). `camera_distance_m` is the distance from the camera to the board.
+/// which the intensity follows the printed pattern (checkerboards and clouds whose intensity is
+/// missing or the same everywhere: whose outline fits). `camera_distance_m` is the distance from
+/// the camera to the board.
 BoardSearchResult search_board(const Cloud& cloud, const Target& target,
                                const PatternPyramid& pyramid, double camera_distance_m,
                                const std::optional<BoardSearchRegion>& region,

@@ -44,6 +44,7 @@ class Calibration {
     if (Status s = prepare(); !s) return s.error();
     if (Status s = load_scenes(dataset_, request_, context_, result_, cache_); !s) return s.error();
     if (Status s = some_view(); !s) return s.error();
+    settle_colors();
     if (Status s = agree(); !s) return s.error();
     if (Status s = refine(); !s) return s.error();
     if (Status s = optimize(); !s) return s.error();
@@ -94,6 +95,25 @@ class Calibration {
     return Error::input("every scene is rejected", result_.dataset);
   }
 
+  // Which squares of a checkerboard are black is not in its description; the images say it.
+  void settle_colors() {
+    int views = 0;
+    int other = 0;
+    for (const SceneResult& scene : result_.scenes) {
+      if (!scene.view) continue;
+      ++views;
+      other += scene.view->other_colors ? 1 : 0;
+    }
+    const bool most = 2 * other > views;
+    if (most) result_.target.white_first = !result_.target.white_first;
+    for (SceneResult& scene : result_.scenes) {
+      if (!scene.view || scene.view->other_colors == most || !scene.reason.empty()) continue;
+      scene.reason =
+          "its checkerboard has black and white squares the other way round than in most scenes: "
+          "is it another board, or is the image mirrored?";
+    }
+  }
+
   Status agree() {
     context_.report("localize", 0.7, "comparing scenes");
     auto consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
@@ -108,6 +128,8 @@ class Calibration {
       if (Status s = search_again(consensus->camera_from_lidar.transform); !s) return s;
       consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
     }
+    // Or the LiDAR does not see the print, and what a scene took for it is something else.
+    if (Status s = consider_plain_boards(consensus); !s) return s;
     if (!consensus) return not_found();
     result_.consensus = std::move(*consensus);
     for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
@@ -153,6 +175,63 @@ class Calibration {
     return Done{};
   }
 
+  // Where not even half of the scenes agree on the print's place: looks for boards whose print the
+  // LiDAR does not see, and takes them if more scenes agree on those.
+  Status consider_plain_boards(std::optional<SceneConsensus>& consensus) {
+    int views = 0;
+    for (const SceneResult& scene : result_.scenes) views += scene.view ? 1 : 0;
+    const int agreeing = consensus ? consensus->agreeing : 0;
+    if (agreeing > 0 && 2 * agreeing >= views) return Done{};
+    const std::vector<SceneResult> before = result_.scenes;
+    if (Status s = search_plain_boards(); !s) return s;
+    auto plain = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
+    if (plain && plain->agreeing > agreeing) {
+      consensus = std::move(plain);
+    } else {
+      result_.scenes = before;
+    }
+    return Done{};
+  }
+
+  // Third look, by the outline alone, at flat patches on which the intensity is the same but for
+  // its noise: what is printed there the LiDAR cannot see. A patch with a print of its own is not
+  // this board.
+  Status search_plain_boards() {
+    if (!result_.target.has_tags()) return Done{};
+    // A print whose contrast is that of the noise would double the variance.
+    constexpr double kPlain = 1.5;
+    const PatternPyramid pyramid(result_.target);
+    const BlurredPrint print(result_.target);
+    const auto is_plain = [&](const Cloud& cloud, const Rigid3& lidar_from_board) {
+      BeamSpread beam;
+      beam.blur_rad2 =
+          std::pow(request_.options.forward.first_blur_rad, 2) * Eigen::Matrix2d::Identity();
+      constexpr double kRangeSigma_m = 0.02;
+      const auto returns = select_returns(cloud, print, lidar_from_board, beam, kRangeSigma_m);
+      return returns.has_intensity && intensity_structure(returns) < kPlain;
+    };
+    for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
+      SceneResult& scene = result_.scenes[s];
+      if (!scene.view || !scene.reason.empty()) continue;
+      auto cloud = read_scene_cloud(dataset_.scenes[s], request_, context_.stop);
+      if (!cloud) return cloud.error();
+      if (!cloud->has_contrast()) continue;
+      const Cloud full = *cloud;
+      cloud->intensity.clear();
+      const double distance_m = scene.view->camera_from_board.transform.translation.norm();
+      auto found = search_board(*cloud, result_.target, pyramid, distance_m, std::nullopt,
+                                request_.options.localization, context_);
+      if (context_.stopped()) return Error::cancelled();
+      std::erase_if(found.candidates, [&](const BoardCandidate& candidate) {
+        return !is_plain(full, candidate.lidar_from_board.transform);
+      });
+      if (found.candidates.empty()) continue;
+      scene.search = std::move(found);
+      scene.no_contrast = true;
+    }
+    return Done{};
+  }
+
   static std::string search_summary(const SceneResult& scene) {
     if (!scene.search) return "not searched";
     std::string text = std::to_string(scene.search->patches) + " flat patches of its size";
@@ -187,7 +266,9 @@ class Calibration {
     context_.report("localize", 0.7, "other sizes of the board");
     const auto scale = find_scaled_board(dataset_, request_, result_, context_);
     if (context_.stopped()) return Error::cancelled();
-    if (!scale) return std::nullopt;
+    // A board of the right size was found before, and refused for another reason.
+    constexpr double kSame = 0.005;
+    if (!scale || std::abs(*scale - 1.0) < kSame) return std::nullopt;
     const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
     return Error::untrusted(
         "LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
@@ -236,8 +317,28 @@ class Calibration {
     if (context_.stopped()) return Error::cancelled();
     const bool any = std::any_of(result_.scenes.begin(), result_.scenes.end(),
                                  [](const SceneResult& scene) { return scene.used; });
+    if (any || use_without_circles()) return Done{};
     // What was taken for the board was not: on the board some circles would be found.
-    return any ? Status(Done{}) : not_found();
+    return not_found();
+  }
+
+  // Where most scenes, three at least, agree on the print's place and no circle can be measured
+  // (numbers in coarse steps, few lines), the print as a whole still tells. True if so.
+  bool use_without_circles() {
+    int views = 0;
+    for (const SceneResult& scene : result_.scenes) views += scene.view ? 1 : 0;
+    const int agreeing = result_.consensus.agreeing;
+    if (agreeing < 3 || 2 * agreeing < views) return false;
+    bool any = false;
+    for (SceneResult& scene : result_.scenes) {
+      if (!scene.chosen || !scene.refinement) continue;
+      scene.refinement->warnings.push_back("its circles cannot be measured: " + scene.reason);
+      scene.refinement->nodes.clear();
+      scene.refinement->scale_sigma = 0.0;
+      scene.reason.clear();
+      scene.used = any = true;
+    }
+    return any;
   }
 
   Result<BoardRefinement> refine_scene(std::size_t s) {
@@ -246,7 +347,8 @@ class Calibration {
     scene.board_points = std::move(scene.search->patch_points[candidate.patch]);
     scene.search->patch_points.clear();
     std::string key;
-    if (cache_ != nullptr) {
+    StageCache* const cache = scene.no_contrast ? nullptr : cache_;
+    if (cache != nullptr) {
       const SceneStages& stages = cache_->scene(scene.name);
       const std::string& search = looked_twice_[s] ? stages.second_look.key : stages.search.key;
       key = refinement_key(search, *scene.chosen, request_.options);
@@ -258,8 +360,7 @@ class Calibration {
     auto refinement =
         refine_board(scene.board_points, result_.target, candidate.lidar_from_board.transform,
                      request_.options.refinement, context_, each);
-    if (refinement && cache_ != nullptr)
-      cache_->scene(scene.name).refinement.keep(key, *refinement);
+    if (refinement && cache != nullptr) cache_->scene(scene.name).refinement.keep(key, *refinement);
     return refinement;
   }
 

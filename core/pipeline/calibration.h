@@ -36,6 +36,9 @@ struct SceneResult {
   std::string reason;                    ///< Why it is not used, in words.
   bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
   BoardPlace place = BoardPlace::kOpen;  ///< What is where the other scenes put its board.
+  /// The LiDAR sees the board but not its print: `search` goes by the outline, and the intensity of
+  /// `board_points` is left out.
+  bool no_contrast = false;
   std::optional<BoardView> view;
   std::optional<BoardSearchResult> search;
   std::optional<std::size_t> chosen;  ///< Candidate that all scenes agree on.

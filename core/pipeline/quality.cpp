@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -160,6 +161,135 @@ void judge_splits(const CalibrationResult& result, Verdict& verdict) {
   }
 }
 
+// Why the intensities of a scene are not used.
+enum class PrintState { kSeen, kNoIntensity, kNoContrast, kOtherPrint };
+
+PrintState print_state(const SceneResult& scene, const ForwardSceneResult& solved) {
+  // As for boards that are looked for by their outline: contrast at the noise's own doubles this.
+  constexpr double kPlain = 1.5;
+  if (scene.no_contrast) return PrintState::kNoContrast;
+  if (!scene.board_points.has_contrast()) return PrintState::kNoIntensity;
+  if (solved.print_correlation > 0.0) return PrintState::kSeen;
+  return solved.intensity_structure < kPlain ? PrintState::kNoContrast : PrintState::kOtherPrint;
+}
+
+std::string print_problem(PrintState state) {
+  switch (state) {
+    case PrintState::kNoIntensity:
+      return "the clouds' intensity is missing or the same everywhere";
+    case PrintState::kNoContrast:
+      return "the print has no contrast for this LiDAR";
+    default:
+      return "the clouds' intensities do not follow the target's print";
+  }
+}
+
+// The field of target.yaml that states a size, and its present value.
+std::pair<const char*, double> size_field(const Target& t, int axis) {
+  switch (t.type) {
+    case TargetType::kCheckerboard:
+      return axis == 0 ? std::pair("colSpacingMeters", t.column_spacing_m)
+                       : std::pair("rowSpacingMeters", t.row_spacing_m);
+    case TargetType::kCharuco:
+      return {"squareSize", t.column_spacing_m};
+    default:
+      return {"tagSize", t.tag_size_m};
+  }
+}
+
+// A print of another size than the target's, by the intensities.
+void judge_print_size(const CalibrationResult& result, const QualityOptions& options,
+                      Verdict& verdict) {
+  const PrintSize& size = result.forward->print_size;
+  if (!size.measured) return;
+  const Eigen::Array2d off = size.scale.array() - 1.0;
+  const bool clear =
+      (off.abs() > 4.0 * size.sigma.array() && off.abs() > options.scale_warning).any();
+  if (!clear) return;
+  std::string fits;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto [field, value] = size_field(result.target, axis);
+    if (fits.find(field) != std::string::npos) continue;
+    fits += (fits.empty() ? "" : ", ") + std::string(field) +
+            formatted(": %.5f", value * size.scale(axis));
+  }
+  // One number where both axes say the same.
+  const double apart = std::abs(size.scale.x() - size.scale.y());
+  const Eigen::Array2d weight = size.sigma.array().square().inverse();
+  const double mean = (weight * off).sum() / weight.sum();
+  std::string text = "LiDAR and camera disagree on the board's size: the LiDAR sees the print ";
+  if (apart < 3.0 * size.sigma.norm()) {
+    text += formatted("%.2f ± %.2f %% ", 100.0 * std::abs(mean), 100.0 / std::sqrt(weight.sum())) +
+            (mean > 0 ? "larger" : "smaller") + " than target.yaml says; ";
+  } else {
+    text += formatted("%.2f ± %.2f %% as wide ", 100.0 * size.scale.x(), 100.0 * size.sigma.x()) +
+            formatted("and %.2f ± %.2f %% as high as target.yaml says; ", 100.0 * size.scale.y(),
+                      100.0 * size.sigma.y());
+  }
+  text += fits + " would fit; measure the print";
+  if (off.abs().maxCoeff() > options.scale_failure) {
+    verdict.failed(text);
+  } else {
+    verdict.doubtful(text);
+  }
+}
+
+// What the intensities say about the print, and what keeps them from saying it.
+void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
+  const ForwardSolution& forward = *result.forward;
+  std::map<PrintState, std::string> unseen;
+  std::string saturated;
+  std::size_t next = 0;
+  std::size_t scenes = 0;
+  for (const SceneSolution& solved : result.extrinsic.scenes) {
+    if (!solved.used || next >= forward.scenes.size()) continue;
+    const auto scene = std::find_if(result.scenes.begin(), result.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == solved.name; });
+    const ForwardSceneResult& found = forward.scenes[next++];
+    if (scene == result.scenes.end()) continue;
+    ++scenes;
+    const PrintState state = print_state(*scene, found);
+    if (state != PrintState::kSeen)
+      unseen[state] += (unseen[state].empty() ? "" : ", ") + scene->name;
+    // A fiftieth of the intensities at the ceiling bends no edge.
+    if (found.saturated > 0.0) {
+      saturated += (saturated.empty() ? "" : ", ") + scene->name +
+                   formatted(" (%.0f %%)", 100.0 * found.saturated);
+    }
+    if (found.seen < 0.6) {
+      verdict.note("scene " + scene->name +
+                   formatted(": the LiDAR sees %.0f %% of the board only: something covers it, or "
+                             "it is cut off",
+                             100.0 * found.seen));
+    }
+  }
+  for (const auto& [state, names] : unseen) {
+    const bool all = !forward.uses_intensity && unseen.size() == 1;
+    std::string text = print_problem(state);
+    if (!all) text += " in scene " + names;
+    text += all ? ": the extrinsic rests on planes and corners, and the print does not hold it "
+                  "sideways"
+                : ": planes and corners are used there";
+    if (state == PrintState::kOtherPrint) {
+      verdict.doubtful(text + "; does target.yaml describe this board?");
+    } else {
+      verdict.note(text);
+    }
+  }
+  if (!saturated.empty()) {
+    verdict.note("the intensities are saturated on part of the board: scene " + saturated +
+                 "; lower the LiDAR's gain or print the white greyer");
+  }
+  if (!forward.uses_intensity) return;
+  if (forward.lattice_margin < options.min_margin) {
+    verdict.doubtful(
+        formatted("ambiguous: another place of the print on the board fits the intensities of all "
+                  "scenes nearly as well (log-likelihood %.1f less)",
+                  forward.lattice_margin));
+  }
+  judge_print_size(result, options, verdict);
+}
+
 Target scaled(Target t, double s) {
   for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
                          &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
@@ -230,12 +360,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   if (!result.forward_failure.empty()) {
     verdict.note("the model of every return could not be solved (" + result.forward_failure +
                  "): the extrinsic rests on nodes, planes and corners");
-  } else if (result.forward && !result.forward->uses_intensity) {
-    verdict.note(
-        "the clouds' intensity is missing or the same everywhere: the extrinsic rests on planes "
-        "and "
-        "corners, and the print does not hold it sideways");
   }
+  if (result.forward) judge_print(result, options, verdict);
   judge_precision(x, options, verdict);
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of the calibration that is done again when scenes are ticked or unticked.
+#include <algorithm>
 #include <utility>
 
 #include "pipeline/calibration.h"
@@ -41,16 +42,27 @@ std::vector<SceneObservations> observations_of(const CalibrationResult& result,
   return observations;
 }
 
+// The target as the solve sees it: where no cloud's intensity shows the circles, a board without.
+Target target_in_use(const CalibrationResult& result,
+                     const std::vector<SceneObservations>& observations) {
+  Target target = result.target;
+  const bool nodes =
+      std::any_of(observations.begin(), observations.end(),
+                  [](const SceneObservations& o) { return o.use && !o.nodes.empty(); });
+  if (target.has_circles() && !nodes) target.type = TargetType::kAprilGrid;
+  return target;
+}
+
 // The boundary response of the scenes in use.
-Status respond(CalibrationResult& result, const CalibrationOptions& options,
+Status respond(CalibrationResult& result, const Target& target, const CalibrationOptions& options,
                const RunContext& context) {
   const auto start = Clock::now();
   std::vector<ResponseInput> inputs;
   for (const SceneResult& scene : result.scenes) {
-    if (scene.used && scene.refinement)
+    if (scene.used && scene.refinement && !scene.refinement->nodes.empty())
       inputs.push_back({scene.name, &scene.board_points, &*scene.refinement});
   }
-  auto response = calibrate_boundary_response(inputs, result.target, options.response, context);
+  auto response = calibrate_boundary_response(inputs, target, options.response, context);
   if (!response) return response.error();
   result.response = std::move(*response);
   result.times.response_ms = ms_since(start);
@@ -58,7 +70,7 @@ Status respond(CalibrationResult& result, const CalibrationOptions& options,
 }
 
 // Every corner and return in one model; where that fails, what nodes and planes say stands.
-Status solve_forward_model(CalibrationResult& result,
+Status solve_forward_model(CalibrationResult& result, const Target& target,
                            const std::vector<SceneObservations>& observations,
                            const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,
                            const RunContext& context) {
@@ -75,8 +87,8 @@ Status solve_forward_model(CalibrationResult& result,
     return Done{};
   }
   result.forward = std::move(*forward);
-  result.extrinsic = report_forward(*result.forward, nodes, observations, result.camera,
-                                    result.target, result.options.extrinsic);
+  result.extrinsic = report_forward(*result.forward, nodes, observations, result.camera, target,
+                                    result.options.extrinsic);
   return Done{};
 }
 
@@ -84,7 +96,8 @@ Status solve_forward_model(CalibrationResult& result,
 
 bool can_be_used(const SceneResult& scene, const Target& target) {
   return scene.view && scene.refinement &&
-         (!target.has_circles() || scene.refinement->valid_nodes() >= 3);
+         (!target.has_circles() || scene.refinement->nodes.empty() ||
+          scene.refinement->valid_nodes() >= 3);
 }
 
 Result<CalibrationResult> resolve_calibration(CalibrationResult result,
@@ -94,7 +107,8 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   result.options = options;
   std::vector<std::size_t> index;
   const auto observations = observations_of(result, use, index);
-  auto solution = solve_extrinsic(observations, result.camera, result.target, options.extrinsic);
+  const Target target = target_in_use(result, observations);
+  auto solution = solve_extrinsic(observations, result.camera, target, options.extrinsic);
   if (!solution) {
     Error error = solution.error();
     error.where = result.dataset;
@@ -107,7 +121,8 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     return error;
   }
   const ExtrinsicSolution nodes = std::move(*solution);
-  if (Status status = solve_forward_model(result, observations, index, nodes, context); !status)
+  if (Status status = solve_forward_model(result, target, observations, index, nodes, context);
+      !status)
     return status.error();
   for (std::size_t k = 0; k < index.size(); ++k) {
     SceneResult& scene = result.scenes[index[k]];
@@ -124,12 +139,12 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     subsets = forward_subsets(*result.forward, nodes);
     methods.other = {"forward_model", result.extrinsic.camera_from_lidar.transform, subsets};
   }
-  result.methods = compare_methods(observations, result.camera, result.target, nodes,
-                                   options.extrinsic, methods);
+  result.methods =
+      compare_methods(observations, result.camera, target, nodes, options.extrinsic, methods);
   if (context.stopped()) return Error::cancelled();
-  result.uncertainty = assess_uncertainty(observations, result.camera, result.target,
-                                          result.extrinsic, options.extrinsic, {}, subsets);
-  if (Status status = respond(result, options, context); !status) return status.error();
+  result.uncertainty = assess_uncertainty(observations, result.camera, target, result.extrinsic,
+                                          options.extrinsic, {}, subsets);
+  if (Status status = respond(result, target, options, context); !status) return status.error();
   judge_quality(result, options.quality);
   return result;
 }

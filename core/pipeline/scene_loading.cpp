@@ -13,14 +13,6 @@
 namespace lvcalib {
 namespace {
 
-// Some drivers fill the field with one number. So few points that they are no scan may share one by
-// chance; they are too few for a board as well, which the search says.
-bool is_constant(const std::vector<float>& values) {
-  constexpr std::size_t kScan = 1000;
-  return values.size() >= kScan &&
-         std::all_of(values.begin(), values.end(), [&](float v) { return v == values.front(); });
-}
-
 // Distance from the camera to the middle of the board.
 double board_distance(const BoardView& view, const Target& target) {
   const Eigen::Vector2d c = target.outline().center_m();
@@ -131,15 +123,6 @@ class SceneLoader {
       const std::lock_guard lock(mutex_);
       result_.scenes[s].reason = "the crop box holds no points";
       return;
-    }
-    if (dataset_.target.has_circles() && !cloud->has_intensity()) {
-      return fail(Error::input("the cloud has no intensity, which the board's circles need",
-                               files.cloud.string(), "record it with intensity or reflectivity"));
-    }
-    if (dataset_.target.has_circles() && is_constant(cloud->intensity)) {
-      return fail(Error::input(
-          "the cloud's intensity is the same on all points, and the board's circles need contrast",
-          files.cloud.string(), "record it with intensity or reflectivity"));
     }
     start = Clock::now();
     RunContext quiet = context_;

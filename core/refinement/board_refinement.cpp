@@ -34,6 +34,7 @@ struct BoardPoints {
 BoardPoints points_on_board(const Cloud& cloud, const Target& target,
                             const Rigid3& lidar_from_board) {
   const BoardOutline outline = target.outline();
+  const bool print_is_placed = target.has_tags() && cloud.has_contrast();
   const double shrink = 0.02 * outline.size_m().minCoeff();
   const Rigid3 board_from_lidar = lidar_from_board.inverse();
   BoardPoints out;
@@ -51,9 +52,9 @@ BoardPoints points_on_board(const Cloud& cloud, const Target& target,
         hit.y() > outline.lower_left_m.y() + shrink &&
         hit.y() < outline.upper_right_m.y() - shrink) {
       out.points_m.push_back(p);
-      // By geometry: the noisy intensity would sort noise. A checkerboard's place on its board is
-      // not known well enough from the outline.
-      const bool dark = target.has_tags() && target.albedo(hit.head<2>()).value_or(1.0) < 0.5;
+      // By geometry: the noisy intensity would sort noise. Where the outline alone placed the
+      // board, its print is not placed well enough.
+      const bool dark = print_is_placed && target.albedo(hit.head<2>()).value_or(1.0) < 0.5;
       out.groups.push_back(dark ? 1 : 0);
     }
   }
@@ -326,13 +327,9 @@ Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& ta
                             " LiDAR points; at least ten, not all on one scan line, are needed",
                         {}, "let the scanner dwell longer or bring the board nearer");
   }
-  if (!target.has_circles()) {
+  if (!target.has_circles() || !board_points.has_contrast()) {
     result.converged = true;
     return result;
-  }
-  if (!board_points.has_intensity()) {
-    return Error::input("the cloud has no intensity, which the circles need", {},
-                        "record the cloud with intensity (or reflectivity)");
   }
   NodeRefiner refiner(board_points, target, options, result);
   if (!refiner.run(context, on_iteration)) return Error::cancelled();

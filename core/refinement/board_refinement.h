@@ -88,7 +88,7 @@ struct BoardRefinement {
   FittedPlane plane;
   Rigid3 lidar_from_board;
   std::vector<RefinedNode>
-      nodes;  ///< All nodes of the target, valid or not; empty without circles.
+      nodes;  ///< All nodes of the target, valid or not; empty without circles or contrast.
   std::vector<IterationRecord> history;
   bool converged = false;
   /// Covariance of the transition's blur in the plane (footprint and angular jitter), m².
@@ -115,8 +115,9 @@ using RefinementObserver = std::function<void(const BoardRefinement& so_far)>;
 /// 2×2 covariance is estimated from all nodes together; each sample is weighted by the measured
 /// variance at its distance, so that midpoints have true standard deviations.
 ///
-/// For targets without circles only the plane is fitted and `nodes` stays empty.
-/// Errors (kInput): fewer than ten points on the plane; a cloud without intensity for circles.
+/// For targets without circles, and where the intensity is missing or the same everywhere, only the
+/// plane is fitted and `nodes` stays empty.
+/// Errors (kInput): fewer than ten points on the plane.
 /// `on_iteration` sees the refinement so far after each iteration: its plane and history.
 Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& target,
                                      const Rigid3& lidar_from_board,

@@ -84,6 +84,17 @@ ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
 }
 
 // The beam as measured: total blur and the jitter in it, beam frame (horizontal, vertical).
+// How the print was found: by how much its place beats the best other one (log-likelihood), and its
+// size over the target's.
+ordered_json print_json(const ForwardSolution& forward) {
+  ordered_json out = {{"used", forward.uses_intensity}, {"margin", forward.lattice_margin}};
+  if (forward.print_size.measured) {
+    out["scale"] = ordered_json{forward.print_size.scale.x(), forward.print_size.scale.y()};
+    out["scale_sigma"] = ordered_json{forward.print_size.sigma.x(), forward.print_size.sigma.y()};
+  }
+  return out;
+}
+
 ordered_json footprint_json(const ForwardSolution& forward) {
   constexpr double kMrad2 = 1e6;
   const Eigen::Matrix2d blur = kMrad2 * forward.state.beam.blur_rad2;
@@ -151,6 +162,7 @@ ordered_json to_json(const CalibrationResult& result) {
   if (result.forward) {
     j["dof"] = result.forward->dof;
     j["footprint"] = footprint_json(*result.forward);
+    j["print"] = print_json(*result.forward);
   }
   j["refused"] = refused_json(result);
   j["quality"] = name_of(result.quality);

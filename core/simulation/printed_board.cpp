@@ -34,22 +34,60 @@ PrintedBoard::PrintedBoard(const Target& target, const BoardDisturbance& disturb
     : target_(target), disturbance_(disturbance), outline_(target.outline()) {
   if (target_.has_tags()) {
     pitch_m_ = target_.tag_pitch_m();
-    bit_m_ = target_.tag_bit_m();
-    bits_ = static_cast<int>(std::lround(target_.tag_size_m / bit_m_));
-    for (const TargetTag& tag : target_.tags()) {
-      const auto bits = bits_of_tag(target_, tag.id, bits_);
+    columns_ = target_.type == TargetType::kAprilTag ? 1 : target_.tag_columns;
+    rows_ = target_.type == TargetType::kAprilTag ? 1 : target_.tag_rows;
+    const TagPattern* pattern = tag_pattern(target_.tag_family, target_.first_tag_id);
+    bits_ = (pattern != nullptr ? pattern->width : 6) + 2 * target_.tag_border_bits;
+    bit_m_ = target_.tag_size_m / bits_;
+    for (int k = 0; k < target_.tag_count(); ++k) {
+      const auto bits = bits_of_tag(target_, target_.first_tag_id + k, bits_);
       tag_bits_.insert(tag_bits_.end(), bits.begin(), bits.end());
     }
   }
+  if (target_.has_squares()) lay_squares();
   map_edges();
 }
 
-bool PrintedBoard::checkerboard_is_white(double x_m, double y_m) const {
-  const int column = whole_below(x_m / target_.column_spacing_m);
-  const int row = whole_below(y_m / target_.row_spacing_m);
-  if (column < -1 || row < -1) return true;
-  if (column >= target_.corner_columns || row >= target_.corner_rows) return true;
-  return ((column + row) & 1) != 0;
+// Squares from the lower left, row by row. A checkerboard's lower left square is black unless
+// it is said to be white. OpenCV
+// draws a ChArUco board from the top left, which is black (in boards before its version 4.6 it is
+// white if the number of rows is even), and numbers the white squares as it comes to them.
+void PrintedBoard::lay_squares() {
+  columns_ = target_.corner_columns + 1;
+  rows_ = target_.corner_rows + 1;
+  squares_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+                  kBlackSquare);
+  const bool charuco = target_.type == TargetType::kCharuco;
+  const bool white_first =
+      charuco ? target_.legacy_pattern && rows_ % 2 == 0 : (rows_ % 2 == 0) != target_.white_first;
+  int next = 0;
+  for (int from_top = 0; from_top < rows_; ++from_top) {
+    for (int column = 0; column < columns_; ++column) {
+      const bool white = (from_top + column + (white_first ? 1 : 0)) % 2 != 0;
+      if (!white) continue;
+      squares_[static_cast<std::size_t>((rows_ - 1 - from_top) * columns_ + column)] =
+          charuco ? next++ : kWhiteSquare;
+    }
+  }
+}
+
+bool PrintedBoard::squares_are_white(double x_m, double y_m) const {
+  const int column = whole_below(x_m / target_.column_spacing_m) + 1;
+  const int row = whole_below(y_m / target_.row_spacing_m) + 1;
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return true;
+  const int square = squares_[static_cast<std::size_t>(row * columns_ + column)];
+  if (square < 0) return square == kWhiteSquare;
+  const double gap = 0.5 * (target_.column_spacing_m - target_.tag_size_m);
+  const double x = x_m - (column - 1) * target_.column_spacing_m - gap;
+  const double y = y_m - (row - 1) * target_.row_spacing_m - gap;
+  return x < 0.0 || y < 0.0 || x >= target_.tag_size_m || y >= target_.tag_size_m ||
+         bit_is_white(square, x, y);
+}
+
+bool PrintedBoard::bit_is_white(int tag, double x_m, double y_m) const {
+  const int i = std::min(static_cast<int>(x_m / bit_m_), bits_ - 1);
+  const int j = std::min(static_cast<int>(y_m / bit_m_), bits_ - 1);
+  return tag_bits_[static_cast<std::size_t>((tag * bits_ + j) * bits_ + i)] != 0;
 }
 
 bool PrintedBoard::is_white(double x_m, double y_m) const {
@@ -84,17 +122,14 @@ bool PrintedBoard::is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m)
 }
 
 bool PrintedBoard::drawn_white(double x_m, double y_m) const {
-  if (!target_.has_tags()) return checkerboard_is_white(x_m, y_m);
+  if (target_.has_squares()) return squares_are_white(x_m, y_m);
   const int column = whole_below(x_m / pitch_m_);
   const int row = whole_below(y_m / pitch_m_);
-  if (column >= 0 && row >= 0 && column < target_.tag_columns && row < target_.tag_rows) {
+  if (column >= 0 && row >= 0 && column < columns_ && row < rows_) {
     const double x = x_m - column * pitch_m_;
     const double y = y_m - row * pitch_m_;
     if (x < target_.tag_size_m && y < target_.tag_size_m) {
-      const int i = std::min(static_cast<int>(x / bit_m_), bits_ - 1);
-      const int j = std::min(static_cast<int>(y / bit_m_), bits_ - 1);
-      const int tag = row * target_.tag_columns + column;
-      return tag_bits_[static_cast<std::size_t>((tag * bits_ + j) * bits_ + i)] != 0;
+      return bit_is_white(row * columns_ + column, x, y);
     }
   }
   const auto beyond = from_circle_m(x_m, y_m);

@@ -51,7 +51,9 @@ class PrintedBoard {
   [[nodiscard]] bool is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m) const;
   // Distance from the edge of the nearest circle as drawn, outside positive.
   [[nodiscard]] std::optional<double> from_circle_m(double x_m, double y_m) const;
-  [[nodiscard]] bool checkerboard_is_white(double x_m, double y_m) const;
+  void lay_squares();
+  [[nodiscard]] bool squares_are_white(double x_m, double y_m) const;
+  [[nodiscard]] bool bit_is_white(int tag, double x_m, double y_m) const;
   void map_edges();
 
   Target target_;
@@ -59,7 +61,11 @@ class PrintedBoard {
   BoardOutline outline_;
   double pitch_m_ = 0.0;
   double bit_m_ = 0.0;
-  int bits_ = 0;                        // Along a side of a tag, border included.
+  int bits_ = 0;     // Along a side of a tag, border included.
+  int columns_ = 0;  // Of tags or squares.
+  int rows_ = 0;
+  static constexpr int kBlackSquare = -1, kWhiteSquare = -2;
+  std::vector<int> squares_;            // From the lower left; of a white one the marker's place.
   std::vector<std::uint8_t> tag_bits_;  // Tag by tag, from the lower left bit, row by row.
   double cell_m_ = 0.001;
   int cells_x_ = 0;

@@ -91,6 +91,32 @@ double correlation(const std::vector<Sample>& samples, const BlurredPrint& print
   return va > 0.0 && vi > 0.0 ? (ai - a * i / n) / std::sqrt(va * vi) : 0.0;
 }
 
+// Steps and ceiling of the intensities.
+void describe_numbers(BoardReturns& returns) {
+  // More different values than this are no steps that matter.
+  constexpr std::size_t kMostSteps = 64;
+  // Numbers pile up at a ceiling if this share of them is there, many times a value's usual share.
+  constexpr double kPile = 0.05;
+  constexpr double kPileOverUsual = 8.0;
+  std::vector<float> values;
+  values.reserve(returns.size());
+  for (const std::uint32_t i : returns.index) values.push_back(returns.cloud->intensity[i]);
+  std::sort(values.begin(), values.end());
+  const float largest = values.back();
+  const auto first = std::lower_bound(values.begin(), values.end(), largest);
+  const double share =
+      static_cast<double>(values.end() - first) / static_cast<double>(values.size());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  if (values.size() <= kMostSteps) {
+    float step = largest;
+    for (std::size_t k = 1; k < values.size(); ++k)
+      step = std::min(step, values[k] - values[k - 1]);
+    returns.intensity_step = static_cast<double>(step);
+  }
+  if (share > kPile && share * static_cast<double>(values.size()) > kPileOverUsual)
+    returns.saturated = share;
+}
+
 }  // namespace
 
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
@@ -144,6 +170,8 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                         return cloud.intensity[i] != cloud.intensity[out.index.front()];
                       });
 
+  if (out.has_intensity) describe_numbers(out);
+
   out.successor.assign(kept, BoardReturns::kNone);
   std::map<std::uint16_t, std::uint32_t> last;
   for (std::uint32_t k = 0; k < kept; ++k) {
@@ -157,10 +185,77 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
   return out;
 }
 
-std::optional<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
-                                      const Rigid3& lidar_from_board, const PrintSearch& search) {
+double intensity_structure(const BoardReturns& returns) {
+  constexpr double kFewest = 20.0;
+  double n = 0, sum = 0, squares = 0, pairs = 0, differences = 0;
+  for (std::size_t k = 0; k < returns.size(); ++k) {
+    const double i = returns.intensity(k);
+    n += 1;
+    sum += i;
+    squares += i * i;
+    const std::uint32_t next = returns.successor[k];
+    if (next == BoardReturns::kNone) continue;
+    pairs += 1;
+    differences += std::pow(returns.intensity(next) - i, 2);
+  }
+  if (n < kFewest || pairs < kFewest || !(differences > 0.0)) return 1.0;
+  return (squares / n - std::pow(sum / n, 2)) / (0.5 * differences / pairs);
+}
+
+namespace {
+
+// Likelihood with the levels fitted: −n/2·ln(1 − ρ²).
+double log_likelihood(double correlation, std::size_t samples) {
+  const double r = std::clamp(correlation, 0.0, 0.9999);
+  return -0.5 * static_cast<double>(samples) * std::log(1.0 - r * r);
+}
+
+bool better(const Trial& a, const Trial& b) {
+  return a.correlation > b.correlation;
+}
+
+// All shifts and turns about a pose, by steps; best first.
+std::vector<Trial> trials_about(const Trial& from, const std::vector<Sample>& samples,
+                                const BlurredPrint& print, double sigma_m, double reach_m,
+                                double turns_rad, double step_m, double turn_rad) {
+  const int n = static_cast<int>(std::ceil(reach_m / step_m));
+  const int m = static_cast<int>(std::ceil(turns_rad / turn_rad));
+  std::vector<Trial> tried;
+  for (int ix = -n; ix <= n; ++ix) {
+    for (int iy = -n; iy <= n; ++iy) {
+      for (int it = -m; it <= m; ++it) {
+        Trial t = from;
+        t.shift_m += step_m * Eigen::Vector2d(ix, iy);
+        t.turn_rad += turn_rad * it;
+        t.correlation = correlation(samples, print, t, sigma_m);
+        tried.push_back(t);
+      }
+    }
+  }
+  std::sort(tried.begin(), tried.end(), better);
+  return tried;
+}
+
+// The best of those that are at least so far apart.
+std::vector<Trial> distinct(const std::vector<Trial>& tried, double apart_m, std::size_t most) {
+  std::vector<Trial> out;
+  for (const Trial& t : tried) {
+    const bool taken = std::any_of(out.begin(), out.end(), [&](const Trial& other) {
+      return (t.shift_m - other.shift_m).norm() < apart_m;
+    });
+    if (!taken) out.push_back(t);
+    if (out.size() == most) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
+                                    const Rigid3& lidar_from_board, const PrintSearch& search) {
   constexpr std::size_t kFewest = 30;  // A correlation of 0.3, asked for below, is then 1.6 σ.
-  if (!returns.has_intensity || returns.size() < kFewest) return std::nullopt;
+  constexpr double kLeastCorrelation = 0.3;
+  if (!returns.has_intensity || returns.size() < kFewest) return {};
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
   std::vector<Sample> samples;
   const std::size_t stride = std::max<std::size_t>(1, returns.size() / search.samples);
@@ -168,73 +263,35 @@ std::optional<PrintMatch> match_print(const BoardReturns& returns, const Blurred
     const auto hit = predictor.hit(returns.point_m(k).normalized());
     if (hit) samples.push_back({hit->board_m, returns.intensity(k)});
   }
-  // Coarse to fine: the first blur joins what a step parts.
+  // Coarse to fine: the first blur joins what a step parts. Maxima that lie elsewhere are followed
+  // by themselves, so that the best can be told from the second best.
   const double radius = 0.5 * print.outline().size_m().norm();
-  std::vector<Trial> best{Trial{}};
-  double step = 0.0;
-  double turn = 0.0;
-  std::vector<Trial> coarse;
-  for (const double sigma : {0.016, 0.008, 0.004}) {
-    const bool first = step == 0.0;
-    const double next_step = sigma;
-    const double next_turn = std::max(0.002, 1.2 * sigma / radius);
-    std::vector<Trial> tried;
-    for (const Trial& from : best) {
-      const double reach = first ? search.reach_m : step;
-      const double turns = first ? search.turn_rad : turn;
-      const int n = static_cast<int>(std::ceil(reach / next_step));
-      const int m = static_cast<int>(std::ceil(turns / next_turn));
-      for (int ix = -n; ix <= n; ++ix) {
-        for (int iy = -n; iy <= n; ++iy) {
-          for (int it = -m; it <= m; ++it) {
-            Trial t = from;
-            t.shift_m += next_step * Eigen::Vector2d(ix, iy);
-            t.turn_rad += next_turn * it;
-            t.correlation = correlation(samples, print, t, sigma);
-            tried.push_back(t);
-          }
-        }
-      }
+  const auto turn_of = [&](double sigma) { return std::max(0.002, 1.2 * sigma / radius); };
+  constexpr double kCoarse_m = 0.016;
+  std::vector<Trial> best = distinct(trials_about({}, samples, print, kCoarse_m, search.reach_m,
+                                                  search.turn_rad, kCoarse_m, turn_of(kCoarse_m)),
+                                     kOtherPlace_m, search.places);
+  for (const double sigma : {0.008, 0.004}) {
+    for (Trial& t : best) {
+      t = trials_about(t, samples, print, sigma, 2.0 * sigma, turn_of(2.0 * sigma), sigma,
+                       turn_of(sigma))
+              .front();
     }
-    std::sort(tried.begin(), tried.end(),
-              [](const Trial& a, const Trial& b) { return a.correlation > b.correlation; });
-    if (first) coarse = tried;
-    // A few well apart: neighbours of the best would only repeat it.
-    best.clear();
-    for (const Trial& t : tried) {
-      const bool taken = std::any_of(best.begin(), best.end(), [&](const Trial& other) {
-        return (t.shift_m - other.shift_m).norm() < 1.5 * next_step &&
-               std::abs(t.turn_rad - other.turn_rad) < 1.5 * next_turn;
-      });
-      if (!taken) best.push_back(t);
-      if (best.size() == (first ? 6U : 2U)) break;
-    }
-    step = next_step;
-    turn = next_turn;
   }
-  const Trial& winner = best.front();
-  if (!(winner.correlation > 0.3)) return std::nullopt;
-  PrintMatch match;
-  match.correlation = winner.correlation;
-  // Likelihood with the levels fitted: −n/2·ln(1 − ρ²).
-  const auto likelihood = [&](double rho) {
-    const double r = std::clamp(rho, 0.0, 0.9999);
-    return -0.5 * static_cast<double>(samples.size()) * std::log(1.0 - r * r);
-  };
-  double other = 0.0;
-  for (const Trial& t : coarse) {
-    if ((t.shift_m - winner.shift_m).norm() < 0.04) continue;
-    other = std::max(other, likelihood(correlation(samples, print, t, 0.008)));
-    break;
-  }
-  match.margin = likelihood(winner.correlation) - other;
+  std::sort(best.begin(), best.end(), better);
+  // Two may have come together.
+  best = distinct(best, kOtherPlace_m, search.places);
+  std::vector<PrintMatch> out;
   const Eigen::Vector2d center = print.outline().center_m();
   const Eigen::Vector3d middle(center.x(), center.y(), 0.0);
-  const Eigen::Vector3d shifted =
-      middle + Eigen::Vector3d(winner.shift_m.x(), winner.shift_m.y(), 0.0);
-  const Eigen::Matrix3d spin = so3_exp({0.0, 0.0, winner.turn_rad}).toRotationMatrix();
-  match.lidar_from_board = lidar_from_board * Rigid3::from_matrix(spin, shifted - spin * middle);
-  return match;
+  for (const Trial& t : best) {
+    if (!(t.correlation > kLeastCorrelation)) break;
+    const Eigen::Vector3d shifted = middle + Eigen::Vector3d(t.shift_m.x(), t.shift_m.y(), 0.0);
+    const Eigen::Matrix3d spin = so3_exp({0.0, 0.0, t.turn_rad}).toRotationMatrix();
+    out.push_back({lidar_from_board * Rigid3::from_matrix(spin, shifted - spin * middle),
+                   t.correlation, log_likelihood(t.correlation, samples.size())});
+  }
+  return out;
 }
 
 }  // namespace lvcalib

@@ -17,9 +17,11 @@ namespace lvcalib {
 struct BoardReturns {
   const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> index;
-  std::size_t on_board = 0;    ///< Rays that meet the board's inside, refused ones included.
-  bool has_intensity = false;  ///< And it is not the same on all of them.
-  std::size_t refused = 0;     ///< Of them, those that lie off the plane or next to what covers it.
+  std::size_t on_board = 0;     ///< Rays that meet the board's inside, refused ones included.
+  bool has_intensity = false;   ///< And it is not the same on all of them.
+  double intensity_step = 0.0;  ///< Of numbers that come in few steps, the smallest; else 0.
+  double saturated = 0.0;       ///< Share at the largest value, where they pile up there; else 0.
+  std::size_t refused = 0;  ///< Of them, those that lie off the plane or next to what covers it.
   /// Correlation of neighbours along a line is measured over these: places in `index` whose
   /// successor on the same line is the next place of `successor`, or kNone.
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -48,24 +50,31 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
                             double range_sigma_m, const ReturnSelection& selection = {});
 
+/// How much the intensities vary over the board against what neighbours along the scan differ by:
+/// ½·E[difference²] of noise alone is the variance, so that one means no print to be seen.
+double intensity_structure(const BoardReturns& returns);
+
 /// A pose for the board within a neighbourhood of another, found by the print alone.
 struct PrintMatch {
   Rigid3 lidar_from_board;
-  double correlation = 0.0;  ///< Between intensities and blurred print.
-  /// Log-likelihood over that of the best pose that lies elsewhere (half a feature away or more).
-  double margin = 0.0;
+  double correlation = 0.0;     ///< Between intensities and blurred print.
+  double log_likelihood = 0.0;  ///< Over that of no print at all.
 };
+
+/// Poses at least so far apart are different places of the print: half of the smallest feature that
+/// a LiDAR resolves at two metres.
+inline constexpr double kOtherPlace_m = 0.04;
 
 struct PrintSearch {
   double reach_m = 0.075;  ///< Moves tried along each axis of the board.
   double turn_rad = 0.1;   ///< Turns tried about its normal.
   std::size_t samples = 1500;
+  std::size_t places = 4;  ///< Local maxima followed to the end.
 };
 
-/// Slides and turns the board on its plane until the intensities fit best. Nothing where no pose
-/// correlates.
-std::optional<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
-                                      const Rigid3& lidar_from_board,
-                                      const PrintSearch& search = {});
+/// Slides and turns the board on its plane until the intensities fit best. The best pose first,
+/// then the best of those elsewhere (`places` in all); none where no pose correlates.
+std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
+                                    const Rigid3& lidar_from_board, const PrintSearch& search = {});
 
 }  // namespace lvcalib

@@ -19,6 +19,8 @@ constexpr std::size_t kEarlyRows = 6000;
 constexpr int kCoarseIterations = 6;
 // Of re-estimating the shared errors' variances within one linearization; they go on in the next.
 constexpr int kVarianceRounds = 12;
+// The print is seen where it explains a tenth of the intensities' variance.
+constexpr double kPrintSeen = 0.3;
 
 class ForwardSolver {
  public:
@@ -84,6 +86,10 @@ class ForwardSolver {
                                    state().beam, std::max(n.range_white_m, n.range_black_m),
                                    options_.selection);
     });
+    // What does not show the print tells nothing of its place.
+    for (std::size_t s = 0; s < print_unseen_.size(); ++s) {
+      if (print_unseen_[s]) returns_[s].has_intensity = false;
+    }
     solution_.uses_intensity = std::any_of(returns_.begin(), returns_.end(),
                                            [](const auto& r) { return r.has_intensity; });
     return std::any_of(returns_.begin(), returns_.end(),
@@ -104,36 +110,81 @@ class ForwardSolver {
                    0.8 * options_.first_blur_rad * farthest, context_.thread_count());
   }
 
-  // Each scene's print votes for an extrinsic; the vote under which all scenes' prints fit best
-  // wins, the start included.
+  // Each scene's print votes for an extrinsic, and for the next best; the vote under which all
+  // scenes' prints fit best wins, the start included. The best of those that put the print
+  // elsewhere tells how sure that is.
   void match() {
-    std::vector<std::optional<PrintMatch>> matches(scenes_.size());
+    std::vector<std::vector<PrintMatch>> matches(scenes_.size());
+    print_unseen_.assign(scenes_.size(), false);
     parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       if (context_.stopped()) return;
       matches[s] = match_print(returns_[s], print_, state().lidar_from_board(s), options_.search);
     });
     std::vector<Rigid3> votes{state().camera_from_lidar};
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (!matches[s]) continue;
-      solution_.scenes[s].print_correlation = matches[s]->correlation;
-      solution_.scenes[s].print_margin = matches[s]->margin;
-      votes.push_back(state().camera_from_board[s] * matches[s]->lidar_from_board.inverse());
+      ForwardSceneResult& scene = solution_.scenes[s];
+      if (returns_[s].has_intensity) {
+        scene.intensity_structure = intensity_structure(returns_[s]);
+        scene.saturated = returns_[s].saturated;
+      }
+      if (matches[s].empty()) continue;
+      scene.print_correlation = matches[s].front().correlation;
+      scene.print_margin = matches[s].front().log_likelihood -
+                           (matches[s].size() > 1 ? matches[s][1].log_likelihood : 0.0);
+      for (const PrintMatch& match : matches[s])
+        votes.push_back(state().camera_from_board[s] * match.lidar_from_board.inverse());
     }
     std::vector<double> likelihood(votes.size(), 0.0);
     parallel_for(votes.size(), context_.thread_count(), [&](std::size_t v) {
       for (std::size_t s = 0; s < scenes_.size(); ++s) likelihood[v] += fit_of(s, votes[v]);
     });
-    const auto best = std::max_element(likelihood.begin(), likelihood.end());
-    state().camera_from_lidar = votes[static_cast<std::size_t>(best - likelihood.begin())];
+    const auto best = static_cast<std::size_t>(
+        std::max_element(likelihood.begin(), likelihood.end()) - likelihood.begin());
+    double other = 0.0;
+    for (std::size_t v = 0; v < votes.size(); ++v) {
+      if (lies_elsewhere(votes[v], votes[best])) other = std::max(other, likelihood[v]);
+    }
+    solution_.lattice_margin = likelihood[best] - other;
+    state().camera_from_lidar = votes[best];
+    // What no scene's own search found may be there where the others put it.
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (!returns_[s].has_intensity || !matches[s].empty()) continue;
+      const double rho = agreement(s, votes[best]).correlation;
+      print_unseen_[s] = !(rho > kPrintSeen);
+      if (!print_unseen_[s]) solution_.scenes[s].print_correlation = rho;
+    }
+  }
+
+  // Whether some board's middle lies elsewhere under another extrinsic. What is off by less comes
+  // back in the solve.
+  bool lies_elsewhere(const Rigid3& a, const Rigid3& b) const {
+    const Eigen::Vector2d c = print_.outline().center_m();
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (print_unseen_[s]) continue;
+      const Eigen::Vector3d middle =
+          solution_.state.camera_from_board[s] * Eigen::Vector3d(c.x(), c.y(), 0.0);
+      const Eigen::Vector3d off = b.inverse() * middle - a.inverse() * middle;
+      if (off.norm() > kOtherPlace_m) return true;
+    }
+    return false;
   }
 
   // Log-likelihood of one scene's intensities under an extrinsic, levels fitted; a blur of 12 mm
   // bridges what the votes are still off.
   double fit_of(std::size_t s, const Rigid3& camera_from_lidar) const {
+    const Agreement a = agreement(s, camera_from_lidar);
+    return -0.5 * a.samples * std::log(1.0 - a.correlation * a.correlation);
+  }
+
+  struct Agreement {
+    double samples = 0.0;
+    double correlation = 0.0;  // From 0 to 0.9999.
+  };
+  Agreement agreement(std::size_t s, const Rigid3& camera_from_lidar) const {
     const Rigid3 board = camera_from_lidar.inverse() * solution_.state.camera_from_board[s];
     const BoardPredictor predictor(print_, board, {}, {});
     const BoardReturns& returns = returns_[s];
-    if (!returns.has_intensity) return 0.0;
+    if (!returns.has_intensity) return {};
     double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
     const std::size_t stride = std::max<std::size_t>(1, returns.size() / 1500);
     for (std::size_t k = 0; k < returns.size(); k += stride) {
@@ -150,9 +201,8 @@ class ForwardSolver {
     }
     const double va = aa - a * a / n;
     const double vi = ii - i * i / n;
-    if (!(n > 10 && va > 0 && vi > 0)) return 0.0;
-    const double rho = std::clamp((ai - a * i / n) / std::sqrt(va * vi), 0.0, 0.9999);
-    return -0.5 * n * std::log(1.0 - rho * rho);
+    if (!(n > 10 && va > 0 && vi > 0)) return {};
+    return {n, std::clamp((ai - a * i / n) / std::sqrt(va * vi), 0.0, 0.9999)};
   }
 
   // Levels by regression of the intensities on the coarse print.
@@ -431,7 +481,45 @@ class ForwardSolver {
       scene.intensity_chi = chi(fit.intensity_squares, fit.intensity_rows);
       scene.corner_chi = chi(fit.corner_squares, fit.corner_rows);
       scene.noise = fit.noise;
+      scene.seen = seen_share(s);
+      if (returns_[s].has_intensity && scene.print_correlation > 0.0) {
+        scene.print_size = measure_print_size(returns_[s], print_, state().lidar_from_board(s),
+                                              state().levels[s], state().beam, fit.noise);
+      }
     }
+    std::vector<PrintSize> sizes;
+    double inflation = 1.0;
+    for (const ForwardSceneResult& scene : solution_.scenes) {
+      sizes.push_back(scene.print_size);
+      inflation = std::max(inflation, scene.noise.intensity_inflation);
+    }
+    solution_.print_size = combined_print_size(sizes);
+    solution_.lattice_margin /= inflation;
+  }
+
+  // Share of sixteen parts of the board with at least a fifth of the returns that the fuller half
+  // of them has.
+  double seen_share(std::size_t s) const {
+    constexpr int kParts = 4;
+    constexpr double kFewest = 0.2;
+    const BoardOutline& outline = print_.outline();
+    const BoardPredictor predictor(print_, solution_.state.lidar_from_board(s), {}, {});
+    std::array<double, kParts * kParts> count{};
+    for (std::size_t k = 0; k < returns_[s].size(); ++k) {
+      const auto hit = predictor.hit(returns_[s].point_m(k).normalized());
+      if (!hit) continue;
+      const Eigen::Vector2d t =
+          kParts * (hit->board_m - outline.lower_left_m).cwiseQuotient(outline.size_m());
+      const int x = std::clamp(static_cast<int>(t.x()), 0, kParts - 1);
+      const int y = std::clamp(static_cast<int>(t.y()), 0, kParts - 1);
+      count[static_cast<std::size_t>(y * kParts + x)] += 1.0;
+    }
+    std::vector<double> sorted(count.begin(), count.end());
+    std::sort(sorted.begin(), sorted.end());
+    const double usual = sorted[sorted.size() * 3 / 4];
+    const auto seen = std::count_if(count.begin(), count.end(),
+                                    [&](double n) { return n > 0.0 && n >= kFewest * usual; });
+    return static_cast<double>(seen) / static_cast<double>(count.size());
   }
 
   // ν = 2v²/Var(v), v the trace of the extrinsic's scaled covariance, whose variance comes from
@@ -476,6 +564,7 @@ class ForwardSolver {
   GlobalSolution last_;
   GlobalPrior prior_;
   std::vector<SceneEquations> equations_;
+  std::vector<bool> print_unseen_;  ///< Per scene, once the print was looked for.
 };
 
 }  // namespace

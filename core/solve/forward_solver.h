@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "solve/forward_problem.h"
+#include "solve/print_size.h"
 
 namespace lvcalib {
 
@@ -39,10 +40,14 @@ struct ForwardSceneResult {
   double intensity_left = 1.0;
   double range_chi = 0.0, intensity_chi = 0.0, corner_chi = 0.0;  ///< RMS in σ.
   SceneNoise noise;
-  /// Before the joint solve, of the print alone: correlation, and the log-likelihood by which its
-  /// place beats the best other one.
+  /// Before the joint solve, of the print alone: correlation (0: the print is not seen, and the
+  /// intensities are not used), and the log-likelihood by which its place beats the best other one.
   double print_correlation = 0.0;
   double print_margin = 0.0;
+  double intensity_structure = 1.0;  ///< See intensity_structure().
+  double saturated = 0.0;            ///< See BoardReturns.
+  double seen = 1.0;                 ///< Share of the board, in sixteenths, that holds returns.
+  PrintSize print_size;              ///< As the returns show it.
 };
 
 /// The extrinsic and all else that the base model holds.
@@ -59,6 +64,12 @@ struct ForwardSolution {
   int iterations = 0;
   bool converged = false;
   bool uses_intensity = false;
+  /// Log-likelihood, over all scenes, by which the print's place beats the best place elsewhere;
+  /// the likelihood of no print at all if there is no other place. Divided by the variance
+  /// inflation.
+  double lattice_margin = 0.0;
+  /// Size of the print over all scenes.
+  PrintSize print_size;
 };
 
 /// The extrinsic that some of the scenes give (`use` per scene), to first order about the solution

@@ -33,11 +33,11 @@ struct BlackShapes {
   double disc_radius = 0.0;
 };
 
-void add_checkerboard(const Target& t, BlackShapes& shapes) {
+void add_squares(const Target& t, BlackShapes& shapes) {
   const Eigen::Vector2d square(t.column_spacing_m, t.row_spacing_m);
   for (int row = -1; row < t.corner_rows; ++row) {
     for (int column = -1; column < t.corner_columns; ++column) {
-      if (((column + row) & 1) != 0) continue;
+      if (!t.square_is_black(column, row)) continue;
       const Eigen::Vector2d from = square.cwiseProduct(Eigen::Vector2d(column, row));
       shapes.rectangles.push_back({from, from + square});
     }
@@ -73,10 +73,7 @@ void add_tag(const Target& t, const TargetTag& tag, BlackShapes& shapes) {
 
 BlackShapes black_shapes(const Target& target) {
   BlackShapes shapes;
-  if (target.type == TargetType::kCheckerboard) {
-    add_checkerboard(target, shapes);
-    return shapes;
-  }
+  if (target.has_squares()) add_squares(target, shapes);
   for (const TargetTag& tag : target.tags()) add_tag(target, tag, shapes);
   for (const TargetNode& node : target.nodes()) shapes.discs.push_back(node.center_m);
   shapes.disc_radius = target.circle_radius_m;

@@ -97,7 +97,8 @@ void fill_tag(cairo_t* cairo, const Target& target, const TargetTag& tag,
   cairo_fill(cairo);
 }
 
-bool draw_grid(cairo_t* cairo, const Target& target, const Window& window,
+// Tags or markers, and circles.
+bool draw_tags(cairo_t* cairo, const Target& target, const Window& window,
                const RunContext& context) {
   for (const TargetTag& tag : target.tags()) {
     if (context.stopped()) return false;
@@ -117,8 +118,8 @@ bool draw_grid(cairo_t* cairo, const Target& target, const Window& window,
   return true;
 }
 
-bool draw_checkerboard(cairo_t* cairo, const Target& target, const Window& window,
-                       const RunContext& context) {
+bool draw_squares(cairo_t* cairo, const Target& target, const Window& window,
+                  const RunContext& context) {
   const Eigen::Vector2d square(target.column_spacing_m, target.row_spacing_m);
   const double half_mm = 500.0 * square.maxCoeff();
   for (int row = -1; row < target.corner_rows; ++row) {
@@ -126,7 +127,7 @@ bool draw_checkerboard(cairo_t* cairo, const Target& target, const Window& windo
     for (int column = -1; column < target.corner_columns; ++column) {
       const Eigen::Vector2d center_m((column + 0.5) * square.x(), (row + 0.5) * square.y());
       const Eigen::Vector2d center = sheet_point_mm(target, center_m);
-      if (((column + row) & 1) != 0 || !window.meets(center, half_mm)) continue;
+      if (!target.square_is_black(column, row) || !window.meets(center, half_mm)) continue;
       cairo_rectangle(cairo, center.x() - 500.0 * square.x(), center.y() - 500.0 * square.y(),
                       1000.0 * square.x(), 1000.0 * square.y());
     }
@@ -240,8 +241,8 @@ bool draw_sheet_page(cairo_t* cairo, const Target& target, const SheetLayout& la
   cairo_clip(cairo);
   cairo_translate(cairo, board.x(), board.y());
   cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
-  const bool done = target.has_tags() ? draw_grid(cairo, target, window, context)
-                                      : draw_checkerboard(cairo, target, window, context);
+  const bool done = (!target.has_squares() || draw_squares(cairo, target, window, context)) &&
+                    draw_tags(cairo, target, window, context);
   cairo_restore(cairo);
   if (!done) return false;
   draw_marks(cairo, layout, row, column);

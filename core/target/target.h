@@ -16,6 +16,8 @@ enum class TargetType {
   kAprilGridCircles,  ///< AprilGrid with black circles in the gap crossings.
   kAprilGrid,         ///< AprilGrid as Kalibr prints it.
   kCheckerboard,
+  kCharuco,   ///< OpenCV's ChArUco board: a checkerboard with a marker in every white square.
+  kAprilTag,  ///< One big AprilTag.
 };
 
 /// One circular node: its id and its centre on the board.
@@ -44,11 +46,14 @@ struct BoardOutline {
 /// AprilGrid: origin at the outer lower-left corner of the lowest tag; tags upright, ids grow
 /// along x, then y; tag pitch = tag_size·(1 + tag_spacing); node (i, j) sits in the gap crossing
 /// between columns i, i+1 and rows j, j+1 and has id j·(columns−1)+i.
+/// Single AprilTag: origin at the outer lower-left corner of the tag.
 /// Checkerboard: origin at the first inner corner, x along the columns, y along the rows.
+/// ChArUco: as the checkerboard, seen upright; the first inner corner is the lower left one. Marker
+/// ids grow from the top row on, from left to right, as OpenCV counts them.
 struct Target {
   TargetType type = TargetType::kAprilGridCircles;
 
-  // AprilGrid.
+  // AprilGrid; a single AprilTag is a grid of one. Of a ChArUco board: dictionary, markers.
   std::string tag_family = "tag36h11";
   int tag_columns = 4;
   int tag_rows = 4;
@@ -59,8 +64,8 @@ struct Target {
   double circle_radius_m = 0.045;
   double margin_m = 0.06;  ///< White border beyond the outer tags.
 
-  // Checkerboard: inner corners and square sizes, outline, and
-  // pattern centre − board centre.
+  // Checkerboard and ChArUco: inner corners and square sizes; with the single AprilTag: outline,
+  // and pattern centre − board centre.
   int corner_columns = 0;
   int corner_rows = 0;
   double column_spacing_m = 0.0;
@@ -69,9 +74,26 @@ struct Target {
   double board_height_m = 0.0;
   Eigen::Vector2d board_offset_m = Eigen::Vector2d::Zero();
 
+  /// Colour of a checkerboard's lower left square. No file says it; the images do.
+  bool white_first = false;
+  /// ChArUco boards of OpenCV before 4.6 with an even number of square rows begin with a white
+  /// square at the top left; all others with a black one.
+  bool legacy_pattern = false;
+
+  /// Fiducial tags or markers, whose ids and bits say which way up the board is.
   [[nodiscard]] bool has_tags() const { return type != TargetType::kCheckerboard; }
+  [[nodiscard]] bool has_squares() const {
+    return type == TargetType::kCheckerboard || type == TargetType::kCharuco;
+  }
   [[nodiscard]] bool has_circles() const { return type == TargetType::kAprilGridCircles; }
-  [[nodiscard]] double tag_pitch_m() const { return tag_size_m * (1.0 + tag_spacing); }
+  /// From one tag of a grid to the next; of a ChArUco board from one square to the next.
+  [[nodiscard]] double tag_pitch_m() const;
+  /// White between a tag and whatever black is next to it.
+  [[nodiscard]] double tag_gap_m() const;
+  /// Number of tags: tags().size().
+  [[nodiscard]] int tag_count() const;
+  /// Colour of a square; square (0, 0) has the first inner corner as its lower left.
+  [[nodiscard]] bool square_is_black(int column, int row) const;
   /// Width of one bit of a tag.
   [[nodiscard]] double tag_bit_m() const;
 
@@ -80,7 +102,7 @@ struct Target {
   /// The tag's outer corners: lower left, lower right, upper right, upper left (as seen upright).
   [[nodiscard]] std::vector<Eigen::Vector2d> tag_corners_m(const TargetTag& tag) const;
   [[nodiscard]] std::vector<TargetNode> nodes() const;
-  /// Inner corners of a checkerboard, row by row.
+  /// Inner corners of the squares, row by row; none without squares.
   [[nodiscard]] std::vector<Eigen::Vector2d> checkerboard_corners_m() const;
   /// The edge of the physical board.
   [[nodiscard]] BoardOutline outline() const;
@@ -104,12 +126,20 @@ struct TagPattern {
   }
 };
 
-/// Pattern of one tag of tag36h11, tag36h10, tag25h9 or tag16h5; null for unknown family or id.
+/// Pattern of one tag of tag36h11, tag36h10, tag25h9 or tag16h5, or of one marker of OpenCV's
+/// predefined dictionaries (DICT_4X4_50 … DICT_APRILTAG_36h11; those of the AprilTag families are
+/// turned by 180° against the families themselves); null for unknown family or id.
 /// The pattern lives as long as the program.
 const TagPattern* tag_pattern(const std::string& family, int id);
 
-/// Number of tags in a family; 0 for an unknown one.
+/// Number of tags in a family or dictionary; 0 for an unknown one.
 int tag_family_size(const std::string& family);
+
+/// Whether a name is that of one of OpenCV's predefined dictionaries.
+bool is_marker_dictionary(const std::string& family);
+
+/// Names of OpenCV's predefined dictionaries, in OpenCV's order.
+const std::vector<std::string>& marker_dictionaries();
 
 /// A target read from a file, with warnings about unknown keys.
 struct TargetFile {
@@ -117,7 +147,7 @@ struct TargetFile {
   std::vector<std::string> warnings;
 };
 
-/// Reads target.yaml (Kalibr's AprilGrid and checkerboard keys and ours).
+/// Reads target.yaml (Kalibr's AprilGrid and checkerboard keys, and ours).
 Result<TargetFile> read_target(const std::filesystem::path& path);
 
 /// The target as the text of a target.yaml that reads back as the same target.

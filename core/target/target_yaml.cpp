@@ -31,6 +31,21 @@ class Reader {
   void optional_string(const char* key, std::string& out) {
     if (file_.has(key)) take(file_.string(key), out);
   }
+  void optional_flag(const char* key, bool& out) {
+    if (!file_.has(key)) return;
+    const auto word = file_.string(key);
+    if (word && (*word == "true" || *word == "True" || *word == "yes" || *word == "1")) {
+      out = true;
+    } else if (word && (*word == "false" || *word == "False" || *word == "no" || *word == "0")) {
+      out = false;
+    } else if (!error_) {
+      error_ = word ? file_.error_at(
+                          *file_.root().find(key),
+                          std::string(key) + ": expected true or false, found '" + *word + "'")
+                    : word.error();
+    }
+  }
+  void string(const char* key, std::string& out) { take(file_.string(key), out); }
   void optional_pair(const char* key, Eigen::Vector2d& out) {
     if (!file_.has(key)) return;
     std::vector<double> pair;
@@ -69,6 +84,13 @@ void read_grid(Reader& reader, Target& target) {
   if (target.has_circles()) reader.number("circleRadius", target.circle_radius_m);
 }
 
+// boardWidth, boardHeight and boardOffset; without them the board ends with its pattern.
+void read_outline(Reader& reader, const YamlFile& file, Target& target) {
+  if (file.has("boardWidth")) reader.number("boardWidth", target.board_width_m);
+  if (file.has("boardHeight")) reader.number("boardHeight", target.board_height_m);
+  reader.optional_pair("boardOffset", target.board_offset_m);
+}
+
 void read_checkerboard(Reader& reader, const YamlFile& file, Target& target) {
   reader.integer("targetCols", target.corner_columns, 3);
   reader.integer("targetRows", target.corner_rows, 3);
@@ -77,9 +99,37 @@ void read_checkerboard(Reader& reader, const YamlFile& file, Target& target) {
   // Without an outline: the pattern with its outer squares.
   target.board_width_m = (target.corner_columns + 1) * target.column_spacing_m;
   target.board_height_m = (target.corner_rows + 1) * target.row_spacing_m;
-  if (file.has("boardWidth")) reader.number("boardWidth", target.board_width_m);
-  if (file.has("boardHeight")) reader.number("boardHeight", target.board_height_m);
-  reader.optional_pair("boardOffset", target.board_offset_m);
+  read_outline(reader, file, target);
+}
+
+void read_charuco(Reader& reader, const YamlFile& file, Target& target) {
+  int columns = 0;
+  int rows = 0;
+  reader.integer("targetCols", columns, 3);
+  reader.integer("targetRows", rows, 3);
+  target.corner_columns = columns - 1;
+  target.corner_rows = rows - 1;
+  reader.number("squareSize", target.column_spacing_m);
+  target.row_spacing_m = target.column_spacing_m;
+  reader.number("markerSize", target.tag_size_m);
+  reader.string("dictionary", target.tag_family);
+  if (!target.tag_family.starts_with("DICT_")) target.tag_family.insert(0, "DICT_");
+  reader.optional_integer("firstMarkerId", target.first_tag_id, 0, 1'000'000);
+  reader.optional_flag("legacyPattern", target.legacy_pattern);
+  target.board_width_m = columns * target.column_spacing_m;
+  target.board_height_m = rows * target.column_spacing_m;
+  read_outline(reader, file, target);
+}
+
+void read_single_tag(Reader& reader, const YamlFile& file, Target& target) {
+  reader.optional_string("tagFamily", target.tag_family);
+  reader.integer("tagId", target.first_tag_id, 0, 1'000'000);
+  reader.number("tagSize", target.tag_size_m);
+  reader.optional_integer("tagBorder", target.tag_border_bits, 1, 2);
+  // A white border of one bit, which the tag needs to be seen.
+  const double border_m = target.tag_size_m > 0.0 ? target.tag_bit_m() : 0.0;
+  target.board_width_m = target.board_height_m = target.tag_size_m + 2.0 * border_m;
+  read_outline(reader, file, target);
 }
 
 }  // namespace
@@ -103,11 +153,23 @@ Result<TargetFile> read_target(const std::filesystem::path& path) {
     read_checkerboard(reader, *file, target);
     known = {"target_type",      "targetCols", "targetRows",  "colSpacingMeters",
              "rowSpacingMeters", "boardWidth", "boardHeight", "boardOffset"};
+  } else if (*type == "charuco") {
+    target.type = TargetType::kCharuco;
+    read_charuco(reader, *file, target);
+    known = {"target_type", "targetCols",  "targetRows",    "squareSize",
+             "markerSize",  "dictionary",  "firstMarkerId", "legacyPattern",
+             "boardWidth",  "boardHeight", "boardOffset"};
+  } else if (*type == "apriltag") {
+    target.type = TargetType::kAprilTag;
+    read_single_tag(reader, *file, target);
+    known = {"target_type", "tagFamily",  "tagId",       "tagSize",
+             "tagBorder",   "boardWidth", "boardHeight", "boardOffset"};
   } else {
     return file->error_at(
         *file->root().find("target_type"),
         "target_type '" + *type +
-            "' is not known; expected aprilgrid_circles, aprilgrid or checkerboard");
+            "' is not known; expected aprilgrid_circles, aprilgrid, checkerboard, charuco or "
+            "apriltag");
   }
   std::vector<std::string> warnings = file->unknown_keys(known);
   if (reader.error()) {
@@ -129,15 +191,39 @@ std::string to_yaml(const Target& t) {
   const auto line = [&out](const char* key, const std::string& value) {
     out += std::string(key) + ": " + value + "\n";
   };
+  const auto outline = [&] {
+    line("boardWidth", text(t.board_width_m));
+    line("boardHeight", text(t.board_height_m));
+    line("boardOffset", "[" + text(t.board_offset_m.x()) + ", " + text(t.board_offset_m.y()) + "]");
+  };
+  if (t.type == TargetType::kCharuco) {
+    line("target_type", "charuco");
+    line("targetCols", std::to_string(t.corner_columns + 1));
+    line("targetRows", std::to_string(t.corner_rows + 1));
+    line("squareSize", text(t.column_spacing_m));
+    line("markerSize", text(t.tag_size_m));
+    line("dictionary", t.tag_family);
+    line("firstMarkerId", std::to_string(t.first_tag_id));
+    line("legacyPattern", t.legacy_pattern ? "true" : "false");
+    outline();
+    return out;
+  }
+  if (t.type == TargetType::kAprilTag) {
+    line("target_type", "apriltag");
+    line("tagFamily", t.tag_family);
+    line("tagId", std::to_string(t.first_tag_id));
+    line("tagSize", text(t.tag_size_m));
+    line("tagBorder", std::to_string(t.tag_border_bits));
+    outline();
+    return out;
+  }
   if (t.type == TargetType::kCheckerboard) {
     line("target_type", "checkerboard");
     line("targetCols", std::to_string(t.corner_columns));
     line("targetRows", std::to_string(t.corner_rows));
     line("colSpacingMeters", text(t.column_spacing_m));
     line("rowSpacingMeters", text(t.row_spacing_m));
-    line("boardWidth", text(t.board_width_m));
-    line("boardHeight", text(t.board_height_m));
-    line("boardOffset", "[" + text(t.board_offset_m.x()) + ", " + text(t.board_offset_m.y()) + "]");
+    outline();
     return out;
   }
   line("target_type", t.has_circles() ? "aprilgrid_circles" : "aprilgrid");

@@ -81,7 +81,7 @@ endif()
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc calib3d imgcodecs features2d)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc calib3d imgcodecs features2d aruco)
 find_package(Ceres 2.1 REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)

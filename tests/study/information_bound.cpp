@@ -263,4 +263,9 @@ Matrix6d scene_information(const simulation::SimulatedRig& rig,
   return covariance.ldlt().solve(Matrix6d::Identity());
 }
 
+Matrix6d board_information(const simulation::SimulatedRig& rig,
+                           const simulation::SimulatedScene& scene) {
+  return lidar_information(rig, scene);
+}
+
 }  // namespace lvcalib::study

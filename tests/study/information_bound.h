@@ -15,4 +15,9 @@ namespace lvcalib::study {
 Matrix6d scene_information(const simulation::SimulatedRig& rig,
                            const simulation::SimulatedScene& scene);
 
+/// What the returns alone hold about T_lidar_board (left perturbation in the LiDAR frame), with the
+/// same nuisances.
+Matrix6d board_information(const simulation::SimulatedRig& rig,
+                           const simulation::SimulatedScene& scene);
+
 }  // namespace lvcalib::study

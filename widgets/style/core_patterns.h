@@ -61,6 +61,40 @@ inline constexpr const char* kCorePatterns[] = {
         "Core",
         "the clouds' intensity is missing or the same everywhere: the extrinsic rests "
         "on planes and corners, and the print does not hold it sideways"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the print has no contrast for this LiDAR: the extrinsic rests on planes and "
+                      "corners, and the print does not hold it sideways"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the clouds' intensities do not follow the target's print: the extrinsic "
+                      "rests on planes and corners, and the print does not hold it sideways; does "
+                      "target.yaml describe this board?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the clouds' intensity is missing or the same everywhere in scene %1: planes "
+                      "and corners are used there"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "the print has no contrast for this LiDAR in scene %1: planes and corners are used there"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the clouds' intensities do not follow the target's print in scene %1: "
+                      "planes and corners are used there; does target.yaml describe this board?"),
+    QT_TRANSLATE_NOOP(
+        "Core", "the LiDAR sees %1 % of the board only: something covers it, or it is cut off"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the intensities are saturated on part of the board: scene %1; lower the "
+                      "LiDAR's gain or print the white greyer"),
+    QT_TRANSLATE_NOOP("Core",
+                      "ambiguous: another place of the print on the board fits the intensities of "
+                      "all scenes nearly as well (log-likelihood %1 less)"),
+    QT_TRANSLATE_NOOP("Core",
+                      "LiDAR and camera disagree on the board's size: the LiDAR sees the print %1 "
+                      "% larger than target.yaml says; %2 would fit; measure the print"),
+    QT_TRANSLATE_NOOP("Core",
+                      "LiDAR and camera disagree on the board's size: the LiDAR sees the print %1 "
+                      "% smaller than target.yaml says; %2 would fit; measure the print"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "LiDAR and camera disagree on the board's size: the LiDAR sees the print %1 % as wide and "
+        "%2 % as high as target.yaml says; %3 would fit; measure the print"),
     // Weak directions.
     QT_TRANSLATE_NOOP("Core", "%1 is not determined: add scenes with the board turned differently"),
     QT_TRANSLATE_NOOP("Core", "%1 is known %2 times worse than the typical direction: %3"),
@@ -105,6 +139,15 @@ inline constexpr const char* kCorePatterns[] = {
         "Core",
         "no tags in the image (the board must be in view, sharp, and neither dark nor "
         "overexposed)"),
+    QT_TRANSLATE_NOOP("Core",
+                      "its checkerboard has black and white squares the other way round than in "
+                      "most scenes: is it another board, or is the image mirrored?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the board, or one with the same tags, is in the image twice (cover one of "
+                      "them, or leave this scene out)"),
+    QT_TRANSLATE_NOOP("Core",
+                      "two checkerboards of this size are in the image (cover one of them, or "
+                      "leave this scene out)"),
     // Bins and nodes of the refinement.
     QT_TRANSLATE_NOOP("Core", "used"),
     QT_TRANSLATE_NOOP("Core", "too few samples"),

@@ -33,9 +33,11 @@ class CornerShift {
   };
   double pitch_m_ = 1.0;
   double size_m_ = 0.0;
-  double reach_m_ = 0.0;  // From the tag's centre along each axis.
+  double reach_m_ = 0.0;                               // From the tag's centre along each axis.
+  Eigen::Vector2d first_m_ = Eigen::Vector2d::Zero();  // Lower left of the first cell.
   int columns_ = 0;
   int rows_ = 0;
+  std::vector<int> place_;  // Per cell which tag it holds; −1: none.
   std::vector<Tag> tags_;
 };
 

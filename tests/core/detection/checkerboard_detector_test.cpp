@@ -43,8 +43,9 @@ TEST(Checkerboard, ColorsDecideTheFrameWhereTheyCan) {
     const auto corners =
         find_checkerboard(testing::render_board(target, camera, pose, render), target, {});
     ASSERT_TRUE(corners.ok()) << roll << " " << corners.error().text();
-    ASSERT_EQ(corners->size(), 30U);
-    EXPECT_LT(worst_error(*corners, camera, pose), 0.15) << roll;
+    ASSERT_EQ(corners->corners.size(), 30U);
+    EXPECT_FALSE(corners->other_colors);
+    EXPECT_LT(worst_error(corners->corners, camera, pose), 0.15) << roll;
   }
 }
 
@@ -61,10 +62,10 @@ TEST(Checkerboard, SymmetricBoardGetsTheUprightFrame) {
     const auto corners = find_checkerboard(image, target, {});
     ASSERT_TRUE(corners.ok());
     if (roll < 1) {
-      EXPECT_LT(worst_error(*corners, camera, upright), 0.15);
+      EXPECT_LT(worst_error(corners->corners, camera, upright), 0.15);
     }
-    const Eigen::Vector2d x = (*corners)[4].pixel - (*corners)[0].pixel;
-    const Eigen::Vector2d y = (*corners)[30].pixel - (*corners)[0].pixel;
+    const Eigen::Vector2d x = corners->corners[4].pixel - corners->corners[0].pixel;
+    const Eigen::Vector2d y = corners->corners[30].pixel - corners->corners[0].pixel;
     EXPECT_LT(y.y(), 0.0);
     EXPECT_LT(x.x() * y.y() - x.y() * y.x(), 0.0);
   }
@@ -76,6 +77,44 @@ TEST(Checkerboard, MissingBoardIsAnError) {
   const auto corners = find_checkerboard(image, target, {});
   ASSERT_FALSE(corners.ok());
   EXPECT_NE(corners.error().message.find("5 × 7"), std::string::npos);
+}
+
+// 5 × 7 squares' corners look the same after half a turn: only the image knows which are black.
+TEST(Checkerboard, SaysWhenTheColorsAreTheOtherWayRound) {
+  Target target = board(5, 7);
+  const Camera camera = testing::pinhole(320, 300, 350);
+  const Rigid3 pose = testing::facing_pose(target, 1.0, 0.1, 0.2, 0.1);
+  for (const bool white_first : {false, true}) {
+    target.white_first = white_first;
+    const auto image = testing::render_board(target, camera, pose, {});
+    for (const bool said : {false, true}) {
+      Target told = target;
+      told.white_first = said;
+      const auto corners = find_checkerboard(image, told, {});
+      ASSERT_TRUE(corners.ok());
+      EXPECT_EQ(corners->other_colors, said != white_first);
+    }
+  }
+}
+
+TEST(Checkerboard, TwoOfThemAreAnError) {
+  const Target target = board(5, 7);
+  const Camera camera = testing::pinhole(640, 300, 350);
+  Rigid3 pose = testing::facing_pose(target, 1.0, 0.1, 0.2, 0.1);
+  pose.translation.x() -= 0.4;
+  auto both = testing::render_board(target, camera, pose, {});
+  pose.translation.x() += 0.8;
+  const auto second = testing::render_board(target, camera, pose, {});
+  for (int y = 0; y < both.height_px; ++y) {
+    for (int x = both.width_px / 2; x < both.width_px; ++x) {
+      const auto i = static_cast<std::size_t>(y * both.width_px + x);
+      both.pixels[i] = second.pixels[i];
+    }
+  }
+  EXPECT_TRUE(find_checkerboard(second, target, {}).ok());
+  const auto corners = find_checkerboard(both, target, {});
+  ASSERT_FALSE(corners.ok());
+  EXPECT_NE(corners.error().message.find("two checkerboards"), std::string::npos);
 }
 
 TEST(Checkerboard, AllRealImagesAreFound) {

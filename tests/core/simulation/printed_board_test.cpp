@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "support/ordinary_boards.h"
 
 namespace lvcalib::simulation {
 namespace {
@@ -72,7 +73,9 @@ TEST_P(PrintedBoardOf, NothingChangesWithinTheClearance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, PrintedBoardOf,
-                         testing::Values(Target{}, kalibr_grid(), checkerboard()));
+                         testing::Values(Target{}, kalibr_grid(), checkerboard(),
+                                         test::charuco_target(), test::legacy_charuco_target(),
+                                         test::single_tag_target()));
 
 TEST(PrintedBoard, ClearanceIsNearlyTheDistanceToTheNearestEdge) {
   const Target target;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "forward_rig.h"
+#include "support/ordinary_boards.h"
 
 namespace lvcalib {
 namespace {
@@ -59,12 +60,17 @@ TEST(BoardReturns, ThePrintFindsItsPlace) {
     const Eigen::Quaterniond spin = so3_exp({0.0, 0.0, seed % 2 == 0 ? 0.087 : -0.087});
     const Rigid3 turned = start * Rigid3{spin, center - spin * center};
     const BoardReturns returns = select_returns(rig.clouds.front(), print, turned, beam(), 0.016);
-    const auto match = match_print(returns, print, turned);
-    ASSERT_TRUE(match);
-    EXPECT_LT((match->lidar_from_board * center - truth * center).norm(), 0.004);
-    EXPECT_LT(rotation_distance_rad(match->lidar_from_board, truth), 0.008);
-    EXPECT_GT(match->correlation, 0.9);
-    EXPECT_GT(match->margin, 100.0);
+    const auto matches = match_print(returns, print, turned);
+    ASSERT_FALSE(matches.empty());
+    const PrintMatch& match = matches.front();
+    EXPECT_LT((match.lidar_from_board * center - truth * center).norm(), 0.004);
+    EXPECT_LT(rotation_distance_rad(match.lidar_from_board, truth), 0.008);
+    EXPECT_GT(match.correlation, 0.9);
+    for (std::size_t k = 1; k < matches.size(); ++k) {
+      EXPECT_GT(match.log_likelihood, matches[k].log_likelihood + 100.0);
+      EXPECT_GE((matches[k].lidar_from_board * center - match.lidar_from_board * center).norm(),
+                kOtherPlace_m);
+    }
   }
 }
 
@@ -76,7 +82,49 @@ TEST(BoardReturns, APlainBoardMatchesNothing) {
   const BlurredPrint print(rig.target);
   const Rigid3& truth = rig.lidar_from_board.front();
   const BoardReturns returns = select_returns(rig.clouds.front(), print, truth, beam(), 0.016);
-  EXPECT_FALSE(match_print(returns, print, truth));
+  EXPECT_TRUE(match_print(returns, print, truth).empty());
+  EXPECT_NEAR(intensity_structure(returns), 1.0, 0.1);
+}
+
+// A window of one square in a checkerboard looks the same two squares on; the whole board does not.
+TEST(BoardReturns, WhatLooksTheSameElsewhereIsFoundThereToo) {
+  auto o = options(6);
+  o.target = test::checkerboard_target();
+  o.target.column_spacing_m = o.target.row_spacing_m = 0.03;
+  o.target.corner_columns = 25;
+  o.target.corner_rows = 19;
+  const auto rig = test::forward_rig(o);
+  const BlurredPrint print(rig.target);
+  const Rigid3& truth = rig.lidar_from_board.front();
+  const Rigid3 board_from_lidar = truth.inverse();
+  const Eigen::Vector2d c = rig.target.outline().center_m();
+  Cloud window;
+  const Cloud& cloud = rig.clouds.front();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d p = board_from_lidar * cloud.points_m[i].cast<double>().eval();
+    if ((p.head<2>() - c).cwiseAbs().maxCoeff() < 0.15) append_point(window, cloud, i);
+  }
+  const auto returns = select_returns(window, print, truth, beam(), 0.016);
+  const auto matches = match_print(returns, print, truth);
+  ASSERT_GT(matches.size(), 1U);
+  EXPECT_LT(matches[0].log_likelihood - matches[1].log_likelihood, 10.0);
+}
+
+TEST(BoardReturns, StepsAndCeilingOfTheIntensityAreSeen) {
+  auto rig = test::forward_rig(options(7));
+  const BlurredPrint print(rig.target);
+  const Rigid3& truth = rig.lidar_from_board.front();
+  Cloud& cloud = rig.clouds.front();
+  const BoardReturns plain = select_returns(cloud, print, truth, beam(), 0.016);
+  EXPECT_EQ(plain.saturated, 0.0);
+  EXPECT_GT(intensity_structure(plain), 2.0);
+  const std::vector<float> intensity = cloud.intensity;
+  for (float& i : cloud.intensity) i = 20.0F * std::floor(i / 20.0F);
+  EXPECT_EQ(select_returns(cloud, print, truth, beam(), 0.016).intensity_step, 20.0);
+  EXPECT_EQ(select_returns(cloud, print, truth, beam(), 0.016).saturated, 0.0);
+  cloud.intensity = intensity;
+  for (float& i : cloud.intensity) i = std::min(i, 70.0F);
+  EXPECT_GT(select_returns(cloud, print, truth, beam(), 0.016).saturated, 0.4);
 }
 
 }  // namespace

@@ -69,7 +69,9 @@ inline ForwardRig forward_rig(const simulation::SimulationOptions& options) {
       for (std::size_t k = 0; k < corners.size(); ++k) add(tag.id, static_cast<int>(k), corners[k]);
     }
     int index = 0;
-    for (const Eigen::Vector2d& p : rig.target.checkerboard_corners_m()) add(index++, 0, p);
+    if (!rig.target.has_tags()) {
+      for (const Eigen::Vector2d& p : rig.target.checkerboard_corners_m()) add(index++, 0, p);
+    }
     rig.lidar_from_board.push_back(scene->lidar_from_board);
     rig.scenes.push_back(std::move(forward));
   }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "forward_rig.h"
+#include "support/ordinary_boards.h"
 
 namespace lvcalib {
 namespace {
@@ -23,17 +24,6 @@ simulation::SimulationOptions options(std::uint64_t seed, LidarKind kind, int sc
   o.scenes = scenes;
   o.target.tag_spacing = 0.1 / 0.12;
   return o;
-}
-
-Target checkerboard() {
-  Target t;
-  t.type = TargetType::kCheckerboard;
-  t.corner_columns = 7;
-  t.corner_rows = 5;
-  t.column_spacing_m = t.row_spacing_m = 0.1;
-  t.board_width_m = 0.9;
-  t.board_height_m = 0.7;
-  return t;
 }
 
 // Six centimetres and some milliradians in a direction of its own.
@@ -76,7 +66,7 @@ TEST_P(ForwardSolver, FindsTheExtrinsicWithinItsInterval) {
 TEST_P(ForwardSolver, ComesBackFromSixCentimetres) {
   for (std::uint64_t seed : {5, 6}) {
     auto o = options(40 + seed, GetParam());
-    if (seed == 6) o.target = checkerboard();
+    if (seed == 6) o.target = test::checkerboard_target();
     const ForwardRig rig = forward_rig(o);
     const auto near = solve(rig, Vector6d::Zero());
     const auto far = solve(rig, far_off(seed));
@@ -138,6 +128,62 @@ TEST(ForwardSolver, APostBeforeTheBoardIsRefused) {
   const auto solution = solve(rig, Vector6d::Zero());
   ASSERT_TRUE(solution);
   EXPECT_GE(solution->scenes.front().refused, hidden * 8 / 10);
+  EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
+}
+
+TEST(ForwardSolver, EveryKindOfBoardIsFoundAndMeasured) {
+  for (const Target& target : {test::checkerboard_target(), test::charuco_target(),
+                               test::legacy_charuco_target(), test::single_tag_target()}) {
+    auto o = options(61, LidarKind::kAvia);
+    o.target = target;
+    const ForwardRig rig = forward_rig(o);
+    const auto solution = solve(rig, far_off(3));
+    ASSERT_TRUE(solution) << solution.error().text();
+    EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
+    EXPECT_GT(solution->lattice_margin, 100.0);
+    ASSERT_TRUE(solution->print_size.measured);
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      EXPECT_LT(std::abs(solution->print_size.scale(k) - 1.0), 4.0 * solution->print_size.sigma(k));
+      EXPECT_LT(solution->print_size.sigma(k), 2e-3);
+    }
+  }
+}
+
+// The print is drawn one per cent smaller along x and eight per cent larger along y than told.
+TEST(ForwardSolver, ThePrintsSizeIsMeasuredAlongBothAxes) {
+  auto o = options(62, LidarKind::kAvia);
+  o.target = test::checkerboard_target();
+  ForwardRig rig = forward_rig(o);
+  rig.target.column_spacing_m /= 0.99;
+  rig.target.row_spacing_m /= 1.08;
+  // As the camera would see it: the origin is a corner of the pattern, whose middle stays.
+  const Eigen::Vector2d moved = o.target.outline().center_m() - rig.target.outline().center_m();
+  const BlurredPrint print(rig.target);
+  const Rigid3 lidar_from_board =
+      rig.lidar_from_board.front() * Rigid3{{}, {moved.x(), moved.y(), 0.0}};
+  BeamSpread beam;
+  beam.blur_rad2 = 1.3e-6 * Eigen::Matrix2d::Identity();
+  beam.jitter_rad2 = 0.2e-6 * Eigen::Matrix2d::Identity();
+  const auto returns = select_returns(rig.clouds.front(), print, lidar_from_board, beam, 0.016);
+  SceneNoise noise;
+  noise.intensity_white = noise.intensity_black = 4.0;
+  const PrintSize size =
+      measure_print_size(returns, print, lidar_from_board, {120.0, 12.0, {0.0, 0.0}}, beam, noise);
+  ASSERT_TRUE(size.measured);
+  EXPECT_NEAR(size.scale.x(), 0.99, 5.0 * size.sigma.x());
+  EXPECT_NEAR(size.scale.y(), 1.08, 5.0 * size.sigma.y());
+  EXPECT_LT(size.sigma.maxCoeff(), 0.003);
+}
+
+TEST(ForwardSolver, IntensitiesThatDoNotShowThePrintAreLeftOut) {
+  ForwardRig rig = forward_rig(options(63, LidarKind::kAvia, 4));
+  Random random(4);
+  for (Cloud& cloud : rig.clouds) {
+    for (float& i : cloud.intensity) i = static_cast<float>(100.0 + 4.0 * random.normal());
+  }
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  EXPECT_FALSE(solution->uses_intensity);
   EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
 }
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "support/ordinary_boards.h"
 
 namespace lvcalib {
 namespace {
@@ -91,7 +92,8 @@ std::vector<Case> cases(const BlurredPrint& print, int count, std::uint64_t seed
 TEST(BlurredPrint, IsTheMeanOverTheSpot) {
   const SpotPoints points(200'000);
   double worst = 0.0;
-  for (const Target& target : {circle_grid(), squares()}) {
+  for (const Target& target : {circle_grid(), squares(), test::charuco_target(),
+                               test::legacy_charuco_target(), test::single_tag_target()}) {
     const BlurredPrint print(target);
     for (const Case& c : cases(print, 60, 3)) {
       const double expected = points.white(target, c.at, c.blur);

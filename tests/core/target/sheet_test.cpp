@@ -15,6 +15,7 @@
 
 #include "base/file_io.h"
 #include "core/target/sheet_raster.h"
+#include "support/ordinary_boards.h"
 
 namespace lvcalib {
 namespace {
@@ -57,6 +58,10 @@ Target checkerboard() {
   target.board_height_m = 0.49;
   target.board_offset_m = {0.013, -0.007};
   return target;
+}
+
+bool reads_as_april_tags(const Target& target) {
+  return target.tag_family == "tag36h11" && target.has_tags() && target.tag_border_bits == 1;
 }
 
 class SheetFile : public ::testing::Test {
@@ -102,7 +107,8 @@ class SheetFile : public ::testing::Test {
 
 TEST_F(SheetFile, PngIsTheBoardToScale) {
   const SheetOptions options{.dpi = 76.2};
-  for (const Target& target : {default_board(), odd_grid(), checkerboard()}) {
+  for (const Target& target : {default_board(), odd_grid(), checkerboard(), test::charuco_target(),
+                               test::legacy_charuco_target(), test::single_tag_target()}) {
     const SheetLayout layout = *lay_out_sheet(target, options);
     const Raster raster{
         cv::imread(draw(target, "sheet.png", options).string(), cv::IMREAD_GRAYSCALE), 3.0};
@@ -111,7 +117,7 @@ TEST_F(SheetFile, PngIsTheBoardToScale) {
     EXPECT_GT(compare_with_model(target, layout, raster, 0, 0, 1), 5000);
     expect_scale_bar(layout, raster);
     expect_circles(target, layout, raster);
-    if (target.has_tags() && target.tag_border_bits == 1) expect_tags(target, layout, raster);
+    if (reads_as_april_tags(target)) expect_tags(target, layout, raster);
   }
 }
 
@@ -128,14 +134,15 @@ TEST_F(SheetFile, PngSaysItsResolution) {
 
 TEST_F(SheetFile, PdfIsTheBoardToScale) {
   if (!has_program("pdftoppm")) GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
-  for (const Target& target : {default_board(), odd_grid(), checkerboard()}) {
+  for (const Target& target : {default_board(), odd_grid(), checkerboard(), test::charuco_target(),
+                               test::legacy_charuco_target(), test::single_tag_target()}) {
     const SheetLayout layout = *lay_out_sheet(target, {});
     const auto rasters = pages(draw(target, "sheet.pdf"), 120);
     ASSERT_EQ(rasters.size(), 1U);
     EXPECT_GT(compare_with_model(target, layout, rasters[0], 0, 0, 2), 5000);
     expect_scale_bar(layout, rasters[0]);
     expect_circles(target, layout, rasters[0]);
-    if (target.has_tags() && target.tag_border_bits == 1) expect_tags(target, layout, rasters[0]);
+    if (reads_as_april_tags(target)) expect_tags(target, layout, rasters[0]);
   }
 }
 

@@ -62,6 +62,29 @@ boardHeight: 0.85
 boardOffset: [0.002, -0.001]
 )";
 
+const char* const kCharuco = R"(target_type: charuco
+targetCols: 6
+targetRows: 8
+squareSize: 0.09
+markerSize: 0.066
+dictionary: DICT_5X5_250
+firstMarkerId: 12
+legacyPattern: true
+boardWidth: 0.6
+boardHeight: 0.8
+boardOffset: [0.01, -0.02]
+)";
+
+const char* const kSingleTag = R"(target_type: apriltag
+tagFamily: tag25h9
+tagId: 4
+tagSize: 0.5
+tagBorder: 2
+boardWidth: 0.7
+boardHeight: 0.8
+boardOffset: [0.02, 0.03]
+)";
+
 void expect_same(const Target& a, const Target& b) {
   EXPECT_EQ(to_yaml(a), to_yaml(b));
   EXPECT_EQ(a.type, b.type);
@@ -115,7 +138,7 @@ TEST_F(TargetYaml, ReadsCheckerboards) {
 }
 
 TEST_F(TargetYaml, WritesWhatItReads) {
-  for (const char* text : {kGrid, kChecker}) {
+  for (const char* text : {kGrid, kChecker, kCharuco, kSingleTag}) {
     const auto first = read(text);
     ASSERT_TRUE(first.ok());
     const auto second = read(to_yaml(first->target));
@@ -133,6 +156,64 @@ TEST_F(TargetYaml, WritesWhatItReads) {
   expect_same(again->target, odd);
 }
 
+TEST_F(TargetYaml, ReadsEveryKeyOfACharucoBoard) {
+  const auto file = read(kCharuco);
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  EXPECT_TRUE(file->warnings.empty());
+  const Target& t = file->target;
+  EXPECT_EQ(t.type, TargetType::kCharuco);
+  EXPECT_EQ(t.corner_columns, 5);
+  EXPECT_EQ(t.corner_rows, 7);
+  EXPECT_EQ(t.column_spacing_m, 0.09);
+  EXPECT_EQ(t.row_spacing_m, 0.09);
+  EXPECT_EQ(t.tag_size_m, 0.066);
+  EXPECT_EQ(t.tag_family, "DICT_5X5_250");
+  EXPECT_EQ(t.first_tag_id, 12);
+  EXPECT_TRUE(t.legacy_pattern);
+  EXPECT_EQ(t.outline().size_m(), Eigen::Vector2d(0.6, 0.8));
+  // Without an outline the board ends with its squares; DICT_ may be left out.
+  const auto bare = read(
+      "target_type: charuco\ntargetCols: 5\ntargetRows: 7\nsquareSize: 0.1\nmarkerSize: 0.07\n"
+      "dictionary: 4X4_50\n");
+  ASSERT_TRUE(bare.ok()) << bare.error().text();
+  EXPECT_TRUE(bare->target.outline().size_m().isApprox(Eigen::Vector2d(0.5, 0.7)));
+  EXPECT_EQ(bare->target.tag_family, "DICT_4X4_50");
+  EXPECT_FALSE(bare->target.legacy_pattern);
+}
+
+TEST_F(TargetYaml, ReadsEveryKeyOfASingleTag) {
+  const auto file = read(kSingleTag);
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  EXPECT_TRUE(file->warnings.empty());
+  const Target& t = file->target;
+  EXPECT_EQ(t.type, TargetType::kAprilTag);
+  EXPECT_EQ(t.tag_family, "tag25h9");
+  EXPECT_EQ(t.first_tag_id, 4);
+  EXPECT_EQ(t.tag_size_m, 0.5);
+  EXPECT_EQ(t.tag_border_bits, 2);
+  EXPECT_EQ(t.board_offset_m, Eigen::Vector2d(0.02, 0.03));
+  const auto bare = read("target_type: apriltag\ntagId: 0\ntagSize: 0.8\n");
+  ASSERT_TRUE(bare.ok()) << bare.error().text();
+  // A white border of one of the eight bits along a side.
+  EXPECT_TRUE(bare->target.outline().size_m().isApprox(Eigen::Vector2d(1.0, 1.0)));
+}
+
+TEST_F(TargetYaml, SaysWhatIsWrongWithACharucoBoardOrTag) {
+  EXPECT_THAT(error(replaced(kCharuco, "DICT_5X5_250", "DICT_5X5_20")), HasSubstr("dictionary"));
+  EXPECT_THAT(error(replaced(kCharuco, "firstMarkerId: 12", "firstMarkerId: 240")),
+              HasSubstr("do not exist in DICT_5X5_250, which has 250"));
+  EXPECT_THAT(error(replaced(kCharuco, "0.066", "0.09")), HasSubstr("markerSize smaller"));
+  EXPECT_THAT(error(replaced(kCharuco, "legacyPattern: true", "legacyPattern: maybe")),
+              HasSubstr("expected true or false"));
+  EXPECT_THAT(error(replaced(kCharuco, "boardWidth: 0.6", "boardWidth: 0.5")),
+              HasSubstr("beyond the board's outline"));
+  EXPECT_THAT(error(replaced(kCharuco, "markerSize: 0.066\n", "")), HasSubstr("markerSize"));
+  EXPECT_THAT(error(replaced(kSingleTag, "tagId: 4\n", "")), HasSubstr("tagId"));
+  EXPECT_THAT(error(replaced(kSingleTag, "tagId: 4", "tagId: 35")), HasSubstr("do not exist"));
+  EXPECT_THAT(error(replaced(kSingleTag, "tagSize: 0.5", "tagSize: .nan")), HasSubstr("tagSize"));
+  EXPECT_THAT(error(replaced(kSingleTag, "tagSize: 0.5", "tagSize: 0")), HasSubstr("positive"));
+}
+
 TEST_F(TargetYaml, WarnsOfUnknownKeysWithTheNearestKnownOne) {
   const auto file = read(replaced(kGrid, "tagBorder", "tagBoarder"));
   ASSERT_TRUE(file.ok());
@@ -145,8 +226,9 @@ TEST_F(TargetYaml, WarnsOfUnknownKeysWithTheNearestKnownOne) {
 TEST_F(TargetYaml, RefusesBadGrids) {
   EXPECT_THAT(error(replaced(kGrid, "target_type: aprilgrid_circles\n", "")),
               HasSubstr("'target_type' is missing"));
-  EXPECT_THAT(error(replaced(kGrid, "aprilgrid_circles", "circlegrid")),
-              HasSubstr("expected aprilgrid_circles, aprilgrid or checkerboard"));
+  EXPECT_THAT(
+      error(replaced(kGrid, "aprilgrid_circles", "circlegrid")),
+      HasSubstr("expected aprilgrid_circles, aprilgrid, checkerboard, charuco or apriltag"));
   for (const char* key : {"tagCols", "tagRows", "tagSize", "tagSpacing", "circleRadius"}) {
     EXPECT_THAT(error(replaced(kGrid, key, "other")),
                 HasSubstr("key '" + std::string(key) + "' is missing"));

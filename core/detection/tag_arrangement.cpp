@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detection/tag_arrangement.h"
+
+#include "detection/board_pose.h"
+
+namespace lvcalib {
+namespace {
+
+struct Arrangement {
+  int turn = 0;  // Of each tag on its place, in quarters counter-clockwise.
+  bool from_right = false;
+  bool from_top = false;
+};
+
+// The corners with the ids' places exchanged and the tags turned.
+std::vector<CornerObservation> rearranged(const std::vector<BoardTag>& tags, const Target& target,
+                                          const Arrangement& how) {
+  std::vector<CornerObservation> out;
+  for (const BoardTag& tag : tags) {
+    auto entry = target.tag(tag.id);
+    if (!entry) continue;
+    const int column = how.from_right ? target.tag_columns - 1 - entry->column : entry->column;
+    const int row = how.from_top ? target.tag_rows - 1 - entry->row : entry->row;
+    entry = target.tag(target.first_tag_id + row * target.tag_columns + column);
+    const auto board = target.tag_corners_m(*entry);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t seen = (k + static_cast<std::size_t>(how.turn)) % 4;
+      out.push_back({tag.id, static_cast<int>(k), board[k], tag.corners[seen], tag.sigma_px[seen]});
+    }
+  }
+  return out;
+}
+
+// Tags all of whose corners lie where the best pose has them.
+std::size_t fitting(const std::vector<CornerObservation>& corners, const Camera& camera,
+                    const DetectionOptions& options) {
+  const auto pose = estimate_board_pose(corners, camera, options);
+  if (!pose) return 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 3 < corners.size(); i += 4) {
+    bool fits = true;
+    for (std::size_t k = i; k < i + 4; ++k)
+      fits = fits && pose->residual_px[k] <= options.max_reprojection_px;
+    count += fits ? 1 : 0;
+  }
+  return count;
+}
+
+std::string described(const Arrangement& how) {
+  std::string text;
+  if (how.from_right || how.from_top) {
+    text = std::string("whose ids grow from the ") + (how.from_top ? "top " : "bottom ") +
+           (how.from_right ? "right" : "left");
+  }
+  if (how.turn != 0) {
+    text += std::string(text.empty() ? "" : " and ") + "whose tags are each turned by " +
+            std::to_string(90 * how.turn) + "°";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::string> other_arrangement(const std::vector<BoardTag>& tags,
+                                             const Target& target, const Camera& camera,
+                                             const DetectionOptions& options) {
+  if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
+    return std::nullopt;
+  std::size_t best = 2;
+  std::optional<std::string> out;
+  for (int turn = 0; turn < 4; ++turn) {
+    for (const bool from_right : {false, true}) {
+      for (const bool from_top : {false, true}) {
+        const Arrangement how{turn, from_right, from_top};
+        // Nothing changed, or the whole board turned.
+        if (turn == 0 && !from_right && !from_top) continue;
+        if (turn == 2 && from_right && from_top) continue;
+        const std::size_t count = fitting(rearranged(tags, target, how), camera, options);
+        if (count <= best || 4 * count < 3 * tags.size()) continue;
+        best = count;
+        out = described(how);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/camera.h"
+#include "detection/board_tags.h"
+
+namespace lvcalib {
+
+/// How the tags of a grid lie if not as the target has them: counted from another corner, each one
+/// turned on its place (as some programs draw AprilTags), or both. In words that complete "the tags
+/// fit a board …"; nothing if no such arrangement fits at least three quarters of the tags, and
+/// three.
+std::optional<std::string> other_arrangement(const std::vector<BoardTag>& tags,
+                                             const Target& target, const Camera& camera,
+                                             const DetectionOptions& options);
+
+}  // namespace lvcalib

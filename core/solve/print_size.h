@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "model/board_prediction.h"
+#include "solve/board_returns.h"
+#include "solve/forward_problem.h"
+
+namespace lvcalib {
+
+/// Size of the print as the LiDAR sees it over what the target says, along the board's x and y.
+struct PrintSize {
+  bool measured = false;
+  Eigen::Vector2d scale = Eigen::Vector2d::Ones();
+  Eigen::Vector2d sigma = Eigen::Vector2d::Zero();
+};
+
+/// Measures the print on one board whose pose is about known, by its intensities alone: the print
+/// stretched by (s_x, s_y) about the board's middle, shifted and turned on the plane, with levels
+/// of its own (least squares, Huber's weights; a search over ±25 % first). The size in metres rests
+/// on the LiDAR's ranges and angles; the camera has no part in it. Not measured where the print
+/// does not determine it to 5 % or the fit runs away.
+PrintSize measure_print_size(const BoardReturns& returns, const BlurredPrint& print,
+                             const Rigid3& lidar_from_board, const BoardLevels& levels,
+                             const BeamSpread& beam, const SceneNoise& noise);
+
+/// Mean over scenes by their weights, its σ widened by what they scatter beyond their own.
+PrintSize combined_print_size(const std::vector<PrintSize>& scenes);
+
+}  // namespace lvcalib

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ChArUco boards and single tags in rendered images.
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "base/statistics.h"
+#include "detection/board_view.h"
+#include "support/ordinary_boards.h"
+#include "support/rendered_board.h"
+
+namespace lvcalib {
+namespace {
+
+const Camera kCamera = testing::pinhole(800, 640, 900);
+
+GrayImage picture(const Target& target, const Rigid3& pose,
+                  const testing::RenderOptions& options = {}) {
+  testing::RenderOptions render = options;
+  if (render.samples_per_side == 5) render.samples_per_side = 4;  // Faster; the default is 5.
+  return testing::render_board(target, kCamera, pose, render);
+}
+
+double corner_rms_px(const BoardView& view, const Rigid3& pose) {
+  std::vector<double> errors;
+  for (const CornerObservation& c : view.corners) {
+    const auto p = kCamera.project(pose * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+    for (const double e : (c.pixel - *p).eval()) errors.push_back(e);
+  }
+  return rms(errors);
+}
+
+TEST(CharucoView, CornersAreFoundToHundredthsOfAPixel) {
+  for (const Target& target : {test::charuco_target(), test::legacy_charuco_target()}) {
+    const Rigid3 pose = testing::facing_pose(target, 1.7, 0.15, 0.35, -0.3);
+    // A hundred corners tell the pose so well that the rendering must be fine.
+    testing::RenderOptions fine;
+    fine.samples_per_side = 8;
+    const auto view = find_board_in_image(picture(target, pose, fine), target, kCamera, {}, {});
+    ASSERT_TRUE(view.ok()) << view.error().text();
+    EXPECT_EQ(view->tag_count, target.tag_count());
+    EXPECT_EQ(static_cast<int>(view->corners.size()), 4 * target.tag_count());
+    EXPECT_LT(corner_rms_px(*view, pose), 0.05);
+    const Vector6d error = se3_log(pose * view->camera_from_board.transform.inverse());
+    EXPECT_LT(error.dot(view->camera_from_board.covariance.inverse() * error), 22.5);  // 99.9 %
+    EXPECT_LT(error.head<3>().norm(), 1e-3);
+  }
+}
+
+TEST(CharucoView, APartOfTheBoardIsEnough) {
+  const Target target = test::charuco_target();
+  const Rigid3 pose = testing::facing_pose(target, 1.5, 0.3, 0.2, 0.3);
+  testing::RenderOptions render;
+  // Two thirds are hidden.
+  render.cover = [](const Eigen::Vector2d& p) {
+    return p.x() > 0.2 ? std::optional<double>(0.3) : std::nullopt;
+  };
+  const auto view = find_board_in_image(picture(target, pose, render), target, kCamera, {}, {});
+  ASSERT_TRUE(view.ok()) << view.error().text();
+  EXPECT_GE(view->tag_count, 6);
+  EXPECT_LT(view->tag_count, 14);
+  EXPECT_LT(corner_rms_px(*view, pose), 0.08);
+  EXPECT_LT(translation_distance_m(view->camera_from_board.transform, pose), 3e-3);
+  // And cut off by the image's edge.
+  Rigid3 aside = pose;
+  aside.translation.x() += 0.7;
+  const auto cut = find_board_in_image(picture(target, aside), target, kCamera, {}, {});
+  ASSERT_TRUE(cut.ok()) << cut.error().text();
+  EXPECT_LT(cut->tag_count, target.tag_count());
+  EXPECT_LT(translation_distance_m(cut->camera_from_board.transform, aside), 3e-3);
+}
+
+TEST(CharucoView, SmallMarkersAreFilledInFromThePose) {
+  const Target target = test::charuco_target();
+  const Rigid3 pose = testing::facing_pose(target, 4.0, 0.1, 0.5, 0.2);  // Markers of 18 px.
+  const auto view = find_board_in_image(picture(target, pose), target, kCamera, {}, {});
+  ASSERT_TRUE(view.ok()) << view.error().text();
+  EXPECT_GE(view->tag_count, 24);
+  EXPECT_LT(corner_rms_px(*view, pose), 0.12);
+}
+
+std::string complaint(const GrayImage& image, const Target& wanted) {
+  const auto view = find_board_in_image(image, wanted, kCamera, {}, {});
+  if (view.ok()) return "found";
+  EXPECT_EQ(view.error().kind, ErrorKind::kInput);
+  return view.error().text();
+}
+
+TEST(CharucoView, SaysWhatTheImageShowsInstead) {
+  const Target target = test::legacy_charuco_target();
+  const Rigid3 pose = testing::facing_pose(target, 1.7, 0.1, 0.2, -0.2);
+  const GrayImage image = picture(target, pose);
+  Target other = target;
+  other.legacy_pattern = false;
+  EXPECT_NE(complaint(image, other).find("set legacyPattern: true"), std::string::npos);
+  other = target;
+  other.tag_family = "DICT_6X6_50";
+  EXPECT_NE(complaint(image, other).find("markers of DICT_4X4"), std::string::npos);
+  other = target;
+  other.first_tag_id = 26;
+  EXPECT_NE(complaint(image, other).find("the target has 26 to 49"), std::string::npos);
+  GrayImage mirror = image;
+  for (int y = 0; y < mirror.height_px; ++y) {
+    const auto row = mirror.pixels.begin() + static_cast<std::ptrdiff_t>(y) * mirror.width_px;
+    std::reverse(row, row + mirror.width_px);
+  }
+  const std::string mirrored = complaint(mirror, target);
+  EXPECT_NE(mirrored.find("mirrored"), std::string::npos) << mirrored;
+  EXPECT_NE(complaint(image, Target{}).find("target_type: charuco"), std::string::npos);
+}
+
+TEST(SingleTagView, PoseAgreesWithTheTruth) {
+  const Target target = test::single_tag_target();
+  const Rigid3 pose = testing::facing_pose(target, 1.6, 0.15, 0.4, -0.35);
+  const auto view = find_board_in_image(picture(target, pose), target, kCamera, {}, {});
+  ASSERT_TRUE(view.ok()) << view.error().text();
+  EXPECT_EQ(view->tag_count, 1);
+  EXPECT_EQ(view->corners.size(), 4U);
+  EXPECT_LT(corner_rms_px(*view, pose), 0.05);
+  EXPECT_LT(translation_distance_m(view->camera_from_board.transform, pose), 3e-3);
+}
+
+TEST(SingleTagView, AnotherTagOrTwoOfThemAreRefused) {
+  const Target target = test::single_tag_target();
+  const Rigid3 pose = testing::facing_pose(target, 2.2, 0.1, 0.2, 0.2);
+  Rigid3 left = pose;
+  left.translation.x() -= 0.45;
+  Rigid3 right = pose;
+  right.translation.x() += 0.45;
+  GrayImage both = picture(target, left);
+  const GrayImage second = picture(target, right);
+  for (int y = 0; y < both.height_px; ++y) {
+    for (int x = both.width_px / 2; x < both.width_px; ++x) {
+      const auto i = static_cast<std::size_t>(y * both.width_px + x);
+      both.pixels[i] = second.pixels[i];
+    }
+  }
+  EXPECT_NE(complaint(both, target).find("twice"), std::string::npos);
+  Target other = target;
+  other.first_tag_id = 9;
+  const std::string text = complaint(picture(target, pose), other);
+  EXPECT_NE(text.find("check tagId"), std::string::npos) << text;
+}
+
+// Boards of programs that draw AprilTags upside down, or count from elsewhere.
+TEST(TagArrangement, SaysHowTheTagsLie) {
+  Target target;
+  target.type = TargetType::kAprilGrid;
+  target.tag_columns = 4;
+  target.tag_rows = 3;
+  const Rigid3 pose = testing::facing_pose(target, 1.4, 0.1, 0.2, 0.2);
+  const auto complaint_about = [&](bool turned, bool from_right, bool from_top) {
+    testing::RenderOptions render;
+    render.cover = [&](const Eigen::Vector2d& p) -> std::optional<double> {
+      for (const TargetTag& tag : target.tags()) {
+        Eigen::Vector2d d = p - tag.center_m;
+        if (d.cwiseAbs().maxCoeff() > 0.5 * target.tag_size_m) continue;
+        if (turned) d = -d;
+        const int column = from_right ? target.tag_columns - 1 - tag.column : tag.column;
+        const int row = from_top ? target.tag_rows - 1 - tag.row : tag.row;
+        return target.albedo(target.tag(row * target.tag_columns + column)->center_m + d);
+      }
+      return std::nullopt;
+    };
+    return complaint(picture(target, pose, render), target);
+  };
+  EXPECT_EQ(complaint_about(false, false, false), "found");
+  EXPECT_EQ(complaint_about(true, true, true), "found");  // The board itself is turned.
+  EXPECT_NE(complaint_about(true, false, false).find("each turned by 180"), std::string::npos);
+  EXPECT_NE(complaint_about(false, true, false).find("from the bottom right"), std::string::npos);
+  EXPECT_NE(complaint_about(false, false, true).find("from the top left"), std::string::npos);
+}
+
+TEST(TwoBoards, WithTheSameTagsAreRefused) {
+  Target target;
+  target.tag_columns = target.tag_rows = 2;
+  target.type = TargetType::kAprilGrid;
+  const Rigid3 pose = testing::facing_pose(target, 1.2, 0.1, 0.2, 0.2);
+  Rigid3 left = pose;
+  left.translation.x() -= 0.25;
+  Rigid3 right = pose;
+  right.translation.x() += 0.25;
+  GrayImage both = picture(target, left);
+  const GrayImage second = picture(target, right);
+  for (int y = 0; y < both.height_px; ++y) {
+    for (int x = both.width_px / 2; x < both.width_px; ++x) {
+      const auto i = static_cast<std::size_t>(y * both.width_px + x);
+      both.pixels[i] = second.pixels[i];
+    }
+  }
+  EXPECT_NE(complaint(both, target).find("twice"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lvcalib
