@@ -44,6 +44,7 @@ class Calibration {
     if (Status s = prepare(); !s) return s.error();
     if (Status s = load_scenes(dataset_, request_, context_, result_, cache_); !s) return s.error();
     if (Status s = some_view(); !s) return s.error();
+    free_camera(result_);
     if (Status s = agree(); !s) return s.error();
     if (Status s = refine(); !s) return s.error();
     if (Status s = optimize(); !s) return s.error();
@@ -59,6 +60,7 @@ class Calibration {
     result_.dataset = dataset_.path.string();
     result_.target = dataset_.target;
     result_.camera = dataset_.camera;
+    result_.intrinsics = start_intrinsics(dataset_, request_.options.intrinsics.kind());
     result_.warnings = dataset_.warnings;
     result_.options = request_.options;
     looked_twice_.assign(dataset_.scenes.size(), 0);

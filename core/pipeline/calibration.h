@@ -15,6 +15,7 @@
 #include "pipeline/crop_box.h"
 #include "pipeline/dataset.h"
 #include "pipeline/input_hashes.h"
+#include "pipeline/intrinsics_stage.h"
 #include "pipeline/options.h"
 #include "pipeline/stage_cache.h"
 #include "response/boundary_response.h"
@@ -60,7 +61,8 @@ struct CalibrationResult {
   std::string dataset;
   CalibrationOptions options;  ///< What it was made with; what follows goes on with them.
   Target target;
-  Camera camera;
+  Camera camera;  ///< As used: the given one, or the estimated one (see intrinsics).
+  IntrinsicsReport intrinsics;
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
   std::shared_ptr<const BlurredPrint> print;  ///< Of the target; shared by every solve.

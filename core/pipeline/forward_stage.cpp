@@ -32,7 +32,7 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
     scene.range_sigma_m = std::max({1e-4, sigma[0], sigma[1]});
     scenes.push_back(std::move(scene));
   }
-  return solve_forward(scenes, *result.print, result.camera, start.camera_from_lidar.transform,
+  return solve_forward(scenes, *result.print, result.intrinsics.given, start.camera_from_lidar.transform,
                        start.sigma_px, options, context);
 }
 

@@ -63,6 +63,27 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
   }
 }
 
+// Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
+void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
+  if (!result.intrinsics.contradiction) return;
+  const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
+  if (result.intrinsics.mode == IntrinsicsMode::kPrior) {
+    verdict.doubtful("the images contradict the standard deviations of the intrinsics: " +
+                     found.what + "; calibrate the camera again, or use --intrinsics free");
+    return;
+  }
+  std::string text = "the images contradict the intrinsics: " + found.what;
+  if (found.camera_from_lidar) {
+    text += formatted("; with that freed the extrinsic moves by %.1f mm and %.2f mrad",
+                      found.move_mm, found.move_mrad);
+  }
+  if (found.matters) {
+    verdict.doubtful(text + "; calibrate the camera again, or use --intrinsics free");
+  } else {
+    verdict.note(text + ", less than what matters");
+  }
+}
+
 // Standard deviations along the worst axis: of the LiDAR's position and of the rotation. Directions
 // that only noise keeps from being undetermined come out as decimetres or metres.
 void judge_precision(const ExtrinsicSolution& x, const QualityOptions& options, Verdict& verdict) {
@@ -236,6 +257,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
         "and "
         "corners, and the print does not hold it sideways");
   }
+  judge_intrinsics(result, verdict);
   judge_precision(x, options, verdict);
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);

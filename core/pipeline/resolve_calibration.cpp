@@ -63,8 +63,10 @@ Status solve_forward_model(CalibrationResult& result,
                            const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,
                            const RunContext& context) {
   if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
-  auto forward =
-      solve_every_return(result, observations, index, nodes, result.options.forward, context);
+  ForwardOptions how = result.options.forward;
+  how.intrinsics_sigma = solve_prior(result.intrinsics);
+  how.first_camera = result.camera;
+  auto forward = solve_every_return(result, observations, index, nodes, how, context);
   result.forward.reset();
   result.forward_failure.clear();
   result.extrinsic = nodes;
@@ -75,6 +77,9 @@ Status solve_forward_model(CalibrationResult& result,
     return Done{};
   }
   result.forward = std::move(*forward);
+  result.camera = result.forward->state.camera;
+  result.intrinsics.sigma =
+      result.forward->globals_covariance.diagonal().tail<kIntrinsics>().cwiseMax(0.0).cwiseSqrt();
   result.extrinsic = report_forward(*result.forward, nodes, observations, result.camera,
                                     result.target, result.options.extrinsic);
   return Done{};
@@ -109,6 +114,8 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   const ExtrinsicSolution nodes = std::move(*solution);
   if (Status status = solve_forward_model(result, observations, index, nodes, context); !status)
     return status.error();
+  if (Status s = check_intrinsics(result, observations, index, nodes, context); !s)
+    return s.error();
   for (std::size_t k = 0; k < index.size(); ++k) {
     SceneResult& scene = result.scenes[index[k]];
     const bool wanted = observations[k].use;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/result_file.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -133,6 +134,40 @@ ordered_json refused_json(const CalibrationResult& result) {
   return list;
 }
 
+// Where the camera's intrinsics come from and how well they are known.
+ordered_json intrinsics_json(const IntrinsicsReport& report) {
+  constexpr std::array kModes = {"fixed", "prior", "free"};
+  const auto deviations = [&](const IntrinsicsVector& sigma) -> ordered_json {
+    ordered_json distortion = ordered_json::array();
+    for (Eigen::Index k = 0; k < report.given.distortion_count(); ++k)
+      distortion.push_back(sigma(4 + k));
+    return {{"fx", sigma(0)},
+            {"fy", sigma(1)},
+            {"cx", sigma(2)},
+            {"cy", sigma(3)},
+            {"distortion", std::move(distortion)}};
+  };
+  ordered_json j = {{"mode", kModes[static_cast<std::size_t>(report.mode)]},
+                    {"given", camera_json(report.given)}};
+  if (report.mode == IntrinsicsMode::kPrior) j["prior_sigma"] = deviations(report.prior_sigma);
+  if (report.mode != IntrinsicsMode::kFixed) j["sigma"] = deviations(report.sigma);
+  if (report.contradiction) {
+    const IntrinsicsContradiction& found = *report.contradiction;
+    ordered_json c = {{"what", found.what},
+                      {"chi_square", found.contrast.chi_square},
+                      {"dof", found.contrast.dof},
+                      {"gate", found.contrast.gate},
+                      {"matters", found.matters}};
+    if (found.camera_from_lidar) {
+      c["T_camera_lidar_freed"] = rows_of(found.camera_from_lidar->transform.matrix());
+      c["extrinsic_move_mm"] = found.move_mm;
+      c["extrinsic_move_mrad"] = found.move_mrad;
+    }
+    j["contradiction"] = std::move(c);
+  }
+  return j;
+}
+
 const SceneSolution* solution_of(const CalibrationResult& result, const std::string& name) {
   for (const SceneSolution& s : result.extrinsic.scenes) {
     if (s.name == name) return &s;
@@ -157,6 +192,7 @@ ordered_json to_json(const CalibrationResult& result) {
   j["quality_reasons"] = result.quality_reasons;
   j["warnings"] = result.warnings;
   j["camera"] = camera_json(result.camera);
+  j["intrinsics"] = intrinsics_json(result.intrinsics);
   j["target_yaml"] = to_yaml(result.target);
   const BoardOutline outline = result.target.outline();
   j["board"] = {

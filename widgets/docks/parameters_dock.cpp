@@ -206,6 +206,7 @@ void ParametersDock::retranslate() {
   const std::pair<const char*, QString> names[] = {
       {"detection", tr("Detection")},        {"localization", tr("Localisation")},
       {"consensus", tr("Consensus")},        {"refinement", tr("Refinement")},
+      {"intrinsics", tr("Intrinsics")},
       {"extrinsic", tr("Extrinsic")},        {"forward", tr("Every return")},
       {"response", tr("Boundary response")}, {"quality", tr("Quality")},
       {"discovery", tr("Missing effects")}};
