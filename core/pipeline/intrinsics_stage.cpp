@@ -2,7 +2,9 @@
 #include "pipeline/intrinsics_stage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -155,6 +157,27 @@ void check_against_prior(CalibrationResult& result, const std::vector<CornerView
   report.contradiction = std::move(found);
 }
 
+// 95 % limits of how far the position (m) and the rotation (rad) would move if some intrinsics were
+// freed, over three tolerances each; the larger of both.
+double open_share(const CalibrationResult& result, const IntrinsicsVector& freed) {
+  std::vector<const GlobalTerm*> terms;
+  for (const GlobalTerm& term : result.forward->terms) terms.push_back(&term);
+  const auto step = solve_terms(terms, prior_with(result.forward->prior, freed));
+  if (!step) return std::numeric_limits<double>::infinity();
+  const UncertainRigid3& own = result.extrinsic.camera_from_lidar;
+  const Vector6d move = step->step.head<6>();
+  const Rigid3 other = se3_exp(move) * own.transform;
+  const auto spread = worst_sigmas(
+      {own.transform, Matrix6d(step->covariance.topLeftCorner<6, 6>() - own.covariance)});
+  const auto sigma = worst_sigmas(own);
+  const QualityOptions& q = result.options.quality;
+  const double limit_m =
+      translation_distance_m(own.transform.inverse(), other.inverse()) + kUpper95 * spread.first;
+  const double limit_rad = rotation_distance_rad(own.transform, other) + kUpper95 * spread.second;
+  return std::max(limit_m / (3.0 * std::max(q.tolerance_m, 0.5 * sigma.first)),
+                  limit_rad / (3.0 * std::max(q.tolerance_rad, 0.5 * sigma.second)));
+}
+
 }  // namespace
 
 IntrinsicsReport start_intrinsics(const Dataset& dataset, IntrinsicsMode mode) {
@@ -204,6 +227,36 @@ std::string contradicted_by_corners(const CalibrationResult& result) {
       contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance, wide,
                           result.options.intrinsics.false_alarm);
   return contrast.contradicts() ? describe(contrast, given, views) : std::string();
+}
+
+void verify_intrinsics(CalibrationResult& result) {
+  result.verified = false;
+  result.unverified.clear();
+  if (!result.forward || result.intrinsics.contradiction) return;
+  result.verified = true;
+  if (result.intrinsics.mode != IntrinsicsMode::kFixed) return;
+  const IntrinsicsVector wide = wide_intrinsics_sigma(result.intrinsics.given);
+  if (open_share(result, wide) <= 1.0) return;
+  result.verified = false;
+  constexpr std::array kWhat = {
+      "focal length: a scene with the board tilted by 40° or more and one at twice the distance",
+      "principal point: scenes with the board tilted, and rolled by 90° against each other",
+      "distortion: scenes with the board in the corners of the image"};
+  std::size_t worst = 0;
+  double most = -1.0;
+  for (std::size_t part = 0; part < kWhat.size(); ++part) {
+    IntrinsicsVector only = IntrinsicsVector::Zero();
+    const auto first = static_cast<Eigen::Index>(2 * part);
+    const Eigen::Index count = part < 2 ? 2 : 8;
+    only.segment(first, count) = wide.segment(first, count);
+    const double share = open_share(result, only);
+    if (share <= most) continue;
+    most = share;
+    worst = part;
+  }
+  result.unverified =
+      std::string("these scenes cannot verify the camera's intrinsics; most open is the ") +
+      kWhat[worst] + " would tell";
 }
 
 Status check_intrinsics(CalibrationResult& result,

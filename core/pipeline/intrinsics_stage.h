@@ -54,6 +54,10 @@ IntrinsicsVector solve_prior(const IntrinsicsReport& report);
 /// If the images' corners alone contradict the given intrinsics: in words what is wrong.
 std::string contradicted_by_corners(const CalibrationResult& result);
 
+/// Sets `verified`: whether the scenes leave intrinsics open that would move the extrinsic by more
+/// than three tolerances (95 % limit, to first order about the solution), and which scene would tell.
+void verify_intrinsics(CalibrationResult& result);
+
 /// With `fixed`: asks whether corners and returns contradict the given intrinsics, by a second
 /// solve with them freed wherever a first look leaves it open. With `prior` against what camera.yaml
 /// states. `nodes` is the solve that the result started from. Errors: kCancelled.

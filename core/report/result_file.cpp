@@ -182,6 +182,7 @@ ordered_json to_json(const CalibrationResult& result) {
   j["dataset"] = result.dataset;
   j["T_camera_lidar"] = pose_json(x.camera_from_lidar.transform);
   j["covariance"] = rows_of(x.camera_from_lidar.covariance);
+  j["covariance_total"] = rows_of(result.covariance_total);
   j["applies_to"] = result.model.empty() ? "raw" : "corrected";
   if (result.forward) {
     j["dof"] = result.forward->dof;
@@ -189,6 +190,7 @@ ordered_json to_json(const CalibrationResult& result) {
   }
   j["refused"] = refused_json(result);
   j["quality"] = name_of(result.quality);
+  j["verified"] = result.verified;
   j["quality_reasons"] = result.quality_reasons;
   j["warnings"] = result.warnings;
   j["camera"] = camera_json(result.camera);
@@ -331,6 +333,14 @@ std::string result_as_yaml(const CalibrationResult& result) {
   out +=
       "sigma_rotation_mrad: " + yaml_list({1e3 * sigma(3), 1e3 * sigma(4), 1e3 * sigma(5)}) + "\n";
   out += "covariance:\n" + yaml_rows(x.camera_from_lidar.covariance);
+  out += "# The same with what faults left out of the model could still do (see covariance_total).\n";
+  const Vector6d total = result.covariance_total.diagonal().cwiseSqrt();
+  out += "total_sigma_translation_mm: " +
+         yaml_list({1e3 * total(0), 1e3 * total(1), 1e3 * total(2)}) + "\n";
+  out += "total_sigma_rotation_mrad: " +
+         yaml_list({1e3 * total(3), 1e3 * total(4), 1e3 * total(5)}) + "\n";
+  out += "covariance_total:\n" + yaml_rows(result.covariance_total);
+  out += std::string("verified: ") + (result.verified ? "true" : "false") + "\n";
   out += "quality: " + name_of(result.quality) + "\nwarnings:";
   out += result.warnings.empty() ? " []\n" : "\n";
   for (const std::string& w : result.warnings) out += "  - " + yaml_quoted(w) + "\n";
