@@ -271,7 +271,7 @@ std::string yaml_rows(const Matrix& m) {
 Result<nlohmann::json> read_json(const std::filesystem::path& path) {
   auto text = read_text_file(path, kMaxResultBytes);
   if (!text) return text.error();
-  auto j = nlohmann::json::parse(*text, nullptr, false);
+  auto j = parse_json(*text);
   if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", path.string());
   return j;
 }
