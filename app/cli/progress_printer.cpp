@@ -28,8 +28,7 @@ std::string printable(std::string text) {
       text[k] = ' ';
     } else if (c < 0x20 || c == 0x7f) {
       text[k] = '?';
-    } else if (c == 0xc2 && k + 1 < text.size() &&
-               static_cast<unsigned char>(text[k + 1]) < 0xa0) {
+    } else if (c == 0xc2 && k + 1 < text.size() && static_cast<unsigned char>(text[k + 1]) < 0xa0) {
       // U+0080 to U+009F are control characters too, written in two bytes.
       text[k] = text[k + 1] = '?';
     }
@@ -48,7 +47,8 @@ void ProgressPrinter::show(const Progress& progress) {
   const bool new_stage = progress.stage != stage_;
   stage_ = progress.stage;
   if (!terminal_) {
-    if (new_stage) std::fprintf(stderr, "%s: %s\n", stage_.c_str(), printable(progress.text).c_str());
+    if (new_stage)
+      std::fprintf(stderr, "%s: %s\n", stage_.c_str(), printable(progress.text).c_str());
     return;
   }
   const auto now = std::chrono::steady_clock::now();

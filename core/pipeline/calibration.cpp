@@ -120,6 +120,7 @@ class Calibration {
     }
     if (!consensus) return not_found();
     result_.consensus = std::move(*consensus);
+    if (Status s = explain_disagreement(); !s) return s;
     for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
       SceneResult& scene = result_.scenes[s];
       scene.chosen = result_.consensus.chosen[s];
@@ -130,6 +131,31 @@ class Calibration {
                                : missing_board(scene);
     }
     return Done{};
+  }
+
+  // Why scenes that have found a board do not agree, by trying what would mend it.
+  Status explain_disagreement() {
+    const int agreeing = result_.consensus.agreeing;
+    std::size_t found = 0;
+    for (const SceneResult& scene : result_.scenes)
+      found += scene.view && scene.search && !scene.search->candidates.empty() ? 1 : 0;
+    if (static_cast<std::size_t>(agreeing) >= found) return Done{};
+    const auto scenes = hypotheses(result_);
+    if (const auto pair = exchanged_images(scenes, agreeing, request_.options.consensus)) {
+      const auto [a, b] = *pair;
+      for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+        SceneResult& scene = result_.scenes[one];
+        scene.contradicts = true;
+        scene.reason = "its image and that of scene " + result_.scenes[other].name +
+                       " seem to be exchanged: the scenes agree if they are";
+        result_.consensus.chosen[one].reset();
+      }
+      return Done{};
+    }
+    if (agreeing >= 2) return Done{};
+    if (const auto error = diagnose_mirrored(dataset_, request_, result_, scenes, context_))
+      return *error;
+    return context_.stopped() ? Status(Error::cancelled()) : Status(Done{});
   }
 
   [[nodiscard]] bool missing_scenes(const SceneConsensus& consensus) const {
@@ -323,8 +349,8 @@ class Calibration {
   bool looked_for_sizes_ = false;
 };
 
-// After a run with a rough extrinsic has found no board: perhaps that is what is wrong. If the scenes
-// agree without it their result stands, and says so.
+// After a run with a rough extrinsic has found no board: perhaps that is what is wrong. If the
+// scenes agree without it their result stands, and says so.
 Result<CalibrationResult> without_guess(Result<CalibrationResult> failed, const Dataset& dataset,
                                         const CalibrationRequest& request,
                                         const RunContext& context) {

@@ -46,9 +46,9 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
     const auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
     if (!cloud) return std::nullopt;
     const Eigen::Vector2d c = dataset.target.outline().center_m();
-    const double distance_m = (result.scenes[s].view->camera_from_board.transform *
-                               Eigen::Vector3d(c.x(), c.y(), 0.0))
-                                  .norm();
+    const double distance_m =
+        (result.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0))
+            .norm();
     const PatternPyramid pyramid(dataset.target);
     std::vector<double> gain(kReadings.size(), 0.0);
     parallel_for(kReadings.size(), context.thread_count(), [&](std::size_t k) {
@@ -73,6 +73,62 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
   return std::nullopt;
 }
 
+std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
+    std::vector<SceneHypotheses> scenes, int agreeing, const ConsensusOptions& options) {
+  // Every pair of a hundred scenes is five thousand decisions; more than that nobody waits for.
+  constexpr std::size_t kMostScenes = 100;
+  std::vector<std::size_t> seen;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    if (!scenes[s].candidates.empty()) seen.push_back(s);
+  }
+  const int all = static_cast<int>(seen.size());
+  if (all < 2 || agreeing >= all || seen.size() > kMostScenes) return std::nullopt;
+  const auto exchange = [&](std::size_t a, std::size_t b) {
+    std::swap(scenes[a].camera_from_board, scenes[b].camera_from_board);
+    std::swap(scenes[a].alternative_camera_from_board, scenes[b].alternative_camera_from_board);
+  };
+  for (const std::size_t a : seen) {
+    for (const std::size_t b : seen) {
+      if (b <= a) continue;
+      exchange(a, b);
+      const auto consensus = decide_scenes(scenes, std::nullopt, options);
+      if (consensus && consensus->agreeing == all) return std::pair(a, b);
+      exchange(a, b);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> diagnose_mirrored(const Dataset& dataset, const CalibrationRequest& request,
+                                       const CalibrationResult& result,
+                                       std::vector<SceneHypotheses> scenes,
+                                       const RunContext& context) {
+  const PatternPyramid pyramid(dataset.target);
+  const Eigen::Vector2d c = dataset.target.outline().center_m();
+  parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
+    scenes[s].candidates.clear();
+    if (!result.scenes[s].view || context.stopped()) return;
+    const auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
+    if (!cloud) return;
+    RunContext quiet = context;
+    quiet.progress = {};
+    quiet.threads = 1;
+    const double distance_m =
+        (result.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0))
+            .norm();
+    scenes[s].candidates =
+        search_board(read_as(*cloud, {"mirrored", {1.0F, -1.0F, 1.0F}}), dataset.target, pyramid,
+                     distance_m, std::nullopt, request.options.localization, quiet)
+            .candidates;
+  });
+  const auto consensus = decide_scenes(scenes, std::nullopt, request.options.consensus);
+  if (context.stopped() || !consensus || consensus->agreeing < 2) return std::nullopt;
+  return Error::untrusted(
+      "the scenes do not agree, but " + std::to_string(consensus->agreeing) +
+          " of them do if the clouds are mirrored (their axes make a left-handed frame)",
+      dataset.path.string(), "exchange two axes, or the sign of one, in what writes the clouds");
+}
+
 std::string diagnose_guess(const Rigid3& guess, const Rigid3& found) {
   // A rough extrinsic is good to some 20°, and to half a metre or its length.
   const auto near = [&](const Rigid3& a) {
@@ -89,8 +145,7 @@ std::string diagnose_guess(const Rigid3& guess, const Rigid3& found) {
     return "it is the inverse, with its translation in millimetres";
   if (rotation_distance_rad(guess, Rigid3()) < 1e-6)
     return "its rotation is the identity, but the sensors' axes point in other directions";
-  return formatted("it is off by %.2f m and %.0f°",
-                   (guess.translation - found.translation).norm(),
+  return formatted("it is off by %.2f m and %.0f°", (guess.translation - found.translation).norm(),
                    rotation_distance_rad(guess, found) * 180.0 / M_PI);
 }
 

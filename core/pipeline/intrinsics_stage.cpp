@@ -105,17 +105,15 @@ std::optional<Freed> solve_freed(const CalibrationResult& result,
       if (o.use) o.camera_from_board = corners->camera_from_board[next++];
     }
     options.first_camera = corners->camera;
-    auto solved =
-        solve_extrinsic(freed, corners->camera, result.target, result.options.extrinsic);
+    auto solved = solve_extrinsic(freed, corners->camera, result.target, result.options.extrinsic);
     if (solved) start = std::move(*solved);
   }
   auto forward = solve_every_return(result, freed, index, start, options, context);
   if (!forward) return std::nullopt;
   Freed out{std::move(*forward), {}};
-  out.contrast = contrast_intrinsics(
-      intrinsics_of(out.forward.state.camera), intrinsics_of(given),
-      out.forward.globals_covariance, options.intrinsics_sigma,
-      result.options.intrinsics.false_alarm);
+  out.contrast = contrast_intrinsics(intrinsics_of(out.forward.state.camera), intrinsics_of(given),
+                                     out.forward.globals_covariance, options.intrinsics_sigma,
+                                     result.options.intrinsics.false_alarm);
   return out;
 }
 
@@ -138,8 +136,8 @@ void judge_move(const CalibrationResult& result, IntrinsicsContradiction& found)
 void check_against_prior(CalibrationResult& result, const std::vector<CornerView>& views) {
   IntrinsicsReport& report = result.intrinsics;
   const IntrinsicsContrast contrast = contrast_intrinsics(
-      intrinsics_of(result.camera), intrinsics_of(report.given),
-      result.forward->globals_covariance, report.prior_sigma, result.options.intrinsics.false_alarm);
+      intrinsics_of(result.camera), intrinsics_of(report.given), result.forward->globals_covariance,
+      report.prior_sigma, result.options.intrinsics.false_alarm);
   // The estimate may be off by the prior's spread and by its own; what exceeds both contradicts.
   double chi = 0.0;
   int dof = 0;
@@ -207,8 +205,8 @@ IntrinsicsVector solve_prior(const IntrinsicsReport& report) {
 
 void free_camera(CalibrationResult& result) {
   if (result.intrinsics.mode == IntrinsicsMode::kFixed) return;
-  const auto fit = fit_intrinsics(views_of(result), result.intrinsics.given,
-                                  solve_prior(result.intrinsics));
+  const auto fit =
+      fit_intrinsics(views_of(result), result.intrinsics.given, solve_prior(result.intrinsics));
   if (!fit) return;
   result.camera = fit->camera;
   for (SceneResult& scene : result.scenes) {
@@ -281,8 +279,8 @@ Status check_intrinsics(CalibrationResult& result,
                                      corners->covariance, wide, alarm);
   }
   const bool clear = of_corners.contradicts();
-  const bool open = of_corners.dof > 0 && of_corners.chi_square >
-                                              chi_square_gate(of_corners.dof, kFirstLook);
+  const bool open =
+      of_corners.dof > 0 && of_corners.chi_square > chi_square_gate(of_corners.dof, kFirstLook);
   if (!clear && !open && !(result.forward && first_look(*result.forward, given))) return Done{};
   std::optional<Freed> freed;
   if (result.forward)
@@ -293,9 +291,9 @@ Status check_intrinsics(CalibrationResult& result,
   found.contrast = freed && freed->contrast.contradicts() ? freed->contrast : of_corners;
   found.what = describe(found.contrast, given, views);
   if (freed) {
-    found.camera_from_lidar =
-        UncertainRigid3{se3_exp(freed->contrast.correction) * freed->forward.state.camera_from_lidar,
-                        freed->contrast.covariance};
+    found.camera_from_lidar = UncertainRigid3{
+        se3_exp(freed->contrast.correction) * freed->forward.state.camera_from_lidar,
+        freed->contrast.covariance};
     judge_move(result, found);
   }
   report.contradiction = std::move(found);

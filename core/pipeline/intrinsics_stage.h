@@ -23,7 +23,7 @@ struct IntrinsicsContradiction {
   IntrinsicsContrast contrast;
   /// The extrinsic with what is wrong freed, if it could be solved.
   std::optional<UncertainRigid3> camera_from_lidar;
-  double move_mm = 0.0;  ///< Between that and the result: of the LiDAR's position,
+  double move_mm = 0.0;    ///< Between that and the result: of the LiDAR's position,
   double move_mrad = 0.0;  ///< and of the rotation.
   bool matters = true;     ///< More than the tolerance.
 };
@@ -55,12 +55,13 @@ IntrinsicsVector solve_prior(const IntrinsicsReport& report);
 std::string contradicted_by_corners(const CalibrationResult& result);
 
 /// Sets `verified`: whether the scenes leave intrinsics open that would move the extrinsic by more
-/// than three tolerances (95 % limit, to first order about the solution), and which scene would tell.
+/// than three tolerances (95 % limit, to first order about the solution), and which scene would
+/// tell.
 void verify_intrinsics(CalibrationResult& result);
 
 /// With `fixed`: asks whether corners and returns contradict the given intrinsics, by a second
-/// solve with them freed wherever a first look leaves it open. With `prior` against what camera.yaml
-/// states. `nodes` is the solve that the result started from. Errors: kCancelled.
+/// solve with them freed wherever a first look leaves it open. With `prior` against what
+/// camera.yaml states. `nodes` is the solve that the result started from. Errors: kCancelled.
 Status check_intrinsics(CalibrationResult& result,
                         const std::vector<SceneObservations>& observations,
                         const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,

@@ -33,7 +33,7 @@ struct QualityOptions {
   /// than half a standard deviation.
   double tolerance_m = 0.0005;
   double tolerance_rad = 0.0002;
-  double min_margin = 10.0;              ///< Evidence (nats) by which the assignment must win.
+  double min_margin = 10.0;  ///< Evidence (nats) by which the assignment must win.
 };
 
 /// What is done about the camera's intrinsics.

@@ -198,6 +198,9 @@ std::string worst_scene(const ExtrinsicSolution& x) {
   if (others.empty()) return {};
   const double usual = median(std::move(others));
   if (!(worst->rms_mm > kClearly * usual)) return {};
+  // Metres say only that the circles were not found; the number would say nothing.
+  constexpr double kMeaningful_mm = 100.0;
+  if (worst->rms_mm > kMeaningful_mm) return "; scene " + worst->name + " misses most";
   return "; scene " + worst->name +
          formatted(" misses most: %.1f mm, the others %.1f mm", worst->rms_mm, usual);
 }
@@ -275,6 +278,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   const std::size_t before = result.warnings.size();
   Verdict verdict(result);
   const ExtrinsicSolution& x = result.extrinsic;
+  judge_intrinsics(result, verdict);
   if (x.used_scenes < 2)
     verdict.doubtful(
         "only one usable scene: nothing to check the result against; take two or more");
@@ -290,7 +294,6 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
         "and "
         "corners, and the print does not hold it sideways");
   }
-  judge_intrinsics(result, verdict);
   judge_precision(x, options, verdict);
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
@@ -312,6 +315,11 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                   "effect is missing in the model",
                   x.node_scale, x.plane_scale) +
         worst_scene(x));
+  }
+  if (result.target.has_circles() && x.rms_mm > 1e3 * result.target.circle_radius_m) {
+    verdict.doubtful(
+        "the circles' centres miss the model by more than their radius: the clouds do not show "
+        "them");
   }
   if (x.used_scenes > 1 && result.consensus.margin() < options.min_margin) {
     verdict.doubtful(formatted("another assignment of the board is nearly as good (margin %.1f)",

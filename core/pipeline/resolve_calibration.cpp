@@ -58,8 +58,8 @@ Status respond(CalibrationResult& result, const CalibrationOptions& options,
   return Done{};
 }
 
-// Every corner and return in one model; where that fails, what nodes and planes say stands. With the
-// intrinsics freed, `nodes` is solved again under the camera that comes out.
+// Every corner and return in one model; where that fails, what nodes and planes say stands. With
+// the intrinsics freed, `nodes` is solved again under the camera that comes out.
 Status solve_forward_model(CalibrationResult& result,
                            const std::vector<SceneObservations>& observations,
                            const std::vector<std::size_t>& index, ExtrinsicSolution& nodes,

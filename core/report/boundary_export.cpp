@@ -6,8 +6,8 @@
 
 #include "base/units.h"
 #include "report/exports.h"
-#include "report/result_file.h"
 #include "report/json_values.h"
+#include "report/result_file.h"
 
 namespace lvcalib {
 namespace {

@@ -3,10 +3,10 @@
 
 #include "base/file_io.h"
 #include "report/discovery_file.h"
+#include "report/json_values.h"
 #include "report/report_figures.h"
 #include "report/report_sections.h"
 #include "report/result_file.h"
-#include "report/json_values.h"
 
 namespace lvcalib {
 namespace {
@@ -97,8 +97,7 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
 
 Result<HtmlReport> html_report(const CalibrationResult& result, const Discovery* discovery,
                                const RunContext& context) {
-  const json found =
-      discovery != nullptr ? parse_json(discovery_as_json(*discovery)) : json();
+  const json found = discovery != nullptr ? parse_json(discovery_as_json(*discovery)) : json();
   return report_of(result_as_json(result), "the result", found, context);
 }
 

@@ -333,12 +333,15 @@ std::string result_as_yaml(const CalibrationResult& result) {
   out +=
       "sigma_rotation_mrad: " + yaml_list({1e3 * sigma(3), 1e3 * sigma(4), 1e3 * sigma(5)}) + "\n";
   out += "covariance:\n" + yaml_rows(x.camera_from_lidar.covariance);
-  out += "# The same with what faults left out of the model could still do (see covariance_total).\n";
+  out +=
+      "# The same with what faults left out of the model could still do (see covariance_total).\n";
   const Vector6d total = result.covariance_total.diagonal().cwiseSqrt();
-  out += "total_sigma_translation_mm: " +
-         yaml_list({1e3 * total(0), 1e3 * total(1), 1e3 * total(2)}) + "\n";
-  out += "total_sigma_rotation_mrad: " +
-         yaml_list({1e3 * total(3), 1e3 * total(4), 1e3 * total(5)}) + "\n";
+  out +=
+      "total_sigma_translation_mm: " + yaml_list({1e3 * total(0), 1e3 * total(1), 1e3 * total(2)}) +
+      "\n";
+  out +=
+      "total_sigma_rotation_mrad: " + yaml_list({1e3 * total(3), 1e3 * total(4), 1e3 * total(5)}) +
+      "\n";
   out += "covariance_total:\n" + yaml_rows(result.covariance_total);
   out += std::string("verified: ") + (result.verified ? "true" : "false") + "\n";
   out += "quality: " + name_of(result.quality) + "\nwarnings:";

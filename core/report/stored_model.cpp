@@ -11,8 +11,8 @@
 #include "base/yaml_file.h"
 #include "model/user_effect.h"
 #include "report/evidence_json.h"
-#include "report/result_file.h"
 #include "report/json_values.h"
+#include "report/result_file.h"
 
 namespace lvcalib {
 namespace {

@@ -63,12 +63,11 @@ Linearization linearize(const std::vector<CornerView>& views, const BundleState&
   for (std::size_t v = 0; v < views.size(); ++v) {
     View& view = out.views[v];
     for (const CornerObservation& c : *views[v].corners) {
-      const Eigen::Vector3d p =
-          state.poses[v] * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
+      const Eigen::Vector3d p = state.poses[v] * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
       Eigen::Matrix<double, 2, 3> by_point;
       Eigen::Matrix<double, 2, kIntrinsics> a;
-      const auto pixel = jacobians ? state.camera.project(p, &by_point, &a)
-                                   : state.camera.project(p);
+      const auto pixel =
+          jacobians ? state.camera.project(p, &by_point, &a) : state.camera.project(p);
       if (!pixel) {
         out.cost = std::numeric_limits<double>::infinity();
         return out;
@@ -156,9 +155,9 @@ bool solve_bundle(const std::vector<CornerView>& views, const IntrinsicsVector& 
       next.poses[v] = se3_exp(move) * state.poses[v];
     }
     const bool possible = next.camera.fx > 0.0 && next.camera.fy > 0.0;
-    const double tried = possible ? linearize(views, next, sigma_px, false).cost +
-                                        prior_cost(offset_of(next), prior)
-                                  : std::numeric_limits<double>::infinity();
+    const double tried =
+        possible ? linearize(views, next, sigma_px, false).cost + prior_cost(offset_of(next), prior)
+                 : std::numeric_limits<double>::infinity();
     if (!(tried <= cost)) {
       damping = std::max(1e-6, 10.0 * damping);
       if (damping > 1e8) return true;
@@ -198,8 +197,8 @@ std::vector<double> distinct(std::vector<double> values) {
 }
 
 std::size_t place_of(const std::vector<double>& sorted, double value) {
-  return static_cast<std::size_t>(
-      std::lower_bound(sorted.begin(), sorted.end(), value - 1e-6) - sorted.begin());
+  return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value - 1e-6) -
+                                  sorted.begin());
 }
 
 // Mixed second differences of one view's residuals over the smallest rectangles of its grid.
@@ -214,8 +213,8 @@ void add_differences(const CornerView& view, const Camera& camera, std::vector<d
   ys = distinct(std::move(ys));
   std::map<std::pair<std::size_t, std::size_t>, Eigen::Vector2d> residual;
   for (const CornerObservation& c : *view.corners) {
-    const auto pixel = camera.project(view.camera_from_board *
-                                      Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+    const auto pixel =
+        camera.project(view.camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
     if (pixel) {
       residual[{place_of(xs, c.board_m.x()), place_of(ys, c.board_m.y())}] = c.pixel - *pixel;
     }
@@ -303,7 +302,8 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
   for (int round = 0; round < 6; ++round) {
     if (!solve_bundle(views, given, prior, sigma, state)) return std::nullopt;
     at = linearize(views, state, sigma, true);
-    const double dof = static_cast<double>(at.rows) - 6.0 * static_cast<double>(views.size()) - free;
+    const double dof =
+        static_cast<double>(at.rows) - 6.0 * static_cast<double>(views.size()) - free;
     if (dof < 1.0) break;
     const double next = std::max(kFloor_px, std::sqrt(at.squares / dof));
     const bool settled = std::abs(std::log(next / sigma)) < 0.02;
@@ -317,8 +317,7 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
   IntrinsicsFit out;
   out.camera = state.camera;
   out.camera_from_board = state.poses;
-  out.covariance =
-      prior.asDiagonal() * factor.solve(Matrix12::Identity()) * prior.asDiagonal();
+  out.covariance = prior.asDiagonal() * factor.solve(Matrix12::Identity()) * prior.asDiagonal();
   out.sigma_px = sigma;
   out.rows = at.rows;
   if (!out.covariance.allFinite() || !check(out.camera)) return std::nullopt;
@@ -424,8 +423,7 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
   for (const auto& parts : subsets()) {
     if (hold(parts, out)) return out;
   }
-  hold({IntrinsicsPart::kFocalLength, IntrinsicsPart::kPrincipalPoint,
-        IntrinsicsPart::kDistortion},
+  hold({IntrinsicsPart::kFocalLength, IntrinsicsPart::kPrincipalPoint, IntrinsicsPart::kDistortion},
        out);
   return out;
 }
@@ -440,10 +438,10 @@ std::string describe(const IntrinsicsContrast& contrast, const Camera& given,
         const double truth = given.fx + contrast.difference(0);
         const double off = 50.0 * (-contrast.difference(0) / truth -
                                    contrast.difference(1) / (given.fy + contrast.difference(1)));
-        words.push_back("the focal length is " +
-                        formatted("%.2f ± %.2f %% ", std::abs(off),
-                                  100.0 * contrast.sigma(0) / given.fx) +
-                        (off > 0 ? "too long" : "too short"));
+        words.push_back(
+            "the focal length is " +
+            formatted("%.2f ± %.2f %% ", std::abs(off), 100.0 * contrast.sigma(0) / given.fx) +
+            (off > 0 ? "too long" : "too short"));
         break;
       }
       case IntrinsicsPart::kPrincipalPoint:
@@ -457,8 +455,8 @@ std::string describe(const IntrinsicsContrast& contrast, const Camera& given,
         double most = 0.0;
         for (const CornerView& view : views) {
           for (const CornerObservation& c : *view.corners) {
-            const Eigen::Vector3d p = view.camera_from_board *
-                                      Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
+            const Eigen::Vector3d p =
+                view.camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
             const auto a = given.project(p);
             const auto b = other.project(p);
             if (a && b) most = std::max(most, (*a - *b).norm());

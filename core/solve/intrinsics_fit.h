@@ -42,14 +42,15 @@ struct IntrinsicsFit {
   std::vector<Rigid3> camera_from_board;
   /// Of the intrinsics, prior included, with the noise that the residuals show.
   Eigen::Matrix<double, kIntrinsics, kIntrinsics> covariance;
-  double sigma_px = 0.0;      ///< Of one coordinate, from the residuals.
-  double replicate_px = 0.0;  ///< The same from replicates (see replicate_noise); 0 if there are few.
+  double sigma_px = 0.0;  ///< Of one coordinate, from the residuals.
+  double replicate_px =
+      0.0;  ///< The same from replicates (see replicate_noise); 0 if there are few.
   std::size_t rows = 0;
 };
 
 /// Bundle adjustment of one camera over views of a board: minimises Σ|z − π(T P)|²/σ² with
-/// Huber's loss at four σ, σ estimated from the residuals, and the intrinsics drawn to `camera` with
-/// the standard deviations `prior` (0 holds an entry). Levenberg–Marquardt, poses eliminated.
+/// Huber's loss at four σ, σ estimated from the residuals, and the intrinsics drawn to `camera`
+/// with the standard deviations `prior` (0 holds an entry). Levenberg–Marquardt, poses eliminated.
 /// Nothing if fewer than eight corners are seen or the problem cannot be solved.
 std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views,
                                             const Camera& camera, const IntrinsicsVector& prior);
@@ -72,7 +73,8 @@ struct IntrinsicsContrast {
   [[nodiscard]] bool contradicts() const { return dof > 0 && chi_square > gate; }
   /// The fewest parts that mend it when freed; the rest held as given.
   std::vector<IntrinsicsPart> parts;
-  IntrinsicsVector difference = IntrinsicsVector::Zero();  ///< Estimated − given, with `parts` free.
+  IntrinsicsVector difference =
+      IntrinsicsVector::Zero();  ///< Estimated − given, with `parts` free.
   IntrinsicsVector sigma = IntrinsicsVector::Zero();
   /// Left perturbation by which the extrinsic differs with `parts` free from that with all free,
   /// and its covariance with `parts` free. Zero where no extrinsic is in the data.

@@ -51,8 +51,8 @@ Eigen::Matrix2d squared_effects(const BoardReturns& returns, const BlurredPrint&
 // How the scene's gradient answers to ranges moved by a fault of unit size.
 Eigen::MatrixXd gradient_by_faults(const ForwardScene& scene, std::size_t s,
                                    const BoardReturns& returns, const BlurredPrint& print,
-                                   const ForwardSolution& solution,
-                                   const LinearizationOptions& how, const SceneEquations& at) {
+                                   const ForwardSolution& solution, const LinearizationOptions& how,
+                                   const SceneEquations& at) {
   Eigen::MatrixXd out(at.gradient.size(), kFaults);
   for (Eigen::Index fault = 0; fault < kFaults; ++fault) {
     Cloud moved = *returns.cloud;
@@ -69,8 +69,8 @@ Eigen::MatrixXd gradient_by_faults(const ForwardScene& scene, std::size_t s,
     BoardReturns shifted = returns;
     shifted.cloud = &moved;
     SceneFit fit;
-    const SceneEquations there = linearize_scene(scene, s, shifted, print, solution.state,
-                                                 solution.noise, how, 1, fit);
+    const SceneEquations there =
+        linearize_scene(scene, s, shifted, print, solution.state, solution.noise, how, 1, fit);
     out.col(fault) = (there.gradient - at.gradient) / unit;
   }
   return out;
@@ -103,8 +103,7 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(own);
   if (factor.info() != Eigen::Success) return out;
-  const Eigen::MatrixXd by =
-      gradient_by_faults(scene, s, returns, print, solution, how, at);
+  const Eigen::MatrixXd by = gradient_by_faults(scene, s, returns, print, solution, how, at);
   const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
   const FaultTerm term{
       by.topRows(kGlobals) - at.normal.topRightCorner(kGlobals, n) * eliminated,

@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
   int undiagnosed = 0;
   int clean_doubted = 0;
   for (int k = 0; k < rigs; ++k) {
-    const auto rig = simulation::simulate(rig_options(k, first + static_cast<std::uint64_t>(k)), {});
+    const auto rig =
+        simulation::simulate(rig_options(k, first + static_cast<std::uint64_t>(k)), {});
     if (!rig) {
       std::printf("%d: %s\n", k, rig.error().text().c_str());
       continue;

@@ -51,8 +51,9 @@ Corruption points(std::string name, Words words, const Eigen::Matrix3d& by) {
                                by.determinant() > 0.0;
             c.truth.reset();
             if (rigid) {
-              c.truth = c.rig.camera_from_lidar *
-                        Rigid3::from_matrix(Eigen::Matrix3d(by.transpose()), Eigen::Vector3d::Zero());
+              c.truth =
+                  c.rig.camera_from_lidar *
+                  Rigid3::from_matrix(Eigen::Matrix3d(by.transpose()), Eigen::Vector3d::Zero());
             }
           }};
 }
@@ -139,23 +140,22 @@ void add_camera(std::vector<Corruption>& all) {
   for (const auto& [x, y] : {std::pair(5.0, 0.0), std::pair(0.0, -5.0), std::pair(20.0, 0.0),
                              std::pair(0.0, 20.0), std::pair(-36.0, 0.0), std::pair(25.0, 25.0)})
     all.push_back(principal(x, y));
-  all.push_back(camera("distortion dropped", {"distortion"},
-                       [](Camera& c) { c.distortion.setZero(); }));
+  all.push_back(
+      camera("distortion dropped", {"distortion"}, [](Camera& c) { c.distortion.setZero(); }));
   all.push_back(
       camera("distortion reversed", {"distortion"}, [](Camera& c) { c.distortion *= -1.0; }));
-  all.push_back(camera("k1 and k2 exchanged", {"distortion"}, [](Camera& c) {
-    std::swap(c.distortion(0), c.distortion(1));
-  }));
+  all.push_back(camera("k1 and k2 exchanged", {"distortion"},
+                       [](Camera& c) { std::swap(c.distortion(0), c.distortion(1)); }));
   all.push_back(camera("only fx 2 % off", {"focal length"}, [](Camera& c) { c.fx *= 1.02; }));
-  all.push_back(camera("cx and cy exchanged", {"principal point"},
-                       [](Camera& c) { std::swap(c.cx, c.cy); }));
-  all.push_back(camera("intrinsics of the image at half size", {"intrinsics", "size"},
-                       [](Camera& c) {
-                         c.fx *= 0.5;
-                         c.fy *= 0.5;
-                         c.cx *= 0.5;
-                         c.cy *= 0.5;
-                       }));
+  all.push_back(
+      camera("cx and cy exchanged", {"principal point"}, [](Camera& c) { std::swap(c.cx, c.cy); }));
+  all.push_back(
+      camera("intrinsics of the image at half size", {"intrinsics", "size"}, [](Camera& c) {
+        c.fx *= 0.5;
+        c.fy *= 0.5;
+        c.cx *= 0.5;
+        c.cy *= 0.5;
+      }));
 }
 
 void add_clouds(std::vector<Corruption>& all) {
@@ -179,26 +179,28 @@ void add_clouds(std::vector<Corruption>& all) {
   all.push_back(ranges("ranges 30 mm too long", {}, [](double r) { return r + 0.03; }));
   all.push_back(ranges("ranges 100 mm too long", {}, [](double r) { return r + 0.1; }));
   all.push_back(ranges("ranges 1 % too long", {}, [](double r) { return 1.01 * r; }));
-  all.push_back(intensities("intensity of one bit", {},
-                            [](float v) { return v > 60.0F ? 1.0F : 0.0F; }));
-  all.push_back(intensities("intensity the same everywhere", {"intensity"},
-                            [](float) { return 7.0F; }));
+  all.push_back(
+      intensities("intensity of one bit", {}, [](float v) { return v > 60.0F ? 1.0F : 0.0F; }));
+  all.push_back(
+      intensities("intensity the same everywhere", {"intensity"}, [](float) { return 7.0F; }));
   all.push_back(intensities("intensity reversed", {}, [](float v) { return 200.0F - v; }));
-  all.push_back({"clouds of two scenes exchanged", {"belong", "contradict", "agree"},
-                 [](CorruptedRig& c) {
-                   std::swap(c.rig.scenes[0].cloud, c.rig.scenes[1].cloud);
-                 }});
-  all.push_back({"all clouds of the first scene", {"same file", "belong", "agree", "contradict"},
+  all.push_back({"clouds of two scenes exchanged",
+                 {"belong", "contradict", "agree"},
+                 [](CorruptedRig& c) { std::swap(c.rig.scenes[0].cloud, c.rig.scenes[1].cloud); }});
+  all.push_back({"all clouds of the first scene",
+                 {"same file", "belong", "agree", "contradict"},
                  [](CorruptedRig& c) {
                    for (auto& scene : c.rig.scenes) scene.cloud = c.rig.scenes[0].cloud;
                    c.truth.reset();
                  }});
-  all.push_back({"rig bumped by 30 mm before the last scene", {"contradict", "mov", "differ"},
+  all.push_back({"rig bumped by 30 mm before the last scene",
+                 {"contradict", "mov", "differ"},
                  [](CorruptedRig& c) {
                    for (Eigen::Vector3f& p : c.rig.scenes.back().cloud.points_m)
                      p += Eigen::Vector3f(0.0F, 0.03F, 0.0F);
                  }});
-  all.push_back({"rig bumped by 10 mm before the last scene", {"contradict", "mov", "differ"},
+  all.push_back({"rig bumped by 10 mm before the last scene",
+                 {"contradict", "mov", "differ"},
                  [](CorruptedRig& c) {
                    for (Eigen::Vector3f& p : c.rig.scenes.back().cloud.points_m)
                      p += Eigen::Vector3f(0.0F, 0.0F, 0.01F);
@@ -224,50 +226,54 @@ void add_clouds(std::vector<Corruption>& all) {
 }
 
 void add_images(std::vector<Corruption>& all) {
-  all.push_back(images("images mirrored", {"mirrored"},
-                       [](const SimulatedImage& i) {
-                         return mapped(i, i.width_px, i.height_px, [&](int x, int y) {
-                           return std::pair(i.width_px - 1 - x, y);
-                         });
-                       },
-                       false));
-  all.push_back(images("images turned by 180°", {"turned", "principal point"},
-                       [](const SimulatedImage& i) {
-                         return mapped(i, i.width_px, i.height_px, [&](int x, int y) {
-                           return std::pair(i.width_px - 1 - x, i.height_px - 1 - y);
-                         });
-                       },
-                       false));
-  all.push_back(images("images turned by 90°", {"turned", "intrinsics"},
-                       [](const SimulatedImage& i) {
-                         return mapped(i, i.height_px, i.width_px,
-                                       [&](int x, int y) { return std::pair(y, i.height_px - 1 - x); });
-                       },
-                       false));
-  all.push_back(images("images at half size", {"intrinsics"},
-                       [](const SimulatedImage& i) {
-                         return mapped(i, i.width_px / 2, i.height_px / 2,
-                                       [](int x, int y) { return std::pair(2 * x, 2 * y); });
-                       },
-                       false));
-  all.push_back(images("images stretched to twice the width and cropped", {"focal", "intrinsics"},
-                       [](const SimulatedImage& i) {
-                         return mapped(i, i.width_px, i.height_px, [&](int x, int y) {
-                           return std::pair((x + i.width_px / 2) / 2, y);
-                         });
-                       },
-                       false));
-  all.push_back(images("images shifted by 30 px", {"principal point"},
-                       [](const SimulatedImage& i) {
-                         return mapped(i, i.width_px, i.height_px,
-                                       [](int x, int y) { return std::pair(x - 30, y); });
-                       },
-                       true));
-  all.push_back({"images of two scenes exchanged", {"belong", "contradict", "agree"},
-                 [](CorruptedRig& c) {
-                   std::swap(c.rig.scenes[0].image, c.rig.scenes[1].image);
-                 }});
-  all.push_back({"images of all scenes passed on by one", {"belong", "contradict", "agree"},
+  all.push_back(images(
+      "images mirrored", {"mirrored"},
+      [](const SimulatedImage& i) {
+        return mapped(i, i.width_px, i.height_px,
+                      [&](int x, int y) { return std::pair(i.width_px - 1 - x, y); });
+      },
+      false));
+  all.push_back(images(
+      "images turned by 180°", {"turned", "principal point"},
+      [](const SimulatedImage& i) {
+        return mapped(i, i.width_px, i.height_px, [&](int x, int y) {
+          return std::pair(i.width_px - 1 - x, i.height_px - 1 - y);
+        });
+      },
+      false));
+  all.push_back(images(
+      "images turned by 90°", {"turned", "intrinsics"},
+      [](const SimulatedImage& i) {
+        return mapped(i, i.height_px, i.width_px,
+                      [&](int x, int y) { return std::pair(y, i.height_px - 1 - x); });
+      },
+      false));
+  all.push_back(images(
+      "images at half size", {"intrinsics"},
+      [](const SimulatedImage& i) {
+        return mapped(i, i.width_px / 2, i.height_px / 2,
+                      [](int x, int y) { return std::pair(2 * x, 2 * y); });
+      },
+      false));
+  all.push_back(images(
+      "images stretched to twice the width and cropped", {"focal", "intrinsics"},
+      [](const SimulatedImage& i) {
+        return mapped(i, i.width_px, i.height_px,
+                      [&](int x, int y) { return std::pair((x + i.width_px / 2) / 2, y); });
+      },
+      false));
+  all.push_back(images(
+      "images shifted by 30 px", {"principal point"},
+      [](const SimulatedImage& i) {
+        return mapped(i, i.width_px, i.height_px,
+                      [](int x, int y) { return std::pair(x - 30, y); });
+      },
+      true));
+  all.push_back({"images of two scenes exchanged",
+                 {"belong", "contradict", "agree"},
+                 [](CorruptedRig& c) { std::swap(c.rig.scenes[0].image, c.rig.scenes[1].image); }});
+  all.push_back({"images of all scenes passed on by one",
+                 {"belong", "contradict", "agree"},
                  [](CorruptedRig& c) {
                    for (std::size_t k = 0; k + 1 < c.rig.scenes.size(); ++k)
                      std::swap(c.rig.scenes[k].image, c.rig.scenes[k + 1].image);
@@ -284,8 +290,10 @@ void add_boards(std::vector<Corruption>& all) {
   all.push_back(target("tag spacing 3 % off", {}, [](Target& t) { t.tag_spacing *= 1.03; }));
   all.push_back(target("circle radius 10 % off", {}, [](Target& t) { t.circle_radius_m *= 1.1; }));
   all.push_back(target("ids from 100", {"tags"}, [](Target& t) { t.first_tag_id = 100; }));
-  all.push_back(target("ids from 4", {"firstTagId", "tags"}, [](Target& t) { t.first_tag_id = 4; }));
-  all.push_back(target("another family", {"tag36h11"}, [](Target& t) { t.tag_family = "tag25h9"; }));
+  all.push_back(
+      target("ids from 4", {"firstTagId", "tags"}, [](Target& t) { t.first_tag_id = 4; }));
+  all.push_back(
+      target("another family", {"tag36h11"}, [](Target& t) { t.tag_family = "tag25h9"; }));
   all.push_back(target("five columns of tags", {"tagCols", "columns", "tags"},
                        [](Target& t) { t.tag_columns = 5; }));
 }
@@ -335,14 +343,13 @@ void compare(const CorruptedRig& corrupted, const CalibrationResult& result,
     out.outcome = trusted ? Outcome::kSilentlyWrong : Outcome::kDoubted;
     return;
   }
-  const ExtrinsicError error =
-      compare_extrinsics({result.extrinsic.camera_from_lidar.transform, result.covariance_total},
-                         *corrupted.truth);
+  const ExtrinsicError error = compare_extrinsics(
+      {result.extrinsic.camera_from_lidar.transform, result.covariance_total}, *corrupted.truth);
   out.error_mm = error.translation_mm;
   out.error_mrad = error.rotation_mrad;
   out.sigmas = error.normalized.cwiseAbs().maxCoeff();
-  const bool wrong = out.sigmas > 3.0 &&
-                     (out.error_mm > kMatters_mm || out.error_mrad > kMatters_mrad);
+  const bool wrong =
+      out.sigmas > 3.0 && (out.error_mm > kMatters_mm || out.error_mrad > kMatters_mrad);
   out.outcome = !trusted ? Outcome::kDoubted : wrong ? Outcome::kSilentlyWrong : Outcome::kRight;
 }
 

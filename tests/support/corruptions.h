@@ -45,8 +45,8 @@ enum class Outcome {
 /// What came of one corrupted dataset.
 struct CorruptionOutcome {
   Outcome outcome = Outcome::kDoubted;
-  std::string quality;  ///< Or "error".
-  std::string said;     ///< Reasons, warnings or the error, in one line.
+  std::string quality;    ///< Or "error".
+  std::string said;       ///< Reasons, warnings or the error, in one line.
   bool diagnosed = true;  ///< One of the corruption's words is in what was said.
   double error_mm = 0.0, error_mrad = 0.0;
   double sigmas = 0.0;  ///< Largest component of the error in total standard deviations.

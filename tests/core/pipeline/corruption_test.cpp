@@ -39,7 +39,9 @@ int run_kinds(const std::vector<std::string>& starts) {
         << corruption.name << ": " << out.error_mm << " mm, " << out.error_mrad << " mrad, "
         << out.sigmas << " σ";
     EXPECT_TRUE(out.diagnosed) << corruption.name << ": " << out.quality << ": " << out.said;
-    if (corruption.name == "clean") EXPECT_EQ(out.outcome, Outcome::kRight) << out.said;
+    if (corruption.name == "clean") {
+      EXPECT_EQ(out.outcome, Outcome::kRight) << out.said;
+    }
   }
   return runs;
 }
@@ -57,7 +59,7 @@ TEST(Corruption, OfTheImagesIsNeverGood) {
 }
 
 TEST(Corruption, OfTheBoardIsNeverGood) {
-  EXPECT_GE(run_kinds({"board", "ids", "another family"}), 8);
+  EXPECT_GE(run_kinds({"board", "ids from 100", "another family"}), 7);
 }
 
 TEST(Corruption, OfTheFilesIsNeverGood) {

@@ -75,8 +75,8 @@ IntrinsicsContrast contrast_of(const Views& views, const Camera& given) {
   const auto fit = fit_intrinsics(views.views, given, wide);
   EXPECT_TRUE(fit);
   if (!fit) return {};
-  return contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance, wide,
-                             kAlarm);
+  return contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance,
+                             wide, kAlarm);
 }
 
 // Any start within what happens; the estimate is within four standard deviations of the truth.
