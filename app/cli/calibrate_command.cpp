@@ -12,15 +12,17 @@ std::string summary_of(const CalibrationResult& result, const std::string& outpu
   const auto& x = result.extrinsic;
   const Eigen::Vector3d& t = x.camera_from_lidar.transform.translation;
   const Vector6d sigma = x.camera_from_lidar.covariance.diagonal().cwiseSqrt();
+  const Vector6d total = result.covariance_total.diagonal().cwiseSqrt();
   char text[512];
   std::snprintf(text, sizeof text,
                 "%s: %d of %zu scenes, t = [%.4f %.4f %.4f] ± [%.2f %.2f %.2f] mm, rotation ± "
-                "[%.2f %.2f %.2f] mrad, "
-                "%.3f px, %.3f mm -> %s",
+                "[%.2f %.2f %.2f] mrad, in total ± [%.2f %.2f %.2f] mm [%.2f %.2f %.2f] mrad, "
+                "%.3f px, %.3f mm",
                 name_of(result.quality).c_str(), x.used_scenes, result.scenes.size(), t.x(), t.y(),
                 t.z(), 1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2), 1e3 * sigma(3),
-                1e3 * sigma(4), 1e3 * sigma(5), x.rms_px, x.rms_mm, output.c_str());
-  return text;
+                1e3 * sigma(4), 1e3 * sigma(5), 1e3 * total(0), 1e3 * total(1), 1e3 * total(2),
+                1e3 * total(3), 1e3 * total(4), 1e3 * total(5), x.rms_px, x.rms_mm);
+  return text + (" -> " + output);
 }
 
 Result<std::string> run(const CalibrationArguments& arguments, Session& session) {

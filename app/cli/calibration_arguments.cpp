@@ -2,6 +2,7 @@
 #include "calibration_arguments.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/file_io.h"
 
@@ -19,6 +20,10 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
     if (!file) return file.error();
     for (const std::string& warning : file->warnings) session.warn(warning);
     request.options = file->options;
+  }
+  constexpr std::array kModes = {"fixed", "prior", "free"};
+  for (std::size_t k = 0; k < kModes.size(); ++k) {
+    if (options.intrinsics == kModes[k]) request.options.intrinsics.mode = static_cast<int>(k);
   }
   if (!options.rough.empty()) {
     auto rough = read_rough_extrinsic(options.rough);
@@ -40,6 +45,11 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
   command.add_option("--init", arguments.rough,
                      "rig.yaml with a rough T_camera_lidar; narrows the search");
   command.add_flag("--crops", arguments.crops, "use scenes/NAME/board.pcd where present");
+  command
+      .add_option("--intrinsics", arguments.intrinsics,
+                  "the camera's intrinsics: fixed (as given), prior (estimated, with the standard "
+                  "deviations in camera.yaml or typical ones), free (estimated)")
+      ->check(CLI::IsMember({"fixed", "prior", "free"}));
   command.add_option("--reject", arguments.rejected, "leave out this scene (repeatable)");
 }
 

@@ -15,6 +15,7 @@ struct CalibrationArguments {
   std::string output;
   std::string config;
   std::string rough;
+  std::string intrinsics;  ///< fixed, prior or free; empty: as the options say.
   bool crops = false;
   std::vector<std::string> rejected;
 };

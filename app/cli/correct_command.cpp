@@ -5,6 +5,7 @@
 #include "cloud/cloud.h"
 #include "command.h"
 #include "model/correction.h"
+#include "overwriting.h"
 #include "report/stored_model.h"
 
 namespace lvcalib::cli {
@@ -84,6 +85,9 @@ void warn(const CorrectionSummary& summary, const Options& options, const Sessio
 }
 
 Result<std::string> run(const Options& options, Session& session) {
+  for (const std::string& input : {options.cloud, options.result}) {
+    if (Status s = refuse_overwriting(options.output, input); !s) return s.error();
+  }
   const auto model = read_model(options.result);
   if (!model) return model.error();
   session.context.report("load", 0.0, "reading the cloud");

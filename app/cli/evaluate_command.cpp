@@ -23,11 +23,14 @@ Result<std::string> run(const Options& options) {
   char text[512];
   std::snprintf(text, sizeof text,
                 "translation %.3f mm, rotation %.3f mrad off; by axis [%.3f %.3f %.3f] mm [%.3f "
-                "%.3f %.3f] mrad; in "
-                "standard deviations [%.2f %.2f %.2f] [%.2f %.2f %.2f]",
+                "%.3f %.3f] mrad; ",
                 e.translation_mm, e.rotation_mrad, 1e3 * x(0), 1e3 * x(1), 1e3 * x(2), 1e3 * x(3),
-                1e3 * x(4), 1e3 * x(5), n(0), n(1), n(2), n(3), n(4), n(5));
-  return std::string(text);
+                1e3 * x(4), 1e3 * x(5));
+  const std::string off = text;
+  if (!n.allFinite()) return off + "the result states no standard deviations";
+  std::snprintf(text, sizeof text, "in standard deviations [%.2f %.2f %.2f] [%.2f %.2f %.2f]", n(0),
+                n(1), n(2), n(3), n(4), n(5));
+  return off + text;
 }
 
 }  // namespace

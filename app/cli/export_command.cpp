@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/file_io.h"
 #include "command.h"
+#include "overwriting.h"
 #include "pipeline/dataset.h"
 #include "report/exports.h"
 
@@ -15,6 +16,9 @@ struct Options {
 };
 
 Result<std::string> run(const Options& options) {
+  for (const std::string& input : {options.result, options.imu}) {
+    if (Status s = refuse_overwriting(options.output, input); !s) return s.error();
+  }
   auto input = read_export_input(options.result);
   if (!input) return input.error();
   if (!options.imu.empty()) {

@@ -98,7 +98,7 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
     if (!summary && interrupt.token().stop_requested()) return fail(printer, Error::cancelled());
     if (!summary) return fail(printer, summary.error());
     printer.finish();
-    std::printf("%s\n", summary->c_str());
+    std::printf("%s\n", printable(*summary).c_str());
     std::fflush(stdout);
   }
   return 0;

@@ -21,6 +21,21 @@ std::size_t terminal_width() {
 
 }  // namespace
 
+std::string printable(std::string text) {
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto c = static_cast<unsigned char>(text[k]);
+    if (c == '\n' || c == '\r' || c == '\t') {
+      text[k] = ' ';
+    } else if (c < 0x20 || c == 0x7f) {
+      text[k] = '?';
+    } else if (c == 0xc2 && k + 1 < text.size() && static_cast<unsigned char>(text[k + 1]) < 0xa0) {
+      // U+0080 to U+009F are control characters too, written in two bytes.
+      text[k] = text[k + 1] = '?';
+    }
+  }
+  return text;
+}
+
 ProgressPrinter::ProgressPrinter() : terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 ProgressPrinter::~ProgressPrinter() {
@@ -32,7 +47,8 @@ void ProgressPrinter::show(const Progress& progress) {
   const bool new_stage = progress.stage != stage_;
   stage_ = progress.stage;
   if (!terminal_) {
-    if (new_stage) std::fprintf(stderr, "%s: %s\n", stage_.c_str(), progress.text.c_str());
+    if (new_stage)
+      std::fprintf(stderr, "%s: %s\n", stage_.c_str(), printable(progress.text).c_str());
     return;
   }
   const auto now = std::chrono::steady_clock::now();
@@ -42,7 +58,7 @@ void ProgressPrinter::show(const Progress& progress) {
   const auto filled = static_cast<std::size_t>(fraction * kBarWidth);
   std::string bar = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, ' ') + "] " +
                     std::to_string(static_cast<int>(100 * fraction)) + " % " + stage_ + ": " +
-                    progress.text;
+                    printable(progress.text);
   // A line that wraps could not be redrawn in place.
   bar.resize(std::min(bar.size(), terminal_width() - 1));
   std::fprintf(stderr, "\r\033[K%s", bar.c_str());
@@ -53,7 +69,7 @@ void ProgressPrinter::show(const Progress& progress) {
 void ProgressPrinter::line(const std::string& text) {
   const std::lock_guard lock(mutex_);
   clear_bar();
-  std::fprintf(stderr, "%s\n", text.c_str());
+  std::fprintf(stderr, "%s\n", printable(text).c_str());
 }
 
 void ProgressPrinter::finish() {

@@ -9,6 +9,10 @@
 
 namespace lvcalib::cli {
 
+/// Text that came from files, made fit for a terminal: line ends become spaces, other control
+/// characters (which could move the cursor, change the title or worse) question marks.
+std::string printable(std::string text);
+
 /// Shows progress on standard error: a bar that is redrawn on a terminal, one line per stage
 /// otherwise. Warnings and errors go through it too, so that they never mix with the bar.
 class ProgressPrinter {

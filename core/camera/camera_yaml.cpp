@@ -38,7 +38,7 @@ const char* const kHarmless =
     "flagValue fix_principal_point zero_tangent_dist avg_reprojection_error "
     "Avg_Reprojection_Error ReprojectionError per_view_reprojection_errors "
     "Per_View_Reprojection_Errors extrinsic_parameters Extrinsic_Parameters CameraExtrinsicMat "
-    "image_points Image_points grid_points";
+    "image_points Image_points grid_points standard_deviations";
 
 std::string first_present(const YamlFile& file, const char* candidates) {
   const Keys names = words(candidates);
@@ -223,7 +223,7 @@ Result<CameraFile> read_matrix_style(const YamlFile& file) {
 Result<CameraFile> read_kalibr_camera(const YamlFile& file, std::string name) {
   const Keys known = words(
       "camera_model intrinsics distortion_model distortion_coeffs resolution rostopic "
-      "cam_overlaps T_cn_cnm1 T_cam_imu T_imu_cam timeshift_cam_imu");
+      "cam_overlaps T_cn_cnm1 T_cam_imu T_imu_cam timeshift_cam_imu standard_deviations");
   CameraFile out;
   out.warnings = file.unknown_keys(known);
   Camera& camera = out.camera;

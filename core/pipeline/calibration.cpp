@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "pipeline/diagnosis.h"
 #include "pipeline/quality.h"
 #include "pipeline/scene_loading.h"
 #include "pipeline/stopwatch.h"
@@ -45,6 +46,7 @@ class Calibration {
     if (Status s = load_scenes(dataset_, request_, context_, result_, cache_); !s) return s.error();
     if (Status s = some_view(); !s) return s.error();
     settle_colors();
+    free_camera(result_);
     if (Status s = agree(); !s) return s.error();
     if (Status s = refine(); !s) return s.error();
     if (Status s = optimize(); !s) return s.error();
@@ -60,6 +62,7 @@ class Calibration {
     result_.dataset = dataset_.path.string();
     result_.target = dataset_.target;
     result_.camera = dataset_.camera;
+    result_.intrinsics = start_intrinsics(dataset_, request_.options.intrinsics.kind());
     result_.warnings = dataset_.warnings;
     result_.options = request_.options;
     looked_twice_.assign(dataset_.scenes.size(), 0);
@@ -71,6 +74,13 @@ class Calibration {
         scene.reason = kRejectedByUser;
       }
       result_.scenes.push_back(std::move(scene));
+    }
+    const auto same = same_files(dataset_, request_.use_crops, context_);
+    for (std::size_t s = 0; s < same.size(); ++s) {
+      if (!same[s] || !result_.scenes[s].reason.empty()) continue;
+      const SceneResult& first = result_.scenes[*same[s]];
+      if (first.reason.empty())
+        result_.scenes[s].reason = "the same files as scene " + first.name + ", which counts once";
     }
     for (const std::string& name : request_.rejected) {
       const bool known = std::any_of(dataset_.scenes.begin(), dataset_.scenes.end(),
@@ -132,6 +142,7 @@ class Calibration {
     if (Status s = consider_plain_boards(consensus); !s) return s;
     if (!consensus) return not_found();
     result_.consensus = std::move(*consensus);
+    if (Status s = explain_disagreement(); !s) return s;
     for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
       SceneResult& scene = result_.scenes[s];
       scene.chosen = result_.consensus.chosen[s];
@@ -142,6 +153,31 @@ class Calibration {
                                : missing_board(scene);
     }
     return Done{};
+  }
+
+  // Why scenes that have found a board do not agree, by trying what would mend it.
+  Status explain_disagreement() {
+    const int agreeing = result_.consensus.agreeing;
+    std::size_t found = 0;
+    for (const SceneResult& scene : result_.scenes)
+      found += scene.view && scene.search && !scene.search->candidates.empty() ? 1 : 0;
+    if (static_cast<std::size_t>(agreeing) >= found) return Done{};
+    const auto scenes = hypotheses(result_);
+    if (const auto pair = exchanged_images(scenes, agreeing, request_.options.consensus)) {
+      const auto [a, b] = *pair;
+      for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+        SceneResult& scene = result_.scenes[one];
+        scene.contradicts = true;
+        scene.reason = "its image and that of scene " + result_.scenes[other].name +
+                       " seem to be exchanged: the scenes agree if they are";
+        result_.consensus.chosen[one].reset();
+      }
+      return Done{};
+    }
+    if (agreeing >= 2) return Done{};
+    if (const auto error = diagnose_mirrored(dataset_, request_, result_, scenes, context_))
+      return *error;
+    return context_.stopped() ? Status(Error::cancelled()) : Status(Done{});
   }
 
   [[nodiscard]] bool missing_scenes(const SceneConsensus& consensus) const {
@@ -270,6 +306,10 @@ class Calibration {
     constexpr double kSame = 0.005;
     if (!scale || std::abs(*scale - 1.0) < kSame) return std::nullopt;
     const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
+    // Of its own size it was looked for already: something else is wrong.
+    if (percent == 0) return std::nullopt;
+    if (const std::string what = contradicted_by_corners(result_); !what.empty())
+      return wrong_camera(what);
     return Error::untrusted(
         "LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
             std::to_string(std::abs(percent)) + " % " + (percent > 0 ? "larger" : "smaller") +
@@ -277,8 +317,18 @@ class Calibration {
         result_.dataset, "measure the printed tags and correct tagSize");
   }
 
+  // A wrong focal length makes every distance, and with it the board's size, wrong.
+  [[nodiscard]] Error wrong_camera(const std::string& what) const {
+    return Error::untrusted("the images contradict the intrinsics: " + what, result_.dataset,
+                            "calibrate the camera again, or use --intrinsics free");
+  }
+
   Status not_found() {
+    if (const std::string what = contradicted_by_corners(result_); !what.empty())
+      return wrong_camera(what);
     if (const auto error = wrong_size()) return *error;
+    if (const auto error = diagnose_clouds(dataset_, request_, result_, context_)) return *error;
+    if (context_.stopped()) return Error::cancelled();
     std::string detail;
     for (const SceneResult& scene : result_.scenes) {
       if (!scene.view) continue;
@@ -400,17 +450,39 @@ class Calibration {
   bool looked_for_sizes_ = false;
 };
 
+// After a run with a rough extrinsic has found no board: perhaps that is what is wrong. If the
+// scenes agree without it their result stands, and says so.
+Result<CalibrationResult> without_guess(Result<CalibrationResult> failed, const Dataset& dataset,
+                                        const CalibrationRequest& request,
+                                        const RunContext& context) {
+  if (failed.error().kind != ErrorKind::kUntrusted || context.stopped()) return failed;
+  CalibrationRequest free = request;
+  free.guess.reset();
+  auto result = Calibration(dataset, free, context, nullptr, CalibrationObserver()).run();
+  if (!result) return result.error().kind == ErrorKind::kCancelled ? std::move(result) : failed;
+  if (result->extrinsic.used_scenes < 2) return failed;
+  result->warnings.insert(
+      result->warnings.begin(),
+      "the rough extrinsic (rig.yaml or --init) contradicts the scenes and was left out: " +
+          diagnose_guess(*request.guess, result->extrinsic.camera_from_lidar.transform));
+  return result;
+}
+
 }  // namespace
 
 Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
                                     const RunContext& context) {
-  return Calibration(dataset, request, context, nullptr, CalibrationObserver()).run();
+  auto result = Calibration(dataset, request, context, nullptr, CalibrationObserver()).run();
+  return result || !request.guess ? std::move(result)
+                                  : without_guess(std::move(result), dataset, request, context);
 }
 
 Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
                                     const RunContext& context, StageCache& cache,
                                     const CalibrationObserver& observer) {
-  return Calibration(dataset, request, context, &cache, observer).run();
+  auto result = Calibration(dataset, request, context, &cache, observer).run();
+  return result || !request.guess ? std::move(result)
+                                  : without_guess(std::move(result), dataset, request, context);
 }
 
 }  // namespace lvcalib

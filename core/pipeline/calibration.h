@@ -15,6 +15,7 @@
 #include "pipeline/crop_box.h"
 #include "pipeline/dataset.h"
 #include "pipeline/input_hashes.h"
+#include "pipeline/intrinsics_stage.h"
 #include "pipeline/options.h"
 #include "pipeline/stage_cache.h"
 #include "response/boundary_response.h"
@@ -63,7 +64,8 @@ struct CalibrationResult {
   std::string dataset;
   CalibrationOptions options;  ///< What it was made with; what follows goes on with them.
   Target target;
-  Camera camera;
+  Camera camera;  ///< As used: the given one, or the estimated one (see intrinsics).
+  IntrinsicsReport intrinsics;
   std::vector<SceneResult> scenes;
   SceneConsensus consensus;
   std::shared_ptr<const BlurredPrint> print;  ///< Of the target; shared by every solve.
@@ -73,6 +75,12 @@ struct CalibrationResult {
   std::string forward_failure;     ///< Why it is empty, in words.
   std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
   std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
+  /// The extrinsic's covariance with what faults that are left out could still do to it: errors of
+  /// held intrinsics, a range offset and scale, all of usual size (see total_covariance()).
+  Matrix6d covariance_total = Matrix6d::Zero();
+  /// Whether the scenes would have shown intrinsics that are wrong by what matters.
+  bool verified = false;
+  std::string unverified;  ///< Why not, and what would: a sentence. Empty if verified.
   /// The extrinsic's covariance with the budget; zero before discover().
   Matrix6d covariance_with_budget = Matrix6d::Zero();
   ModelScales model_scales;           ///< What the numbers of the model refer to.

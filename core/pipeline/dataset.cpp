@@ -130,6 +130,9 @@ Result<Dataset> open_dataset(const fs::path& path) {
   auto camera = read_camera(path / "camera.yaml");
   if (!camera) return camera.error();
   dataset.camera = camera->camera;
+  auto deviations = read_camera_deviations(path / "camera.yaml", dataset.camera);
+  if (!deviations) return deviations.error();
+  dataset.camera_deviations = *deviations;
   dataset.warnings.insert(dataset.warnings.end(), camera->warnings.begin(), camera->warnings.end());
   if (fs::exists(path / "rig.yaml", code)) {
     auto rough = read_rough_extrinsic(path / "rig.yaml");

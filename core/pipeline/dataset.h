@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/rigid3.h"
 #include "camera/camera.h"
+#include "camera/camera_deviations.h"
 #include "target/target.h"
 
 namespace lvcalib {
@@ -26,6 +27,7 @@ struct Dataset {
   std::filesystem::path path;
   Target target;
   Camera camera;
+  std::optional<CameraDeviations> camera_deviations;  ///< If camera.yaml states them.
   std::optional<Rigid3> rough_camera_from_lidar;
   std::vector<SceneFiles> scenes;  ///< Sorted by name.
   std::vector<std::string> warnings;

@@ -9,12 +9,10 @@
 
 namespace lvcalib {
 
-Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
-                                           const std::vector<SceneObservations>& observations,
-                                           const std::vector<std::size_t>& index,
-                                           const ExtrinsicSolution& start,
-                                           const ForwardOptions& options,
-                                           const RunContext& context) {
+std::vector<ForwardScene> forward_scenes(const CalibrationResult& result,
+                                         const std::vector<SceneObservations>& observations,
+                                         const std::vector<std::size_t>& index,
+                                         const ExtrinsicSolution& start) {
   std::vector<ForwardScene> scenes;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const SceneSolution& solved = start.scenes[k];
@@ -32,8 +30,18 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
     scene.range_sigma_m = std::max({1e-4, sigma[0], sigma[1]});
     scenes.push_back(std::move(scene));
   }
-  return solve_forward(scenes, *result.print, result.camera, start.camera_from_lidar.transform,
-                       start.sigma_px, options, context);
+  return scenes;
+}
+
+Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
+                                           const std::vector<SceneObservations>& observations,
+                                           const std::vector<std::size_t>& index,
+                                           const ExtrinsicSolution& start,
+                                           const ForwardOptions& options,
+                                           const RunContext& context) {
+  return solve_forward(forward_scenes(result, observations, index, start), *result.print,
+                       result.intrinsics.given, start.camera_from_lidar.transform, start.sigma_px,
+                       options, context);
 }
 
 ExtrinsicSolution report_forward(const ForwardSolution& forward, const ExtrinsicSolution& start,

@@ -9,6 +9,12 @@
 
 namespace lvcalib {
 
+/// What the joint solve takes of the scenes that `start` uses; points into `result`.
+std::vector<ForwardScene> forward_scenes(const CalibrationResult& result,
+                                         const std::vector<SceneObservations>& observations,
+                                         const std::vector<std::size_t>& index,
+                                         const ExtrinsicSolution& start);
+
 /// The joint solve over every corner and return of the scenes that `start` uses; `index` tells
 /// which scene of the result an observation is. Clouds whose intensity is missing or the same
 /// everywhere take part with their ranges.

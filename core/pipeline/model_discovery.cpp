@@ -75,6 +75,8 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   }
   result.budget = discovery.budget;
   result.covariance_with_budget = discovery.covariance_with_budget;
+  // What an effect of the model explains is no longer left out.
+  if (changed) result.covariance_total = discovery.covariance_with_budget;
   result.model_scales = discovery.scales;
   result.model.clear();
   for (const EffectFinding& f : discovery.effects) {

@@ -38,6 +38,7 @@ std::vector<OptionDeclaration> make_declarations() {
   using C = ConsensusOptions;
   using R = RefinementOptions;
   using E = ExtrinsicOptions;
+  using N = IntrinsicsOptions;
   using F = ForwardOptions;
   using P = ResponseOptions;
   using Q = QualityOptions;
@@ -94,6 +95,13 @@ std::vector<OptionDeclaration> make_declarations() {
               &O::refinement, &R::tolerance_m),
       declare("refinement.max_iterations", "1", 1, 1000, "refine", "Most iterations.",
               &O::refinement, &R::max_iterations),
+      declare("intrinsics.mode", "0/1/2", 0, 2, "localize",
+              "The camera's intrinsics: 0 taken as given, 1 estimated with the standard deviations "
+              "in camera.yaml, 2 estimated freely.",
+              &O::intrinsics, &N::mode),
+      declare("intrinsics.false_alarm", "1", 1e-9, 0.5, "optimize",
+              "How rarely right intrinsics may be taken for contradicted.", &O::intrinsics,
+              &N::false_alarm),
       declare("extrinsic.sigma_px_floor", "px", 1e-4, 100, "optimize",
               "Corner noise is never taken below this.", &O::extrinsic, &E::sigma_px_floor),
       declare("extrinsic.node_sigma_floor_m", "m", 0, 1, "optimize",
@@ -169,6 +177,12 @@ std::vector<OptionDeclaration> make_declarations() {
       declare("quality.max_sigma_rotation_rad", "rad", 1e-6, 10, "optimize",
               "A rotation known worse than this is no result.", &O::quality,
               &Q::max_sigma_rotation_rad),
+      declare("quality.tolerance_m", "m", 1e-6, 1, "optimize",
+              "A fault that moves the LiDAR by less does not matter.", &O::quality,
+              &Q::tolerance_m),
+      declare("quality.tolerance_rad", "rad", 1e-6, 1, "optimize",
+              "A fault that turns the extrinsic by less does not matter.", &O::quality,
+              &Q::tolerance_rad),
       declare("quality.min_margin", "nat", 0, 1e9, "optimize",
               "Evidence by which the board assignment must win.", &O::quality, &Q::min_margin),
       declare("discovery.max_effects", "1", 0, 50, "discover",

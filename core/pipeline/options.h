@@ -29,7 +29,25 @@ struct QualityOptions {
       0.001;  ///< Range difference of dark and white print that is worth doubt.
   double max_sigma_translation_m = 0.1;  ///< A position known worse than this is no result.
   double max_sigma_rotation_rad = 0.05;  ///< A rotation known worse than this is no result.
-  double min_margin = 10.0;              ///< Evidence (nats) by which the assignment must win.
+  /// A fault matters if it moves the LiDAR's position or the rotation by more than this and by more
+  /// than half a standard deviation.
+  double tolerance_m = 0.0005;
+  double tolerance_rad = 0.0002;
+  double min_margin = 10.0;  ///< Evidence (nats) by which the assignment must win.
+};
+
+/// What is done about the camera's intrinsics.
+enum class IntrinsicsMode {
+  kFixed,  ///< Taken as given, and doubted where the data contradict them.
+  kPrior,  ///< Estimated with the extrinsic, drawn to the given ones by their standard deviations.
+  kFree,   ///< Estimated with the extrinsic from the data alone, where they tell.
+};
+
+struct IntrinsicsOptions {
+  int mode = 0;  ///< An IntrinsicsMode.
+  /// Chance of finding intrinsics contradicted that are right.
+  double false_alarm = 0.001;
+  [[nodiscard]] IntrinsicsMode kind() const { return static_cast<IntrinsicsMode>(mode); }
 };
 
 /// Every option of a calibration.
@@ -38,6 +56,7 @@ struct CalibrationOptions {
   BoardSearchOptions localization;
   ConsensusOptions consensus;
   RefinementOptions refinement;
+  IntrinsicsOptions intrinsics;
   ExtrinsicOptions extrinsic;
   ForwardOptions forward;
   ResponseOptions response;

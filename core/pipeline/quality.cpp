@@ -64,6 +64,60 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
   }
 }
 
+// Scenes on which the result rests alone: without one the extrinsic moves by more than three of its
+// standard deviations, and by more than the scene's weight explains.
+void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
+  if (!result.forward) return;
+  const UncertainRigid3& all = result.extrinsic.camera_from_lidar;
+  const std::size_t n = result.forward->terms.size();
+  // As many tests as scenes, one in a hundred together.
+  const double gate = chi_square_gate(6, 0.01 / static_cast<double>(std::max<std::size_t>(1, n)));
+  std::size_t next = 0;
+  for (const SceneSolution& scene : result.extrinsic.scenes) {
+    if (!scene.used) continue;
+    std::vector<bool> use(n, true);
+    use[next++] = false;
+    const auto rest = n > 2 ? solve_subset(*result.forward, use) : std::nullopt;
+    if (!rest) continue;
+    const Vector6d move = se3_log(rest->transform * all.transform.inverse());
+    const Vector6d sigma = all.covariance.diagonal().cwiseSqrt();
+    if ((move.cwiseAbs() - 3.0 * sigma).maxCoeff() <= 0.0) continue;
+    // Both share the other scenes: the move's covariance is the difference of theirs.
+    const Matrix6d spread = rest->covariance - all.covariance;
+    const double chi = move.dot(spread.ldlt().solve(move));
+    const double move_m =
+        translation_distance_m(all.transform.inverse(), rest->transform.inverse());
+    const double move_rad = rotation_distance_rad(all.transform, rest->transform);
+    const QualityOptions& q = result.options.quality;
+    if (!(chi > gate) || (move_m < q.tolerance_m && move_rad < q.tolerance_rad)) continue;
+    verdict.doubtful("without scene " + scene.name + " the extrinsic moves by " +
+                     formatted("%.1f mm and %.2f mrad, more than three of its standard deviations",
+                               1e3 * move_m, 1e3 * move_rad) +
+                     ": did something move while that scene was taken?");
+  }
+}
+
+// Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
+void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
+  if (!result.intrinsics.contradiction) return;
+  const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
+  if (result.intrinsics.mode == IntrinsicsMode::kPrior) {
+    verdict.doubtful("the images contradict the standard deviations of the intrinsics: " +
+                     found.what + "; calibrate the camera again, or use --intrinsics free");
+    return;
+  }
+  std::string text = "the images contradict the intrinsics: " + found.what;
+  if (found.camera_from_lidar) {
+    text += formatted("; with that freed the extrinsic moves by %.1f mm and %.2f mrad",
+                      found.move_mm, found.move_mrad);
+  }
+  if (found.matters) {
+    verdict.doubtful(text + "; calibrate the camera again, or use --intrinsics free");
+  } else {
+    verdict.note(text + ", less than what matters");
+  }
+}
+
 // Standard deviations along the worst axis: of the LiDAR's position and of the rotation. Directions
 // that only noise keeps from being undetermined come out as decimetres or metres.
 void judge_precision(const ExtrinsicSolution& x, const QualityOptions& options, Verdict& verdict) {
@@ -145,6 +199,9 @@ std::string worst_scene(const ExtrinsicSolution& x) {
   if (others.empty()) return {};
   const double usual = median(std::move(others));
   if (!(worst->rms_mm > kClearly * usual)) return {};
+  // Metres say only that the circles were not found; the number would say nothing.
+  constexpr double kMeaningful_mm = 100.0;
+  if (worst->rms_mm > kMeaningful_mm) return "; scene " + worst->name + " misses most";
   return "; scene " + worst->name +
          formatted(" misses most: %.1f mm, the others %.1f mm", worst->rms_mm, usual);
 }
@@ -351,6 +408,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   const std::size_t before = result.warnings.size();
   Verdict verdict(result);
   const ExtrinsicSolution& x = result.extrinsic;
+  judge_intrinsics(result, verdict);
   if (x.used_scenes < 2)
     verdict.doubtful(
         "only one usable scene: nothing to check the result against; take two or more");
@@ -368,6 +426,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_dark_offset(result, options, verdict);
   judge_scene_scales(result, options, verdict);
   judge_splits(result, verdict);
+  judge_leverage(result, verdict);
+  if (!result.unverified.empty()) verdict.note(result.unverified);
   if (x.used_scenes == 2)
     verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
@@ -381,6 +441,11 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                   "effect is missing in the model",
                   x.node_scale, x.plane_scale) +
         worst_scene(x));
+  }
+  if (result.target.has_circles() && x.rms_mm > 1e3 * result.target.circle_radius_m) {
+    verdict.doubtful(
+        "the circles' centres miss the model by more than their radius: the clouds do not show "
+        "them");
   }
   if (x.used_scenes > 1 && result.consensus.margin() < options.min_margin) {
     verdict.doubtful(formatted("another assignment of the board is nearly as good (margin %.1f)",

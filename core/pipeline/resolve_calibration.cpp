@@ -7,6 +7,7 @@
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
 #include "pipeline/stopwatch.h"
+#include "solve/total_uncertainty.h"
 
 namespace lvcalib {
 namespace {
@@ -69,17 +70,33 @@ Status respond(CalibrationResult& result, const Target& target, const Calibratio
   return Done{};
 }
 
-// Every corner and return in one model; where that fails, what nodes and planes say stands.
+// Every corner and return in one model; where that fails, what nodes and planes say stands. With
+// the intrinsics freed, `nodes` is solved again under the camera that comes out.
 Status solve_forward_model(CalibrationResult& result, const Target& target,
                            const std::vector<SceneObservations>& observations,
-                           const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,
+                           const std::vector<std::size_t>& index, ExtrinsicSolution& nodes,
                            const RunContext& context) {
   if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
-  auto forward =
-      solve_every_return(result, observations, index, nodes, result.options.forward, context);
+  ForwardOptions how = result.options.forward;
+  how.intrinsics_sigma = solve_prior(result.intrinsics);
+  how.first_camera = result.camera;
+  auto forward = solve_every_return(result, observations, index, nodes, how, context);
+  if (forward && result.intrinsics.mode != IntrinsicsMode::kFixed) {
+    // The start rested on a camera that the corners alone had given. With the better one scenes may
+    // come back, and nodes and planes are judged by it.
+    result.camera = forward->state.camera;
+    how.first_camera = result.camera;
+    auto again = solve_extrinsic(observations, result.camera, target, result.options.extrinsic);
+    if (again) {
+      if (again->used_scenes != nodes.used_scenes)
+        forward = solve_every_return(result, observations, index, *again, how, context);
+      nodes = std::move(*again);
+    }
+  }
   result.forward.reset();
   result.forward_failure.clear();
   result.extrinsic = nodes;
+  result.covariance_total = nodes.camera_from_lidar.covariance;
   if (!forward) {
     if (forward.error().kind == ErrorKind::kCancelled) return forward.error();
     // Where nothing is to be had from the returns the nodes' solution stands, and says so.
@@ -87,8 +104,17 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
     return Done{};
   }
   result.forward = std::move(*forward);
+  result.camera = result.forward->state.camera;
+  result.intrinsics.sigma =
+      result.forward->globals_covariance.diagonal().tail<kIntrinsics>().cwiseMax(0.0).cwiseSqrt();
   result.extrinsic = report_forward(*result.forward, nodes, observations, result.camera, target,
                                     result.options.extrinsic);
+  LeftOutSizes sizes;
+  if (result.intrinsics.mode == IntrinsicsMode::kFixed)
+    sizes.intrinsics = result.intrinsics.prior_sigma;
+  result.covariance_total =
+      total_covariance(forward_scenes(result, observations, index, nodes), *result.print,
+                       *result.forward, sizes, how, context.thread_count());
   return Done{};
 }
 
@@ -120,10 +146,13 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     }
     return error;
   }
-  const ExtrinsicSolution nodes = std::move(*solution);
+  ExtrinsicSolution nodes = std::move(*solution);
   if (Status status = solve_forward_model(result, target, observations, index, nodes, context);
       !status)
     return status.error();
+  if (Status s = check_intrinsics(result, observations, index, nodes, context); !s)
+    return s.error();
+  verify_intrinsics(result);
   for (std::size_t k = 0; k < index.size(); ++k) {
     SceneResult& scene = result.scenes[index[k]];
     const bool wanted = observations[k].use;

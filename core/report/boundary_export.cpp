@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "report/exports.h"
+#include "report/json_values.h"
 #include "report/result_file.h"
 
 namespace lvcalib {
@@ -85,7 +86,7 @@ std::string body(const json& response) {
 }  // namespace
 
 Result<std::string> export_boundary_response(const ExportInput& input) {
-  const json j = json::parse(input.result_json, nullptr, false);
+  const json j = parse_json(input.result_json);
   if (j.is_discarded() || !j.is_object() || !j.contains("boundary_response")) {
     return Error::untrusted("this result holds no boundary response", {},
                             "calibrate again with this version");

@@ -6,6 +6,7 @@
 
 #include "base/file_io.h"
 #include "report/exports.h"
+#include "report/json_values.h"
 #include "report/result_file.h"
 
 namespace lvcalib {
@@ -79,7 +80,7 @@ Result<Camera> camera_of(const json& j, const std::string& where) {
 }  // namespace
 
 Result<Camera> camera_from_json_text(const std::string& result_json, const std::string& where) {
-  const json j = json::parse(result_json, nullptr, false);
+  const json j = parse_json(result_json);
   if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", where);
   return camera_of(j, where);
 }
@@ -101,7 +102,7 @@ Result<ExportInput> read_export_input(const std::filesystem::path& result_json) 
   if (!text) return text.error();
   auto camera = camera_from_json_text(*text, result_json.string());
   if (!camera) return camera.error();
-  const json j = json::parse(*text, nullptr, false);
+  const json j = parse_json(*text);
   ExportInput input;
   input.camera_from_lidar = stored->camera_from_lidar;
   input.camera = *camera;

@@ -3,6 +3,7 @@
 
 #include "base/file_io.h"
 #include "report/discovery_file.h"
+#include "report/json_values.h"
 #include "report/report_figures.h"
 #include "report/report_sections.h"
 #include "report/result_file.h"
@@ -49,7 +50,7 @@ std::string page(const json& result, const std::string& body) {
 // `text` is a result.json, `where` names it in errors.
 Result<HtmlReport> report_of(const std::string& text, const std::string& where,
                              const json& discovery, const RunContext& context) {
-  const json result = json::parse(text, nullptr, false);
+  const json result = parse_json(text);
   if (result.is_discarded() || !result.is_object()) return Error::input("not a JSON object", where);
   HtmlReport report;
   try {
@@ -85,7 +86,7 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
   if (std::filesystem::exists(beside, code)) {
     auto found = read_text_file(beside, kMaxResultBytes);
     if (!found) return found.error();
-    discovery = json::parse(*found, nullptr, false);
+    discovery = parse_json(*found);
     if (!discovery.is_object()) {
       return Error::input("not a JSON object", beside.string(),
                           "run lvcalib discover again, or remove the file");
@@ -96,8 +97,7 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
 
 Result<HtmlReport> html_report(const CalibrationResult& result, const Discovery* discovery,
                                const RunContext& context) {
-  const json found =
-      discovery != nullptr ? json::parse(discovery_as_json(*discovery), nullptr, false) : json();
+  const json found = discovery != nullptr ? parse_json(discovery_as_json(*discovery)) : json();
   return report_of(result_as_json(result), "the result", found, context);
 }
 

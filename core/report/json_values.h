@@ -3,12 +3,37 @@
 
 // Matrices and vectors as JSON. For source files only: nlohmann's header stays out of the API.
 
+#include <cstddef>
+#include <string>
+
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 namespace lvcalib {
 
 using nlohmann::ordered_json;
+
+/// JSON from text; discarded (see is_discarded()) if it is none, or nested deeper than any file of
+/// ours: copying and writing such values goes as deep as they do, on the stack.
+inline nlohmann::json parse_json(const std::string& text) {
+  constexpr int kDeepest = 100;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (quoted) {
+      if (c == '\\') ++k;
+      quoted = c != '"';
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest) return nlohmann::json(nlohmann::json::value_t::discarded);
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return nlohmann::json::parse(text, nullptr, false);
+}
 
 /// Rows of numbers.
 template <class Matrix>

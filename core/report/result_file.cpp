@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/result_file.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -144,6 +145,40 @@ ordered_json refused_json(const CalibrationResult& result) {
   return list;
 }
 
+// Where the camera's intrinsics come from and how well they are known.
+ordered_json intrinsics_json(const IntrinsicsReport& report) {
+  constexpr std::array kModes = {"fixed", "prior", "free"};
+  const auto deviations = [&](const IntrinsicsVector& sigma) -> ordered_json {
+    ordered_json distortion = ordered_json::array();
+    for (Eigen::Index k = 0; k < report.given.distortion_count(); ++k)
+      distortion.push_back(sigma(4 + k));
+    return {{"fx", sigma(0)},
+            {"fy", sigma(1)},
+            {"cx", sigma(2)},
+            {"cy", sigma(3)},
+            {"distortion", std::move(distortion)}};
+  };
+  ordered_json j = {{"mode", kModes[static_cast<std::size_t>(report.mode)]},
+                    {"given", camera_json(report.given)}};
+  if (report.mode == IntrinsicsMode::kPrior) j["prior_sigma"] = deviations(report.prior_sigma);
+  if (report.mode != IntrinsicsMode::kFixed) j["sigma"] = deviations(report.sigma);
+  if (report.contradiction) {
+    const IntrinsicsContradiction& found = *report.contradiction;
+    ordered_json c = {{"what", found.what},
+                      {"chi_square", found.contrast.chi_square},
+                      {"dof", found.contrast.dof},
+                      {"gate", found.contrast.gate},
+                      {"matters", found.matters}};
+    if (found.camera_from_lidar) {
+      c["T_camera_lidar_freed"] = rows_of(found.camera_from_lidar->transform.matrix());
+      c["extrinsic_move_mm"] = found.move_mm;
+      c["extrinsic_move_mrad"] = found.move_mrad;
+    }
+    j["contradiction"] = std::move(c);
+  }
+  return j;
+}
+
 const SceneSolution* solution_of(const CalibrationResult& result, const std::string& name) {
   for (const SceneSolution& s : result.extrinsic.scenes) {
     if (s.name == name) return &s;
@@ -158,6 +193,7 @@ ordered_json to_json(const CalibrationResult& result) {
   j["dataset"] = result.dataset;
   j["T_camera_lidar"] = pose_json(x.camera_from_lidar.transform);
   j["covariance"] = rows_of(x.camera_from_lidar.covariance);
+  j["covariance_total"] = rows_of(result.covariance_total);
   j["applies_to"] = result.model.empty() ? "raw" : "corrected";
   if (result.forward) {
     j["dof"] = result.forward->dof;
@@ -166,9 +202,11 @@ ordered_json to_json(const CalibrationResult& result) {
   }
   j["refused"] = refused_json(result);
   j["quality"] = name_of(result.quality);
+  j["verified"] = result.verified;
   j["quality_reasons"] = result.quality_reasons;
   j["warnings"] = result.warnings;
   j["camera"] = camera_json(result.camera);
+  j["intrinsics"] = intrinsics_json(result.intrinsics);
   j["target_yaml"] = to_yaml(result.target);
   const BoardOutline outline = result.target.outline();
   j["board"] = {
@@ -245,7 +283,7 @@ std::string yaml_rows(const Matrix& m) {
 Result<nlohmann::json> read_json(const std::filesystem::path& path) {
   auto text = read_text_file(path, kMaxResultBytes);
   if (!text) return text.error();
-  auto j = nlohmann::json::parse(*text, nullptr, false);
+  auto j = parse_json(*text);
   if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", path.string());
   return j;
 }
@@ -307,6 +345,17 @@ std::string result_as_yaml(const CalibrationResult& result) {
   out +=
       "sigma_rotation_mrad: " + yaml_list({1e3 * sigma(3), 1e3 * sigma(4), 1e3 * sigma(5)}) + "\n";
   out += "covariance:\n" + yaml_rows(x.camera_from_lidar.covariance);
+  out +=
+      "# The same with what faults left out of the model could still do (see covariance_total).\n";
+  const Vector6d total = result.covariance_total.diagonal().cwiseSqrt();
+  out +=
+      "total_sigma_translation_mm: " + yaml_list({1e3 * total(0), 1e3 * total(1), 1e3 * total(2)}) +
+      "\n";
+  out +=
+      "total_sigma_rotation_mrad: " + yaml_list({1e3 * total(3), 1e3 * total(4), 1e3 * total(5)}) +
+      "\n";
+  out += "covariance_total:\n" + yaml_rows(result.covariance_total);
+  out += std::string("verified: ") + (result.verified ? "true" : "false") + "\n";
   out += "quality: " + name_of(result.quality) + "\nwarnings:";
   out += result.warnings.empty() ? " []\n" : "\n";
   for (const std::string& w : result.warnings) out += "  - " + yaml_quoted(w) + "\n";

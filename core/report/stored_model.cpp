@@ -11,6 +11,7 @@
 #include "base/yaml_file.h"
 #include "model/user_effect.h"
 #include "report/evidence_json.h"
+#include "report/json_values.h"
 #include "report/result_file.h"
 
 namespace lvcalib {
@@ -172,7 +173,7 @@ nlohmann::ordered_json model_json(const CalibrationResult& result) {
 Result<StoredModel> read_model(const std::filesystem::path& path) {
   auto text = read_text_file(path, kMaxResultBytes);
   if (!text) return text.error();
-  const auto j = nlohmann::json::parse(*text, nullptr, false);
+  const auto j = parse_json(*text);
   if (j.is_discarded() || !j.is_object())
     return Error::input("not a JSON object", path.string(),
                         "give the result.json of a calibration");

@@ -27,7 +27,7 @@ class ForwardSolver {
   ForwardSolver(const std::vector<ForwardScene>& scenes, const BlurredPrint& print,
                 const Camera& camera, const ForwardOptions& options, const RunContext& context)
       : scenes_(scenes), print_(print), given_(camera), options_(options), context_(context) {
-    solution_.state.camera = camera;
+    solution_.state.camera = options.first_camera.value_or(camera);
   }
 
   Result<ForwardSolution> run(const Rigid3& start, double corner_sigma_px) {
@@ -467,6 +467,7 @@ class ForwardSolver {
       if (term.usable) term.gradient -= term.information * last_.globals;
     }
     solution_.prior = prior_;
+    solution_.globals_covariance = last_.covariance;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       ForwardSceneResult& scene = solution_.scenes[s];
       const SceneFit& fit = fits_[s];

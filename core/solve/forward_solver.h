@@ -27,6 +27,8 @@ struct ForwardOptions {
   /// Standard deviations of what is known of the intrinsics (fx fy cx cy, distortion); 0: held.
   Eigen::Matrix<double, kIntrinsics, 1> intrinsics_sigma =
       Eigen::Matrix<double, kIntrinsics, 1>::Zero();
+  /// Where freed intrinsics start; without it at the given camera, to which they are drawn anyway.
+  std::optional<Camera> first_camera;
   /// First guess of the beam's blur, rad: between a Livox (1 mrad) and a spinning 16-liner (3).
   double first_blur_rad = 0.0015;
 };
@@ -61,6 +63,7 @@ struct ForwardSolution {
   std::vector<ForwardSceneResult> scenes;
   std::vector<GlobalTerm> terms;  ///< What each scene says about the globals, at the solution.
   GlobalPrior prior;
+  Eigen::MatrixXd globals_covariance;  ///< Of all globals, prior included; zero where held.
   int iterations = 0;
   bool converged = false;
   bool uses_intensity = false;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "camera/camera_deviations.h"
+
+#include <string>
+
+#include "base/yaml_file.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr const char* kKey = "standard_deviations";
+// Wider than any image; more is a slip.
+constexpr double kLargest = 1e6;
+
+Result<CameraDeviations> read_section(const YamlFile& section, const Camera& camera) {
+  CameraDeviations out = CameraDeviations::Constant(-1.0);
+  constexpr const char* kNames[] = {"fx", "fy", "cx", "cy"};
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    if (!section.has(kNames[k])) continue;
+    const auto value = section.number(kNames[k], 0.0, kLargest);
+    if (!value) return value.error();
+    out(k) = *value;
+  }
+  if (!section.has("distortion")) return out;
+  const auto values = section.numbers("distortion");
+  if (!values) return values.error();
+  const YamlValue& at = *section.root().find("distortion");
+  if (values->size() > static_cast<std::size_t>(camera.distortion_count())) {
+    return section.error_at(at, "'distortion' holds " + std::to_string(values->size()) +
+                                    " standard deviations, but the model has " +
+                                    std::to_string(camera.distortion_count()) + " coefficients");
+  }
+  for (std::size_t k = 0; k < values->size(); ++k) {
+    if (!((*values)[k] >= 0.0 && (*values)[k] <= kLargest))
+      return section.error_at(at, "standard deviations must be 0 or more");
+    out(4 + static_cast<Eigen::Index>(k)) = (*values)[k];
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::optional<CameraDeviations>> read_camera_deviations(const std::filesystem::path& path,
+                                                               const Camera& camera) {
+  auto file = YamlFile::load(path);
+  if (!file) return file.error();
+  // A camchain has them with its first camera.
+  const bool nested = !file->has(kKey) && file->has("cam0");
+  auto camera_section = nested ? file->section("cam0") : std::move(file);
+  if (!camera_section) return camera_section.error();
+  if (!camera_section->has(kKey)) return std::optional<CameraDeviations>();
+  const auto section = camera_section->section(kKey);
+  if (!section) return section.error();
+  auto read = read_section(*section, camera);
+  if (!read) return read.error();
+  return std::optional<CameraDeviations>(*read);
+}
+
+}  // namespace lvcalib

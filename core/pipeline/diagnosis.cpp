@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/diagnosis.h"
+
+#include <cmath>
+#include <map>
+
+#include "base/parallel.h"
+#include "base/text.h"
+#include "pipeline/scene_loading.h"
+
+namespace lvcalib {
+namespace {
+namespace fs = std::filesystem;
+
+struct CloudReading {
+  const char* what;  // Completes "the cloud is …".
+  Eigen::Vector3f by;
+};
+
+Cloud read_as(const Cloud& cloud, const CloudReading& reading) {
+  Cloud out = cloud;
+  for (Eigen::Vector3f& p : out.points_m) p = p.cwiseProduct(reading.by);
+  return out;
+}
+
+// A file's size; 0 if it cannot be had, which no scene's file has.
+std::uintmax_t size_of(const fs::path& path) {
+  std::error_code code;
+  const auto size = fs::file_size(path, code);
+  return code ? 0 : size;
+}
+
+}  // namespace
+
+std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
+                                     const CalibrationResult& result, const RunContext& context) {
+  // Mirrored along one axis is mirrored along any: the search does not care how a cloud is turned.
+  static const std::vector<CloudReading> kReadings = {
+      {"in millimetres", Eigen::Vector3f::Constant(1e-3F)},
+      {"in centimetres", Eigen::Vector3f::Constant(1e-2F)},
+      {"in feet", Eigen::Vector3f::Constant(0.3048F)},
+      {"in inches", Eigen::Vector3f::Constant(0.0254F)},
+      {"mirrored (its axes make a left-handed frame)", Eigen::Vector3f(1.0F, -1.0F, 1.0F)}};
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    if (!result.scenes[s].view) continue;
+    const auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
+    if (!cloud) return std::nullopt;
+    const Eigen::Vector2d c = dataset.target.outline().center_m();
+    const double distance_m =
+        (result.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0))
+            .norm();
+    const PatternPyramid pyramid(dataset.target);
+    std::vector<double> gain(kReadings.size(), 0.0);
+    parallel_for(kReadings.size(), context.thread_count(), [&](std::size_t k) {
+      if (context.stopped()) return;
+      RunContext quiet = context;
+      quiet.progress = {};
+      quiet.threads = 1;
+      const auto search =
+          search_board(read_as(*cloud, kReadings[k]), dataset.target, pyramid, distance_m,
+                       std::nullopt, request.options.localization, quiet);
+      for (const BoardCandidate& candidate : search.candidates)
+        gain[k] = std::max(gain[k], candidate.gain);
+    });
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < gain.size(); ++k) best = gain[k] > gain[best] ? k : best;
+    if (context.stopped() || !(gain[best] > 0.0)) return std::nullopt;
+    return Error::untrusted("the board is not found in any cloud, but it is if the clouds are " +
+                                std::string(kReadings[best].what),
+                            dataset.scenes[s].cloud.string(),
+                            "write the clouds in metres, in a right-handed frame");
+  }
+  return std::nullopt;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
+    std::vector<SceneHypotheses> scenes, int agreeing, const ConsensusOptions& options) {
+  // Every pair of a hundred scenes is five thousand decisions; more than that nobody waits for.
+  constexpr std::size_t kMostScenes = 100;
+  std::vector<std::size_t> seen;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    if (!scenes[s].candidates.empty()) seen.push_back(s);
+  }
+  const int all = static_cast<int>(seen.size());
+  if (all < 2 || agreeing >= all || seen.size() > kMostScenes) return std::nullopt;
+  const auto exchange = [&](std::size_t a, std::size_t b) {
+    std::swap(scenes[a].camera_from_board, scenes[b].camera_from_board);
+    std::swap(scenes[a].alternative_camera_from_board, scenes[b].alternative_camera_from_board);
+  };
+  for (const std::size_t a : seen) {
+    for (const std::size_t b : seen) {
+      if (b <= a) continue;
+      exchange(a, b);
+      const auto consensus = decide_scenes(scenes, std::nullopt, options);
+      if (consensus && consensus->agreeing == all) return std::pair(a, b);
+      exchange(a, b);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> diagnose_mirrored(const Dataset& dataset, const CalibrationRequest& request,
+                                       const CalibrationResult& result,
+                                       std::vector<SceneHypotheses> scenes,
+                                       const RunContext& context) {
+  const PatternPyramid pyramid(dataset.target);
+  const Eigen::Vector2d c = dataset.target.outline().center_m();
+  parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
+    scenes[s].candidates.clear();
+    if (!result.scenes[s].view || context.stopped()) return;
+    const auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
+    if (!cloud) return;
+    RunContext quiet = context;
+    quiet.progress = {};
+    quiet.threads = 1;
+    const double distance_m =
+        (result.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0))
+            .norm();
+    scenes[s].candidates =
+        search_board(read_as(*cloud, {"mirrored", {1.0F, -1.0F, 1.0F}}), dataset.target, pyramid,
+                     distance_m, std::nullopt, request.options.localization, quiet)
+            .candidates;
+  });
+  const auto consensus = decide_scenes(scenes, std::nullopt, request.options.consensus);
+  if (context.stopped() || !consensus || consensus->agreeing < 2) return std::nullopt;
+  return Error::untrusted(
+      "the scenes do not agree, but " + std::to_string(consensus->agreeing) +
+          " of them do if the clouds are mirrored (their axes make a left-handed frame)",
+      dataset.path.string(), "exchange two axes, or the sign of one, in what writes the clouds");
+}
+
+std::string diagnose_guess(const Rigid3& guess, const Rigid3& found) {
+  // A rough extrinsic is good to some 20°, and to half a metre or its length.
+  const auto near = [&](const Rigid3& a) {
+    return rotation_distance_rad(a, found) < 0.35 &&
+           (a.translation - found.translation).norm() < 0.1 + 0.3 * found.translation.norm();
+  };
+  if (near(guess.inverse())) return "it is the inverse: T_lidar_camera instead of T_camera_lidar";
+  Rigid3 metres = guess;
+  metres.translation *= 1e-3;
+  if (guess.translation.norm() > 5.0 && near(metres)) return "its translation is in millimetres";
+  metres = guess.inverse();
+  metres.translation *= 1e-3;
+  if (guess.translation.norm() > 5.0 && near(metres))
+    return "it is the inverse, with its translation in millimetres";
+  if (rotation_distance_rad(guess, Rigid3()) < 1e-6)
+    return "its rotation is the identity, but the sensors' axes point in other directions";
+  return formatted("it is off by %.2f m and %.0f°", (guess.translation - found.translation).norm(),
+                   rotation_distance_rad(guess, found) * 180.0 / M_PI);
+}
+
+std::vector<std::optional<std::size_t>> same_files(const Dataset& dataset, bool use_crops,
+                                                   const RunContext& context) {
+  std::vector<std::optional<std::size_t>> out(dataset.scenes.size());
+  const auto cloud_of = [&](const SceneFiles& f) {
+    return use_crops && !f.crop.empty() ? f.crop : f.cloud;
+  };
+  // Only files of like sizes need be read.
+  std::map<std::pair<std::uintmax_t, std::uintmax_t>, std::vector<std::size_t>> alike;
+  for (std::size_t s = 0; s < dataset.scenes.size(); ++s) {
+    const SceneFiles& f = dataset.scenes[s];
+    alike[{size_of(f.image), size_of(cloud_of(f))}].push_back(s);
+  }
+  for (const auto& [sizes, scenes] : alike) {
+    if (scenes.size() < 2 || sizes.first == 0 || sizes.second == 0) continue;
+    std::map<std::string, std::size_t> first;
+    for (const std::size_t s : scenes) {
+      InputFile image;
+      InputFile cloud;
+      if (!hash_file(dataset.scenes[s].image, context, image) ||
+          !hash_file(cloud_of(dataset.scenes[s]), context, cloud))
+        continue;
+      const auto [at, is_new] = first.try_emplace(image.sha256 + cloud.sha256, s);
+      if (!is_new) out[s] = at->second;
+    }
+  }
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/intrinsics_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include "base/statistics.h"
+#include "detection/refit_view.h"
+#include "pipeline/calibration.h"
+#include "pipeline/forward_stage.h"
+
+namespace lvcalib {
+namespace {
+
+// A first look that clears right intrinsics nine times of ten spares most runs the second solve.
+constexpr double kFirstLook = 0.1;
+// Standard deviation from which an error between what camera and LiDAR see of a board counts as in
+// the model: what is not is held at 1 µm and 1 µrad.
+constexpr double kInModel = 4e-12;
+
+std::vector<CornerView> views_of(const CalibrationResult& result) {
+  std::vector<CornerView> views;
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.view && scene.reason != kRejectedByUser)
+      views.push_back({&scene.view->corners, scene.view->camera_from_board.transform});
+  }
+  return views;
+}
+
+std::vector<CornerView> views_of(const std::vector<SceneObservations>& observations) {
+  std::vector<CornerView> views;
+  for (const SceneObservations& o : observations) {
+    if (o.use) views.push_back({&o.corners, o.camera_from_board});
+  }
+  return views;
+}
+
+double worst_axis(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(std::max(
+      0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
+               .eigenvalues()(2)));
+}
+
+// Standard deviations along the worst axis: of the LiDAR's position (m) and of the rotation (rad).
+std::pair<double, double> worst_sigmas(const UncertainRigid3& x) {
+  Eigen::Matrix<double, 3, 6> position;
+  position << Eigen::Matrix3d::Identity(), -skew(x.transform.translation);
+  return {worst_axis(position * x.covariance * position.transpose()),
+          worst_axis(x.covariance.bottomRightCorner<3, 3>())};
+}
+
+// Whether what camera and LiDAR see of the boards disagrees beyond noise in the model of a solve.
+bool boards_disagree(const ForwardSolution& forward) {
+  for (const SharedError kind : {SharedError::kBoardShift, SharedError::kBoardNormal,
+                                 SharedError::kBoardTilt, SharedError::kBoardSpin}) {
+    if (forward.noise.shared[static_cast<std::size_t>(kind)] > kInModel) return true;
+  }
+  return false;
+}
+
+GlobalPrior prior_with(GlobalPrior prior, const IntrinsicsVector& sigma) {
+  prior.sigma.tail<kIntrinsics>() = sigma;
+  prior.offset.tail<kIntrinsics>().setZero();
+  return prior;
+}
+
+// To first order about a solve with the intrinsics held: does its data ask for others?
+bool first_look(const ForwardSolution& forward, const Camera& given) {
+  if (boards_disagree(forward)) return true;
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
+  std::vector<const GlobalTerm*> terms;
+  for (const GlobalTerm& term : forward.terms) terms.push_back(&term);
+  const auto step = solve_terms(terms, prior_with(forward.prior, wide));
+  if (!step) return false;
+  const IntrinsicsVector values = intrinsics_of(given);
+  return contrast_intrinsics(values + step->step.tail<kIntrinsics>(), values, step->covariance,
+                             wide, kFirstLook)
+      .contradicts();
+}
+
+struct Freed {
+  ForwardSolution forward;
+  IntrinsicsContrast contrast;
+};
+
+// The joint solve with the intrinsics freed; it starts from the corners' camera where the given one
+// is clearly off. Nothing where it fails.
+std::optional<Freed> solve_freed(const CalibrationResult& result,
+                                 const std::vector<SceneObservations>& observations,
+                                 const std::vector<std::size_t>& index,
+                                 const ExtrinsicSolution& nodes, const IntrinsicsFit* corners,
+                                 const RunContext& context) {
+  const Camera& given = result.intrinsics.given;
+  ForwardOptions options = result.options.forward;
+  options.intrinsics_sigma = wide_intrinsics_sigma(given);
+  std::vector<SceneObservations> freed = observations;
+  ExtrinsicSolution start = nodes;
+  if (corners != nullptr) {
+    std::size_t next = 0;
+    for (SceneObservations& o : freed) {
+      if (o.use) o.camera_from_board = corners->camera_from_board[next++];
+    }
+    options.first_camera = corners->camera;
+    auto solved = solve_extrinsic(freed, corners->camera, result.target, result.options.extrinsic);
+    if (solved) start = std::move(*solved);
+  }
+  auto forward = solve_every_return(result, freed, index, start, options, context);
+  if (!forward) return std::nullopt;
+  Freed out{std::move(*forward), {}};
+  out.contrast = contrast_intrinsics(intrinsics_of(out.forward.state.camera), intrinsics_of(given),
+                                     out.forward.globals_covariance, options.intrinsics_sigma,
+                                     result.options.intrinsics.false_alarm);
+  return out;
+}
+
+void judge_move(const CalibrationResult& result, IntrinsicsContradiction& found) {
+  const Rigid3& a = result.extrinsic.camera_from_lidar.transform;
+  const Rigid3& b = found.camera_from_lidar->transform;
+  const double move_m = translation_distance_m(a.inverse(), b.inverse());
+  const double move_rad = rotation_distance_rad(a, b);
+  found.move_mm = 1e3 * move_m;
+  found.move_mrad = 1e3 * move_rad;
+  // Misfit widens the result's own standard deviation; the freed one's is not spoiled by it.
+  const auto own = worst_sigmas(result.extrinsic.camera_from_lidar);
+  const auto freed = worst_sigmas(*found.camera_from_lidar);
+  const QualityOptions& q = result.options.quality;
+  found.matters = move_m > std::max(q.tolerance_m, 0.5 * std::min(own.first, freed.first)) ||
+                  move_rad > std::max(q.tolerance_rad, 0.5 * std::min(own.second, freed.second));
+}
+
+// How estimated intrinsics differ from what camera.yaml says of them, in its own σ.
+void check_against_prior(CalibrationResult& result, const std::vector<CornerView>& views) {
+  IntrinsicsReport& report = result.intrinsics;
+  const IntrinsicsContrast contrast = contrast_intrinsics(
+      intrinsics_of(result.camera), intrinsics_of(report.given), result.forward->globals_covariance,
+      report.prior_sigma, result.options.intrinsics.false_alarm);
+  // The estimate may be off by the prior's spread and by its own; what exceeds both contradicts.
+  double chi = 0.0;
+  int dof = 0;
+  const IntrinsicsVector d = intrinsics_of(result.camera) - intrinsics_of(report.given);
+  for (Eigen::Index k = 0; k < kIntrinsics; ++k) {
+    if (!(report.prior_sigma(k) > 0.0)) continue;
+    chi += std::pow(d(k) / report.prior_sigma(k), 2);
+    ++dof;
+  }
+  if (dof == 0 || chi <= chi_square_gate(dof, result.options.intrinsics.false_alarm)) return;
+  IntrinsicsContradiction found;
+  found.contrast = contrast;
+  found.what = describe(contrast, report.given, views);
+  found.camera_from_lidar = result.extrinsic.camera_from_lidar;
+  report.contradiction = std::move(found);
+}
+
+// 95 % limits of how far the position (m) and the rotation (rad) would move if some intrinsics were
+// freed, over three tolerances each; the larger of both.
+double open_share(const CalibrationResult& result, const IntrinsicsVector& freed) {
+  std::vector<const GlobalTerm*> terms;
+  for (const GlobalTerm& term : result.forward->terms) terms.push_back(&term);
+  const auto step = solve_terms(terms, prior_with(result.forward->prior, freed));
+  if (!step) return std::numeric_limits<double>::infinity();
+  const UncertainRigid3& own = result.extrinsic.camera_from_lidar;
+  const Vector6d move = step->step.head<6>();
+  const Rigid3 other = se3_exp(move) * own.transform;
+  const auto spread = worst_sigmas(
+      {own.transform, Matrix6d(step->covariance.topLeftCorner<6, 6>() - own.covariance)});
+  const auto sigma = worst_sigmas(own);
+  const QualityOptions& q = result.options.quality;
+  const double limit_m =
+      translation_distance_m(own.transform.inverse(), other.inverse()) + kUpper95 * spread.first;
+  const double limit_rad = rotation_distance_rad(own.transform, other) + kUpper95 * spread.second;
+  return std::max(limit_m / (3.0 * std::max(q.tolerance_m, 0.5 * sigma.first)),
+                  limit_rad / (3.0 * std::max(q.tolerance_rad, 0.5 * sigma.second)));
+}
+
+}  // namespace
+
+IntrinsicsReport start_intrinsics(const Dataset& dataset, IntrinsicsMode mode) {
+  IntrinsicsReport report;
+  report.mode = mode;
+  report.given = dataset.camera;
+  report.prior_sigma = typical_intrinsics_sigma(dataset.camera);
+  report.stated = dataset.camera_deviations.has_value();
+  for (Eigen::Index k = 0; report.stated && k < kIntrinsics; ++k) {
+    const double stated = (*dataset.camera_deviations)(k);
+    if (stated >= 0.0 && report.prior_sigma(k) > 0.0) report.prior_sigma(k) = stated;
+  }
+  return report;
+}
+
+IntrinsicsVector solve_prior(const IntrinsicsReport& report) {
+  switch (report.mode) {
+    case IntrinsicsMode::kFixed:
+      break;
+    case IntrinsicsMode::kPrior:
+      return report.prior_sigma;
+    case IntrinsicsMode::kFree:
+      return wide_intrinsics_sigma(report.given);
+  }
+  return IntrinsicsVector::Zero();
+}
+
+void free_camera(CalibrationResult& result) {
+  if (result.intrinsics.mode == IntrinsicsMode::kFixed) return;
+  const auto fit =
+      fit_intrinsics(views_of(result), result.intrinsics.given, solve_prior(result.intrinsics));
+  if (!fit) return;
+  result.camera = fit->camera;
+  for (SceneResult& scene : result.scenes) {
+    if (scene.view) refit_view(*scene.view, fit->camera, result.options.detection);
+  }
+}
+
+std::string contradicted_by_corners(const CalibrationResult& result) {
+  if (result.intrinsics.mode != IntrinsicsMode::kFixed) return {};
+  const std::vector<CornerView> views = views_of(result);
+  const Camera& given = result.intrinsics.given;
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
+  const auto fit = fit_intrinsics(views, given, wide);
+  if (!fit) return {};
+  const IntrinsicsContrast contrast =
+      contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance, wide,
+                          result.options.intrinsics.false_alarm);
+  return contrast.contradicts() ? describe(contrast, given, views) : std::string();
+}
+
+void verify_intrinsics(CalibrationResult& result) {
+  result.verified = false;
+  result.unverified.clear();
+  if (!result.forward || result.intrinsics.contradiction) return;
+  result.verified = true;
+  if (result.intrinsics.mode != IntrinsicsMode::kFixed) return;
+  const IntrinsicsVector wide = wide_intrinsics_sigma(result.intrinsics.given);
+  if (open_share(result, wide) <= 1.0) return;
+  result.verified = false;
+  constexpr std::array kWhat = {
+      "focal length: a scene with the board tilted by 40° or more and one at twice the distance",
+      "principal point: scenes with the board tilted, and rolled by 90° against each other",
+      "distortion: scenes with the board in the corners of the image"};
+  std::size_t worst = 0;
+  double most = -1.0;
+  for (std::size_t part = 0; part < kWhat.size(); ++part) {
+    IntrinsicsVector only = IntrinsicsVector::Zero();
+    const auto first = static_cast<Eigen::Index>(2 * part);
+    const Eigen::Index count = part < 2 ? 2 : 8;
+    only.segment(first, count) = wide.segment(first, count);
+    const double share = open_share(result, only);
+    if (share <= most) continue;
+    most = share;
+    worst = part;
+  }
+  result.unverified =
+      std::string("these scenes cannot verify the camera's intrinsics; most open is the ") +
+      kWhat[worst] + " would tell";
+}
+
+Status check_intrinsics(CalibrationResult& result,
+                        const std::vector<SceneObservations>& observations,
+                        const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,
+                        const RunContext& context) {
+  IntrinsicsReport& report = result.intrinsics;
+  report.contradiction.reset();
+  const std::vector<CornerView> views = views_of(observations);
+  if (report.mode != IntrinsicsMode::kFixed) {
+    if (report.mode == IntrinsicsMode::kPrior && result.forward) check_against_prior(result, views);
+    return Done{};
+  }
+  const Camera& given = report.given;
+  const double alarm = result.options.intrinsics.false_alarm;
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
+  const auto corners = fit_intrinsics(views, given, wide);
+  IntrinsicsContrast of_corners;
+  if (corners) {
+    report.replicate_px = corners->replicate_px;
+    of_corners = contrast_intrinsics(intrinsics_of(corners->camera), intrinsics_of(given),
+                                     corners->covariance, wide, alarm);
+  }
+  const bool clear = of_corners.contradicts();
+  const bool open =
+      of_corners.dof > 0 && of_corners.chi_square > chi_square_gate(of_corners.dof, kFirstLook);
+  if (!clear && !open && !(result.forward && first_look(*result.forward, given))) return Done{};
+  std::optional<Freed> freed;
+  if (result.forward)
+    freed = solve_freed(result, observations, index, nodes, clear ? &*corners : nullptr, context);
+  if (context.stopped()) return Error::cancelled();
+  if (!clear && !(freed && freed->contrast.contradicts())) return Done{};
+  IntrinsicsContradiction found;
+  found.contrast = freed && freed->contrast.contradicts() ? freed->contrast : of_corners;
+  found.what = describe(found.contrast, given, views);
+  if (freed) {
+    found.camera_from_lidar = UncertainRigid3{
+        se3_exp(freed->contrast.correction) * freed->forward.state.camera_from_lidar,
+        freed->contrast.covariance};
+    judge_move(result, found);
+  }
+  report.contradiction = std::move(found);
+  return Done{};
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "camera/camera.h"
+#include "extrinsic/extrinsic_solver.h"
+#include "pipeline/dataset.h"
+#include "pipeline/options.h"
+#include "solve/intrinsics_fit.h"
+
+namespace lvcalib {
+
+struct CalibrationResult;
+
+/// That corners and returns contradict the given intrinsics, and what mends it.
+struct IntrinsicsContradiction {
+  std::string what;  ///< "the focal length is 10.0 ± 0.1 % too long"
+  IntrinsicsContrast contrast;
+  /// The extrinsic with what is wrong freed, if it could be solved.
+  std::optional<UncertainRigid3> camera_from_lidar;
+  double move_mm = 0.0;    ///< Between that and the result: of the LiDAR's position,
+  double move_mrad = 0.0;  ///< and of the rotation.
+  bool matters = true;     ///< More than the tolerance.
+};
+
+/// What is known of the camera, before and after.
+struct IntrinsicsReport {
+  IntrinsicsMode mode = IntrinsicsMode::kFixed;
+  Camera given;
+  /// Standard deviations of the given intrinsics: stated in camera.yaml, or typical ones.
+  IntrinsicsVector prior_sigma = IntrinsicsVector::Zero();
+  bool stated = false;  ///< In camera.yaml.
+  /// Of the estimated ones (prior, free); 0 where held.
+  IntrinsicsVector sigma = IntrinsicsVector::Zero();
+  double replicate_px = 0.0;  ///< Corner noise of replicates; 0 where there are none.
+  std::optional<IntrinsicsContradiction> contradiction;
+};
+
+/// The report of a dataset before anything has been looked at.
+IntrinsicsReport start_intrinsics(const Dataset& dataset, IntrinsicsMode mode);
+
+/// With `prior` and `free`: puts a camera into the result that fits the corners of all images, and
+/// the boards' poses under it; what follows starts there. Nothing with `fixed`.
+void free_camera(CalibrationResult& result);
+
+/// Standard deviations with which the joint solve draws the intrinsics to the given ones.
+IntrinsicsVector solve_prior(const IntrinsicsReport& report);
+
+/// If the images' corners alone contradict the given intrinsics: in words what is wrong.
+std::string contradicted_by_corners(const CalibrationResult& result);
+
+/// Sets `verified`: whether the scenes leave intrinsics open that would move the extrinsic by more
+/// than three tolerances (95 % limit, to first order about the solution), and which scene would
+/// tell.
+void verify_intrinsics(CalibrationResult& result);
+
+/// With `fixed`: asks whether corners and returns contradict the given intrinsics, by a second
+/// solve with them freed wherever a first look leaves it open. With `prior` against what
+/// camera.yaml states. `nodes` is the solve that the result started from. Errors: kCancelled.
+Status check_intrinsics(CalibrationResult& result,
+                        const std::vector<SceneObservations>& observations,
+                        const std::vector<std::size_t>& index, const ExtrinsicSolution& nodes,
+                        const RunContext& context);
+
+}  // namespace lvcalib

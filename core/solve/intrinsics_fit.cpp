@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/intrinsics_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "base/statistics.h"
+#include "base/text.h"
+
+namespace lvcalib {
+namespace {
+
+using Matrix12 = Eigen::Matrix<double, kIntrinsics, kIntrinsics>;
+
+// Huber's, in σ, as the joint solve has it for corners.
+constexpr double kRobust = 4.0;
+constexpr std::size_t kFewestCorners = 8;
+constexpr std::size_t kFewestReplicates = 10;
+constexpr int kMaxIterations = 60;
+// A direction of the intrinsics counts as determined if the data take a tenth of the prior's
+// variance off it; those beyond say nothing either way.
+constexpr double kDetermined = 0.9;
+// Corners are never known better than this: a hundredth of a pixel is what the best of detectors
+// reach on simulated images, a fifth of it what averaging could still give.
+constexpr double kFloor_px = 0.002;
+
+struct View {
+  Rigid3 pose;
+  Matrix6d own = Matrix6d::Zero();
+  Vector6d own_gradient = Vector6d::Zero();
+  Eigen::Matrix<double, 6, kIntrinsics> coupling = Eigen::Matrix<double, 6, kIntrinsics>::Zero();
+};
+
+struct BundleState {
+  Camera camera;
+  std::vector<Rigid3> poses;
+};
+
+// Robust cost (½Σρ + prior) of a state; infinite if a corner has no image.
+struct Linearization {
+  double cost = 0.0;
+  double squares = 0.0;  // Σ w |e|²
+  std::size_t rows = 0;
+  Matrix12 intrinsics = Matrix12::Zero();
+  IntrinsicsVector gradient = IntrinsicsVector::Zero();
+  std::vector<View> views;
+};
+
+double huber_cost(double size) {
+  return size <= kRobust ? 0.5 * size * size : kRobust * (size - 0.5 * kRobust);
+}
+
+Linearization linearize(const std::vector<CornerView>& views, const BundleState& state,
+                        double sigma_px, bool jacobians) {
+  Linearization out;
+  out.views.resize(views.size());
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    View& view = out.views[v];
+    for (const CornerObservation& c : *views[v].corners) {
+      const Eigen::Vector3d p = state.poses[v] * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
+      Eigen::Matrix<double, 2, 3> by_point;
+      Eigen::Matrix<double, 2, kIntrinsics> a;
+      const auto pixel =
+          jacobians ? state.camera.project(p, &by_point, &a) : state.camera.project(p);
+      if (!pixel) {
+        out.cost = std::numeric_limits<double>::infinity();
+        return out;
+      }
+      const Eigen::Vector2d e = c.pixel - *pixel;
+      const double size = e.norm() / sigma_px;
+      const double w = huber_weight(size, kRobust) / (sigma_px * sigma_px);
+      out.cost += huber_cost(size);
+      out.squares += w * sigma_px * sigma_px * e.squaredNorm();
+      out.rows += 2;
+      if (!jacobians) continue;
+      Eigen::Matrix<double, 3, 6> moved;
+      moved << Eigen::Matrix3d::Identity(), -skew(p);
+      const Eigen::Matrix<double, 2, 6> j = by_point * moved;
+      view.own += w * j.transpose() * j;
+      view.own_gradient += w * j.transpose() * e;
+      view.coupling += w * j.transpose() * a;
+      out.intrinsics += w * a.transpose() * a;
+      out.gradient += w * a.transpose() * e;
+    }
+  }
+  return out;
+}
+
+// Reduced normal equations of the intrinsics, in units of the prior; held entries are unit rows.
+struct Reduced {
+  Matrix12 information = Matrix12::Identity();
+  IntrinsicsVector gradient = IntrinsicsVector::Zero();
+};
+
+Reduced reduce(const Linearization& at, const IntrinsicsVector& offset,
+               const IntrinsicsVector& prior, double damping) {
+  Matrix12 information = at.intrinsics;
+  IntrinsicsVector gradient = at.gradient;
+  for (const View& view : at.views) {
+    Matrix6d own = view.own;
+    own.diagonal() *= 1.0 + damping;
+    const Eigen::LDLT<Matrix6d> factor(own);
+    information -= view.coupling.transpose() * factor.solve(view.coupling);
+    gradient -= view.coupling.transpose() * factor.solve(view.own_gradient);
+  }
+  Reduced out;
+  for (Eigen::Index i = 0; i < kIntrinsics; ++i) {
+    if (!(prior(i) > 0.0)) continue;
+    for (Eigen::Index j = 0; j < kIntrinsics; ++j) {
+      if (prior(j) > 0.0) out.information(i, j) = information(i, j) * prior(i) * prior(j);
+    }
+    out.information(i, i) = information(i, i) * prior(i) * prior(i) * (1.0 + damping) + 1.0;
+    out.gradient(i) = gradient(i) * prior(i) - offset(i) / prior(i);
+  }
+  return out;
+}
+
+double prior_cost(const IntrinsicsVector& offset, const IntrinsicsVector& prior) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < kIntrinsics; ++i) {
+    if (prior(i) > 0.0) sum += 0.5 * std::pow(offset(i) / prior(i), 2);
+  }
+  return sum;
+}
+
+// One Levenberg–Marquardt solve at a fixed σ. False if it does not move from where it stands.
+bool solve_bundle(const std::vector<CornerView>& views, const IntrinsicsVector& given,
+                  const IntrinsicsVector& prior, double sigma_px, BundleState& state) {
+  double damping = 1e-6;
+  const auto offset_of = [&](const BundleState& s) -> IntrinsicsVector {
+    return intrinsics_of(s.camera) - given;
+  };
+  Linearization at = linearize(views, state, sigma_px, true);
+  if (!std::isfinite(at.cost)) return false;
+  double cost = at.cost + prior_cost(offset_of(state), prior);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const Reduced reduced = reduce(at, offset_of(state), prior, damping);
+    const Eigen::LDLT<Matrix12> factor(reduced.information);
+    IntrinsicsVector step = factor.solve(reduced.gradient).cwiseProduct(prior);
+    if (!step.allFinite()) return false;
+    BundleState next = state;
+    next.camera = with_intrinsics(state.camera, intrinsics_of(state.camera) + step);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      Matrix6d own = at.views[v].own;
+      own.diagonal() *= 1.0 + damping;
+      const Vector6d move =
+          own.ldlt().solve(at.views[v].own_gradient - at.views[v].coupling * step);
+      if (!move.allFinite()) return false;
+      next.poses[v] = se3_exp(move) * state.poses[v];
+    }
+    const bool possible = next.camera.fx > 0.0 && next.camera.fy > 0.0;
+    const double tried =
+        possible ? linearize(views, next, sigma_px, false).cost + prior_cost(offset_of(next), prior)
+                 : std::numeric_limits<double>::infinity();
+    if (!(tried <= cost)) {
+      damping = std::max(1e-6, 10.0 * damping);
+      if (damping > 1e8) return true;
+      continue;
+    }
+    const double gain = cost - tried;
+    state = std::move(next);
+    cost = tried;
+    damping = std::max(1e-9, 0.1 * damping);
+    // A hundredth of a nat is far below anything that a test asks for.
+    if (gain < 0.01) return true;
+    at = linearize(views, state, sigma_px, true);
+  }
+  return true;
+}
+
+std::vector<Eigen::Index> indices_of(IntrinsicsPart part) {
+  switch (part) {
+    case IntrinsicsPart::kFocalLength:
+      return {0, 1};
+    case IntrinsicsPart::kPrincipalPoint:
+      return {2, 3};
+    case IntrinsicsPart::kDistortion:
+      break;
+  }
+  return {4, 5, 6, 7, 8, 9, 10, 11};
+}
+
+// Places in sorted distinct values, which differ by more than a micrometre.
+std::vector<double> distinct(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> out;
+  for (const double v : values) {
+    if (out.empty() || v - out.back() > 1e-6) out.push_back(v);
+  }
+  return out;
+}
+
+std::size_t place_of(const std::vector<double>& sorted, double value) {
+  return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value - 1e-6) -
+                                  sorted.begin());
+}
+
+// Mixed second differences of one view's residuals over the smallest rectangles of its grid.
+void add_differences(const CornerView& view, const Camera& camera, std::vector<double>& out) {
+  std::vector<double> xs;
+  std::vector<double> ys;
+  for (const CornerObservation& c : *view.corners) {
+    xs.push_back(c.board_m.x());
+    ys.push_back(c.board_m.y());
+  }
+  xs = distinct(std::move(xs));
+  ys = distinct(std::move(ys));
+  std::map<std::pair<std::size_t, std::size_t>, Eigen::Vector2d> residual;
+  for (const CornerObservation& c : *view.corners) {
+    const auto pixel =
+        camera.project(view.camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+    if (pixel) {
+      residual[{place_of(xs, c.board_m.x()), place_of(ys, c.board_m.y())}] = c.pixel - *pixel;
+    }
+  }
+  for (const auto& [at, r00] : residual) {
+    const auto r10 = residual.find({at.first + 1, at.second});
+    const auto r01 = residual.find({at.first, at.second + 1});
+    const auto r11 = residual.find({at.first + 1, at.second + 1});
+    if (r10 == residual.end() || r01 == residual.end() || r11 == residual.end()) continue;
+    const Eigen::Vector2d z = 0.5 * (r00 - r10->second - r01->second + r11->second);
+    out.push_back(z.x());
+    out.push_back(z.y());
+  }
+}
+
+// Of the parts, those whose freeing alone leaves nothing significant: singles first, then pairs.
+std::vector<std::vector<IntrinsicsPart>> subsets() {
+  using P = IntrinsicsPart;
+  return {{P::kFocalLength},
+          {P::kPrincipalPoint},
+          {P::kDistortion},
+          {P::kFocalLength, P::kPrincipalPoint},
+          {P::kFocalLength, P::kDistortion},
+          {P::kPrincipalPoint, P::kDistortion}};
+}
+
+}  // namespace
+
+IntrinsicsVector typical_intrinsics_sigma(const Camera& camera) {
+  IntrinsicsVector sigma = IntrinsicsVector::Zero();
+  sigma.head<2>().setConstant(1e-3 * camera.fx);
+  sigma.segment<2>(2).setConstant(1e-3 * camera.width_px);
+  // At the edge of the image, a normalized radius ρ, an error δk moves a point by f·δk·ρ³.
+  const double edge = std::max(0.1, 0.5 * camera.width_px / camera.fx);
+  const double radial = 0.5 / (camera.fx * edge * edge * edge);
+  const double tangential = 0.5 / (camera.fx * edge * edge);
+  for (Eigen::Index k = 0; k < camera.distortion_count(); ++k) sigma(4 + k) = radial;
+  if (camera.model != DistortionModel::kEquidistant) {
+    sigma(6) = sigma(7) = 0.2 * tangential;
+    sigma(5) = 2.0 * radial;
+    sigma(8) = 2.0 * radial;
+  }
+  return sigma;
+}
+
+IntrinsicsVector wide_intrinsics_sigma(const Camera& camera) {
+  IntrinsicsVector sigma = IntrinsicsVector::Zero();
+  sigma.head<2>().setConstant(0.3 * camera.fx);
+  sigma.segment<2>(2).setConstant(0.1 * camera.width_px);
+  const double size = 0.3 * std::max(1.0, camera.distortion.cwiseAbs().maxCoeff());
+  for (Eigen::Index k = 0; k < camera.distortion_count(); ++k) sigma(4 + k) = size;
+  if (camera.model != DistortionModel::kEquidistant) sigma(6) = sigma(7) = 0.02;
+  return sigma;
+}
+
+IntrinsicsVector intrinsics_of(const Camera& camera) {
+  IntrinsicsVector out;
+  out << camera.fx, camera.fy, camera.cx, camera.cy, camera.distortion;
+  return out;
+}
+
+Camera with_intrinsics(Camera camera, const IntrinsicsVector& values) {
+  camera.fx = values(0);
+  camera.fy = values(1);
+  camera.cx = values(2);
+  camera.cy = values(3);
+  camera.distortion = values.tail<8>();
+  return camera;
+}
+
+std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views,
+                                            const Camera& camera, const IntrinsicsVector& prior) {
+  BundleState state{camera, {}};
+  std::size_t corners = 0;
+  for (const CornerView& view : views) {
+    state.poses.push_back(view.camera_from_board);
+    corners += view.corners->size();
+  }
+  if (corners < kFewestCorners) return std::nullopt;
+  const IntrinsicsVector given = intrinsics_of(camera);
+  const auto free = static_cast<double>((prior.array() > 0.0).count());
+  // The first pass bridges whatever the given camera misses by; then σ from the residuals.
+  double sigma = 1.0;
+  Linearization at;
+  for (int round = 0; round < 6; ++round) {
+    if (!solve_bundle(views, given, prior, sigma, state)) return std::nullopt;
+    at = linearize(views, state, sigma, true);
+    const double dof =
+        static_cast<double>(at.rows) - 6.0 * static_cast<double>(views.size()) - free;
+    if (dof < 1.0) break;
+    const double next = std::max(kFloor_px, std::sqrt(at.squares / dof));
+    const bool settled = std::abs(std::log(next / sigma)) < 0.02;
+    sigma = next;
+    if (settled) break;
+  }
+  at = linearize(views, state, sigma, true);
+  const Reduced reduced = reduce(at, IntrinsicsVector::Zero(), prior, 0.0);
+  const Eigen::LDLT<Matrix12> factor(reduced.information);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;
+  IntrinsicsFit out;
+  out.camera = state.camera;
+  out.camera_from_board = state.poses;
+  out.covariance = prior.asDiagonal() * factor.solve(Matrix12::Identity()) * prior.asDiagonal();
+  out.sigma_px = sigma;
+  out.rows = at.rows;
+  if (!out.covariance.allFinite() || !check(out.camera)) return std::nullopt;
+  std::vector<CornerView> fitted = views;
+  for (std::size_t v = 0; v < views.size(); ++v) fitted[v].camera_from_board = state.poses[v];
+  out.replicate_px = replicate_noise(fitted, state.camera);
+  return out;
+}
+
+double replicate_noise(const std::vector<CornerView>& views, const Camera& camera) {
+  std::vector<double> z;
+  for (const CornerView& view : views) add_differences(view, camera, z);
+  if (z.size() < 2 * kFewestReplicates) return 0.0;
+  for (double& value : z) value = std::abs(value);
+  // Median of |z| of Gaussian data: 0.6745 σ.
+  const double first = median(z) / 0.6745;
+  if (!(first > 0.0)) return 0.0;
+  double squares = 0.0;
+  for (const double value : z) squares += std::pow(std::min(value, 3.0 * first), 2);
+  // E[min(z², 9)] = 0.9904.
+  return std::sqrt(squares / (0.9904 * static_cast<double>(z.size())));
+}
+
+IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
+                                       const IntrinsicsVector& given,
+                                       const Eigen::MatrixXd& covariance,
+                                       const IntrinsicsVector& prior, double false_alarm) {
+  IntrinsicsContrast out;
+  const bool joint = covariance.rows() == kGlobals;
+  const Eigen::Index first = joint ? kGlobals - kIntrinsics : 0;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < kIntrinsics; ++i) {
+    if (prior(i) > 0.0) free.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(free.size());
+  if (n == 0) return out;
+  const IntrinsicsVector d = estimated - given;
+  Eigen::VectorXd scaled(n);
+  Eigen::MatrixXd c(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index a = free[static_cast<std::size_t>(i)];
+    scaled(i) = d(a) / prior(a);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Eigen::Index b = free[static_cast<std::size_t>(j)];
+      c(i, j) = covariance(first + a, first + b) / (prior(a) * prior(b));
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(c);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double variance = axes.eigenvalues()(k);
+    if (!(variance > 0.0) || variance > kDetermined) continue;
+    const double along = axes.eigenvectors().col(k).dot(scaled);
+    out.chi_square += along * along / (variance * (1.0 - variance));
+    ++out.dof;
+  }
+  if (out.dof == 0) return out;
+  out.gate = chi_square_gate(out.dof, false_alarm);
+
+  // The fewest parts to free: what holding the rest as given costs must be chance.
+  const auto hold = [&](const std::vector<IntrinsicsPart>& parts, IntrinsicsContrast& into) {
+    std::vector<bool> freed(static_cast<std::size_t>(kIntrinsics), false);
+    for (const IntrinsicsPart part : parts) {
+      for (const Eigen::Index i : indices_of(part)) freed[static_cast<std::size_t>(i)] = true;
+    }
+    std::vector<Eigen::Index> held;
+    for (const Eigen::Index i : free) {
+      if (!freed[static_cast<std::size_t>(i)]) held.push_back(i);
+    }
+    const auto m = static_cast<Eigen::Index>(held.size());
+    Eigen::VectorXd off(m);
+    Eigen::MatrixXd own(m, m);
+    Eigen::MatrixXd to(covariance.rows(), m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Eigen::Index a = held[static_cast<std::size_t>(i)];
+      off(i) = d(a) / prior(a);
+      to.col(i) = covariance.col(first + a) / prior(a);
+      for (Eigen::Index j = 0; j < m; ++j)
+        own(i, j) = covariance(first + a, first + held[static_cast<std::size_t>(j)]) /
+                    (prior(a) * prior(held[static_cast<std::size_t>(j)]));
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> factor(own);
+    const double chi = m > 0 ? off.dot(factor.solve(off)) : 0.0;
+    Eigen::VectorXd correction = Eigen::VectorXd::Zero(covariance.rows());
+    Eigen::MatrixXd rest = covariance;
+    if (m > 0) {
+      correction = -to * factor.solve(off);
+      rest -= to * factor.solve(to.transpose());
+    }
+    into.parts = parts;
+    into.difference = IntrinsicsVector::Zero();
+    into.sigma = IntrinsicsVector::Zero();
+    for (const Eigen::Index i : free) {
+      if (!freed[static_cast<std::size_t>(i)]) continue;
+      into.difference(i) = d(i) + correction(first + i);
+      into.sigma(i) = std::sqrt(std::max(0.0, rest(first + i, first + i)));
+    }
+    if (joint) {
+      into.correction = correction.head<6>();
+      into.covariance = rest.topLeftCorner<6, 6>();
+    }
+    return chi <= chi_square_gate(static_cast<int>(std::max<Eigen::Index>(1, m)), false_alarm);
+  };
+  for (const auto& parts : subsets()) {
+    if (hold(parts, out)) return out;
+  }
+  hold({IntrinsicsPart::kFocalLength, IntrinsicsPart::kPrincipalPoint, IntrinsicsPart::kDistortion},
+       out);
+  return out;
+}
+
+std::string describe(const IntrinsicsContrast& contrast, const Camera& given,
+                     const std::vector<CornerView>& views) {
+  std::vector<std::string> words;
+  for (const IntrinsicsPart part : contrast.parts) {
+    switch (part) {
+      case IntrinsicsPart::kFocalLength: {
+        // The given one against what the data say.
+        const double truth = given.fx + contrast.difference(0);
+        const double off = 50.0 * (-contrast.difference(0) / truth -
+                                   contrast.difference(1) / (given.fy + contrast.difference(1)));
+        words.push_back(
+            "the focal length is " +
+            formatted("%.2f ± %.2f %% ", std::abs(off), 100.0 * contrast.sigma(0) / given.fx) +
+            (off > 0 ? "too long" : "too short"));
+        break;
+      }
+      case IntrinsicsPart::kPrincipalPoint:
+        words.push_back("the principal point is off by " +
+                        formatted("%.1f px across and %.1f px down", -contrast.difference(2),
+                                  -contrast.difference(3)));
+        break;
+      case IntrinsicsPart::kDistortion: {
+        Camera other = given;
+        other.distortion += contrast.difference.tail<8>();
+        double most = 0.0;
+        for (const CornerView& view : views) {
+          for (const CornerObservation& c : *view.corners) {
+            const Eigen::Vector3d p =
+                view.camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
+            const auto a = given.project(p);
+            const auto b = other.project(p);
+            if (a && b) most = std::max(most, (*a - *b).norm());
+          }
+        }
+        words.push_back(formatted("the distortion is off by up to %.1f px on the boards", most));
+        break;
+      }
+    }
+  }
+  return joined(words, " and ");
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/total_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "base/parallel.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr Eigen::Index kFaults = 2;  // Range offset (m) and scale (1).
+// Ranges are moved by this to see how the normal equations answer: far above rounding of the
+// cloud's single precision (0.2 µm at 4 m), far below what robust weights notice.
+constexpr double kProbe_m = 2e-4;
+
+// What one scene says about the faults, its own unknowns eliminated.
+struct FaultTerm {
+  Eigen::Matrix<double, kGlobals, kFaults> coupling =
+      Eigen::Matrix<double, kGlobals, kFaults>::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+};
+
+double fault_at(Eigen::Index fault, double range_m) {
+  return fault == 0 ? 1.0 : range_m;
+}
+
+// Σ w x xᵀ over the range rows, x the faults' effect on a range.
+Eigen::Matrix2d squared_effects(const BoardReturns& returns, const BlurredPrint& print,
+                                const ForwardSolution& solution, std::size_t s) {
+  const BoardPredictor predictor(print, solution.state.lidar_from_board(s),
+                                 solution.state.levels[s], solution.state.beam);
+  const SceneNoise& noise = solution.noise.scenes[s];
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (std::size_t k = 0; k < returns.size(); ++k) {
+    const Eigen::Vector3d point = returns.point_m(k);
+    const double range = point.norm();
+    const auto p = predictor.predict(point / range);
+    if (!p) continue;
+    const double sigma = std::exp(p->white * std::log(noise.range_white_m) +
+                                  (1.0 - p->white) * std::log(noise.range_black_m));
+    const Eigen::Vector2d x(1.0, range);
+    sum += x * x.transpose() / (sigma * sigma * noise.range_inflation);
+  }
+  return sum;
+}
+
+// How the scene's gradient answers to ranges moved by a fault of unit size.
+Eigen::MatrixXd gradient_by_faults(const ForwardScene& scene, std::size_t s,
+                                   const BoardReturns& returns, const BlurredPrint& print,
+                                   const ForwardSolution& solution, const LinearizationOptions& how,
+                                   const SceneEquations& at) {
+  Eigen::MatrixXd out(at.gradient.size(), kFaults);
+  for (Eigen::Index fault = 0; fault < kFaults; ++fault) {
+    Cloud moved = *returns.cloud;
+    double mean = 0.0;
+    for (const std::uint32_t i : returns.index)
+      mean += static_cast<double>(moved.points_m[i].norm());
+    mean /= static_cast<double>(std::max<std::size_t>(1, returns.size()));
+    const double unit = kProbe_m / fault_at(fault, mean);
+    for (const std::uint32_t i : returns.index) {
+      const Eigen::Vector3d p = moved.points_m[i].cast<double>();
+      const double range = p.norm();
+      moved.points_m[i] = (p * (1.0 + unit * fault_at(fault, range) / range)).cast<float>();
+    }
+    BoardReturns shifted = returns;
+    shifted.cloud = &moved;
+    SceneFit fit;
+    const SceneEquations there =
+        linearize_scene(scene, s, shifted, print, solution.state, solution.noise, how, 1, fit);
+    out.col(fault) = (there.gradient - at.gradient) / unit;
+  }
+  return out;
+}
+
+FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrint& print,
+                     const ForwardSolution& solution, const ForwardOptions& options) {
+  FaultTerm out;
+  const SceneNoise& noise = solution.noise.scenes[s];
+  const BoardReturns returns = select_returns(
+      *scene.board_points, print, solution.state.lidar_from_board(s), solution.state.beam,
+      std::max(noise.range_white_m, noise.range_black_m), options.selection);
+  if (returns.size() == 0) return out;
+  LinearizationOptions how;
+  how.robust_threshold = options.robust_threshold;
+  how.patch_m = options.patch_m;
+  SceneFit fit;
+  const SceneEquations at =
+      linearize_scene(scene, s, returns, print, solution.state, solution.noise, how, 1, fit);
+  const Eigen::Index n = at.normal.rows() - kGlobals;
+  Eigen::MatrixXd own = at.normal.bottomRightCorner(n, n);
+  for (std::size_t k = 0; k < kSharedErrors; ++k) {
+    for (Eigen::Index i = 0; i < at.columns.count[k]; ++i) {
+      const Eigen::Index u = kLocals + at.columns.first[k] + i;
+      own(u, u) += 1.0 / solution.noise.shared[k];
+    }
+  }
+  for (Eigen::Index i = 6; i < kLocals; ++i) {
+    if (own(i, i) <= 0.0) own(i, i) = 1.0;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(own);
+  if (factor.info() != Eigen::Success) return out;
+  const Eigen::MatrixXd by = gradient_by_faults(scene, s, returns, print, solution, how, at);
+  const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
+  const FaultTerm term{
+      by.topRows(kGlobals) - at.normal.topRightCorner(kGlobals, n) * eliminated,
+      squared_effects(returns, print, solution, s) - by.bottomRows(n).transpose() * eliminated};
+  return term.coupling.allFinite() && term.information.allFinite() ? term : out;
+}
+
+}  // namespace
+
+Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const BlurredPrint& print,
+                          const ForwardSolution& solution, const LeftOutSizes& sizes,
+                          const ForwardOptions& options, int threads) {
+  const Matrix6d& own = solution.camera_from_lidar.covariance;
+  std::vector<FaultTerm> faults(scenes.size());
+  parallel_for(scenes.size(), threads, [&](std::size_t s) {
+    if (solution.terms[s].usable) faults[s] = fault_term(scenes[s], s, print, solution, options);
+  });
+  constexpr Eigen::Index kAll = kGlobals + kFaults;
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kAll, kAll);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kAll);
+  Eigen::VectorXd sigma = Eigen::VectorXd::Zero(kAll);
+  sigma.head<kGlobals>() = solution.prior.sigma;
+  for (Eigen::Index k = 0; k < kIntrinsics; ++k) {
+    double& s = sigma(kGlobals - kIntrinsics + k);
+    if (!(s > 0.0)) s = sizes.intrinsics(k);
+  }
+  sigma.tail<kFaults>() << sizes.range_offset_m, sizes.range_scale;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    if (!solution.terms[s].usable) continue;
+    information.topLeftCorner<kGlobals, kGlobals>() += solution.terms[s].information;
+    gradient.head<kGlobals>() += solution.terms[s].gradient;
+    information.topRightCorner<kGlobals, kFaults>() += faults[s].coupling;
+    information.bottomRightCorner<kFaults, kFaults>() += faults[s].information;
+  }
+  information.bottomLeftCorner<kFaults, kGlobals>() =
+      information.topRightCorner<kGlobals, kFaults>().transpose();
+  // In units of what each may be; the extrinsic in metres and radians.
+  Eigen::VectorXd unit = sigma;
+  unit.head<6>().setOnes();
+  Eigen::MatrixXd scaled = unit.asDiagonal() * information * unit.asDiagonal();
+  for (Eigen::Index i = 6; i < kAll; ++i) scaled(i, i) += 1.0;
+  // Of the gradient only the held intrinsics' part is the data's: the rest stands at its minimum.
+  Eigen::VectorXd asked = Eigen::VectorXd::Zero(kAll);
+  for (Eigen::Index k = kGlobals - kIntrinsics; k < kGlobals; ++k) {
+    if (!(solution.prior.sigma(k) > 0.0)) asked(k) = gradient(k) * unit(k);
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(scaled);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return own;
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(kAll, kAll));
+  const Vector6d shift = factor.solve(asked).head<6>();
+  Matrix6d total = inverse.topLeftCorner<6, 6>() + shift * shift.transpose();
+  if (!total.allFinite()) return own;
+  // Estimation with more unknowns cannot be better; rounding may say so.
+  Matrix6d more = total - own;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(0.5 * (more + more.transpose()));
+  more = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         axes.eigenvectors().transpose();
+  return own + more;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/intrinsics_fit.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "base/statistics.h"
+#include "target/target.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr double kNoise_px = 0.02;
+constexpr double kAlarm = 0.001;
+
+Camera true_camera() {
+  Camera camera;
+  camera.width_px = 1440;
+  camera.height_px = 900;
+  camera.fx = 1098.0;
+  camera.fy = 1100.0;
+  camera.cx = 712.0;
+  camera.cy = 446.0;
+  camera.distortion << -0.08, 0.03, 2e-4, -1e-4, 0, 0, 0, 0;
+  return camera;
+}
+
+struct Views {
+  std::vector<std::vector<CornerObservation>> corners;
+  std::vector<CornerView> views;
+};
+
+// Boards turned about two axes at 1.6 to 3 m, spread over the image; corners with white noise.
+Views seen(std::uint64_t seed, int count, double tilt_rad, double noise_px = kNoise_px) {
+  Random random(seed);
+  const Camera camera = true_camera();
+  const Target target;
+  Views out;
+  const Eigen::Vector2d middle = target.outline().center_m();
+  for (int v = 0; v < count; ++v) {
+    const double turn = 2.0 * M_PI * v / count;
+    const Eigen::Matrix3d facing = Eigen::Vector3d(1, -1, -1).asDiagonal();
+    const Eigen::Matrix3d R =
+        (Eigen::AngleAxisd(tilt_rad * std::cos(turn), Eigen::Vector3d::UnitX()) *
+         Eigen::AngleAxisd(tilt_rad * std::sin(turn), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(0.3 * v, Eigen::Vector3d::UnitZ()))
+            .toRotationMatrix() *
+        facing;
+    const double depth = 1.6 + 1.4 * v / count;
+    const Eigen::Vector3d place(0.2 * depth * std::cos(turn), 0.1 * depth * std::sin(turn), depth);
+    const Rigid3 pose = Rigid3::from_matrix(
+        R, Eigen::Vector3d(place - R * Eigen::Vector3d(middle.x(), middle.y(), 0)));
+    std::vector<CornerObservation> corners;
+    for (const TargetTag& tag : target.tags()) {
+      const auto at = target.tag_corners_m(tag);
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const auto p = camera.project(pose * Eigen::Vector3d(at[k].x(), at[k].y(), 0));
+        if (!p || !camera.in_image(*p)) continue;
+        const Eigen::Vector2d e(random.normal(), random.normal());
+        corners.push_back({tag.id, static_cast<int>(k), at[k], *p + noise_px * e, 0.0});
+      }
+    }
+    out.corners.push_back(std::move(corners));
+    out.views.push_back({nullptr, pose});
+  }
+  for (std::size_t v = 0; v < out.views.size(); ++v) out.views[v].corners = &out.corners[v];
+  return out;
+}
+
+IntrinsicsContrast contrast_of(const Views& views, const Camera& given) {
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
+  const auto fit = fit_intrinsics(views.views, given, wide);
+  EXPECT_TRUE(fit);
+  if (!fit) return {};
+  return contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance,
+                             wide, kAlarm);
+}
+
+// Any start within what happens; the estimate is within four standard deviations of the truth.
+TEST(IntrinsicsFit, FindsTheCameraFromFarOff) {
+  const Views views = seen(1, 6, 0.6);
+  Camera given = true_camera();
+  given.fx *= 1.2;
+  given.fy *= 1.2;
+  given.cx += 36.0;
+  given.distortion.setZero();
+  const auto fit = fit_intrinsics(views.views, given, wide_intrinsics_sigma(given));
+  ASSERT_TRUE(fit);
+  const IntrinsicsVector off = intrinsics_of(fit->camera) - intrinsics_of(true_camera());
+  for (Eigen::Index k = 0; k < 9; ++k)
+    EXPECT_LT(std::abs(off(k)), 4.0 * std::sqrt(fit->covariance(k, k))) << k;
+  EXPECT_LT(std::abs(off(0)), 2.0);
+  EXPECT_NEAR(fit->sigma_px, kNoise_px, 0.1 * kNoise_px);
+}
+
+// What the prior holds stays; entries that the model does not use stay as well.
+TEST(IntrinsicsFit, HoldsWhatThePriorHolds) {
+  const Views views = seen(2, 4, 0.5);
+  Camera given = true_camera();
+  given.cx += 2.0;
+  IntrinsicsVector prior = wide_intrinsics_sigma(given);
+  prior(2) = 0.0;
+  const auto fit = fit_intrinsics(views.views, given, prior);
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->camera.cx, given.cx);
+  EXPECT_EQ(fit->covariance(2, 2), 0.0);
+  EXPECT_EQ(fit->camera.distortion.tail<3>().norm(), 0.0);
+}
+
+// Replicates do not see wrong intrinsics, the residuals do.
+TEST(ReplicateNoise, IsBlindToWrongIntrinsics) {
+  const Views views = seen(3, 5, 0.5);
+  Camera wrong = true_camera();
+  wrong.fx *= 1.05;
+  wrong.fy *= 1.05;
+  IntrinsicsVector held = IntrinsicsVector::Zero();
+  const auto fit = fit_intrinsics(views.views, wrong, held);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->replicate_px, kNoise_px, 0.15 * kNoise_px);
+  EXPECT_GT(fit->sigma_px, 3.0 * kNoise_px);
+}
+
+TEST(ReplicateNoise, NeedsReplicates) {
+  Views views = seen(4, 1, 0.5);
+  views.corners[0].resize(8);
+  EXPECT_EQ(replicate_noise(views.views, true_camera()), 0.0);
+}
+
+// Under right intrinsics χ² has its mean and stays below the gate as often as stated.
+TEST(IntrinsicsContrast, RightIntrinsicsAreNotContradicted) {
+  double sum = 0.0;
+  double dof = 0.0;
+  int contradicted = 0;
+  constexpr int kDraws = 60;
+  for (std::uint64_t seed = 100; seed < 100 + kDraws; ++seed) {
+    const IntrinsicsContrast c = contrast_of(seen(seed, 4, 0.5), true_camera());
+    sum += c.chi_square;
+    dof += c.dof;
+    contradicted += c.contradicts() ? 1 : 0;
+  }
+  // √(2/Σdof) is a twentieth: four of them.
+  EXPECT_NEAR(sum / dof, 1.0, 0.25);
+  EXPECT_LE(contradicted, 1);
+}
+
+struct WrongPart {
+  const char* name;
+  IntrinsicsPart part;
+  void (*spoil)(Camera&);
+  const char* words;
+};
+
+class ContradictedPart : public ::testing::TestWithParam<WrongPart> {};
+
+TEST_P(ContradictedPart, IsNamedWithItsSize) {
+  const Views views = seen(5, 5, 0.5);
+  Camera given = true_camera();
+  GetParam().spoil(given);
+  const IntrinsicsContrast c = contrast_of(views, given);
+  EXPECT_TRUE(c.contradicts());
+  ASSERT_EQ(c.parts.size(), 1U);
+  EXPECT_EQ(c.parts.front(), GetParam().part);
+  EXPECT_THAT(describe(c, given, views.views), ::testing::HasSubstr(GetParam().words));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cameras, ContradictedPart,
+    ::testing::Values(WrongPart{"Longer", IntrinsicsPart::kFocalLength,
+                                [](Camera& c) {
+                                  c.fx *= 1.01;
+                                  c.fy *= 1.01;
+                                },
+                                "% too long"},
+                      WrongPart{"Shorter", IntrinsicsPart::kFocalLength,
+                                [](Camera& c) {
+                                  c.fx *= 0.8;
+                                  c.fy *= 0.8;
+                                },
+                                "% too short"},
+                      WrongPart{"Center", IntrinsicsPart::kPrincipalPoint,
+                                [](Camera& c) { c.cx += 5.0; }, "principal point"},
+                      WrongPart{"NoDistortion", IntrinsicsPart::kDistortion,
+                                [](Camera& c) { c.distortion.setZero(); }, "distortion"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(IntrinsicsFit, NeedsCorners) {
+  EXPECT_FALSE(fit_intrinsics({}, true_camera(), wide_intrinsics_sigma(true_camera())));
+}
+
+}  // namespace
+}  // namespace lvcalib
