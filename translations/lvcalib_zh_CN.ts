@@ -1358,10 +1358,6 @@ were saved. Take them up again?</source>
         <translation>与模型中的 %1 解释同样的现象：这些场景无法区分二者。要区分需要：%2。</translation>
     </message>
     <message>
-        <source>Not there: %1, below the size that matters.</source>
-        <translation>不存在：%1，低于有影响的大小。</translation>
-    </message>
-    <message>
         <source>White and black print contradict each other about it: %1 of both together; something that depends on the print is at work.</source>
         <translation>白色与黑色印刷对它的结论相互矛盾：合在一起为 %1；起作用的是与印刷颜色有关的其他因素。</translation>
     </message>
@@ -1704,6 +1700,94 @@ were saved. Take them up again?</source>
     <message>
         <source>patch</source>
         <translation>区块</translation>
+    </message>
+    <message>
+        <source>without scene %1 the extrinsic moves by %2 mm and %3 mrad, more than three of its standard deviations: did something move while that scene was taken?</source>
+        <translation>去掉场景 %1 后外参移动 %2 mm 和 %3 mrad，超过其标准差的三倍：采集该场景时是否有物体移动？</translation>
+    </message>
+    <message>
+        <source>the images contradict the standard deviations of the intrinsics: %1; calibrate the camera again, or use --intrinsics free</source>
+        <translation>图像与内参的标准差矛盾：%1；请重新标定相机，或使用 --intrinsics free</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; with that freed the extrinsic moves by %2 mm and %3 mrad; calibrate the camera again, or use --intrinsics free</source>
+        <translation>图像与内参矛盾：%1；将其放开后外参移动 %2 mm 和 %3 mrad；请重新标定相机，或使用 --intrinsics free</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; with that freed the extrinsic moves by %2 mm and %3 mrad, less than what matters</source>
+        <translation>图像与内参矛盾：%1；将其放开后外参移动 %2 mm 和 %3 mrad，无关紧要</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; calibrate the camera again, or use --intrinsics free</source>
+        <translation>图像与内参矛盾：%1；请重新标定相机，或使用 --intrinsics free</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1, less than what matters</source>
+        <translation>图像与内参矛盾：%1，无关紧要</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1</source>
+        <translation>图像与内参矛盾：%1</translation>
+    </message>
+    <message>
+        <source>the circles&apos; centres miss the model by more than their radius: the clouds do not show them</source>
+        <translation>圆心偏离模型超过其半径：点云中看不到这些圆</translation>
+    </message>
+    <message>
+        <source>these scenes cannot verify the camera&apos;s intrinsics; most open is the focal length: a scene with the board tilted by 40° or more and one at twice the distance would tell</source>
+        <translation>这些场景无法验证相机内参；最不确定的是焦距：增加一个标定板倾斜 40° 以上的场景和一个两倍距离处的场景即可判断</translation>
+    </message>
+    <message>
+        <source>these scenes cannot verify the camera&apos;s intrinsics; most open is the principal point: scenes with the board tilted, and rolled by 90° against each other would tell</source>
+        <translation>这些场景无法验证相机内参；最不确定的是主点：增加标定板倾斜且彼此旋转 90° 的场景即可判断</translation>
+    </message>
+    <message>
+        <source>these scenes cannot verify the camera&apos;s intrinsics; most open is the distortion: scenes with the board in the corners of the image would tell</source>
+        <translation>这些场景无法验证相机内参；最不确定的是畸变：增加标定板位于图像四角的场景即可判断</translation>
+    </message>
+    <message>
+        <source>the same files as scene %1, which counts once</source>
+        <translation>与场景 %1 的文件相同，只计一次</translation>
+    </message>
+    <message>
+        <source>its image and that of scene %1 seem to be exchanged: the scenes agree if they are</source>
+        <translation>其图像似乎与场景 %1 的图像互换了：换回后各场景一致</translation>
+    </message>
+    <message>
+        <source>the rough extrinsic (rig.yaml or --init) contradicts the scenes and was left out: %1</source>
+        <translation>粗略外参（rig.yaml 或 --init）与场景矛盾，已不采用：%1</translation>
+    </message>
+    <message>
+        <source>the board is not found in any cloud, but it is if the clouds are %1</source>
+        <translation>在任何点云中都找不到标定板，但若点云为%1则能找到</translation>
+    </message>
+    <message>
+        <source>Not there: %1; it moves the extrinsic by %2 mm and %3 mrad at most.</source>
+        <translation>不存在：%1；至多使外参移动 %2 mm 和 %3 mrad。</translation>
+    </message>
+    <message>
+        <source>Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at most.</source>
+        <translation>太小，无关紧要：%1；至多使外参移动 %2 mm 和 %3 mrad。</translation>
+    </message>
+    <message>
+        <source>A fault that moves the LiDAR by less does not matter.</source>
+        <translation>使激光雷达移动更小的误差无关紧要。</translation>
+    </message>
+    <message>
+        <source>A fault that turns the extrinsic by less does not matter.</source>
+        <translation>使外参旋转更小的误差无关紧要。</translation>
+    </message>
+    <message>
+        <source>How rarely right intrinsics may be taken for contradicted.</source>
+        <translation>正确的内参被误判为矛盾的概率上限。</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s intrinsics: 0 taken as given, 1 estimated with the standard deviations in camera.yaml, 2 estimated freely.</source>
+        <translation>相机内参：0 按给定值，1 以 camera.yaml 中的标准差估计，2 自由估计。</translation>
+    </message>
+    <message>
+        <source>mode</source>
+        <translation>模式</translation>
     </message>
 </context>
 <context>
@@ -3585,6 +3669,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Every return</source>
         <translation>全部回波</translation>
+    </message>
+    <message>
+        <source>Intrinsics</source>
+        <translation>内参</translation>
     </message>
 </context>
 <context>

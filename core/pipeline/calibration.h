@@ -83,8 +83,9 @@ struct CalibrationResult {
   std::string unverified;  ///< Why not, and what would: a sentence. Empty if verified.
   /// The extrinsic's covariance with the budget; zero before discover().
   Matrix6d covariance_with_budget = Matrix6d::Zero();
-  ModelScales model_scales;           ///< What the numbers of the model refer to.
-  std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
+  ModelScales model_scales;             ///< What the numbers of the model refer to.
+  double modelled_dark_offset_m = 0.0;  ///< How much farther black reads than white by the model.
+  std::vector<MethodResult> methods;    ///< The paper's objectives on the scenes in use.
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.
   Quality quality = Quality::kFailed;

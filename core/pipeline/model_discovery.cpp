@@ -5,6 +5,7 @@
 
 #include "base/statistics.h"
 #include "model/residuals.h"
+#include "pipeline/quality.h"
 
 namespace lvcalib {
 namespace {
@@ -18,6 +19,29 @@ const SceneSolution* solution_of(const CalibrationResult& result, const std::str
     if (s.name == name) return &s;
   }
   return nullptr;
+}
+
+// By how much farther black print reads than white with the effects of a model, square to the beam
+// at a usual range.
+double dark_offset_m(const Discovery& discovery) {
+  constexpr double kRange_m = 3.0;
+  const MeasurementTable table = empty_table(discovery.scales);
+  BeamPoint beam;
+  beam.range_m = kRange_m;
+  double sum = 0.0;
+  for (const EffectInUse& use : discovery.model) {
+    for (const double darkness : {1.0, 0.0}) {
+      beam.darkness = darkness;
+      std::vector<Eigen::Vector3d> moves(static_cast<std::size_t>(use.values.size()),
+                                         Eigen::Vector3d::Zero());
+      use.effect->lidar(beam, table, use.shape, moves);
+      for (std::size_t k = 0; k < moves.size(); ++k) {
+        sum += (darkness > 0.5 ? 1.0 : -1.0) * use.values(static_cast<Eigen::Index>(k)) *
+               beam.direction.dot(moves[k]);
+      }
+    }
+  }
+  return sum;
 }
 
 }  // namespace
@@ -62,8 +86,9 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery) {
   // With nothing selected the calibration's own extrinsic stands: it rests on every return.
   const bool changed = !discovery.model.empty();
-  if (changed)
+  if (changed) {
     result.extrinsic.camera_from_lidar = {discovery.state.camera_from_lidar, discovery.covariance};
+  }
   std::size_t next = 0;
   for (const SceneResult& scene : result.scenes) {
     if (!changed || !takes_part(scene)) continue;
@@ -85,6 +110,9 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
       result.model.push_back({f.id, f.parameters, use.shape, f.shape_sigma, f.spec});
     }
   }
+  result.modelled_dark_offset_m = dark_offset_m(discovery);
+  // What the model explains is no fault of the result any more.
+  if (changed) judge_quality(result, result.options.quality);
   return result;
 }
 

@@ -140,7 +140,8 @@ void judge_precision(const ExtrinsicSolution& x, const QualityOptions& options, 
 }
 
 // Dark print that reads nearer or farther than white one pulls every plane, and the extrinsic with
-// it, without showing in the residuals of nodes and planes.
+// it, without showing in the residuals of nodes and planes. What the model in use knows of it
+// counts no more.
 void judge_dark_offset(const CalibrationResult& result, const QualityOptions& options,
                        Verdict& verdict) {
   double weight = 0.0;
@@ -156,6 +157,9 @@ void judge_dark_offset(const CalibrationResult& result, const QualityOptions& op
   }
   if (weight <= 0) return;
   const double offset = sum / weight;
+  // The planes' two groups are told by the middle level and mix what the model keeps apart: its own
+  // size is the better one, and what it leaves shows in its residuals.
+  if (result.modelled_dark_offset_m * offset > 0.0) return;
   if (std::abs(offset) < options.max_dark_offset_m || std::abs(offset) < 5.0 / std::sqrt(weight))
     return;
   verdict.doubtful(formatted("black print reads %.1f ± %.1f mm ", 1e3 * std::abs(offset),

@@ -43,7 +43,7 @@ struct BundleState {
 };
 
 // Robust cost (½Σρ + prior) of a state; infinite if a corner has no image.
-struct Linearization {
+struct CornerEquations {
   double cost = 0.0;
   double squares = 0.0;  // Σ w |e|²
   std::size_t rows = 0;
@@ -56,9 +56,9 @@ double huber_cost(double size) {
   return size <= kRobust ? 0.5 * size * size : kRobust * (size - 0.5 * kRobust);
 }
 
-Linearization linearize(const std::vector<CornerView>& views, const BundleState& state,
+CornerEquations linearize_corners(const std::vector<CornerView>& views, const BundleState& state,
                         double sigma_px, bool jacobians) {
-  Linearization out;
+  CornerEquations out;
   out.views.resize(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     View& view = out.views[v];
@@ -98,7 +98,7 @@ struct Reduced {
   IntrinsicsVector gradient = IntrinsicsVector::Zero();
 };
 
-Reduced reduce(const Linearization& at, const IntrinsicsVector& offset,
+Reduced reduce(const CornerEquations& at, const IntrinsicsVector& offset,
                const IntrinsicsVector& prior, double damping) {
   Matrix12 information = at.intrinsics;
   IntrinsicsVector gradient = at.gradient;
@@ -136,7 +136,7 @@ bool solve_bundle(const std::vector<CornerView>& views, const IntrinsicsVector& 
   const auto offset_of = [&](const BundleState& s) -> IntrinsicsVector {
     return intrinsics_of(s.camera) - given;
   };
-  Linearization at = linearize(views, state, sigma_px, true);
+  CornerEquations at = linearize_corners(views, state, sigma_px, true);
   if (!std::isfinite(at.cost)) return false;
   double cost = at.cost + prior_cost(offset_of(state), prior);
   for (int i = 0; i < kMaxIterations; ++i) {
@@ -156,7 +156,7 @@ bool solve_bundle(const std::vector<CornerView>& views, const IntrinsicsVector& 
     }
     const bool possible = next.camera.fx > 0.0 && next.camera.fy > 0.0;
     const double tried =
-        possible ? linearize(views, next, sigma_px, false).cost + prior_cost(offset_of(next), prior)
+        possible ? linearize_corners(views, next, sigma_px, false).cost + prior_cost(offset_of(next), prior)
                  : std::numeric_limits<double>::infinity();
     if (!(tried <= cost)) {
       damping = std::max(1e-6, 10.0 * damping);
@@ -169,7 +169,7 @@ bool solve_bundle(const std::vector<CornerView>& views, const IntrinsicsVector& 
     damping = std::max(1e-9, 0.1 * damping);
     // A hundredth of a nat is far below anything that a test asks for.
     if (gain < 0.01) return true;
-    at = linearize(views, state, sigma_px, true);
+    at = linearize_corners(views, state, sigma_px, true);
   }
   return true;
 }
@@ -298,10 +298,10 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
   const auto free = static_cast<double>((prior.array() > 0.0).count());
   // The first pass bridges whatever the given camera misses by; then σ from the residuals.
   double sigma = 1.0;
-  Linearization at;
+  CornerEquations at;
   for (int round = 0; round < 6; ++round) {
     if (!solve_bundle(views, given, prior, sigma, state)) return std::nullopt;
-    at = linearize(views, state, sigma, true);
+    at = linearize_corners(views, state, sigma, true);
     const double dof =
         static_cast<double>(at.rows) - 6.0 * static_cast<double>(views.size()) - free;
     if (dof < 1.0) break;
@@ -310,7 +310,7 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
     sigma = next;
     if (settled) break;
   }
-  at = linearize(views, state, sigma, true);
+  at = linearize_corners(views, state, sigma, true);
   const Reduced reduced = reduce(at, IntrinsicsVector::Zero(), prior, 0.0);
   const Eigen::LDLT<Matrix12> factor(reduced.information);
   if (factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;

@@ -22,13 +22,13 @@ namespace {
 
 constexpr int kCells = 16;  // Board cells along a side, for even thinning.
 // Print plainer than this is white or black: what is left of an edge adds a hundredth.
-constexpr double kPlainShare = 0.01;
+constexpr double kPlainPrint = 0.01;
 // A spot sees one edge if the print's slope is that of one within a fifth: at a corner, half a
 // width from it, it is a third less.
 constexpr double kOneEdge = 0.2;
 // Black that returns next to nothing has no logarithm: a hundredth of white stands for it.
 constexpr double kLeastShare = 0.01;
-constexpr double kRobust = 3.0;  // Huber's threshold, as in the joint solve.
+constexpr double kRobustThreshold = 3.0;  // Huber's threshold, as in the joint solve.
 
 // A return and what is predicted of it.
 struct Return {
@@ -44,7 +44,7 @@ struct Return {
   bool mixed = false;        // Several edges in the spot.
   double jitter = 0.0;       // Standard deviation that the jitter gives the intensity.
 
-  [[nodiscard]] bool is_plain() const { return white > 1.0 - kPlainShare || white < kPlainShare; }
+  [[nodiscard]] bool is_plain() const { return white > 1.0 - kPlainPrint || white < kPlainPrint; }
   [[nodiscard]] std::size_t surface() const { return white > 0.5 ? 0 : 1; }
 };
 
@@ -54,7 +54,7 @@ struct SurfaceNoise {
 };
 
 double robust_sigma(double sigma, double residual) {
-  return sigma / std::sqrt(huber_weight(residual / sigma, kRobust));
+  return sigma / std::sqrt(huber_weight(residual / sigma, kRobustThreshold));
 }
 
 // What effects in use do to single returns: the displacement of the print under the beam, the

@@ -13,6 +13,47 @@ inline constexpr const char* kCorePatterns[] = {
     // Verdict and warnings of a result.
     QT_TRANSLATE_NOOP("Core", "result: %1"),
     QT_TRANSLATE_NOOP("Core", "scene %1 is not used: %2"),
+    QT_TRANSLATE_NOOP("Core",
+                      "without scene %1 the extrinsic moves by %2 mm and %3 mrad, more than three "
+                      "of its standard deviations: did something move while that scene was taken?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the images contradict the standard deviations of the intrinsics: %1; "
+                      "calibrate the camera again, or use --intrinsics free"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "the images contradict the intrinsics: %1; with that freed the extrinsic moves by %2 mm "
+        "and %3 mrad; calibrate the camera again, or use --intrinsics free"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the images contradict the intrinsics: %1; with that freed the extrinsic "
+                      "moves by %2 mm and %3 mrad, less than what matters"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the images contradict the intrinsics: %1; calibrate the camera again, or "
+                      "use --intrinsics free"),
+    QT_TRANSLATE_NOOP("Core", "the images contradict the intrinsics: %1, less than what matters"),
+    QT_TRANSLATE_NOOP("Core", "the images contradict the intrinsics: %1"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the circles' centres miss the model by more than their radius: the clouds "
+                      "do not show them"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "these scenes cannot verify the camera's intrinsics; most open is the focal length: a "
+        "scene with the board tilted by 40° or more and one at twice the distance would tell"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "these scenes cannot verify the camera's intrinsics; most open is the principal point: "
+        "scenes with the board tilted, and rolled by 90° against each other would tell"),
+    QT_TRANSLATE_NOOP("Core",
+                      "these scenes cannot verify the camera's intrinsics; most open is the "
+                      "distortion: scenes with the board in the corners of the image would tell"),
+    QT_TRANSLATE_NOOP("Core", "the same files as scene %1, which counts once"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "its image and that of scene %1 seem to be exchanged: the scenes agree if they are"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "the rough extrinsic (rig.yaml or --init) contradicts the scenes and was left out: %1"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the board is not found in any cloud, but it is if the clouds are %1"),
     QT_TRANSLATE_NOOP(
         "Core", "only one usable scene: nothing to check the result against; take two or more"),
     QT_TRANSLATE_NOOP("Core", "the scenes determine only %1 of 6 directions of the extrinsic"),

@@ -20,8 +20,10 @@ inline constexpr const char* kModelPatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "Explains the same as %1, which is in the model: these scenes cannot tell "
                       "the two apart. To tell: %2."),
-    QT_TRANSLATE_NOOP("Core", "Not there: %1; it moves the extrinsic by %2 at most."),
-    QT_TRANSLATE_NOOP("Core", "Too small to matter: %1; it moves the extrinsic by %2 at most."),
+    QT_TRANSLATE_NOOP("Core",
+                      "Not there: %1; it moves the extrinsic by %2 mm and %3 mrad at most."),
+    QT_TRANSLATE_NOOP(
+        "Core", "Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at most."),
     QT_TRANSLATE_NOOP("Core",
                       "White and black print contradict each other about it: %1 of both together; "
                       "something that depends on the print is at work."),

@@ -14,19 +14,20 @@
 namespace lvcalib {
 namespace {
 
-const Camera kCamera = testing::pinhole(800, 640, 900);
+const Camera kCharucoCamera = testing::pinhole(800, 640, 900);
 
 GrayImage picture(const Target& target, const Rigid3& pose,
                   const testing::RenderOptions& options = {}) {
   testing::RenderOptions render = options;
   if (render.samples_per_side == 5) render.samples_per_side = 4;  // Faster; the default is 5.
-  return testing::render_board(target, kCamera, pose, render);
+  return testing::render_board(target, kCharucoCamera, pose, render);
 }
 
 double corner_rms_px(const BoardView& view, const Rigid3& pose) {
   std::vector<double> errors;
   for (const CornerObservation& c : view.corners) {
-    const auto p = kCamera.project(pose * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+    const auto p =
+        kCharucoCamera.project(pose * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
     for (const double e : (c.pixel - *p).eval()) errors.push_back(e);
   }
   return rms(errors);
@@ -38,7 +39,8 @@ TEST(CharucoView, CornersAreFoundToHundredthsOfAPixel) {
     // A hundred corners tell the pose so well that the rendering must be fine.
     testing::RenderOptions fine;
     fine.samples_per_side = 8;
-    const auto view = find_board_in_image(picture(target, pose, fine), target, kCamera, {}, {});
+    const auto view =
+        find_board_in_image(picture(target, pose, fine), target, kCharucoCamera, {}, {});
     ASSERT_TRUE(view.ok()) << view.error().text();
     EXPECT_EQ(view->tag_count, target.tag_count());
     EXPECT_EQ(static_cast<int>(view->corners.size()), 4 * target.tag_count());
@@ -57,7 +59,8 @@ TEST(CharucoView, APartOfTheBoardIsEnough) {
   render.cover = [](const Eigen::Vector2d& p) {
     return p.x() > 0.2 ? std::optional<double>(0.3) : std::nullopt;
   };
-  const auto view = find_board_in_image(picture(target, pose, render), target, kCamera, {}, {});
+  const auto view =
+      find_board_in_image(picture(target, pose, render), target, kCharucoCamera, {}, {});
   ASSERT_TRUE(view.ok()) << view.error().text();
   EXPECT_GE(view->tag_count, 6);
   EXPECT_LT(view->tag_count, 14);
@@ -66,7 +69,7 @@ TEST(CharucoView, APartOfTheBoardIsEnough) {
   // And cut off by the image's edge.
   Rigid3 aside = pose;
   aside.translation.x() += 0.7;
-  const auto cut = find_board_in_image(picture(target, aside), target, kCamera, {}, {});
+  const auto cut = find_board_in_image(picture(target, aside), target, kCharucoCamera, {}, {});
   ASSERT_TRUE(cut.ok()) << cut.error().text();
   EXPECT_LT(cut->tag_count, target.tag_count());
   EXPECT_LT(translation_distance_m(cut->camera_from_board.transform, aside), 3e-3);
@@ -75,14 +78,14 @@ TEST(CharucoView, APartOfTheBoardIsEnough) {
 TEST(CharucoView, SmallMarkersAreFilledInFromThePose) {
   const Target target = test::charuco_target();
   const Rigid3 pose = testing::facing_pose(target, 4.0, 0.1, 0.5, 0.2);  // Markers of 18 px.
-  const auto view = find_board_in_image(picture(target, pose), target, kCamera, {}, {});
+  const auto view = find_board_in_image(picture(target, pose), target, kCharucoCamera, {}, {});
   ASSERT_TRUE(view.ok()) << view.error().text();
   EXPECT_GE(view->tag_count, 24);
   EXPECT_LT(corner_rms_px(*view, pose), 0.12);
 }
 
-std::string complaint(const GrayImage& image, const Target& wanted) {
-  const auto view = find_board_in_image(image, wanted, kCamera, {}, {});
+std::string charuco_complaint(const GrayImage& image, const Target& wanted) {
+  const auto view = find_board_in_image(image, wanted, kCharucoCamera, {}, {});
   if (view.ok()) return "found";
   EXPECT_EQ(view.error().kind, ErrorKind::kInput);
   return view.error().text();
@@ -94,27 +97,27 @@ TEST(CharucoView, SaysWhatTheImageShowsInstead) {
   const GrayImage image = picture(target, pose);
   Target other = target;
   other.legacy_pattern = false;
-  EXPECT_NE(complaint(image, other).find("set legacyPattern: true"), std::string::npos);
+  EXPECT_NE(charuco_complaint(image, other).find("set legacyPattern: true"), std::string::npos);
   other = target;
   other.tag_family = "DICT_6X6_50";
-  EXPECT_NE(complaint(image, other).find("markers of DICT_4X4"), std::string::npos);
+  EXPECT_NE(charuco_complaint(image, other).find("markers of DICT_4X4"), std::string::npos);
   other = target;
   other.first_tag_id = 26;
-  EXPECT_NE(complaint(image, other).find("the target has 26 to 49"), std::string::npos);
+  EXPECT_NE(charuco_complaint(image, other).find("the target has 26 to 49"), std::string::npos);
   GrayImage mirror = image;
   for (int y = 0; y < mirror.height_px; ++y) {
     const auto row = mirror.pixels.begin() + static_cast<std::ptrdiff_t>(y) * mirror.width_px;
     std::reverse(row, row + mirror.width_px);
   }
-  const std::string mirrored = complaint(mirror, target);
+  const std::string mirrored = charuco_complaint(mirror, target);
   EXPECT_NE(mirrored.find("mirrored"), std::string::npos) << mirrored;
-  EXPECT_NE(complaint(image, Target{}).find("target_type: charuco"), std::string::npos);
+  EXPECT_NE(charuco_complaint(image, Target{}).find("target_type: charuco"), std::string::npos);
 }
 
 TEST(SingleTagView, PoseAgreesWithTheTruth) {
   const Target target = test::single_tag_target();
   const Rigid3 pose = testing::facing_pose(target, 1.6, 0.15, 0.4, -0.35);
-  const auto view = find_board_in_image(picture(target, pose), target, kCamera, {}, {});
+  const auto view = find_board_in_image(picture(target, pose), target, kCharucoCamera, {}, {});
   ASSERT_TRUE(view.ok()) << view.error().text();
   EXPECT_EQ(view->tag_count, 1);
   EXPECT_EQ(view->corners.size(), 4U);
@@ -137,10 +140,10 @@ TEST(SingleTagView, AnotherTagOrTwoOfThemAreRefused) {
       both.pixels[i] = second.pixels[i];
     }
   }
-  EXPECT_NE(complaint(both, target).find("twice"), std::string::npos);
+  EXPECT_NE(charuco_complaint(both, target).find("twice"), std::string::npos);
   Target other = target;
   other.first_tag_id = 9;
-  const std::string text = complaint(picture(target, pose), other);
+  const std::string text = charuco_complaint(picture(target, pose), other);
   EXPECT_NE(text.find("check tagId"), std::string::npos) << text;
 }
 
@@ -164,7 +167,7 @@ TEST(TagArrangement, SaysHowTheTagsLie) {
       }
       return std::nullopt;
     };
-    return complaint(picture(target, pose, render), target);
+    return charuco_complaint(picture(target, pose, render), target);
   };
   EXPECT_EQ(complaint_about(false, false, false), "found");
   EXPECT_EQ(complaint_about(true, true, true), "found");  // The board itself is turned.
@@ -190,7 +193,7 @@ TEST(TwoBoards, WithTheSameTagsAreRefused) {
       both.pixels[i] = second.pixels[i];
     }
   }
-  EXPECT_NE(complaint(both, target).find("twice"), std::string::npos);
+  EXPECT_NE(charuco_complaint(both, target).find("twice"), std::string::npos);
 }
 
 }  // namespace
