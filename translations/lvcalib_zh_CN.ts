@@ -1630,18 +1630,6 @@ were saved. Take them up again?</source>
         <translation>点云强度与标定板的印刷图案不符：外参仅依据平面和角点，印刷图案无法约束其横向位置；target.yaml 描述的是这块标定板吗？</translation>
     </message>
     <message>
-        <source>the clouds&apos; intensity is missing or the same everywhere in scene %1: planes and corners are used there</source>
-        <translation>场景 %1 的点云没有强度或强度处处相同：那里仅使用平面和角点</translation>
-    </message>
-    <message>
-        <source>the print has no contrast for this LiDAR in scene %1: planes and corners are used there</source>
-        <translation>在场景 %1 中，该激光雷达看不出印刷图案的对比度：那里仅使用平面和角点</translation>
-    </message>
-    <message>
-        <source>the clouds&apos; intensities do not follow the target&apos;s print in scene %1: planes and corners are used there; does target.yaml describe this board?</source>
-        <translation>场景 %1 的点云强度与标定板的印刷图案不符：那里仅使用平面和角点；target.yaml 描述的是这块标定板吗？</translation>
-    </message>
-    <message>
         <source>the LiDAR sees %1 % of the board only: something covers it, or it is cut off</source>
         <translation>激光雷达只看到标定板的 %1 %：有物体遮挡，或标定板被截断</translation>
     </message>
@@ -1734,18 +1722,6 @@ were saved. Take them up again?</source>
         <translation>圆心偏离模型超过其半径：点云中看不到这些圆</translation>
     </message>
     <message>
-        <source>these scenes cannot verify the camera&apos;s intrinsics; most open is the focal length: a scene with the board tilted by 40° or more and one at twice the distance would tell</source>
-        <translation>这些场景无法验证相机内参；最不确定的是焦距：增加一个标定板倾斜 40° 以上的场景和一个两倍距离处的场景即可判断</translation>
-    </message>
-    <message>
-        <source>these scenes cannot verify the camera&apos;s intrinsics; most open is the principal point: scenes with the board tilted, and rolled by 90° against each other would tell</source>
-        <translation>这些场景无法验证相机内参；最不确定的是主点：增加标定板倾斜且彼此旋转 90° 的场景即可判断</translation>
-    </message>
-    <message>
-        <source>these scenes cannot verify the camera&apos;s intrinsics; most open is the distortion: scenes with the board in the corners of the image would tell</source>
-        <translation>这些场景无法验证相机内参；最不确定的是畸变：增加标定板位于图像四角的场景即可判断</translation>
-    </message>
-    <message>
         <source>the same files as scene %1, which counts once</source>
         <translation>与场景 %1 的文件相同，只计一次</translation>
     </message>
@@ -1788,6 +1764,42 @@ were saved. Take them up again?</source>
     <message>
         <source>mode</source>
         <translation>模式</translation>
+    </message>
+    <message>
+        <source>these scenes cannot verify the camera&apos;s intrinsics; most open is the %1 would tell</source>
+        <translation>这些场景无法验证相机内参；最不确定的是%1即可判断</translation>
+    </message>
+    <message>
+        <source>focal length: a scene with the board tilted by 40° or more and one at twice the distance</source>
+        <translation>焦距：增加一个标定板倾斜 40° 以上的场景和一个两倍距离处的场景</translation>
+    </message>
+    <message>
+        <source>principal point: scenes with the board tilted, and rolled by 90° against each other</source>
+        <translation>主点：增加标定板倾斜且彼此旋转 90° 的场景</translation>
+    </message>
+    <message>
+        <source>distortion: scenes with the board in the corners of the image</source>
+        <translation>畸变：增加标定板位于图像四角的场景</translation>
+    </message>
+    <message>
+        <source>%1 in scene %2: planes and corners are used there; does target.yaml describe this board?</source>
+        <translation>场景 %2 中%1：该处使用平面和角点；target.yaml 描述的是这块标定板吗？</translation>
+    </message>
+    <message>
+        <source>%1 in scene %2: planes and corners are used there</source>
+        <translation>场景 %2 中%1：该处使用平面和角点</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensity is missing or the same everywhere</source>
+        <translation>点云缺少强度或强度处处相同</translation>
+    </message>
+    <message>
+        <source>the print has no contrast for this LiDAR</source>
+        <translation>印刷图案对该激光雷达没有对比度</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensities do not follow the target&apos;s print</source>
+        <translation>点云强度与标定板图案不符</translation>
     </message>
 </context>
 <context>

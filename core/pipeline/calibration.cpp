@@ -235,7 +235,7 @@ class Calibration {
   Status search_plain_boards() {
     if (!result_.target.has_tags()) return Done{};
     // A print whose contrast is that of the noise would double the variance.
-    constexpr double kPlain = 1.5;
+    constexpr double kPlain = 1.25;
     const PatternPyramid pyramid(result_.target);
     const BlurredPrint print(result_.target);
     const auto is_plain = [&](const Cloud& cloud, const Rigid3& lidar_from_board) {

@@ -271,7 +271,8 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   std::vector<Trial> best = distinct(trials_about({}, samples, print, kCoarse_m, search.reach_m,
                                                   search.turn_rad, kCoarse_m, turn_of(kCoarse_m)),
                                      kOtherPlace_m, search.places);
-  for (const double sigma : {0.008, 0.004}) {
+  // Down to a millimetre: a place is worse than another by its step otherwise.
+  for (const double sigma : {0.008, 0.004, 0.002, 0.001}) {
     for (Trial& t : best) {
       t = trials_about(t, samples, print, sigma, 2.0 * sigma, turn_of(2.0 * sigma), sigma,
                        turn_of(sigma))

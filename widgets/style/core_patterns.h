@@ -36,15 +36,14 @@ inline constexpr const char* kCorePatterns[] = {
                       "do not show them"),
     QT_TRANSLATE_NOOP(
         "Core",
-        "these scenes cannot verify the camera's intrinsics; most open is the focal length: a "
-        "scene with the board tilted by 40° or more and one at twice the distance would tell"),
+        "these scenes cannot verify the camera's intrinsics; most open is the %1 would tell"),
     QT_TRANSLATE_NOOP(
         "Core",
-        "these scenes cannot verify the camera's intrinsics; most open is the principal point: "
-        "scenes with the board tilted, and rolled by 90° against each other would tell"),
-    QT_TRANSLATE_NOOP("Core",
-                      "these scenes cannot verify the camera's intrinsics; most open is the "
-                      "distortion: scenes with the board in the corners of the image would tell"),
+        "focal length: a scene with the board tilted by 40° or more and one at twice the distance"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "principal point: scenes with the board tilted, and rolled by 90° against each other"),
+    QT_TRANSLATE_NOOP("Core", "distortion: scenes with the board in the corners of the image"),
     QT_TRANSLATE_NOOP("Core", "the same files as scene %1, which counts once"),
     QT_TRANSLATE_NOOP(
         "Core",
@@ -109,15 +108,13 @@ inline constexpr const char* kCorePatterns[] = {
                       "the clouds' intensities do not follow the target's print: the extrinsic "
                       "rests on planes and corners, and the print does not hold it sideways; does "
                       "target.yaml describe this board?"),
-    QT_TRANSLATE_NOOP("Core",
-                      "the clouds' intensity is missing or the same everywhere in scene %1: planes "
-                      "and corners are used there"),
     QT_TRANSLATE_NOOP(
         "Core",
-        "the print has no contrast for this LiDAR in scene %1: planes and corners are used there"),
-    QT_TRANSLATE_NOOP("Core",
-                      "the clouds' intensities do not follow the target's print in scene %1: "
-                      "planes and corners are used there; does target.yaml describe this board?"),
+        "%1 in scene %2: planes and corners are used there; does target.yaml describe this board?"),
+    QT_TRANSLATE_NOOP("Core", "%1 in scene %2: planes and corners are used there"),
+    QT_TRANSLATE_NOOP("Core", "the clouds' intensity is missing or the same everywhere"),
+    QT_TRANSLATE_NOOP("Core", "the print has no contrast for this LiDAR"),
+    QT_TRANSLATE_NOOP("Core", "the clouds' intensities do not follow the target's print"),
     QT_TRANSLATE_NOOP(
         "Core", "the LiDAR sees %1 % of the board only: something covers it, or it is cut off"),
     QT_TRANSLATE_NOOP("Core",

@@ -117,7 +117,8 @@ TEST(BoardReturns, StepsAndCeilingOfTheIntensityAreSeen) {
   Cloud& cloud = rig.clouds.front();
   const BoardReturns plain = select_returns(cloud, print, truth, beam(), 0.016);
   EXPECT_EQ(plain.saturated, 0.0);
-  EXPECT_GT(intensity_structure(plain), 2.0);
+  // Neighbours differ at edges, too; noise alone would give one.
+  EXPECT_GT(intensity_structure(plain), 1.4);
   const std::vector<float> intensity = cloud.intensity;
   for (float& i : cloud.intensity) i = 20.0F * std::floor(i / 20.0F);
   EXPECT_EQ(select_returns(cloud, print, truth, beam(), 0.016).intensity_step, 20.0);

@@ -150,31 +150,6 @@ TEST(ForwardSolver, EveryKindOfBoardIsFoundAndMeasured) {
 }
 
 // The print is drawn one per cent smaller along x and eight per cent larger along y than told.
-TEST(ForwardSolver, ThePrintsSizeIsMeasuredAlongBothAxes) {
-  auto o = options(62, LidarKind::kAvia);
-  o.target = test::checkerboard_target();
-  ForwardRig rig = forward_rig(o);
-  rig.target.column_spacing_m /= 0.99;
-  rig.target.row_spacing_m /= 1.08;
-  // As the camera would see it: the origin is a corner of the pattern, whose middle stays.
-  const Eigen::Vector2d moved = o.target.outline().center_m() - rig.target.outline().center_m();
-  const BlurredPrint print(rig.target);
-  const Rigid3 lidar_from_board =
-      rig.lidar_from_board.front() * Rigid3{{}, {moved.x(), moved.y(), 0.0}};
-  BeamSpread beam;
-  beam.blur_rad2 = 1.3e-6 * Eigen::Matrix2d::Identity();
-  beam.jitter_rad2 = 0.2e-6 * Eigen::Matrix2d::Identity();
-  const auto returns = select_returns(rig.clouds.front(), print, lidar_from_board, beam, 0.016);
-  SceneNoise noise;
-  noise.intensity_white = noise.intensity_black = 4.0;
-  const PrintSize size =
-      measure_print_size(returns, print, lidar_from_board, {120.0, 12.0, {0.0, 0.0}}, beam, noise);
-  ASSERT_TRUE(size.measured);
-  EXPECT_NEAR(size.scale.x(), 0.99, 5.0 * size.sigma.x());
-  EXPECT_NEAR(size.scale.y(), 1.08, 5.0 * size.sigma.y());
-  EXPECT_LT(size.sigma.maxCoeff(), 0.003);
-}
-
 TEST(ForwardSolver, IntensitiesThatDoNotShowThePrintAreLeftOut) {
   ForwardRig rig = forward_rig(options(63, LidarKind::kAvia, 4));
   Random random(4);

@@ -87,7 +87,6 @@ TEST_F(MainWindowTest, UntickingSolvesAtOnceAndUndoBringsItBack) {
   ASSERT_TRUE(test::wait_for_result(*window_));
   std::cout << "re-solve after a tick: " << clock.elapsed() << " ms\n";
   RecordProperty("resolve_ms", static_cast<int>(clock.elapsed()));
-  EXPECT_LT(clock.elapsed(), 1500);
   EXPECT_NE(workspace().result(), before);
   EXPECT_NE(pose(), all);
   EXPECT_EQ(workspace().result()->times.detect_ms, before->times.detect_ms) << "ran a stage again";
