@@ -57,7 +57,7 @@ double huber_cost(double size) {
 }
 
 CornerEquations linearize_corners(const std::vector<CornerView>& views, const BundleState& state,
-                        double sigma_px, bool jacobians) {
+                                  double sigma_px, bool jacobians) {
   CornerEquations out;
   out.views.resize(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -155,9 +155,9 @@ bool solve_bundle(const std::vector<CornerView>& views, const IntrinsicsVector& 
       next.poses[v] = se3_exp(move) * state.poses[v];
     }
     const bool possible = next.camera.fx > 0.0 && next.camera.fy > 0.0;
-    const double tried =
-        possible ? linearize_corners(views, next, sigma_px, false).cost + prior_cost(offset_of(next), prior)
-                 : std::numeric_limits<double>::infinity();
+    const double tried = possible ? linearize_corners(views, next, sigma_px, false).cost +
+                                        prior_cost(offset_of(next), prior)
+                                  : std::numeric_limits<double>::infinity();
     if (!(tried <= cost)) {
       damping = std::max(1e-6, 10.0 * damping);
       if (damping > 1e8) return true;

@@ -146,19 +146,12 @@ std::map<std::string, double> true_parameters(const std::string& id,
   const auto at = rig.options.effects.find(id);
   if (at == rig.options.effects.end()) return {};
   const double si = at->second * simulation::unit_in_si(simulation::find_disturbance(id)->unit);
-  static const std::map<std::string, std::string> same = {{"range_offset", "a"},
-                                                          {"range_scale", "m"},
-                                                          {"range_incidence", "a"},
-                                                          {"angle_scale", "azimuth"},
-                                                          {"axis_wobble", "i"},
-                                                          {"beam_origin_offset", "horizontal"},
-                                                          {"encoder_lag", "τ"},
-                                                          {"boundary_bias", "δ0"},
-                                                          {"footprint_offset", "βh"},
-                                                          {"print_scale", "scale"},
-                                                          {"ink_gain", "g"},
-                                                          {"corner_bias", "b"},
-                                                          {"rolling_shutter", "v"}};
+  static const std::map<std::string, std::string> same = {
+      {"range_offset", "a"},      {"range_scale", "m"},    {"range_incidence", "a"},
+      {"angle_scale", "azimuth"}, {"axis_wobble", "i"},    {"beam_origin_offset", "horizontal"},
+      {"encoder_lag", "τ"},       {"boundary_bias", "δ0"}, {"footprint_offset", "βh"},
+      {"print_scale", "scale"},   {"ink_gain", "g"},       {"corner_bias", "b"},
+      {"rolling_shutter", "v"}};
   if (const auto name = same.find(id); name != same.end()) return {{name->second, si}};
   if (id == "channel_range_offset") return per_line(rig, id, "line_mm", "a");
   if (id == "channel_angle_offset") {
