@@ -272,4 +272,13 @@ Result<BoardView> find_board_in_image(const GrayImage& image, const Target& targ
                            : view_checkerboard(image, target, camera, options, context);
 }
 
+void refit_view(BoardView& view, const Camera& camera, const DetectionOptions& options) {
+  const auto pose = estimate_board_pose(view.corners, camera, options);
+  if (!pose) return;
+  view.camera_from_board = pose->camera_from_board;
+  view.alternative_pose = pose->alternative_pose;
+  view.sigma_px = pose->sigma_px;
+  view.rms_px = pose->rms_px;
+}
+
 }  // namespace lvcalib

@@ -83,4 +83,8 @@ Result<BoardView> find_board_in_image(const GrayImage& image, const Target& targ
                                       const Camera& camera, const DetectionOptions& options,
                                       const RunContext& context);
 
+/// Estimates the board's pose anew from a view's own corners under another camera: pose, the other
+/// pose of the planar ambiguity, noise. A view whose corners fit no pose is left as it is.
+void refit_view(BoardView& view, const Camera& camera, const DetectionOptions& options);
+
 }  // namespace lvcalib

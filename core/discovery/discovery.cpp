@@ -124,8 +124,8 @@ class Discoverer {
 
 MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options) {
   if (input.print) {
-    return lasting_print_table(input.scenes, input.print, input.camera, input.state, input.noise,
-                               input.sigma_px, options, {});
+    return print_table(input.scenes, input.print, input.camera, input.state, input.noise,
+                       input.sigma_px, options, {});
   }
   TableOptions how = options;
   how.refinement = input.refinement;

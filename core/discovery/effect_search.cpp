@@ -199,6 +199,7 @@ void EffectSearch::remeasure() {
 // Rows of a table with a print: weights and classes follow the model, until both stand still.
 void EffectSearch::remake() {
   if (!base_->again || (in_use_.empty() && table_ == base_)) return;
+  // Each round leaves a few hundredths of what was wrong: more than two are rarely needed.
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
     const Rigid3 before = state_.camera_from_lidar;

@@ -31,6 +31,15 @@ BeamAxes beam_axes(const Eigen::Vector3d& direction) {
   return {horizontal, direction.cross(horizontal)};
 }
 
+Matrix6d board_motion(const Rigid3& lidar_from_board, const Eigen::Vector2d& center_m) {
+  const Eigen::Matrix3d axes = lidar_from_board.rotation.toRotationMatrix();
+  const Eigen::Vector3d middle =
+      lidar_from_board * Eigen::Vector3d(center_m.x(), center_m.y(), 0.0);
+  Matrix6d motion;
+  motion << axes, skew(middle) * axes, Eigen::Matrix3d::Zero(), axes;
+  return motion;
+}
+
 BoardPredictor::BoardPredictor(const BlurredPrint& print, const Rigid3& lidar_from_board,
                                const BoardLevels& levels, const BeamSpread& beam)
     : print_(print),

@@ -91,6 +91,10 @@ class BoardPredictor {
   Eigen::Matrix2d footprint_rad2_;
 };
 
+/// Left perturbation of T_lidar_board by a motion (translation, rotation) along the board's axes
+/// about a point of the board.
+Matrix6d board_motion(const Rigid3& lidar_from_board, const Eigen::Vector2d& center_m);
+
 /// The beam frame at a unit direction: horizontal and vertical axis.
 struct BeamAxes {
   Eigen::Vector3d horizontal, vertical;

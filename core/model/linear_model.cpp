@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "model/catalogue_effect.h"
 #include "model/effect_rows.h"
 #include "model/print_rows.h"
 #include "model/scene_geometry.h"
@@ -48,26 +49,6 @@ class SparseRow {
   std::vector<double> value_;
 };
 
-// Products of Legendre polynomials up to degree 4 on the board's square; degree 0–1, then 2–4.
-void board_polynomials(const Eigen::Vector2d& unit, std::array<double, 15>& out) {
-  const auto legendre = [](double x) {
-    const double x2 = x * x;
-    return std::array<double, 5>{1.0, x, 0.5 * (3 * x2 - 1), 0.5 * x * (5 * x2 - 3),
-                                 0.125 * (35 * x2 * x2 - 30 * x2 + 3)};
-  };
-  const auto px = legendre(unit.x());
-  const auto py = legendre(unit.y());
-  std::size_t k = 0;
-  for (std::size_t degree = 0; degree <= 4; ++degree) {
-    for (std::size_t j = 0; j <= degree; ++j) out[k++] = px[degree - j] * py[j];
-  }
-}
-
-Eigen::Vector2d unit_point(const Target& target, const Eigen::Vector2d& board_m) {
-  const BoardOutline outline = target.outline();
-  return (board_m - outline.center_m()).cwiseQuotient(0.5 * outline.size_m());
-}
-
 int index_in(const std::vector<int>& list, int value) {
   const auto at = std::find(list.begin(), list.end(), value);
   return at == list.end() ? -1 : static_cast<int>(at - list.begin());
@@ -93,12 +74,10 @@ class SceneAccumulator {
     layout.tags =
         table.target.has_tags() ? static_cast<int>(table.scenes[scene].features.size()) : 0;
     if (table.print) {
-      const Eigen::Vector2d size = table.print->outline().size_m();
       layout.print = true;
-      layout.patches_x = std::max(1, static_cast<int>(std::ceil(size.x() / kPatch_m)));
-      layout.patches_y = std::max(1, static_cast<int>(std::ceil(size.y() / kPatch_m)));
+      layout.patches = BoardPatches(table.print->outline(), kPatch_m);
       layout.lines = table.lines.size() > 1 ? static_cast<int>(table.lines.size()) : 0;
-      if (layout.tags == 0) layout.tags = layout.patches_x * layout.patches_y;
+      if (layout.tags == 0) layout.tags = layout.patches.count();
       print_.emplace(table, state, scene, in_use);
     }
     extrinsic_ = out_.layout.size();
@@ -162,8 +141,8 @@ class SceneAccumulator {
     used_rows_.range(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
       residual -= used_sum(c, by);
     });
-    std::array<double, 15> z{};
-    board_polynomials(unit_point(table_.target, r.beam.board_m), z);
+    BoardPolynomials z{};
+    board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
     row_.clear();
     set_pose(by_pose);
     for (int k = 0; k < 15; ++k) row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(k)]);
@@ -185,8 +164,8 @@ class SceneAccumulator {
       const auto row = print_->range(r);
       if (!row) continue;
       begin(*row);
-      std::array<double, 15> z{};
-      board_polynomials(unit_point(table_.target, r.beam.board_m), z);
+      BoardPolynomials z{};
+      board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
       const int high = LocalLayout::kFixed + LocalLayout::kLow;
       for (int k = 0; k < LocalLayout::kHigh; ++k)
         row_.set(high + k, z[static_cast<std::size_t>(3 + k)]);
@@ -225,13 +204,7 @@ class SceneAccumulator {
     return out_.layout.lines > 0 ? index_in(table_.lines, beam.line) : -1;
   }
   [[nodiscard]] int patch_of(const Eigen::Vector2d& board_m) const {
-    const LocalLayout& layout = out_.layout;
-    const Eigen::Vector2d share = 0.5 * (unit_point(table_.target, board_m).array() + 1.0);
-    const int x =
-        std::clamp(static_cast<int>(share.x() * layout.patches_x), 0, layout.patches_x - 1);
-    const int y =
-        std::clamp(static_cast<int>(share.y() * layout.patches_y), 0, layout.patches_y - 1);
-    return y * layout.patches_x + x;
+    return out_.layout.patches.of(table_.print->outline(), board_m);
   }
 
   void reading(Channel channel, const IntensityRow& r, const BoundaryRow* edge) {
@@ -319,8 +292,8 @@ class SceneAccumulator {
     used_rows_.intensity(r, [&](const EffectColumns& c, std::span<const double> by) {
       residual -= used_sum(c, by);
     });
-    std::array<double, 15> z{};
-    board_polynomials(unit_point(table_.target, r.beam.board_m), z);
+    BoardPolynomials z{};
+    board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
     row_.clear();
     row_.set(LocalLayout::kPose + static_cast<int>(r.print), 1.0);
     const int first = LocalLayout::kFixed + LocalLayout::kLow + LocalLayout::kHigh;
@@ -349,6 +322,31 @@ class SceneAccumulator {
 };
 
 }  // namespace
+
+BoardPatches::BoardPatches(const BoardOutline& outline, double side_m)
+    : columns(std::max(1, static_cast<int>(std::ceil(outline.size_m().x() / side_m)))),
+      rows(std::max(1, static_cast<int>(std::ceil(outline.size_m().y() / side_m)))) {}
+
+int BoardPatches::of(const BoardOutline& outline, const Eigen::Vector2d& board_m) const {
+  const Eigen::Vector2d t = (board_m - outline.lower_left_m).cwiseQuotient(outline.size_m());
+  const int x = std::clamp(static_cast<int>(t.x() * columns), 0, columns - 1);
+  const int y = std::clamp(static_cast<int>(t.y() * rows), 0, rows - 1);
+  return y * columns + x;
+}
+
+void board_polynomials(const Eigen::Vector2d& unit, BoardPolynomials& out) {
+  const auto legendre = [](double x) {
+    const double x2 = x * x;
+    return std::array<double, 5>{1.0, x, 0.5 * (3 * x2 - 1), 0.5 * x * (5 * x2 - 3),
+                                 0.125 * (35 * x2 * x2 - 30 * x2 + 3)};
+  };
+  const auto px = legendre(unit.x());
+  const auto py = legendre(unit.y());
+  std::size_t k = 0;
+  for (std::size_t degree = 0; degree <= 4; ++degree) {
+    for (std::size_t j = 0; j <= degree; ++j) out[k++] = px[degree - j] * py[j];
+  }
+}
 
 void EffectColumnsList::add(const EffectPtr& effect, double shape, const MeasurementTable& table) {
   EffectColumns c{effect, shape, effect->parameters(table), columns_, effect->zero_sums(table)};
@@ -381,7 +379,7 @@ std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
     case VarianceGroup::kBoardSpin:
       return {board_column() + 5, print ? 1 : 0};
     case VarianceGroup::kPrintPatch:
-      return {patch_column(), 2 * patches_x * patches_y};
+      return {patch_column(), 2 * patches.count()};
     case VarianceGroup::kLineRange:
       return {line_column(), lines};
     case VarianceGroup::kLineGain:

@@ -11,6 +11,21 @@
 
 namespace lvcalib {
 
+/// Products of Legendre polynomials over the board, its outline at −1 and 1: one of degree 0, two
+/// of degree 1, twelve of degrees 2 to 4.
+using BoardPolynomials = std::array<double, 15>;
+void board_polynomials(const Eigen::Vector2d& unit, BoardPolynomials& out);
+
+/// The board divided into patches of a given side or a little less.
+struct BoardPatches {
+  BoardPatches() = default;
+  BoardPatches(const BoardOutline& outline, double side_m);
+  /// The patch that a board point, or the nearest one on the board, lies in.
+  [[nodiscard]] int of(const BoardOutline& outline, const Eigen::Vector2d& board_m) const;
+  [[nodiscard]] int count() const { return columns * rows; }
+  int columns = 0, rows = 0;
+};
+
 /// One effect with its shape number and where its parameters stand among the columns.
 struct EffectColumns {
   EffectPtr effect;
@@ -81,14 +96,14 @@ struct LocalLayout {
   static constexpr int kIntensityTerms = 5;
   int nodes = 0;
   int tags = 0;
-  int patches_x = 0, patches_y = 0;
+  BoardPatches patches;
   int lines = 0;
   bool print = false;  ///< Of a table with a print.
   [[nodiscard]] int node_column() const { return kFixed + kLow + kHigh + kIntensityTerms; }
   [[nodiscard]] int tag_column() const { return node_column() + 3 * nodes; }
   [[nodiscard]] int board_column() const { return tag_column() + 2 * tags; }
   [[nodiscard]] int patch_column() const { return board_column() + (print ? 6 : 0); }
-  [[nodiscard]] int line_column() const { return patch_column() + 2 * patches_x * patches_y; }
+  [[nodiscard]] int line_column() const { return patch_column() + 2 * patches.count(); }
   [[nodiscard]] int size() const { return line_column() + 2 * lines; }
   /// First column and number of columns of a group.
   [[nodiscard]] std::pair<int, int> columns_of(VarianceGroup group) const;

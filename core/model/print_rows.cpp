@@ -4,19 +4,6 @@
 #include <cmath>
 
 namespace lvcalib {
-namespace {
-
-Matrix6d motion_about(const Rigid3& lidar_from_board, const Eigen::Vector2d& center_m) {
-  const Eigen::Matrix3d axes = lidar_from_board.rotation.toRotationMatrix();
-  const Eigen::Vector3d middle =
-      lidar_from_board * Eigen::Vector3d(center_m.x(), center_m.y(), 0.0);
-  Matrix6d motion;
-  motion << axes, skew(middle) * axes, Eigen::Matrix3d::Zero(), axes;
-  return motion;
-}
-
-}  // namespace
-
 PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std::size_t scene,
                      const std::vector<EffectInUse>& in_use)
     : in_use_(in_use),
@@ -25,7 +12,7 @@ PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std
       geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
       rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
       predictor_(*table.print, geometry_.lidar_from_board(), state.levels[scene], state.beam),
-      motion_(motion_about(geometry_.lidar_from_board(), table.print->outline().center_m())) {}
+      motion_(board_motion(geometry_.lidar_from_board(), table.print->outline().center_m())) {}
 
 void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
   out.by_board_pose = geometry_.by_camera_pose(by_lidar_pose);

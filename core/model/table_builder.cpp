@@ -32,35 +32,11 @@ class SceneBuilder {
         table_(table),
         geometry_(state.camera_from_lidar,
                   state.camera_from_board[static_cast<std::size_t>(scene)]),
-        camera_from_board_(state.camera_from_board[static_cast<std::size_t>(scene)]),
         nodes_(table.target.nodes()),
         hits_(input, scene, geometry_, table.target, options),
         view_(hits_.list(), nodes_, table.target.circle_radius_m,
               input.refinement->transition_noise),
         levels_(hits_.levels()) {}
-
-  void add_corners(double sigma_px) {
-    TableScene& scene = table_.scenes[static_cast<std::size_t>(scene_)];
-    for (const CornerObservation& c : input_.corners) {
-      CornerRow row;
-      row.scene = scene_;
-      row.feature = c.feature_id;
-      row.corner = c.corner;
-      row.board_m = c.board_m;
-      row.pixel = c.pixel;
-      row.sigma_px = sigma_px;
-      if (const auto tag = table_.target.tag(c.feature_id); table_.target.has_tags() && tag) {
-        row.from_tag_m = c.board_m - tag->center_m;
-        const auto center = table_.camera.project(
-            camera_from_board_ * Eigen::Vector3d(tag->center_m.x(), tag->center_m.y(), 0.0));
-        if (center) row.from_tag_px = c.pixel - *center;
-      }
-      if (std::find(scene.features.begin(), scene.features.end(), c.feature_id) ==
-          scene.features.end())
-        scene.features.push_back(c.feature_id);
-      table_.corner.push_back(row);
-    }
-  }
 
   void add_points() {
     const PrintNoise noise = hits_.noise();
@@ -192,7 +168,6 @@ class SceneBuilder {
   const TableOptions& options_;
   MeasurementTable& table_;
   SceneGeometry geometry_;
-  Rigid3 camera_from_board_;
   std::vector<TargetNode> nodes_;
   BoardHits hits_;
   EdgeView view_;
@@ -255,8 +230,9 @@ MeasurementTable collect(const std::vector<SceneMeasurements>& scenes, const Tar
     builders[s].emplace(scenes[s], static_cast<int>(s), state, options, table);
   });
   std::array<std::vector<double>, kPrints> levels;
-  for (auto& builder : builders) {
-    builder->add_corners(sigma_px);
+  for (std::size_t s = 0; s < builders.size(); ++s) {
+    auto& builder = builders[s];
+    add_corners(scenes[s], static_cast<int>(s), state, sigma_px, table);
     builder->add_points();
     builder->add_boundary();
     for (std::size_t k = 0; k < kPrints; ++k) {
@@ -279,6 +255,30 @@ MeasurementTable collect(const std::vector<SceneMeasurements>& scenes, const Tar
 }
 
 }  // namespace
+
+void add_corners(const SceneMeasurements& input, int scene, const ModelState& state,
+                 double sigma_px, MeasurementTable& table) {
+  TableScene& out = table.scenes[static_cast<std::size_t>(scene)];
+  const Rigid3& camera_from_board = state.camera_from_board[static_cast<std::size_t>(scene)];
+  for (const CornerObservation& c : input.corners) {
+    CornerRow row;
+    row.scene = scene;
+    row.feature = c.feature_id;
+    row.corner = c.corner;
+    row.board_m = c.board_m;
+    row.pixel = c.pixel;
+    row.sigma_px = sigma_px;
+    if (const auto tag = table.target.tag(c.feature_id); table.target.has_tags() && tag) {
+      row.from_tag_m = c.board_m - tag->center_m;
+      const auto center = table.camera.project(
+          camera_from_board * Eigen::Vector3d(tag->center_m.x(), tag->center_m.y(), 0.0));
+      if (center) row.from_tag_px = c.pixel - *center;
+    }
+    if (std::find(out.features.begin(), out.features.end(), c.feature_id) == out.features.end())
+      out.features.push_back(c.feature_id);
+    table.corner.push_back(row);
+  }
+}
 
 MeasurementTable build_table(const std::vector<SceneMeasurements>& scenes, const Target& target,
                              const Camera& camera, const ModelState& state, double sigma_px,

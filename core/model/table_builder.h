@@ -26,6 +26,11 @@ struct TableOptions {
   RefinementOptions refinement;  ///< How edges are measured again (see remeasure_edges()).
 };
 
+/// Appends a scene's corners, each as noisy as `sigma_px`, and lists the features that they belong
+/// to.
+void add_corners(const SceneMeasurements& input, int scene, const ModelState& state,
+                 double sigma_px, MeasurementTable& table);
+
 /// Builds the table at a state. The corners' noise is measured (see corner_noise);
 /// `sigma_px` stands in where there are too few corners for that.
 /// Every scene's board pose is in `state` in the same order.

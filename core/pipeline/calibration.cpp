@@ -234,8 +234,6 @@ class Calibration {
   // this board.
   Status search_plain_boards() {
     if (!result_.target.has_tags()) return Done{};
-    // A print whose contrast is that of the noise would double the variance.
-    constexpr double kPlain = 1.25;
     const PatternPyramid pyramid(result_.target);
     const BlurredPrint print(result_.target);
     const auto is_plain = [&](const Cloud& cloud, const Rigid3& lidar_from_board) {
@@ -244,7 +242,7 @@ class Calibration {
           std::pow(request_.options.forward.first_blur_rad, 2) * Eigen::Matrix2d::Identity();
       constexpr double kRangeSigma_m = 0.02;
       const auto returns = select_returns(cloud, print, lidar_from_board, beam, kRangeSigma_m);
-      return returns.has_intensity && intensity_structure(returns) < kPlain;
+      return returns.has_intensity && intensity_structure(returns) < kPlainStructure;
     };
     for (std::size_t s = 0; s < result_.scenes.size(); ++s) {
       SceneResult& scene = result_.scenes[s];

@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
-#include "detection/refit_view.h"
+#include "detection/board_view.h"
 #include "pipeline/calibration.h"
 #include "pipeline/forward_stage.h"
 

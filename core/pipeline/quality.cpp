@@ -226,12 +226,11 @@ void judge_splits(const CalibrationResult& result, Verdict& verdict) {
 enum class PrintState { kSeen, kNoIntensity, kNoContrast, kOtherPrint };
 
 PrintState print_state(const SceneResult& scene, const ForwardSceneResult& solved) {
-  // As for boards that are looked for by their outline: contrast at the noise's own doubles this.
-  constexpr double kPlain = 1.25;
   if (scene.no_contrast) return PrintState::kNoContrast;
   if (!scene.board_points.has_contrast()) return PrintState::kNoIntensity;
   if (solved.print_correlation > 0.0) return PrintState::kSeen;
-  return solved.intensity_structure < kPlain ? PrintState::kNoContrast : PrintState::kOtherPrint;
+  return solved.intensity_structure < kPlainStructure ? PrintState::kNoContrast
+                                                      : PrintState::kOtherPrint;
 }
 
 std::string print_problem(PrintState state) {

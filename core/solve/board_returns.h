@@ -50,6 +50,10 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
                             double range_sigma_m, const ReturnSelection& selection = {});
 
+/// Below this intensity_structure() returns show no print: noise alone gives one, with a few
+/// hundred returns ± 0.1; a print of a contrast of half the noise adds this quarter.
+inline constexpr double kPlainStructure = 1.25;
+
 /// How much the intensities vary over the board against what neighbours along the scan differ by:
 /// ½·E[difference²] of noise alone is the variance, so that one means no print to be seen.
 double intensity_structure(const BoardReturns& returns);

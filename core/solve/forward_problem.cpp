@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "model/linear_model.h"
 
 namespace lvcalib {
 namespace {
@@ -31,21 +32,6 @@ constexpr Eigen::Index kLidarFixed = 6 + kBlurParameters + kLevelParameters;
 constexpr Eigen::Index kRangeTerms = 12;
 constexpr Eigen::Index kBoardTerms = 6;  // Shift (2), normal (1), tilt (2), spin (1).
 
-// Products of Legendre polynomials of total degree two to four, at (x, y) in [−1, 1]².
-void legendre_products(double x, double y, double* out) {
-  const auto series = [](double t, std::array<double, 5>& p) {
-    p = {1.0, t, 0.5 * (3 * t * t - 1), 0.5 * (5 * t * t * t - 3 * t),
-         0.125 * (35 * t * t * t * t - 30 * t * t + 3)};
-  };
-  std::array<double, 5> px{};
-  std::array<double, 5> py{};
-  series(x, px);
-  series(y, py);
-  for (std::size_t degree = 2; degree < 5; ++degree) {
-    for (std::size_t i = 0; i <= degree; ++i) *out++ = px[i] * py[degree - i];
-  }
-}
-
 // Where everything of one scene stands among the LiDAR's unknowns: pose of the board in the LiDAR
 // frame (6), blur (3), levels (4), shared errors.
 struct Layout {
@@ -57,28 +43,18 @@ struct Layout {
   Eigen::Index line_range = -1;
   Eigen::Index corner_group = -1;  // Behind the LiDAR's.
   Eigen::Index corner_groups = 0;
-  int patches_x = 0, patches_y = 0;
+  BoardPatches patches;
   std::map<int, int> corner_group_of;  // feature → group
   std::map<std::uint16_t, int> line_of;
   SharedErrorColumns columns;
 };
-
-int patch_of(const Layout& layout, const BoardOutline& outline, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d t = (p - outline.lower_left_m).cwiseQuotient(outline.size_m());
-  const int x = std::clamp(static_cast<int>(t.x() * layout.patches_x), 0, layout.patches_x - 1);
-  const int y = std::clamp(static_cast<int>(t.y() * layout.patches_y), 0, layout.patches_y - 1);
-  return y * layout.patches_x + x;
-}
 
 Layout make_layout(const ForwardScene& scene, const BoardReturns& returns,
                    const BlurredPrint& print, const LinearizationOptions& options) {
   Layout layout;
   if (!options.shared_errors) return layout;
   const BoardOutline& outline = print.outline();
-  layout.patches_x =
-      std::max(1, static_cast<int>(std::ceil(outline.size_m().x() / options.patch_m)));
-  layout.patches_y =
-      std::max(1, static_cast<int>(std::ceil(outline.size_m().y() / options.patch_m)));
+  layout.patches = BoardPatches(outline, options.patch_m);
   const auto place = [&](SharedError kind, Eigen::Index count) {
     const auto k = static_cast<std::size_t>(kind);
     layout.columns.first[k] = layout.size - kLidarFixed;
@@ -104,13 +80,13 @@ Layout make_layout(const ForwardScene& scene, const BoardReturns& returns,
   layout.range_shape = place(SharedError::kRangeShape, kRangeTerms);
   layout.line_range = place(SharedError::kLineRange, lines);
   if (returns.has_intensity) {
-    layout.print_patch = place(SharedError::kPrintPatch,
-                               2 * static_cast<Eigen::Index>(layout.patches_x * layout.patches_y));
+    layout.print_patch =
+        place(SharedError::kPrintPatch, 2 * static_cast<Eigen::Index>(layout.patches.count()));
     layout.line_gain = place(SharedError::kLineGain, lines);
   }
   const bool tags = print.target().has_tags();
   for (const CornerObservation& c : scene.corners) {
-    const int feature = tags ? c.feature_id : patch_of(layout, outline, c.board_m);
+    const int feature = tags ? c.feature_id : layout.patches.of(outline, c.board_m);
     layout.corner_group_of.try_emplace(feature, static_cast<int>(layout.corner_group_of.size()));
   }
   layout.corner_groups = static_cast<Eigen::Index>(layout.corner_group_of.size());
@@ -190,17 +166,6 @@ double blended(double white, double black, double share) {
   return std::exp(share * std::log(white) + (1.0 - share) * std::log(black));
 }
 
-// Left perturbation of lidar_from_board by a motion (t, ω) along the board's axes about its middle.
-Eigen::Matrix<double, 6, kBoardTerms> board_motion(const Rigid3& lidar_from_board,
-                                                   const Eigen::Vector2d& center_m) {
-  const Eigen::Matrix3d axes = lidar_from_board.rotation.toRotationMatrix();
-  const Eigen::Vector3d middle =
-      lidar_from_board * Eigen::Vector3d(center_m.x(), center_m.y(), 0.0);
-  Eigen::Matrix<double, 6, kBoardTerms> motion;
-  motion << axes, skew(middle) * axes, Eigen::Matrix3d::Zero(), axes;
-  return motion;
-}
-
 class LidarRows {
  public:
   LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
@@ -247,10 +212,10 @@ class LidarRows {
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.range_by_pose(i));
     if (layout_.range_shape >= 0) {
       const Eigen::Vector2d at = (p.board_m - center_).cwiseQuotient(half_);
-      std::array<double, kRangeTerms> terms{};
-      legendre_products(at.x(), at.y(), terms.data());
-      for (std::size_t i = 0; i < terms.size(); ++i)
-        row.add(layout_.range_shape + static_cast<Eigen::Index>(i), terms[i]);
+      BoardPolynomials terms{};
+      board_polynomials(at, terms);
+      for (Eigen::Index i = 0; i < kRangeTerms; ++i)
+        row.add(layout_.range_shape + i, terms[static_cast<std::size_t>(3 + i)]);
       if (const int line = line_of(k); line >= 0) row.add(layout_.line_range + line, 1.0);
     }
     e -= row.times(shared_) + p.range_by_pose * board_;
@@ -277,7 +242,7 @@ class LidarRows {
       row.add(6 + kBlurParameters + i, p.intensity_by_levels(i));
     if (layout_.print_patch >= 0) {
       const Eigen::Index patch =
-          layout_.print_patch + 2 * patch_of(layout_, print_.outline(), p.board_m);
+          layout_.print_patch + 2 * layout_.patches.of(print_.outline(), p.board_m);
       row.add(patch, p.intensity_by_shift(0));
       row.add(patch + 1, p.intensity_by_shift(1));
       if (const int line = line_of(k); line >= 0) row.add(layout_.line_gain + line, p.intensity);
@@ -409,7 +374,7 @@ void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrin
     Eigen::Vector2d e = c.pixel - *pixel;
     Eigen::Index at = -1;
     if (layout.corner_group >= 0) {
-      const int feature = tags ? c.feature_id : patch_of(layout, print.outline(), c.board_m);
+      const int feature = tags ? c.feature_id : layout.patches.of(print.outline(), c.board_m);
       const Eigen::Index own =
           layout.corner_group - kLidarFixed + 2 * layout.corner_group_of.at(feature);
       if (own + 1 < out.shared.size()) e -= out.shared.segment<2>(own);

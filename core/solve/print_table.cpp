@@ -318,30 +318,6 @@ class SceneRows {
   bool has_intensity_ = false;
 };
 
-void add_corners(const SceneMeasurements& input, int scene, const ModelState& state,
-                 double sigma_px, MeasurementTable& table) {
-  TableScene& out = table.scenes[static_cast<std::size_t>(scene)];
-  const Rigid3& camera_from_board = state.camera_from_board[static_cast<std::size_t>(scene)];
-  for (const CornerObservation& c : input.corners) {
-    CornerRow row;
-    row.scene = scene;
-    row.feature = c.feature_id;
-    row.corner = c.corner;
-    row.board_m = c.board_m;
-    row.pixel = c.pixel;
-    row.sigma_px = sigma_px;
-    if (const auto tag = table.target.tag(c.feature_id); table.target.has_tags() && tag) {
-      row.from_tag_m = c.board_m - tag->center_m;
-      const auto center = table.camera.project(
-          camera_from_board * Eigen::Vector3d(tag->center_m.x(), tag->center_m.y(), 0.0));
-      if (center) row.from_tag_px = c.pixel - *center;
-    }
-    if (std::find(out.features.begin(), out.features.end(), c.feature_id) == out.features.end())
-      out.features.push_back(c.feature_id);
-    table.corner.push_back(row);
-  }
-}
-
 // The joint solve's variances by the groups of the search; what was not admitted there stays
 // absent.
 std::vector<double> structure_variances(const ForwardNoise& noise) {
@@ -436,14 +412,6 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
                              const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
                              const ModelState& state, const ForwardNoise& noise, double sigma_px,
                              const TableOptions& options, const RunContext& context) {
-  return make_table(scenes, print, camera, state, noise, sigma_px, options, context, nullptr, {});
-}
-
-MeasurementTable lasting_print_table(const std::vector<SceneMeasurements>& scenes,
-                                     const std::shared_ptr<const BlurredPrint>& print,
-                                     const Camera& camera, const ModelState& state,
-                                     const ForwardNoise& noise, double sigma_px,
-                                     const TableOptions& options, const RunContext& context) {
   const auto kept = std::make_shared<KeptScenes>();
   kept->scenes = scenes;
   for (const SceneMeasurements& scene : scenes) kept->clouds.push_back(*scene.board_points);

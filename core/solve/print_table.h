@@ -24,11 +24,4 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
                              const ModelState& state, const ForwardNoise& noise, double sigma_px,
                              const TableOptions& options, const RunContext& context);
 
-/// A table that can be made again (see MeasurementTable::again): keeps copies of the clouds.
-MeasurementTable lasting_print_table(const std::vector<SceneMeasurements>& scenes,
-                                     const std::shared_ptr<const BlurredPrint>& print,
-                                     const Camera& camera, const ModelState& state,
-                                     const ForwardNoise& noise, double sigma_px,
-                                     const TableOptions& options, const RunContext& context);
-
 }  // namespace lvcalib
