@@ -495,7 +495,29 @@ class ForwardSolver {
       inflation = std::max(inflation, scene.noise.intensity_inflation);
     }
     solution_.print_size = combined_print_size(sizes);
+    overrule_print_size();
     solution_.lattice_margin /= inflation;
+  }
+
+  // A print of quite another size is matched anywhere; what its returns then say of the size is
+  // chance. Where the boards stand says it roughly, but whatever the match. A wrong focal length
+  // shows there, too: a print that explains its intensities is believed.
+  void overrule_print_size() {
+    std::vector<Rigid3> by_camera;
+    std::vector<Rigid3> by_lidar;
+    std::vector<double> left;
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      by_camera.push_back(scenes_[s].camera_from_board);
+      by_lidar.push_back(scenes_[s].lidar_from_board);
+      left.push_back(solution_.scenes[s].intensity_left);
+    }
+    const PrintSize places = size_from_places(by_camera, by_lidar, state().camera_from_lidar,
+                                              print_.outline().center_m());
+    constexpr double kClear = 4.0;
+    constexpr double kUnexplained = 0.5;
+    if (!places.measured || std::abs(places.scale(0) - 1.0) < kClear * places.sigma(0)) return;
+    if (!solution_.print_size.measured || median(left) > kUnexplained)
+      solution_.print_size = places;
   }
 
   // Share of sixteen parts of the board with at least a fifth of the returns that the fuller half

@@ -174,6 +174,35 @@ PrintSize measure_print_size(const BoardReturns& returns, const BlurredPrint& pr
   return SizeFit(returns, print, lidar_from_board, levels, beam, noise).run();
 }
 
+PrintSize size_from_places(const std::vector<Rigid3>& camera_from_board,
+                           const std::vector<Rigid3>& lidar_from_board,
+                           const Rigid3& camera_from_lidar, const Eigen::Vector2d& center_m) {
+  PrintSize out;
+  const std::size_t n = camera_from_board.size();
+  if (n < 3) return out;
+  const Eigen::Vector3d middle(center_m.x(), center_m.y(), 0.0);
+  const auto columns = static_cast<Eigen::Index>(n);
+  Eigen::Matrix3Xd by_camera(3, columns);
+  Eigen::Matrix3Xd by_lidar(3, columns);
+  for (std::size_t s = 0; s < n; ++s) {
+    const auto k = static_cast<Eigen::Index>(s);
+    by_camera.col(k) = camera_from_lidar.rotation.inverse() * (camera_from_board[s] * middle);
+    by_lidar.col(k) = lidar_from_board[s] * middle;
+  }
+  by_camera.colwise() -= by_camera.rowwise().mean().eval();
+  by_lidar.colwise() -= by_lidar.rowwise().mean().eval();
+  const double spread = by_camera.squaredNorm();
+  if (!(spread > 0.0)) return out;
+  const double scale = by_camera.cwiseProduct(by_lidar).sum() / spread;
+  // Three coordinates a board less one translation and one scale.
+  const double dof = 3.0 * static_cast<double>(n) - 4.0;
+  const double variance = (by_lidar - scale * by_camera).squaredNorm() / (dof - 2.0);
+  out.scale.setConstant(scale);
+  out.sigma.setConstant(std::sqrt(variance / spread));
+  out.measured = out.sigma.allFinite() && out.sigma(0) > 0.0 && out.sigma(0) < kLargestSigma;
+  return out;
+}
+
 PrintSize combined_print_size(const std::vector<PrintSize>& scenes) {
   PrintSize out;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {

@@ -27,6 +27,14 @@ PrintSize measure_print_size(const BoardReturns& returns, const BlurredPrint& pr
                              const Rigid3& lidar_from_board, const BoardLevels& levels,
                              const BeamSpread& beam, const SceneNoise& noise);
 
+/// Size of the board from where it stands alone, however wrong the print was matched: the camera's
+/// distances between boards are as wrong as the size that they were computed with, the LiDAR's are
+/// not. One number for both axes; σ from what the boards' middles scatter, Student's included. Not
+/// measured with fewer than three boards, or where they stand too close to each other to tell 5 %.
+PrintSize size_from_places(const std::vector<Rigid3>& camera_from_board,
+                           const std::vector<Rigid3>& lidar_from_board,
+                           const Rigid3& camera_from_lidar, const Eigen::Vector2d& center_m);
+
 /// Mean over scenes by their weights, its σ widened by what they scatter beyond their own.
 PrintSize combined_print_size(const std::vector<PrintSize>& scenes);
 

@@ -149,7 +149,33 @@ TEST(ForwardSolver, EveryKindOfBoardIsFoundAndMeasured) {
   }
 }
 
-// The print is drawn one per cent smaller along x and eight per cent larger along y than told.
+TEST(PrintSize, FollowsFromWhereBoardsStandHoweverThePrintIsMatched) {
+  const ForwardRig rig = forward_rig(options(65, LidarKind::kAvia, 5));
+  Random random(5);
+  double squares = 0.0;
+  constexpr int kTrials = 200;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<Rigid3> by_camera;
+    std::vector<Rigid3> by_lidar;
+    for (const ForwardScene& scene : rig.scenes) {
+      // The camera took boards of 90 % of their size for whole ones, the LiDAR found them to 1 cm.
+      by_camera.push_back(scene.camera_from_board);
+      by_camera.back().translation /= 0.9;
+      by_lidar.push_back(scene.lidar_from_board);
+      by_lidar.back().translation +=
+          0.01 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    }
+    const PrintSize size = size_from_places(by_camera, by_lidar, rig.camera_from_lidar, {0, 0});
+    ASSERT_TRUE(size.measured);
+    EXPECT_NEAR(size.scale.x(), 0.9, 0.05);
+    squares += std::pow((size.scale.x() - 0.9) / size.sigma.x(), 2);
+  }
+  EXPECT_NEAR(squares / kTrials, 1.0, 0.4);
+  EXPECT_FALSE(size_from_places({}, {}, {}, {0, 0}).measured);
+  const std::vector<Rigid3> same(4, rig.lidar_from_board.front());
+  EXPECT_FALSE(size_from_places(same, same, {}, {0, 0}).measured);
+}
+
 TEST(ForwardSolver, IntensitiesThatDoNotShowThePrintAreLeftOut) {
   ForwardRig rig = forward_rig(options(63, LidarKind::kAvia, 4));
   Random random(4);
