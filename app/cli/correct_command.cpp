@@ -11,7 +11,7 @@
 namespace lvcalib::cli {
 namespace {
 
-struct Options {
+struct CorrectArguments {
   std::string cloud;
   std::string result;
   std::string output;
@@ -60,7 +60,8 @@ std::string summary_text(const CorrectionSummary& summary, const std::string& ou
          (left.empty() ? "" : "; left: " + left) + " -> " + output;
 }
 
-void warn(const CorrectionSummary& summary, const Options& options, const Session& session) {
+void warn(const CorrectionSummary& summary, const CorrectArguments& options,
+          const Session& session) {
   if (summary.effects.empty()) {
     session.warn(options.result +
                  ": its model holds no effects; the cloud is written as it is (lvcalib discover "
@@ -84,7 +85,7 @@ void warn(const CorrectionSummary& summary, const Options& options, const Sessio
   }
 }
 
-Result<std::string> run(const Options& options, Session& session) {
+Result<std::string> run(const CorrectArguments& options, Session& session) {
   for (const std::string& input : {options.cloud, options.result}) {
     if (Status s = refuse_overwriting(options.output, input); !s) return s.error();
   }
@@ -109,7 +110,7 @@ Result<std::string> run(const Options& options, Session& session) {
 }  // namespace
 
 Command add_correct_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CorrectArguments>();
   CLI::App* command =
       app.add_subcommand("correct", "Take the effects found by discover out of a cloud");
   command->add_option("CLOUD", options->cloud, "cloud.pcd or .ply of the same LiDAR")->required();

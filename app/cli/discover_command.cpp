@@ -13,7 +13,7 @@
 namespace lvcalib::cli {
 namespace {
 
-struct Options {
+struct DiscoverArguments {
   CalibrationArguments calibration;
   std::optional<int> max_effects;
   std::vector<std::string> with;
@@ -44,7 +44,7 @@ std::string summary_of(const Discovery& discovery, const std::string& output) {
   return text + part + " -> " + output;
 }
 
-Result<std::string> run(const Options& options, Session& session) {
+Result<std::string> run(const DiscoverArguments& options, Session& session) {
   const std::string& output = options.calibration.output;
   if (Status s = check_wanted(options.with); !s) return s.error();
   auto result = run_calibration(options.calibration, session);
@@ -75,7 +75,7 @@ Result<std::string> run(const Options& options, Session& session) {
 }  // namespace
 
 Command add_discover_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiscoverArguments>();
   CLI::App* command =
       app.add_subcommand("discover", "Find which physical effects the model of a dataset misses");
   add_calibration_arguments(*command, options->calibration,

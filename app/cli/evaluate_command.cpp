@@ -7,12 +7,12 @@
 namespace lvcalib::cli {
 namespace {
 
-struct Options {
+struct EvaluateArguments {
   std::string result;
   std::string truth;
 };
 
-Result<std::string> run(const Options& options) {
+Result<std::string> run(const EvaluateArguments& options) {
   auto estimate = read_result(options.result);
   if (!estimate) return estimate.error();
   auto truth = read_truth(options.truth);
@@ -36,7 +36,7 @@ Result<std::string> run(const Options& options) {
 }  // namespace
 
 Command add_evaluate_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvaluateArguments>();
   CLI::App* command = app.add_subcommand("evaluate", "Compare a result with a simulation's truth");
   command->add_option("RESULT", options->result, "result.json")->required();
   command->add_option("--truth", options->truth, "truth.json")->required();

@@ -8,14 +8,14 @@
 namespace lvcalib::cli {
 namespace {
 
-struct Options {
+struct ExportArguments {
   std::string result;
   std::string format;
   std::string output;
   std::string imu;
 };
 
-Result<std::string> run(const Options& options) {
+Result<std::string> run(const ExportArguments& options) {
   for (const std::string& input : {options.result, options.imu}) {
     if (Status s = refuse_overwriting(options.output, input); !s) return s.error();
   }
@@ -42,7 +42,7 @@ std::string format_list() {
 }  // namespace
 
 Command add_export_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand("export", "Write a result in another tool's format");
   command->add_option("RESULT", options->result, "result.json")->required();
   command->add_option("--format", options->format, format_list())->required();

@@ -17,7 +17,7 @@ namespace lvcalib::cli {
 namespace {
 namespace fs = std::filesystem;
 
-struct Options {
+struct ImportArguments {
   std::string recording;
   std::string output;
   bool list = false;
@@ -87,7 +87,7 @@ Result<std::vector<double>> scene_times(const std::string& text) {
 }
 
 // --target, or a target.yaml that lies with the recording.
-fs::path target_path(const Options& options) {
+fs::path target_path(const ImportArguments& options) {
   if (!options.target.empty()) return options.target;
   std::error_code code;
   const fs::path recording = options.recording;
@@ -98,7 +98,7 @@ fs::path target_path(const Options& options) {
 
 // The board that the dataset will name, the default one if none is given. Stretches without it are
 // left out.
-Status set_target(const Options& options, Session& session, ImportOptions& out) {
+Status set_target(const ImportArguments& options, Session& session, ImportOptions& out) {
   const fs::path path = target_path(options);
   Target target;
   out.board_is_certain = !path.empty();
@@ -149,7 +149,7 @@ void tell_stretches(const ImportSummary& summary, const Session& session) {
   }
 }
 
-Result<std::string> run(const Options& options, Session& session) {
+Result<std::string> run(const ImportArguments& options, Session& session) {
   if (!options.list && options.output.empty()) {
     return Error::usage("-o,--output is missing", "import",
                         "give a folder for the dataset, or --list to look only");
@@ -180,7 +180,7 @@ Result<std::string> run(const Options& options, Session& session) {
 }  // namespace
 
 Command add_import_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportArguments>();
   ImportOptions& import = options->import;
   CLI::App* command =
       app.add_subcommand("import", "Make a dataset of a recording (ROS 1 bag, rosbag2, MCAP)");

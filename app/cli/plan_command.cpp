@@ -9,7 +9,7 @@
 namespace lvcalib::cli {
 namespace {
 
-struct Options {
+struct PlanArguments {
   std::string target;
   std::string camera;
   std::string lidar;
@@ -31,7 +31,7 @@ std::string summary_of(const ScenePlan& plan, const std::string& output) {
   return text + " -> " + output;
 }
 
-Result<std::string> run(const Options& options, Session& session) {
+Result<std::string> run(const PlanArguments& options, Session& session) {
   const auto target = read_target(options.target);
   if (!target) return target.error();
   const auto camera = read_camera(options.camera);
@@ -52,7 +52,7 @@ Result<std::string> run(const Options& options, Session& session) {
 }  // namespace
 
 Command add_plan_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanArguments>();
   CLI::App* command = app.add_subcommand("plan", "Propose board poses worth taking");
   command->add_option("--target", options->target, "target.yaml")->required();
   command->add_option("--camera", options->camera, "camera.yaml")->required();

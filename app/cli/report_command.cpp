@@ -6,12 +6,12 @@
 namespace lvcalib::cli {
 namespace {
 
-struct Options {
+struct ReportArguments {
   std::string folder;
   std::string output;
 };
 
-Result<std::string> run(const Options& options, Session& session) {
+Result<std::string> run(const ReportArguments& options, Session& session) {
   auto report = html_report(options.folder, session.context);
   if (!report) return report.error();
   if (session.context.stopped()) return Error::cancelled();
@@ -23,7 +23,7 @@ Result<std::string> run(const Options& options, Session& session) {
 }  // namespace
 
 Command add_report_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   CLI::App* command =
       app.add_subcommand("report", "Write a calibration as one self-contained HTML file");
   command->add_option("OUT", options->folder, "folder with result.json")->required();

@@ -35,7 +35,7 @@ const std::map<std::string, DistortionModel>& camera_models() {
   return models;
 }
 
-struct Options {
+struct SimulateArguments {
   SimulationOptions simulation;
   std::string lidar = "avia";
   std::string camera_model = "plumb_bob";
@@ -97,7 +97,7 @@ Status read_effects(const std::vector<std::string>& texts, std::map<std::string,
   return Done{};
 }
 
-Result<SimulationOptions> complete(const Options& options, const Session& session) {
+Result<SimulationOptions> complete(const SimulateArguments& options, const Session& session) {
   SimulationOptions out = options.simulation;
   out.placement.board = !options.absent;
   out.lidar.kind = lidar_kinds().at(options.lidar);
@@ -114,7 +114,7 @@ Result<SimulationOptions> complete(const Options& options, const Session& sessio
   return out;
 }
 
-Result<std::string> run(const Options& options, Session& session) {
+Result<std::string> run(const SimulateArguments& options, Session& session) {
   const auto complete_options = complete(options, session);
   if (!complete_options) return complete_options.error();
   const auto simulator = simulation::Simulator::create(*complete_options);
@@ -132,7 +132,7 @@ Result<std::string> run(const Options& options, Session& session) {
          ", truth in " + writer->truth_path().filename().string();
 }
 
-void add_scene_options(CLI::App& command, Options& options) {
+void add_scene_options(CLI::App& command, SimulateArguments& options) {
   auto& placement = options.simulation.placement;
   command.add_option("--target", options.target_path, "target.yaml of the board");
   command.add_option("--distance", options.distance_m,
@@ -151,7 +151,7 @@ void add_scene_options(CLI::App& command, Options& options) {
   command.add_flag("--on-wall", placement.flush_on_wall, "the board flush on a wall");
 }
 
-void add_sensor_options(CLI::App& command, Options& options) {
+void add_sensor_options(CLI::App& command, SimulateArguments& options) {
   auto& lidar = options.simulation.lidar;
   auto& image = options.simulation.image;
   command.add_option("--lidar", options.lidar, "rosette, avia or spinning")
@@ -190,7 +190,7 @@ std::string effect_table() {
 }  // namespace
 
 Command add_simulate_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateArguments>();
   CLI::App* command =
       app.add_subcommand("simulate", "Make a dataset whose true calibration is known");
   command

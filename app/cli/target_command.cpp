@@ -12,7 +12,7 @@
 namespace lvcalib::cli {
 namespace {
 
-struct Options {
+struct TargetArguments {
   std::string target_path;
   std::string output;
   SheetOptions sheet;
@@ -29,7 +29,7 @@ Result<SheetFormat> format_of(const std::string& path) {
                       "end the name in .pdf, .svg or .png");
 }
 
-Result<Target> load_target(const Options& options, const Session& session) {
+Result<Target> load_target(const TargetArguments& options, const Session& session) {
   if (options.target_path.empty()) return Target{};
   auto file = read_target(options.target_path);
   if (!file) return file.error();
@@ -37,7 +37,7 @@ Result<Target> load_target(const Options& options, const Session& session) {
   return file->target;
 }
 
-Result<std::string> run(const Options& options, Session& session) {
+Result<std::string> run(const TargetArguments& options, Session& session) {
   const auto format = format_of(options.output);
   if (!format) return format.error();
   const auto target = load_target(options, session);
@@ -60,7 +60,7 @@ Result<std::string> run(const Options& options, Session& session) {
 }  // namespace
 
 Command add_target_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TargetArguments>();
   CLI::App* command = app.add_subcommand("target", "Draw the board for printing, exactly to scale");
   command->add_option("TARGET", options->target_path,
                       "target.yaml of the board; without it, the default board");

@@ -8,7 +8,7 @@
 
 #include "report/result_file.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::about_dialog_test {
 namespace {
 
 TEST(AboutDialog, NamesVersionAndLicenceAndGoesWhenClosed) {
@@ -22,4 +22,4 @@ TEST(AboutDialog, NamesVersionAndLicenceAndGoesWhenClosed) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::about_dialog_test

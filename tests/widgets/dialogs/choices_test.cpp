@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::choices_test {
 namespace {
 
 // Presses a button of the message box that is about to open.
@@ -42,4 +42,4 @@ TEST(Choices, RecoveryAndMovedDatasetsCanBeDeclined) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::choices_test

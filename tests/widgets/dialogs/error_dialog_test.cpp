@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::error_dialog_test {
 namespace {
 
 TEST(ErrorDialog, NamesFileAndWayOutAndCopiesTheCommandLinesMessage) {
@@ -30,4 +30,4 @@ TEST(ErrorDialog, NamesFileAndWayOutAndCopiesTheCommandLinesMessage) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::error_dialog_test

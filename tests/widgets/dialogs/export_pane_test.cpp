@@ -15,7 +15,7 @@
 
 #include "base/file_io.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::export_pane_test {
 namespace {
 
 class Answers : public Choices {
@@ -120,4 +120,4 @@ TEST_F(ExportPaneTest, AResultWithoutBoundaryResponseSaysWhy) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::export_pane_test

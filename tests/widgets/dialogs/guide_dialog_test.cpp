@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::guide_dialog_test {
 namespace {
 
 TEST(GuideDialog, LeadsFromTheBoardToTheResultAndCloses) {
@@ -21,4 +21,4 @@ TEST(GuideDialog, LeadsFromTheBoardToTheResultAndCloses) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::guide_dialog_test

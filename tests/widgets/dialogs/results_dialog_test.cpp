@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::results_dialog_test {
 namespace {
 
 CalibrationResult example() {
@@ -44,4 +44,4 @@ TEST(ResultsDialog, TheMatrixHasItsRowsInOrder) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::results_dialog_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::log_dock_test {
 namespace {
 
 TEST(LogDock, KeepsTheLatestLines) {
@@ -17,4 +17,4 @@ TEST(LogDock, KeepsTheLatestLines) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::log_dock_test

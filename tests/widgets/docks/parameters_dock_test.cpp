@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::parameters_dock_test {
 namespace {
 
 class ParametersDockTest : public ::testing::Test {
@@ -81,4 +81,4 @@ TEST_F(ParametersDockTest, ChangedOptionsCanBeResetOneByOneAndTogether) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::parameters_dock_test

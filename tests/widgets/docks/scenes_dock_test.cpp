@@ -10,7 +10,7 @@
 
 #include "models/scene_model.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::scenes_dock_test {
 namespace {
 
 class ScenesDockTest : public ::testing::Test {
@@ -85,4 +85,4 @@ TEST_F(ScenesDockTest, SortsByAnyColumn) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::scenes_dock_test

@@ -15,7 +15,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::add_effect_dialog_test {
 namespace {
 
 class Dialog : public ::testing::Test {
@@ -86,4 +86,4 @@ TEST_F(Dialog, ANewLanguageKeepsTheChoice) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::add_effect_dialog_test

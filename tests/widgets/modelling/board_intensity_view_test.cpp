@@ -7,7 +7,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::board_intensity_view_test {
 namespace {
 
 int colours(QWidget& widget) {
@@ -43,4 +43,4 @@ TEST(BoardIntensityViewTest, FlickersBetweenMeasuredAndPredicted) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::board_intensity_view_test

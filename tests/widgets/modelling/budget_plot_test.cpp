@@ -5,7 +5,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::budget_plot_test {
 namespace {
 
 const ChannelSummary& range_of(const ModelStep& step) {
@@ -59,4 +59,4 @@ TEST(BudgetPlotTest, IsEmptyWithoutSteps) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::budget_plot_test

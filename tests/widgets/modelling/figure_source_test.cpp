@@ -7,7 +7,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::figure_source_test {
 namespace {
 
 class Source : public ::testing::Test {
@@ -80,4 +80,4 @@ TEST_F(Source, WithoutAStepNothingIsAnswered) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::figure_source_test

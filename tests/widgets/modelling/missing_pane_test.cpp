@@ -10,7 +10,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::missing_pane_test {
 namespace {
 
 TEST(MissingPaneTest, TheTopSuggestionIsChosenAndExplained) {
@@ -79,4 +79,4 @@ TEST(MissingPaneTest, WhatCannotBeSeenIsListedByWhatItCouldDo) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::missing_pane_test

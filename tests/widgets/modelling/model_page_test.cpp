@@ -13,7 +13,7 @@
 #include "runner/model_work.h"
 #include "runner/workspace.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::model_page_test {
 namespace {
 
 TEST(ModelPageTest, WithoutACalibrationItSaysWhatToDo) {
@@ -35,4 +35,4 @@ TEST(ModelPageTest, WithoutACalibrationItSaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::model_page_test

@@ -5,7 +5,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::model_text_test {
 namespace {
 
 TEST(ModelText, ValuesHaveTheirUnitsAndDeviations) {
@@ -34,4 +34,4 @@ TEST(ModelText, StepsSayWhatWasDone) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::model_text_test

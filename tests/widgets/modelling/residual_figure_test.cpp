@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::residual_figure_test {
 namespace {
 
 std::shared_ptr<const ChannelView> range_view() {
@@ -104,4 +104,4 @@ TEST(ResidualFigureTest, AMillionResidualsAreDrawnInAFractionOfASecond) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::residual_figure_test

@@ -5,7 +5,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::residual_map_plot_test {
 namespace {
 
 std::shared_ptr<const ChannelView> view(Channel channel) {
@@ -44,4 +44,4 @@ TEST(ResidualMapPlotTest, SaysWhereThereIsNoMap) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::residual_map_plot_test

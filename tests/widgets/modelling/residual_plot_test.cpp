@@ -5,7 +5,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::residual_plot_test {
 namespace {
 
 std::shared_ptr<const ResidualFigure> figure(const QString& covariate) {
@@ -75,4 +75,4 @@ TEST(ResidualPlotTest, SelectedResidualsAreDrawnAndForgottenWithTheirFigure) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::residual_plot_test

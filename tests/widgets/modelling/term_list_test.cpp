@@ -8,7 +8,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::term_list_test {
 namespace {
 
 class Terms : public ::testing::Test {
@@ -75,4 +75,4 @@ TEST_F(Terms, RemovesTheChosenOneAndNothingWhileBusy) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::term_list_test

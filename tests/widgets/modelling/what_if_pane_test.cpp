@@ -9,7 +9,7 @@
 
 #include "model_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::what_if_pane_test {
 namespace {
 
 TEST(WhatIfPaneTest, ASliderScalesThePatternOfAnEffect) {
@@ -52,4 +52,4 @@ TEST(WhatIfPaneTest, EffectsWithSeveralParametersShowThem) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::what_if_pane_test

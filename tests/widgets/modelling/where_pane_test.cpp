@@ -10,7 +10,7 @@
 #include "model_example.h"
 #include "modelling/residual_plot.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::where_pane_test {
 namespace {
 
 class Where : public ::testing::Test {
@@ -111,4 +111,4 @@ TEST_F(Where, WithoutAModelItSaysWhy) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::where_pane_test

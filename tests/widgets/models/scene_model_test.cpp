@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::scene_model_test {
 namespace {
 
 class SceneModelTest : public ::testing::Test {
@@ -96,4 +96,4 @@ TEST_F(SceneModelTest, ThumbnailsStayWithTheirScenes) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::scene_model_test

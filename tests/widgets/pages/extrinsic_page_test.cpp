@@ -12,7 +12,7 @@
 #include "views/cloud_view.h"
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::extrinsic_page_test {
 namespace {
 
 class ExtrinsicPageTest : public ::testing::Test {
@@ -85,4 +85,4 @@ TEST_F(ExtrinsicPageTest, TwoScenesHaveNoInfluenceAndNoResultIsSaid) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::extrinsic_page_test

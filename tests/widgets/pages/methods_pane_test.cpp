@@ -9,7 +9,7 @@
 #include "views/category_plots.h"
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::methods_pane_test {
 namespace {
 
 TEST(MethodTitle, NamesOfTheComparisonInWords) {
@@ -64,4 +64,4 @@ TEST(MethodsPane, WhatIsMissingIsSaid) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::methods_pane_test

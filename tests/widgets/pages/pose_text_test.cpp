@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::pose_text_test {
 namespace {
 
 CalibrationResult example() {
@@ -57,4 +57,4 @@ TEST(PoseText, GimbalLockIsSaid) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::pose_text_test

@@ -14,7 +14,7 @@
 #include "views/convergence_plot.h"
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::refinement_page_test {
 namespace {
 
 class RefinementPageTest : public ::testing::Test {
@@ -158,4 +158,4 @@ TEST_F(RefinementPageTest, UpdatesFastEnoughToBeLive) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::refinement_page_test

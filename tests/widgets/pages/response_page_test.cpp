@@ -12,7 +12,7 @@
 #include "views/sample_map_plot.h"
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::response_page_test {
 namespace {
 
 class ResponsePageTest : public ::testing::Test {
@@ -111,4 +111,4 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::response_page_test

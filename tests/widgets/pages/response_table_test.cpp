@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::response_table_test {
 namespace {
 
 TEST(ResponseTable, NumbersInDegreesAndMillimetresWithTheirSigma) {
@@ -51,4 +51,4 @@ TEST(ResponseTable, WithoutStatisticsTheReasonStandsInPlaceOfNumbers) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::response_table_test

@@ -7,7 +7,7 @@
 
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::scene_overlay_test {
 namespace {
 
 class SceneOverlayTest : public ::testing::Test {
@@ -93,4 +93,4 @@ TEST_F(SceneOverlayTest, PointsKeepTheirColours) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::scene_overlay_test

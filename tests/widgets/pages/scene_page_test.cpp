@@ -17,7 +17,7 @@
 #include "views/image_view.h"
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::scene_page_test {
 namespace {
 
 class ScenePageTest : public ::testing::Test {
@@ -194,4 +194,4 @@ TEST_F(ScenePageTest, ControlsAreReachableAndExplained) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::scene_page_test

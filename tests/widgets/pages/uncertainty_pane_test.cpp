@@ -8,7 +8,7 @@
 #include "views/uncertainty_plots.h"
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::uncertainty_pane_test {
 namespace {
 
 TEST(UncertaintyPane, WordsAndBothFiguresOfTheResult) {
@@ -29,4 +29,4 @@ TEST(UncertaintyPane, WordsAndBothFiguresOfTheResult) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::uncertainty_pane_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::uncertainty_text_test {
 namespace {
 
 QString text_of(const CalibrationResult& result) {
@@ -55,4 +55,4 @@ TEST(UncertaintyText, TooFewScenesAreSaid) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::uncertainty_text_test

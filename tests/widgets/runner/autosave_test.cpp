@@ -10,7 +10,7 @@
 
 #include "base/file_io.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::autosave_test {
 namespace {
 
 Project example() {
@@ -63,4 +63,4 @@ TEST(Autosave, APlaceThatCannotBeWrittenIsReported) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::autosave_test

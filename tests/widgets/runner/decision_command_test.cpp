@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::decision_command_test {
 namespace {
 
 Decisions with_crops(bool use) {
@@ -48,4 +48,4 @@ TEST(DecisionCommand, OneKeyIsOneDecision) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::decision_command_test

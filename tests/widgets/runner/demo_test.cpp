@@ -8,7 +8,7 @@
 
 #include "pipeline/dataset.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::demo_test {
 namespace {
 
 TEST(Demo, MakesADatasetAndReplacesAnEarlierOne) {
@@ -54,4 +54,4 @@ TEST(Demo, AStopLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::demo_test

@@ -11,7 +11,7 @@
 #include "runner/demo.h"
 #include "runner/workspace.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::model_work_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -180,4 +180,4 @@ TEST_F(Work, WhatCannotBeAddedIsSaid) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::model_work_test

@@ -9,7 +9,7 @@
 
 #include "widgets/support/calibrated_demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::report_writer_test {
 namespace {
 
 class ReportWriterTest : public ::testing::Test {
@@ -58,4 +58,4 @@ TEST_F(ReportWriterTest, CancelledItLeavesNoFile) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::report_writer_test

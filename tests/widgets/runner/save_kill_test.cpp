@@ -14,7 +14,7 @@
 #include "base/random.h"
 #include "pipeline/project_file.h"
 
-namespace lvcalib {
+namespace lvcalib::save_kill_test {
 namespace {
 
 constexpr int kKills = 50;
@@ -84,4 +84,4 @@ TEST(SaveKilled, AProjectIsTheOldOrTheNewOne) {
 }
 
 }  // namespace
-}  // namespace lvcalib
+}  // namespace lvcalib::save_kill_test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::scene_data_test {
 namespace {
 
 class SceneData : public ::testing::Test {
@@ -63,4 +63,4 @@ TEST_F(SceneData, TheLoaderGivesDataThumbnailsAndMessages) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::scene_data_test

@@ -10,7 +10,7 @@
 
 #include "runner/demo.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::workspace_test {
 namespace {
 
 // Decisions about a tiny dataset that is not run.
@@ -104,4 +104,4 @@ TEST_F(WorkspaceTest, SavingMakesCleanAndUndoingThenMakesDirty) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::workspace_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::app_settings_test {
 namespace {
 
 TEST(AppSettings, AreRememberedInTheirFolder) {
@@ -42,4 +42,4 @@ TEST(AppSettings, RecentHasEachPathOnceLatestFirstAndNotTooMany) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::app_settings_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::coach_marks_test {
 namespace {
 
 class Coach : public ::testing::Test {
@@ -63,4 +63,4 @@ TEST_F(Coach, HidesWhileItsTargetIsNotThereAndEndsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::coach_marks_test

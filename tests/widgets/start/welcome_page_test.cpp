@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::welcome_page_test {
 namespace {
 
 TEST(WelcomePage, ButtonsAndRecentPathsAsk) {
@@ -34,4 +34,4 @@ TEST(WelcomePage, ButtonsAndRecentPathsAsk) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::welcome_page_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::marks_test {
 namespace {
 
 TEST(Marks, AreToldApartWithoutColours) {
@@ -42,4 +42,4 @@ TEST(Marks, ToolsAreDrawnAndGreyWhenDisabled) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::marks_test

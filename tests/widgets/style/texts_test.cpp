@@ -15,7 +15,7 @@
 #include "style/core_patterns.h"
 #include "style/model_patterns.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::texts_test {
 namespace {
 
 // A catalogue of the test's own.
@@ -104,4 +104,4 @@ TEST(FollowLanguage, SetsTextsNowAndOnEveryChange) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::texts_test

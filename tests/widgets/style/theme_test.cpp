@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::theme_test {
 namespace {
 
 // Relative luminance contrast as WCAG 2 defines it.
@@ -71,4 +71,4 @@ TEST(Theme, AnEmptyCheckBoxHasAVisibleEdge) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::theme_test

@@ -11,7 +11,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::angle_distance_plot_test {
 namespace {
 
 AngleDistanceData example() {
@@ -120,4 +120,4 @@ TEST(AngleDistancePlot, SavesAllFormats) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::angle_distance_plot_test

@@ -8,7 +8,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::board_map_plot_test {
 namespace {
 
 std::vector<CenterPath> example(const Target& target) {
@@ -68,4 +68,4 @@ TEST(BoardMapPlot, CirclesStayRound) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::board_map_plot_test

@@ -9,7 +9,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::category_plots_test {
 namespace {
 
 TEST(BarPlot, BarsAndClicks) {
@@ -57,4 +57,4 @@ TEST(BoxPlot, EmptySaysWhy) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::category_plots_test

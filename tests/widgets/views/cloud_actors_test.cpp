@@ -11,7 +11,7 @@
 
 #include "views/cloud_pipeline.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::cloud_actors_test {
 namespace {
 
 TEST(CloudActors, PortionsHoldAllPointsInTheirOrder) {
@@ -64,4 +64,4 @@ TEST(CloudActors, FewPointsAreDrawnLarge) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::cloud_actors_test

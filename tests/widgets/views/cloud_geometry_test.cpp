@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::cloud_geometry_test {
 namespace {
 
 TEST(CloudGeometry, BoxToMatrixAndBack) {
@@ -46,4 +46,4 @@ TEST(CloudGeometry, ViewpointsLookAtTheFocusWithAnUpThatIsAcross) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::cloud_geometry_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::cloud_scene_builder_test {
 namespace {
 
 CloudSceneInput input_of(std::size_t points) {
@@ -42,4 +42,4 @@ TEST(CloudSceneBuilder, MayGoInTheMiddleOfTheWork) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::cloud_scene_builder_test

@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "support/synthetic_observations.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::cloud_scene_test {
 namespace {
 
 std::shared_ptr<Cloud> make_cloud(std::size_t points) {
@@ -136,4 +136,4 @@ TEST(CloudScene, AStoppedBuildGivesNothing) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::cloud_scene_test

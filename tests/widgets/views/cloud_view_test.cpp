@@ -17,7 +17,7 @@
 #include "views/cloud_scene_builder.h"
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::cloud_view_test {
 namespace {
 
 // A wall three metres ahead, 4 m × 3 m, its left half of low intensity.
@@ -321,4 +321,4 @@ TEST(CloudViewWithoutOpenGl, ShowsAMessageAndKeepsWorking) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::cloud_view_test

@@ -5,7 +5,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::color_bar_test {
 namespace {
 
 TEST(ColorBar, ShowsTheWholeScaleFromBelowUpwards) {
@@ -44,4 +44,4 @@ TEST(ColorBar, OddScalesAreDrawn) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::color_bar_test

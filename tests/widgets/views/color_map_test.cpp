@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::color_map_test {
 namespace {
 
 double lightness(QRgb color) {
@@ -59,4 +59,4 @@ TEST(ColorScale, OneValueAndNoneAreFine) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::color_map_test

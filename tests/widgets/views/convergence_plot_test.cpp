@@ -8,7 +8,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::convergence_plot_test {
 namespace {
 
 std::vector<IterationRecord> example() {
@@ -59,4 +59,4 @@ TEST(ConvergencePlot, NothingIsSaidToBeNothing) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::convergence_plot_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::crop_form_test {
 namespace {
 
 TEST(CropForm, GivesBackTheBoxItShows) {
@@ -56,4 +56,4 @@ TEST(CropForm, EveryNumberHasANameAndAToolTip) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::crop_form_test

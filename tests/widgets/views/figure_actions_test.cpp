@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::figure_actions_test {
 namespace {
 
 QImage picture() {
@@ -78,4 +78,4 @@ TEST(FigureActions, OffersWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::figure_actions_test

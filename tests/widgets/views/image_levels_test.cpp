@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::image_levels_test {
 namespace {
 
 QImage ramp16() {
@@ -61,4 +61,4 @@ TEST(ImageLevels, AutomaticLevelsEncloseThePixels) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::image_levels_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::image_overlay_test {
 namespace {
 
 QImage painted(const ImageOverlay& overlay, const OverlayParts& parts,
@@ -65,4 +65,4 @@ TEST(ImageOverlay, HighlightsAreRings) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::image_overlay_test

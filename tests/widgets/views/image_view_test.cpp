@@ -10,7 +10,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::image_view_test {
 namespace {
 
 ImageOverlay example() {
@@ -145,4 +145,4 @@ TEST(ImageViewSpeed, ManyPointsPaintFast) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::image_view_test

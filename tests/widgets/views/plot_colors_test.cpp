@@ -7,7 +7,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::plot_colors_test {
 namespace {
 
 // Contrast ratio of WCAG 2.
@@ -38,4 +38,4 @@ TEST(PlotColors, WhatMattersStandsOutInLightAndDark) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::plot_colors_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::point_picking_test {
 namespace {
 
 // A viewer at the origin looking along −z, 90° wide, as OpenGL has it.
@@ -43,4 +43,4 @@ TEST(PointPicking, UpIsUp) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::point_picking_test

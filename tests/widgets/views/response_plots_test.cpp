@@ -8,7 +8,7 @@
 #include "widgets/views/plots_test.h"
 #include "widgets/views/response_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::response_plots_test {
 namespace {
 
 TEST(ResponseScope, ThinsEvenlyAndLeavesRefusedCirclesOut) {
@@ -111,4 +111,4 @@ TYPED_TEST(EveryResponsePlot, SaysWhyThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::response_plots_test

@@ -6,7 +6,7 @@
 #include "widgets/views/plots_test.h"
 #include "widgets/views/response_example.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::sample_map_plot_test {
 namespace {
 
 int refused_circles(const SampleMapPlot& plot) {
@@ -63,4 +63,4 @@ TEST(SampleMapPlot, WithoutSamplesItSaysWhy) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::sample_map_plot_test

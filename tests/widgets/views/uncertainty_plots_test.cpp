@@ -7,7 +7,7 @@
 
 #include "widgets/views/plots_test.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::uncertainty_plots_test {
 namespace {
 
 // Three by two cells that grow to the right; one is behind the camera.
@@ -77,4 +77,4 @@ TEST(UncertaintyRangePlot, ShowsBothCurvesOverTheirRange) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::uncertainty_plots_test

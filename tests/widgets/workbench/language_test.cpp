@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::language_test {
 namespace {
 
 TEST(Language, TheChineseCatalogueIsPartOfTheProgram) {
@@ -21,4 +21,4 @@ TEST(Language, TheChineseCatalogueIsPartOfTheProgram) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::language_test

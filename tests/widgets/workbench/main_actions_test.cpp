@@ -14,7 +14,7 @@
 #include "start/app_settings.h"
 #include "workbench/language.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::main_actions_test {
 namespace {
 
 TEST(MainActions, EveryActionHasTextAndNoShortcutIsTakenTwice) {
@@ -79,4 +79,4 @@ TEST(MainActions, RecentPathsAskToBeOpened) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::main_actions_test

@@ -28,7 +28,7 @@
 #include "support/pose_matchers.h"
 #include "widgets/workbench/main_window_fixture.h"
 
-namespace lvcalib {
+namespace lvcalib::main_window_test {
 namespace {
 
 using test::cell;
@@ -322,4 +322,4 @@ TEST_F(MainWindowTest, ThemesAndLanguagesSwitchWhileOpen) {
 }
 
 }  // namespace
-}  // namespace lvcalib
+}  // namespace lvcalib::main_window_test

@@ -19,7 +19,7 @@
 #include "start/coach_marks.h"
 #include "widgets/support/driver.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::model_flow_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -179,4 +179,4 @@ TEST_F(Flow, WhereNothingIsHiddenThePageSaysSo) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::model_flow_test

@@ -10,7 +10,7 @@
 #include "runner/demo.h"
 #include "widgets/support/driver.h"
 
-namespace lvcalib {
+namespace lvcalib::monkey_test {
 namespace {
 
 using widgets::MainWindow;
@@ -140,4 +140,4 @@ TEST(MonkeyTest, AThousandRandomActionsDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace lvcalib
+}  // namespace lvcalib::monkey_test

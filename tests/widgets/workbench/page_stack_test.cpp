@@ -10,7 +10,7 @@
 #include "pages/scene_page.h"
 #include "start/welcome_page.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::page_stack_test {
 namespace {
 
 TEST(PageStack, ShowsTheWelcomePageFirstAndATabPerPage) {
@@ -66,4 +66,4 @@ TEST(PageStack, LiveRefinementsOfAnyKindAreTakenWithoutHarm) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::page_stack_test

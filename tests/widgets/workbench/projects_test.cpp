@@ -16,7 +16,7 @@
 #include "runner/demo.h"
 #include "widgets/support/driver.h"
 
-namespace lvcalib {
+namespace lvcalib::projects_test {
 namespace {
 
 using test::cell;
@@ -225,4 +225,4 @@ TEST(Victim, DISABLED_WaitsToBeKilled) {
 }
 
 }  // namespace
-}  // namespace lvcalib
+}  // namespace lvcalib::projects_test

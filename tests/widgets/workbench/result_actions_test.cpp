@@ -14,7 +14,7 @@
 #include "widgets/support/calibrated_demo.h"
 #include "widgets/support/driver.h"
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::result_actions_test {
 namespace {
 
 class ResultActionsTest : public ::testing::Test {
@@ -80,4 +80,4 @@ TEST_F(ResultActionsTest, ExportsFromTheDialogAreTold) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::result_actions_test

@@ -20,7 +20,7 @@
 #include "widgets/workbench/main_window_fixture.h"
 #include "workbench/language.h"
 
-namespace lvcalib {
+namespace lvcalib::retranslation_test {
 namespace {
 
 using test::find;
@@ -198,4 +198,4 @@ TEST(EnglishWords, AreFoundBesideNamesAndNumbers) {
 }
 
 }  // namespace
-}  // namespace lvcalib
+}  // namespace lvcalib::retranslation_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lvcalib::widgets {
+namespace lvcalib::widgets::status_line_test {
 namespace {
 
 TEST(StatusLine, ShowsStageFractionAndTextOnlyWhileSomethingRuns) {
@@ -39,4 +39,4 @@ TEST(StatusLine, SaysWhenTheQualityIsOfOlderDecisions) {
 }
 
 }  // namespace
-}  // namespace lvcalib::widgets
+}  // namespace lvcalib::widgets::status_line_test

@@ -7,7 +7,7 @@
 
 #include "widgets/workbench/main_window_fixture.h"
 
-namespace lvcalib {
+namespace lvcalib::window_speed_test {
 namespace {
 
 using test::MainWindowTest;
@@ -63,4 +63,4 @@ TEST_F(MainWindowTest, TheWindowNeverFreezes) {
 }
 
 }  // namespace
-}  // namespace lvcalib
+}  // namespace lvcalib::window_speed_test
