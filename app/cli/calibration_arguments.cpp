@@ -5,9 +5,29 @@
 #include <array>
 
 #include "base/file_io.h"
+#include "base/yaml_file.h"
 
 namespace lvcalib::cli {
 namespace {
+
+// "MM,MRAD" into the options. Who names a tolerance means it, whatever the standard deviation.
+Status read_tolerance(const std::string& text, QualityOptions& quality) {
+  const std::size_t comma = text.find(',');
+  double mm = 0.0;
+  double mrad = 0.0;
+  if (comma == std::string::npos || !parse_number(text.substr(0, comma), mm) ||
+      !parse_number(text.substr(comma + 1), mrad) || !(mm > 0.0) || !(mrad > 0.0) || mm > 1000.0 ||
+      mrad > 1000.0) {
+    return Error::usage("'" + text.substr(0, 100) +
+                            "' is no tolerance; expected millimetres and milliradians above 0 and "
+                            "up to 1000: 2,1",
+                        "--tolerance");
+  }
+  quality.tolerance_m = 1e-3 * mm;
+  quality.tolerance_rad = 1e-3 * mrad;
+  quality.tolerance_sigmas = 0.0;
+  return Done{};
+}
 
 Result<CalibrationRequest> make_request(const CalibrationArguments& options, const Dataset& dataset,
                                         Session& session) {
@@ -24,6 +44,9 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
   constexpr std::array kModes = {"fixed", "prior", "free"};
   for (std::size_t k = 0; k < kModes.size(); ++k) {
     if (options.intrinsics == kModes[k]) request.options.intrinsics.mode = static_cast<int>(k);
+  }
+  if (!options.tolerance.empty()) {
+    if (Status s = read_tolerance(options.tolerance, request.options.quality); !s) return s.error();
   }
   if (!options.rough.empty()) {
     auto rough = read_rough_extrinsic(options.rough);
@@ -50,6 +73,9 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
                   "the camera's intrinsics: fixed (as given), prior (estimated, with the standard "
                   "deviations in camera.yaml or typical ones), free (estimated)")
       ->check(CLI::IsMember({"fixed", "prior", "free"}));
+  command.add_option("--tolerance", arguments.tolerance,
+                     "MM,MRAD: by how much the extrinsic may be off before it matters to you "
+                     "(default: 0.5,0.2, or half a standard deviation if that is more)");
   command.add_option("--reject", arguments.rejected, "leave out this scene (repeatable)");
 }
 

@@ -16,6 +16,7 @@ struct CalibrationArguments {
   std::string config;
   std::string rough;
   std::string intrinsics;  ///< fixed, prior or free; empty: as the options say.
+  std::string tolerance;   ///< MM,MRAD; empty: as the options say.
   bool crops = false;
   std::vector<std::string> rejected;
 };

@@ -49,7 +49,7 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
   if (Status s = check_wanted(options.with); !s) return s.error();
   auto result = run_calibration(options.calibration, session);
   if (!result) return result.error();
-  DiscoveryOptions how = result->options.discovery;
+  DiscoveryOptions how = discovery_options(result->options);
   how.max_effects = options.max_effects.value_or(how.max_effects);
   how.with = options.with;
   auto discovery = discover(*result, how, session.context);

@@ -9,24 +9,27 @@
 
 namespace lvcalib {
 
+std::string curve_spec(const StructureScore& s) {
+  const auto identifier = [&](const std::string& covariate) {
+    const RowCovariate* known = find_covariate(s.channel, covariate);
+    return known != nullptr ? known->identifier() : covariate;
+  };
+  std::string spec = std::string("curve:") + name_of(s.channel) + ":" + identifier(s.covariate);
+  if (!s.second_covariate.empty()) spec += "," + identifier(s.second_covariate);
+  return spec;
+}
+
 std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unknown) {
   std::vector<std::string> out;
   std::set<Channel> said;
   for (const StructureScore& s : unknown) {
     // The strongest covariate of a channel: others mostly see the same.
     if (!said.insert(s.channel).second) continue;
-    const auto identifier = [&](const std::string& covariate) {
-      const RowCovariate* known = find_covariate(s.channel, covariate);
-      return known != nullptr ? known->identifier() : covariate;
-    };
-    std::string name = identifier(s.covariate);
-    if (!s.second_covariate.empty()) name += "," + identifier(s.second_covariate);
     std::string text =
         std::string("No effect of the catalogue explains what the ") + name_of(s.channel) +
         " channel does over " + s.covariates() +
         formatted(" (%.2g %% of its held-out variance, %.2g ", 100.0 * s.score, s.amplitude) +
-        unit_of(s.channel) + "); to take it out anyway: --with curve:" + name_of(s.channel) + ":" +
-        name;
+        unit_of(s.channel) + "); to take it out anyway: --with " + curve_spec(s);
     if (!s.formula.empty()) text += ", or as a closed form: --with '" + s.formula + "'";
     out.push_back(text);
   }

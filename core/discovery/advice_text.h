@@ -8,6 +8,9 @@
 
 namespace lvcalib {
 
+/// The curve that takes structure out, as one asks for it with `--with`.
+std::string curve_spec(const StructureScore& structure);
+
 /// What to do about structure that no effect explains: the curve, and the closed form if there is
 /// one, to ask for with `--with`; the strongest few, one covariate per channel.
 std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unknown);

@@ -32,34 +32,33 @@ MeanAndError mean_of(const std::vector<double>& values) {
   return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : HUGE_VAL};
 }
 
-// What is excluded at the size that matters is not worth a place in the model, however sure.
-// First each parameter by itself. Then all together, since parameters that act alike are each
-// undetermined although what they do is known: in units of its standard deviation the effect of the
-// estimate on the measurements is |w|, w = Lᵀθ with LLᵀ the information, and the smallest that
-// matters is that of one parameter alone at its material size. Noise adds p − 1 to w² besides the
-// direction of the effect itself; with one parameter this is the same as the first test.
-bool is_material(const EffectColumns& columns, const ModelFit& fit) {
+// First each parameter by itself: its upper limit over its size that matters. Then all together,
+// since parameters that act alike are each undetermined although what they do is known: in units of
+// its standard deviation the effect of the estimate on the measurements is |w|, w = Lᵀθ with LLᵀ
+// the information, and the smallest that matters is that of one parameter alone at its material
+// size. Noise adds p − 1 to w² besides the direction of the effect itself; with one parameter both
+// are alike. The smaller counts.
+double size_of(const EffectColumns& columns, const ModelFit& fit) {
   const Eigen::Index p = columns.count();
   const Eigen::VectorXd theta = fit.solution.tail(p);
   const Eigen::VectorXd sigma = fit.covariance.diagonal().tail(p).cwiseSqrt();
   const Eigen::MatrixXd s = information_of_last(fit, p);
-  bool alone = false;
+  double alone = 0.0;
   double smallest = HUGE_VAL;
   for (Eigen::Index k = 0; k < p; ++k) {
     const double material = columns.parameters[static_cast<std::size_t>(k)].material;
-    alone = alone || std::abs(theta(k)) + kUpper95 * sigma(k) >= material;
+    alone = std::max(alone, (std::abs(theta(k)) + kUpper95 * sigma(k)) / material);
     smallest = std::min(smallest, material * std::sqrt(std::max(0.0, s(k, k))));
   }
-  const double size = std::sqrt(std::max(0.0, theta.dot(s * theta) - static_cast<double>(p - 1)));
-  return alone && size + kUpper95 >= smallest;
+  const double together =
+      std::sqrt(std::max(0.0, theta.dot(s * theta) - static_cast<double>(p - 1)));
+  return std::min(alone, (together + kUpper95) / smallest);
 }
 
-// Whether the estimate agrees with parameters at or above their lowest values: the squared distance
-// to the nearest of these, in standard deviations, by coordinate descent (the problem is convex and
-// has few parameters).
-bool is_possible(const EffectColumns& columns, const ModelFit& fit) {
+// Squared distance of the estimate to the nearest parameters at or above their lowest values, in
+// standard deviations, by coordinate descent (the problem is convex and has few parameters).
+double beyond_possible(const EffectColumns& columns, const ModelFit& fit) {
   constexpr int kRounds = 50;
-  constexpr double kTwoSigma = 4.0;
   const Eigen::Index p = columns.count();
   const auto lowest = [&](Eigen::Index k) {
     return columns.parameters[static_cast<std::size_t>(k)].lowest;
@@ -67,7 +66,7 @@ bool is_possible(const EffectColumns& columns, const ModelFit& fit) {
   const Eigen::VectorXd theta = fit.solution.tail(p);
   bool below = false;
   for (Eigen::Index k = 0; k < p; ++k) below = below || theta(k) < lowest(k);
-  if (!below) return true;
+  if (!below) return 0.0;
   const Eigen::MatrixXd s = information_of_last(fit, p);
   Eigen::VectorXd off(p);  // from the estimate to the point tried
   for (Eigen::Index k = 0; k < p; ++k) off(k) = std::max(theta(k), lowest(k)) - theta(k);
@@ -78,26 +77,28 @@ bool is_possible(const EffectColumns& columns, const ModelFit& fit) {
       off(k) = std::max(best, lowest(k) - theta(k));
     }
   }
-  return off.dot(s * off) < kTwoSigma;
+  return off.dot(s * off);
 }
 
-// Whether enough scenes are predicted better, of those that say something: an effect that shows
-// only where a board faces the beam leaves the others as they were. The density also judges the
-// variances, which one effect in many scenes shrinks for all: a scene whose squares fall is
-// predicted better as well.
-bool improves_scenes(const Candidate& candidate, const DiscoveryOptions& options) {
-  constexpr std::size_t kFewest = 2;
+// Scenes that say something about an effect, one that shows only where a board faces the beam
+// leaves the others as they were, and those of them that are predicted better. The density also
+// judges the variances, which one effect in many scenes shrinks for all: a scene whose squares fall
+// is predicted better as well.
+struct ImprovedScenes {
   std::size_t improved = 0;
   std::size_t speaking = 0;
+};
+
+ImprovedScenes improved_scenes(const Candidate& candidate, const DiscoveryOptions& options) {
+  ImprovedScenes out;
   for (std::size_t s = 0; s < candidate.scene_gain.size(); ++s) {
     if (std::abs(candidate.scene_gain[s]) < options.speaking_nats) continue;
-    ++speaking;
+    ++out.speaking;
     const bool fell =
         s < candidate.scene_squares_fall.size() && candidate.scene_squares_fall[s] > 0;
-    improved += candidate.scene_gain[s] > 0.0 || fell ? 1 : 0;
+    out.improved += candidate.scene_gain[s] > 0.0 || fell ? 1 : 0;
   }
-  return improved >= kFewest &&
-         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
+  return out;
 }
 
 // Where an effect acts. A channel that holds less than a hundredth of a parameter's squared effect
@@ -128,17 +129,31 @@ Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
 
 }  // namespace
 
-ExtrinsicMove usual_tolerance(const ModelFit& fit) {
-  constexpr double kShare = 0.5;
-  constexpr double kTranslation_m = 5e-4;
-  constexpr double kRotation_rad = 2e-4;
+ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit) {
   const auto worst = [](const Eigen::Matrix3d& c) {
     return std::sqrt(
         std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c, Eigen::EigenvaluesOnly)
                           .eigenvalues()(2)));
   };
-  return {std::max(kTranslation_m, kShare * worst(fit.covariance.topLeftCorner<3, 3>())),
-          std::max(kRotation_rad, kShare * worst(fit.covariance.block<3, 3>(3, 3)))};
+  const double sigmas = tolerance.sigmas;
+  return {
+      std::max(tolerance.move.translation_m, sigmas * worst(fit.covariance.topLeftCorner<3, 3>())),
+      std::max(tolerance.move.rotation_rad, sigmas * worst(fit.covariance.block<3, 3>(3, 3)))};
+}
+
+ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values, double* kept) {
+  const Eigen::Index p = values.size();
+  Eigen::MatrixXd h = fit.prior.information;
+  h.bottomRightCorner(p, p).setZero();
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  const Eigen::Index q = h.rows() - p;
+  const Eigen::VectorXd cross = h.topRightCorner(q, p) * values;
+  const Eigen::VectorXd move = h.topLeftCorner(q, q).ldlt().solve(cross);
+  if (kept != nullptr) {
+    const double all = values.dot(h.bottomRightCorner(p, p) * values);
+    *kept = all > 0.0 ? std::clamp(1.0 - cross.dot(move) / all, 0.0, 1.0) : 0.0;
+  }
+  return {move.head<3>().norm(), move.segment<3>(3).norm()};
 }
 
 // The move is M θ; over θ̂ + L z with |z|² at its 95 % quantile it is at most |M θ̂| + q |M L|.
@@ -249,7 +264,8 @@ Reference make_reference(const Linearization& linear, const ColumnSubset& subset
 }
 
 Candidate evaluate_candidate(const Linearization& linear, const Reference& reference,
-                             std::size_t columns, const MixedModelOptions& options) {
+                             std::size_t columns, const Tolerance& tolerance,
+                             const MixedModelOptions& options) {
   Candidate out;
   out.columns = columns;
   const EffectColumns& c = linear.columns.list()[columns];
@@ -257,10 +273,10 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   append_columns(c, nullptr, subset);
   out.fit = fit_model(linear, subset, reference.fit.variances, options);
   out.p_value = f_test(out.fit, c.count());
-  out.tolerance = usual_tolerance(reference.fit);
+  out.tolerance = tolerated(tolerance, reference.fit);
   out.limit = move_limit(out.fit, c.count());
-  out.material = is_material(c, out.fit) || out.limit.exceeds(out.tolerance);
-  out.possible = is_possible(c, out.fit);
+  out.size = std::max(size_of(c, out.fit), out.limit.over(out.tolerance));
+  out.beyond_possible = beyond_possible(c, out.fit);
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};
   const auto heldout = heldout_squares(linear, out.fit);
@@ -334,30 +350,77 @@ double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index co
                     0.0, 1.0);
 }
 
-bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptions& options) {
+namespace {
+
+// Two standard deviations from what a device can have.
+constexpr double kImpossible = 4.0;
+constexpr double kFewestImproved = 2.0;
+
+// That it is there, however small.
+std::vector<Criterion> existence(const Candidate& candidate, std::size_t tried,
+                                 const DiscoveryOptions& options) {
   const double searched = static_cast<double>(std::max<std::size_t>(tried, 1));
-  if (candidate.p_value * searched > options.false_alarm) return false;
-  if (!is_gain(candidate.scene_gain)) return false;
-  // The best of so many would gain this much by chance.
-  if (candidate.total_gain() < std::log(searched)) return false;
-  return improves_scenes(candidate, options);
+  const MeanAndError gain = mean_of(candidate.scene_gain);
+  const ImprovedScenes scenes = improved_scenes(candidate, options);
+  const auto improved = static_cast<double>(scenes.improved);
+  // Just above one: a mean of exactly its standard error is none.
+  constexpr double kMoreThanOne = 1.0 + 1e-12;
+  return {{"p_value", candidate.p_value * searched, options.false_alarm, true},
+          {"mean_gain", gain.mean / std::max(gain.error, 1e-300), kMoreThanOne},
+          {"total_gain", candidate.total_gain(), std::log(searched)},
+          {"scenes_improved",
+           scenes.speaking > 0 ? improved / static_cast<double>(scenes.speaking) : 0.0,
+           options.scenes_improved},
+          {"two_scenes", improved, kFewestImproved}};
+}
+
+// The largest fall of held-out squares over the least that counts. An effect that acts on few rows
+// is asked for the same fall on those.
+double held_out(const Candidate& candidate, std::size_t scenes, const DiscoveryOptions& options) {
+  const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
+  double out = candidate.must_show
+                   ? -HUGE_VAL
+                   : candidate.extrinsic_move_sigmas / std::max(1e-12, options.min_extrinsic_move);
+  for (std::size_t k = 0; k < kChannels; ++k) {
+    if (candidate.must_show && static_cast<std::size_t>(*candidate.must_show) != k) continue;
+    const double share = candidate.acting_share[k];
+    if (share > 0.0)
+      out = std::max(out, candidate.heldout_gain[k] / std::max(1e-12, least * share));
+  }
+  return out;
+}
+
+bool all_hold(const std::vector<Criterion>& criteria) {
+  return std::all_of(criteria.begin(), criteria.end(),
+                     [](const Criterion& c) { return c.holds(); });
+}
+
+}  // namespace
+
+bool Candidate::possible() const {
+  return beyond_possible <= kImpossible;
+}
+
+std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried,
+                                   std::size_t scenes, const DiscoveryOptions& options) {
+  std::vector<Criterion> out = existence(candidate, tried, options);
+  out.push_back({"size", candidate.size, 1.0});
+  out.push_back({"possible", candidate.beyond_possible, kImpossible, true});
+  // Where much is wrong, what explains a little of it stands in for something else.
+  out.push_back({"explained", candidate.explained_share, options.min_explained});
+  out.push_back({"held_out", held_out(candidate, scenes, options), 1.0});
+  out.push_back(
+      {"not_contradicted", candidate.contradiction == Contradiction::kNone ? 1.0 : 0.0, 1.0});
+  return out;
+}
+
+bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptions& options) {
+  return all_hold(existence(candidate, tried, options));
 }
 
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options) {
-  if (!candidate.material || !candidate.possible ||
-      candidate.contradiction != Contradiction::kNone || !is_sure(candidate, tried, options))
-    return false;
-  // Where much is wrong, what explains a little of it stands in for something else.
-  if (candidate.explained_share < options.min_explained) return false;
-  // An effect that acts on few rows is asked for the same fall on those.
-  const double least = scenes <= 3 ? options.min_gain_few_scenes : options.min_gain;
-  for (std::size_t k = 0; k < kChannels; ++k) {
-    if (candidate.must_show && static_cast<std::size_t>(*candidate.must_show) != k) continue;
-    const double share = candidate.acting_share[k];
-    if (share > 0.0 && candidate.heldout_gain[k] >= least * share) return true;
-  }
-  return !candidate.must_show && candidate.extrinsic_move_sigmas >= options.min_extrinsic_move;
+  return all_hold(criteria_of(candidate, tried, scenes, options));
 }
 
 double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -17,18 +18,13 @@ enum class Contradiction {
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
 };
 
-/// A movement of the extrinsic: of the origin (m) and about it (rad).
-struct ExtrinsicMove {
-  double translation_m = 0.0;
-  double rotation_rad = 0.0;
-  [[nodiscard]] bool exceeds(const ExtrinsicMove& other) const {
-    return translation_m > other.translation_m || rotation_rad > other.rotation_rad;
-  }
-};
+/// A tolerance with what a fit leaves open of the extrinsic.
+ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit);
 
-/// What does not matter to a user who names no tolerance: half of what the scenes leave open anyway
-/// (the worst axis), but never less than half a millimetre and 0.2 mrad.
-ExtrinsicMove usual_tolerance(const ModelFit& fit);
+/// By how much the extrinsic moves if the last unknowns of a fit are left out at these values; with
+/// `kept` also which share of their squared effect the other unknowns do not absorb.
+ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values,
+                              double* kept = nullptr);
 
 /// How far the extrinsic may move (upper 95 % limit over the joint confidence region of the values)
 /// if the last p unknowns of a fit are left out.
@@ -48,17 +44,18 @@ struct Candidate {
   std::array<double, kChannels> acting_share{1.0, 1.0, 1.0, 1.0};
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
-  /// It may be as large as matters: some parameter's upper 95 % limit is, and so is the limit of
-  /// what all of them do together to the measurements (see is_material in the source); or leaving
-  /// it out may move the extrinsic by more than the tolerance.
-  bool material = true;
+  /// How large it may be (95 %), over what matters: what its parameters do to the measurements (see
+  /// size_of in the source), or the extrinsic's limit over the tolerance.
+  double size = HUGE_VAL;
+  [[nodiscard]] bool material() const { return size >= 1.0; }
   ExtrinsicMove limit;      ///< Of the extrinsic, at most (95 %), if the effect is left out.
   ExtrinsicMove tolerance;  ///< What such a move has to exceed to matter.
   /// The channel that has to show it: of an effect that changes intensities these. Edges alone
   /// cannot tell it from what else moves edges.
   std::optional<Channel> must_show;
-  /// Values that a device can have are within two standard deviations of the estimate.
-  bool possible = true;
+  /// Squared distance of the estimate from values that a device can have, in standard deviations.
+  double beyond_possible = 0.0;
+  [[nodiscard]] bool possible() const;
   /// Share of what is unexplained that it takes away in its main channel, and in the one in which
   /// it acts if it acts in no other, where these miss by more than their noise; 1 elsewhere.
   double explained_share = 1.0;
@@ -101,7 +98,23 @@ Reference make_reference(const Linearization& linear, const ColumnSubset& subset
 
 /// Evaluates one candidate against the reference; variances are re-estimated with it in the model.
 Candidate evaluate_candidate(const Linearization& linear, const Reference& reference,
-                             std::size_t columns, const MixedModelOptions& options);
+                             std::size_t columns, const Tolerance& tolerance,
+                             const MixedModelOptions& options);
+
+/// Every rule that an effect must pass, with value and threshold:
+///   p_value           of the F test, times the candidates tried
+///   mean_gain         of the predictive log-density over scenes held out, in standard errors
+///   total_gain        of the same, against what the best of so many gains by chance
+///   scenes_improved   share of the scenes that say anything which are predicted better
+///   two_scenes        how many those are
+///   size              how large it may be, over what matters
+///   possible          distance from values that a device can have, σ²
+///   explained         share of what its channel misses by
+///   held_out          fall of held-out squares over the least that counts, or of the extrinsic's
+///                     move
+///   not_contradicted  1 unless prints, levels, single scenes or something small speak against it
+std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried,
+                                   std::size_t scenes, const DiscoveryOptions& options);
 
 /// Whether it is there, however small: the test after correction for the search rejects zero and
 /// held-out scenes are predicted better.

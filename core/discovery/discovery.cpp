@@ -62,6 +62,7 @@ class Discoverer {
     if (context_.stopped()) return Error::cancelled();
     out_.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
                                      options_, context_);
+    judge_unknown(explained, options_, out_.unknown);
     suggest_closed_forms(explained.table(), explained.state(), explained.model(),
                          options_.closed_forms, context_, out_.unknown);
     context_.report("advice", 0.95, "looking for the next scene");
@@ -76,6 +77,7 @@ class Discoverer {
     out_.budget = sensitivity_budget(search);
     out_.covariance_with_budget = covariance_with_budget(out_.covariance, out_.budget);
     out_.model = search.in_use();
+    out_.fit = std::make_shared<const ModelFit>(search.reference().fit);
     if (context_.stopped()) return Error::cancelled();
     context_.report("verdicts", 1.0, "done");
     return std::move(out_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -20,6 +21,36 @@
 
 namespace lvcalib {
 
+/// A movement of the extrinsic: of the origin (m) and about it (rad).
+struct ExtrinsicMove {
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+  [[nodiscard]] bool exceeds(const ExtrinsicMove& other) const {
+    return translation_m > other.translation_m || rotation_rad > other.rotation_rad;
+  }
+  /// The larger of both over those of another.
+  [[nodiscard]] double over(const ExtrinsicMove& other) const {
+    return std::max(translation_m / other.translation_m, rotation_rad / other.rotation_rad);
+  }
+};
+
+/// How far the extrinsic may be off before it matters to the user: so much, or so many standard
+/// deviations of it (the worst axis) if that is more. Zero standard deviations for users who know
+/// what they need.
+struct Tolerance {
+  ExtrinsicMove move{5e-4, 2e-4};
+  double sigmas = 0.5;
+};
+
+/// One rule of those that let an effect into the model, and how it came out.
+struct Criterion {
+  std::string name;  ///< See criteria_of().
+  double value = 0.0;
+  double threshold = 0.0;
+  bool at_most = false;  ///< Holds up to the threshold; else from it on.
+  [[nodiscard]] bool holds() const { return at_most ? value <= threshold : value >= threshold; }
+};
+
 struct DiscoveryOptions {
   int max_effects = 6;  ///< The search adds no more.
   /// Effects that are in the model from the start: ids of the catalogue, or the user's own (see
@@ -37,6 +68,7 @@ struct DiscoveryOptions {
   double min_structure = 0.02;        ///< Held-out share of variance worth a mention, or …
   double min_sure_structure = 0.01;   ///< … where the scenes agree that it is no chance.
   double min_height = 0.1;            ///< Least height (in σ of one range) of something local.
+  Tolerance tolerance;                ///< What an effect must move to matter.
   int swaps = 4;                      ///< Aliases tried in place of effects after an addition.
   std::size_t closed_forms = 3;       ///< Covariates with unknown structure that get a formula.
   TableOptions table;
@@ -90,6 +122,10 @@ struct EffectFinding {
   /// would matter (or its upper 95 % limit if that is larger).
   double extrinsic_move_mm = 0.0;
   double extrinsic_move_mrad = 0.0;
+  bool matters = false;  ///< Left out it moves, or where it is undecided may move, the extrinsic by
+                         ///< more than the tolerance.
+  /// Whether it was let in, rule by rule; empty if nobody asked: the user's own wish, or no data.
+  std::vector<Criterion> criteria;
   double kept = 0.0;  ///< Share of its squared effect that pose and levels cannot absorb.
   std::string explanation;
   std::string spec;  ///< Of a user's own effect: makes it again (EffectInfo::spec).
@@ -120,6 +156,10 @@ struct StructureScore {
   double height = 0.0;
   /// Gain of every scene held out, in units of log-density (half the fall of whitened squares).
   std::vector<double> scene_gain = {};
+  /// What a curve or surface over it would do to the extrinsic, where it was asked for, and whether
+  /// that exceeds the tolerance.
+  ExtrinsicMove extrinsic_move = {};
+  bool matters = false;
   /// Of a surface over two covariates; empty of a curve.
   std::string second_covariate = {};
   /// "board x" or "board x and board y".
@@ -164,6 +204,8 @@ struct Discovery {
   Matrix6d covariance = Matrix6d::Zero();  ///< Left perturbation, camera frame.
   std::vector<EffectInUse> model;
   ModelScales scales;  ///< What the model's numbers refer to.
+  /// The linearised model about `state`, scene by scene: what some of the scenes would give.
+  std::shared_ptr<const ModelFit> fit;
 };
 
 /// What discovery starts from: the scenes in use and the state of the plain calibration.

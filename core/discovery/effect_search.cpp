@@ -283,7 +283,8 @@ void EffectSearch::rank() {
   candidates_.resize(columns.list().size() - first);
   const auto evaluate = [&](std::size_t k, std::size_t columns_at, const MixedModelOptions& how) {
     if (context_.stopped()) return;
-    candidates_[k] = evaluate_candidate(linear_, compared_with(columns_at), columns_at, how);
+    candidates_[k] =
+        evaluate_candidate(linear_, compared_with(columns_at), columns_at, options_.tolerance, how);
   };
   parallel_for(candidates_.size(), context_.thread_count(),
                [&](std::size_t k) { evaluate(k, first + k, {.rounds = 3}); });
@@ -310,7 +311,7 @@ void EffectSearch::ask_what_is_small() {
     if (!chosen) return;
     const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(*chosen);
     const auto small = std::find_if(candidates_.begin(), end, [&](const Candidate& c) {
-      return !c.material && c.possible && c.contradiction == Contradiction::kNone &&
+      return !c.material() && c.possible() && c.contradiction == Contradiction::kNone &&
              is_sure(c, tried, options_);
     });
     if (small == end) return;
@@ -330,7 +331,8 @@ bool EffectSearch::accepts(const EffectPtr& effect, double shape, std::size_t tr
   const Linearization linear = linearize(table(), state_, model(), columns, context_);
   if (context_.stopped()) return false;
   const Reference reference = make_reference(linear, subset, variances_, {});
-  const Candidate candidate = evaluate_candidate(linear, reference, own_count(), {});
+  const Candidate candidate =
+      evaluate_candidate(linear, reference, own_count(), options_.tolerance, {});
   return is_accepted(candidate, tried, table().scenes.size(), options_);
 }
 
@@ -390,7 +392,7 @@ void EffectSearch::refit_promising() {
     Candidate& c = candidates_[k];
     if (is_accepted(c, tried, table().scenes.size(), options_)) return;
     const bool promising =
-        c.material && c.p_value * static_cast<double>(tried) <= options_.false_alarm;
+        c.material() && c.p_value * static_cast<double>(tried) <= options_.false_alarm;
     if (!promising) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
     const Reference& without_it = compared_with(c.columns);
@@ -422,13 +424,29 @@ EffectSearch EffectSearch::with_immaterial() const {
   EffectSearch out(*this);
   std::set<Channel> done;
   for (const Candidate& c : candidates_) {
-    if (c.material || !is_sure(c, candidates_.size(), options_)) continue;
+    if (c.material() || !is_sure(c, candidates_.size(), options_)) continue;
     if (!done.insert(c.main_channel()).second) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
     const bool footprint_told = describes_footprint(columns.effect->info().id) && natural();
     if (!footprint_told) out.add(columns.effect, columns.shape);
   }
   return out;
+}
+
+std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect) const {
+  const double shape = preferred_shape(effect);
+  if (context_.stopped()) return std::nullopt;
+  EffectColumnsList columns = own_columns();
+  const ColumnSubset subset = own_subset(columns);
+  columns.add(effect, shape, table());
+  const Linearization linear = linearize(table(), state_, model(), columns, context_);
+  if (context_.stopped()) return std::nullopt;
+  const Reference reference = make_reference(linear, subset, variances_, {.rounds = 0});
+  const Candidate c = evaluate_candidate(linear, reference, own_count(), options_.tolerance, {});
+  const auto p = static_cast<Eigen::Index>(columns.list().back().count());
+  const ExtrinsicMove move = move_if_omitted(c.fit, c.fit.solution.tail(p));
+  if (!std::isfinite(move.translation_m) || !std::isfinite(move.rotation_rad)) return std::nullopt;
+  return move;
 }
 
 std::optional<std::size_t> EffectSearch::superfluous() {

@@ -61,6 +61,9 @@ class EffectSearch {
   /// After rank(): the model with effects that are sure but too small to matter, of each channel
   /// the one that gains most. What it leaves is what no effect of the catalogue explains.
   [[nodiscard]] EffectSearch with_immaterial() const;
+  /// What leaving an effect out does to the extrinsic, at what the data say of it beside the model;
+  /// nothing if they say nothing.
+  [[nodiscard]] std::optional<ExtrinsicMove> move_without(const EffectPtr& effect) const;
   /// An effect in use whose removal the held-out scenes do not notice: the mean loss over scenes is
   /// within its standard error.
   [[nodiscard]] std::optional<std::size_t> superfluous();

@@ -11,6 +11,8 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "discovery/advice_text.h"
+#include "model/user_effect.h"
 
 namespace lvcalib {
 namespace {
@@ -53,25 +55,9 @@ void set_parameters(const EffectColumns& columns, const Eigen::VectorXd& values,
   }
 }
 
-// Movement of the extrinsic if the last p unknowns of a fit are left out at the values given.
-Vector6d bias_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values, double* kept) {
-  const Eigen::Index p = values.size();
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
-  const Eigen::Index q = h.rows() - p;
-  const Eigen::VectorXd cross = h.topRightCorner(q, p) * values;
-  const Eigen::VectorXd move = h.topLeftCorner(q, q).ldlt().solve(cross);
-  if (kept != nullptr) {
-    const double all = values.dot(h.bottomRightCorner(p, p) * values);
-    *kept = all > 0.0 ? std::clamp(1.0 - cross.dot(move) / all, 0.0, 1.0) : 0.0;
-  }
-  return move.head<6>();
-}
-
-void set_move(const Vector6d& move, EffectFinding& finding) {
-  finding.extrinsic_move_mm = 1e3 * move.head<3>().norm();
-  finding.extrinsic_move_mrad = 1e3 * move.tail<3>().norm();
+void set_move(const ExtrinsicMove& move, EffectFinding& finding) {
+  finding.extrinsic_move_mm = 1e3 * move.translation_m;
+  finding.extrinsic_move_mrad = 1e3 * move.rotation_rad;
 }
 
 std::string move_text(const EffectFinding& finding) {
@@ -171,7 +157,10 @@ class Judge {
         f.shape_name = in_use[k].effect->shape_name();
         f.spec = in_use[k].effect->info().spec;
         f.curve = found_curve(in_use[k], covariance);
-        set_move(bias_of(k, at, n), f);
+        const ExtrinsicMove move = bias_of(k, at, n);
+        set_move(move, f);
+        f.matters = move.exceeds(tolerated(options_.tolerance, search_.reference().fit));
+        f.criteria = s.criteria;
         explain_selected(*in_use[k].effect, f);
         out_.push_back(std::move(f));
         return;
@@ -181,7 +170,7 @@ class Judge {
   }
 
   // The extrinsic's bias by an effect in use, from the final model's information.
-  [[nodiscard]] Vector6d bias_of(std::size_t k, Eigen::Index at, Eigen::Index n) const {
+  [[nodiscard]] ExtrinsicMove bias_of(std::size_t k, Eigen::Index at, Eigen::Index n) const {
     const ModelFit& fit = search_.reference().fit;
     Eigen::MatrixXd h = fit.prior.information;
     for (const SceneTerm& scene : fit.scenes) h += scene.information;
@@ -191,7 +180,8 @@ class Judge {
     }
     const Eigen::MatrixXd hr = h(rest, rest);
     const Eigen::VectorXd cross = h(rest, Eigen::seqN(at, n)) * search_.in_use()[k].values;
-    return hr.ldlt().solve(cross).head<6>();
+    const Eigen::VectorXd move = hr.ldlt().solve(cross);
+    return {move.head<3>().norm(), move.segment<3>(3).norm()};
   }
 
   void explain_selected(const Effect& effect, EffectFinding& f) const {
@@ -216,6 +206,9 @@ class Judge {
     f.heldout_gain = c.best_heldout_gain();
     f.log_density_gain = c.total_gain();
     f.p_value = c.p_value;
+    f.criteria =
+        criteria_of(c, search_.candidates().size(), search_.table().scenes.size(), options_);
+    f.matters = c.limit.exceeds(c.tolerance);
     const Eigen::Index p = columns.count();
     const Eigen::VectorXd theta = c.fit.solution.tail(p);
     const Eigen::MatrixXd covariance = c.fit.covariance.bottomRightCorner(p, p);
@@ -238,7 +231,7 @@ class Judge {
     const Eigen::Index p = columns.count();
     Eigen::VectorXd limit(p);
     // Smallness is no excuse: what may move the extrinsic by more than the tolerance is not absent.
-    bool excluded = !c.limit.exceeds(c.tolerance);
+    bool excluded = !f.matters;
     bool visible = true;
     for (Eigen::Index k = 0; k < p; ++k) {
       const ParameterEstimate& e = f.parameters[static_cast<std::size_t>(k)];
@@ -247,12 +240,11 @@ class Judge {
       excluded = excluded && std::abs(e.value) + kUpper95 * e.sigma < material;
       visible = visible && material > options_.testable * e.sigma;
     }
-    set_move(bias_if_omitted(c.fit, limit, &f.kept), f);
+    set_move(move_if_omitted(c.fit, limit, &f.kept), f);
     const std::string moved = " would move the extrinsic by " + move_text(f);
     if (excluded) {
       f.verdict = EffectVerdict::kAbsent;
-      f.extrinsic_move_mm = 1e3 * c.limit.translation_m;
-      f.extrinsic_move_mrad = 1e3 * c.limit.rotation_rad;
+      set_move(c.limit, f);
       f.explanation = (is_sure(c, search_.candidates().size(), options_) ? "Too small to matter: "
                                                                          : "Not there: ") +
                       values_text(f) + "; it moves the extrinsic by " + move_text(f) + " at most.";
@@ -277,11 +269,11 @@ class Judge {
     } else if (c.contradiction == Contradiction::kPrints) {
       f.explanation = "White and black print contradict each other about it: " + values_text(f) +
                       " of both together; something that depends on the print is at work.";
-    } else if (!c.possible) {
+    } else if (!c.possible()) {
       f.explanation = "What fits best is impossible: " + values_text(f) +
                       ", while no device has less than " + lowest_text(columns) +
                       "; something else is at work.";
-    } else if (c.explained_share < options_.min_explained && c.material &&
+    } else if (c.explained_share < options_.min_explained && c.material() &&
                is_sure(c, search_.candidates().size(), options_)) {
       f.explanation = formatted("It explains %.0f %% of what is wrong in the ",
                                 100.0 * std::max(0.0, c.explained_share)) +
@@ -351,6 +343,21 @@ std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chos
     if (tie || (alike && same_size)) out.insert(id);
   }
   return {out.begin(), out.end()};
+}
+
+void judge_unknown(const EffectSearch& explained, const DiscoveryOptions& options,
+                   std::vector<StructureScore>& unknown) {
+  // Each asks for a linearization; the strongest matter.
+  constexpr std::size_t kMost = 4;
+  const ExtrinsicMove tolerance = tolerated(options.tolerance, explained.reference().fit);
+  for (std::size_t k = 0; k < std::min(kMost, unknown.size()); ++k) {
+    const auto curve = make_user_effect(curve_spec(unknown[k]), explained.table(), options.user);
+    if (!curve) continue;
+    const auto move = explained.move_without(*curve);
+    if (!move) continue;
+    unknown[k].extrinsic_move = *move;
+    unknown[k].matters = move->exceeds(tolerance);
+  }
 }
 
 std::vector<EffectFinding> judge_effects(const EffectSearch& search,

@@ -14,12 +14,18 @@ struct Selection {
   double heldout_gain = 0.0;
   double log_density_gain = 0.0;
   double p_value = 1.0;
+  std::vector<Criterion> criteria = {};
 };
 
 /// Ids of accepted candidates that correlate with the one chosen, or that held-out scenes do not
 /// tell from it.
 std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,
                                     const DiscoveryOptions& options);
+
+/// Says of structure that is left what it does to the extrinsic: as the curve that would take it
+/// out, left out. `explained` is the model that it is left by.
+void judge_unknown(const EffectSearch& explained, const DiscoveryOptions& options,
+                   std::vector<StructureScore>& unknown);
 
 /// Verdicts on the whole catalogue from the finished search (rank() must have run on the final
 /// model). Selected effects first, then the rest by their gain.

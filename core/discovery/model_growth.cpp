@@ -32,8 +32,13 @@ class Growth {
       if (!best) return;
       const Candidate& c = search_.candidates()[*best];
       const EffectColumns columns = search_.linear().columns.list()[c.columns];
-      Selection s{columns.effect->info().id, aliases_of(search_, *best, options_),
-                  c.best_heldout_gain(), c.total_gain(), c.p_value};
+      Selection s{
+          columns.effect->info().id,
+          aliases_of(search_, *best, options_),
+          c.best_heldout_gain(),
+          c.total_gain(),
+          c.p_value,
+          criteria_of(c, search_.candidates().size(), search_.table().scenes.size(), options_)};
       const Channel channel = c.main_channel();
       const double before = heldout_squares(channel);
       search_.add(columns.effect, columns.shape);

@@ -58,6 +58,7 @@ Result<ModelStepPtr> step_from(const EffectSearch& search, ModelStep step,
   step.state = search.state();
   step.remeasured = search.remeasured();
   step.covariance = search.reference().fit.covariance.topLeftCorner<6, 6>();
+  step.fit = std::make_shared<const ModelFit>(search.reference().fit);
   read_back(search, step.terms);
   const auto model = search.model();
   step.nuisance.assign(model.begin() + static_cast<std::ptrdiff_t>(search.in_use().size()),

@@ -39,6 +39,7 @@ struct ModelStep {
   std::string changed;  ///< Spec of the effect that `change` is about.
   ModelState state;
   Matrix6d covariance = Matrix6d::Zero();  ///< Of the extrinsic; left, camera frame.
+  std::shared_ptr<const ModelFit> fit;     ///< Linearised about `state`, scene by scene.
   std::vector<ModelTerm> terms;
   std::vector<EffectInUse> nuisance;  ///< Nature's share that is no effect to find.
   std::vector<ChannelSummary> channels;

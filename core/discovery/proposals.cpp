@@ -69,6 +69,8 @@ class Proposer {
     f.verdict = f.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
     f.extrinsic_move_mm = proposal.gained_mm;
     f.extrinsic_move_mrad = proposal.gained_mrad;
+    f.matters =
+        ExtrinsicMove{1e-3 * proposal.gained_mm, 1e-3 * proposal.gained_mrad}.exceeds(c.tolerance);
     f.explanation = explain(columns_of(c).effect->info(), c.main_channel(), proposal);
   }
 
@@ -160,6 +162,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
     if (context.stopped()) return Error::cancelled();
     out.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
                                     basis.options, context);
+    judge_unknown(explained, basis.options, out.unknown);
     if (context.stopped()) return Error::cancelled();
   }
   return out;
@@ -200,6 +203,8 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   }
   out.state = last.state;
   out.covariance = last.covariance;
+  out.scales = scales_of(last.table());
+  out.fit = last.fit;
   out.covariance_with_budget = covariance_with_budget(out.covariance, out.budget);
   return out;
 }

@@ -44,7 +44,9 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
   std::vector<double> gain(shapes.size(), -HUGE_VAL);
   parallel_for(shapes.size(), context_.thread_count(), [&](std::size_t k) {
     if (!context_.stopped())
-      gain[k] = evaluate_candidate(linear, reference, own_count() + k, {.rounds = 3}).total_gain();
+      gain[k] =
+          evaluate_candidate(linear, reference, own_count() + k, options_.tolerance, {.rounds = 3})
+              .total_gain();
   });
   return shapes[static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) -
                                          gain.begin())];

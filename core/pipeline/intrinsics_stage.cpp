@@ -128,8 +128,9 @@ void judge_move(const CalibrationResult& result, IntrinsicsContradiction& found)
   const auto own = worst_sigmas(result.extrinsic.camera_from_lidar);
   const auto freed = worst_sigmas(*found.camera_from_lidar);
   const QualityOptions& q = result.options.quality;
-  found.matters = move_m > std::max(q.tolerance_m, 0.5 * std::min(own.first, freed.first)) ||
-                  move_rad > std::max(q.tolerance_rad, 0.5 * std::min(own.second, freed.second));
+  found.matters =
+      move_m > std::max(q.tolerance_m, q.tolerance_sigmas * std::min(own.first, freed.first)) ||
+      move_rad > std::max(q.tolerance_rad, q.tolerance_sigmas * std::min(own.second, freed.second));
 }
 
 // How estimated intrinsics differ from what camera.yaml says of them, in its own σ.
@@ -172,8 +173,8 @@ double open_share(const CalibrationResult& result, const IntrinsicsVector& freed
   const double limit_m =
       translation_distance_m(own.transform.inverse(), other.inverse()) + kUpper95 * spread.first;
   const double limit_rad = rotation_distance_rad(own.transform, other) + kUpper95 * spread.second;
-  return std::max(limit_m / (3.0 * std::max(q.tolerance_m, 0.5 * sigma.first)),
-                  limit_rad / (3.0 * std::max(q.tolerance_rad, 0.5 * sigma.second)));
+  return std::max(limit_m / (3.0 * std::max(q.tolerance_m, q.tolerance_sigmas * sigma.first)),
+                  limit_rad / (3.0 * std::max(q.tolerance_rad, q.tolerance_sigmas * sigma.second)));
 }
 
 }  // namespace

@@ -30,9 +30,10 @@ struct QualityOptions {
   double max_sigma_translation_m = 0.1;  ///< A position known worse than this is no result.
   double max_sigma_rotation_rad = 0.05;  ///< A rotation known worse than this is no result.
   /// A fault matters if it moves the LiDAR's position or the rotation by more than this and by more
-  /// than half a standard deviation.
+  /// than so many standard deviations.
   double tolerance_m = 0.0005;
   double tolerance_rad = 0.0002;
+  double tolerance_sigmas = 0.5;
   double min_margin = 10.0;  ///< Evidence (nats) by which the assignment must win.
 };
 

@@ -42,6 +42,20 @@ ordered_json curve_json(const FoundCurve& curve) {
           {"points", std::move(points)}};
 }
 
+ordered_json criteria_json(const std::vector<Criterion>& criteria) {
+  // What is divided by next to nothing has no use for its digits.
+  constexpr double kMost = 1e9;
+  ordered_json out = ordered_json::array();
+  for (const Criterion& c : criteria) {
+    out.push_back({{"name", c.name},
+                   {"value", std::clamp(c.value, -kMost, kMost)},
+                   {"threshold", c.threshold},
+                   {"at_most", c.at_most},
+                   {"holds", c.holds()}});
+  }
+  return out;
+}
+
 ordered_json effect_json(const EffectFinding& f) {
   ordered_json parameters = ordered_json::array();
   for (const ParameterEstimate& p : f.parameters) {
@@ -60,6 +74,8 @@ ordered_json effect_json(const EffectFinding& f) {
                     {"aliases", f.aliases},
                     {"extrinsic_move_mm", f.extrinsic_move_mm},
                     {"extrinsic_move_mrad", f.extrinsic_move_mrad},
+                    {"matters", f.matters},
+                    {"criteria", criteria_json(f.criteria)},
                     {"kept_share", f.kept},
                     {"explanation", f.explanation}};
   if (f.shape != 0.0) j["shape"] = f.shape;
@@ -76,7 +92,10 @@ ordered_json unknown_json(const StructureScore& s) {
   ordered_json j = {{"channel", name_of(s.channel)},
                     {"covariates", covariates},
                     {"score", s.score},
-                    {"amplitude", s.amplitude}};
+                    {"amplitude", s.amplitude},
+                    {"extrinsic_move_mm", 1e3 * s.extrinsic_move.translation_m},
+                    {"extrinsic_move_mrad", 1e3 * s.extrinsic_move.rotation_rad},
+                    {"matters", s.matters}};
   if (!s.formula.empty()) j["closed_form"] = {{"with", s.formula}, {"score", s.formula_score}};
   return j;
 }
@@ -192,7 +211,12 @@ std::string discovery_summary(const Discovery& d) {
     for (const StructureScore& s : d.unknown) {
       out += std::string("  ") + name_of(s.channel) + " against " + s.covariates() +
              line(": %.1f %% of the held-out variance, %.3g ", 100.0 * s.score, s.amplitude, 0, 0) +
-             unit_of(s.channel) + "\n";
+             unit_of(s.channel) +
+             (s.matters ? line(", would move the extrinsic by %.1f mm and %.2f mrad",
+                               1e3 * s.extrinsic_move.translation_m,
+                               1e3 * s.extrinsic_move.rotation_rad, 0, 0)
+                        : "") +
+             "\n";
     }
   }
   out += "\nThe rest of the catalogue\n";

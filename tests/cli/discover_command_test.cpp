@@ -87,6 +87,39 @@ TEST_F(DiscoverCommand, ThresholdsAreOptions) {
   EXPECT_GT(structure_with({"--config", config}), usual + 5);
 }
 
+TEST_F(DiscoverCommand, TheUsersToleranceDecidesWhatMatters) {
+  for (const char* wrong : {"2", "a,b", "-1,1", "0,0", "1,", "nan,1", "2000,1"}) {
+    const Outcome outcome = discover(good_dataset(), {"--tolerance", wrong});
+    EXPECT_EQ(outcome.status, 2) << wrong;
+    EXPECT_THAT(outcome.err, HasSubstr("--tolerance")) << wrong;
+  }
+  EXPECT_FALSE(fs::exists(out()));
+  const auto count = [&](const char* tolerance) {
+    const Outcome outcome =
+        discover(good_dataset(), {"--tolerance", tolerance, "--max-effects", "0"});
+    EXPECT_LE(outcome.status, 1) << outcome.err;
+    std::pair<int, int> out{0, 0};  // Absent; that matter.
+    const auto discovery = json("discovery.json");
+    for (const auto& e : discovery["effects"]) {
+      out.first += e["verdict"] == "absent" ? 1 : 0;
+      out.second += e["matters"].get<bool>() ? 1 : 0;
+      for (const auto& c : e["criteria"]) {
+        const double value = c["value"].get<double>();
+        const double threshold = c["threshold"].get<double>();
+        EXPECT_EQ(c["holds"].get<bool>(),
+                  c["at_most"].get<bool>() ? value <= threshold : value >= threshold);
+      }
+    }
+    return out;
+  };
+  const auto wide = count("900,900");
+  const auto narrow = count("0.001,0.001");
+  EXPECT_EQ(wide.second, 0);
+  EXPECT_GT(wide.first, 0);
+  EXPECT_GT(narrow.second, 10);
+  EXPECT_LT(narrow.first, wide.first);
+}
+
 TEST_F(DiscoverCommand, GoesOnWithoutWhatTheDataCannotBear) {
   const Outcome outcome = discover(
       good_dataset(), {"--with", "formula:range:a/(board_x-board_x)", "--with", "range_walk",

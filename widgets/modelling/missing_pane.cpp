@@ -317,6 +317,7 @@ void MissingPane::describe() {
                        tr("Adding it moves the extrinsic by %1.")
                            .arg(move_text(p->gained_mm, p->gained_mrad)));
     }
+    html += criteria_html(*p);
     text_->setHtml(html);
     pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));
     Q_EMIT chosen();

@@ -2,6 +2,7 @@
 #include "modelling/model_text.h"
 
 #include <QCoreApplication>
+#include <cmath>
 #include <map>
 
 #include "base/text.h"
@@ -50,6 +51,24 @@ const std::map<std::string, const char*>& covariates() {
       {"contrast", QT_TRANSLATE_NOOP("ModelText", "contrast")},
       {"node", QT_TRANSLATE_NOOP("ModelText", "circle")}};
   return names;
+}
+
+const char* criterion_name(const std::string& name) {
+  static const std::map<std::string, const char*> names = {
+      {"p_value",
+       QT_TRANSLATE_NOOP("ModelText", "chance of something this large, after the search")},
+      {"mean_gain", QT_TRANSLATE_NOOP("ModelText", "gain in scenes held out, standard errors")},
+      {"total_gain", QT_TRANSLATE_NOOP("ModelText", "gain, against what chance finds in a search")},
+      {"scenes_improved", QT_TRANSLATE_NOOP("ModelText", "share of scenes predicted better")},
+      {"two_scenes", QT_TRANSLATE_NOOP("ModelText", "scenes predicted better")},
+      {"size", QT_TRANSLATE_NOOP("ModelText", "largest size it may have, over what matters")},
+      {"possible", QT_TRANSLATE_NOOP("ModelText", "distance from what devices have, σ²")},
+      {"explained", QT_TRANSLATE_NOOP("ModelText", "share of what its channel misses by")},
+      {"held_out",
+       QT_TRANSLATE_NOOP("ModelText", "fall of held-out squares, over the least asked")},
+      {"not_contradicted", QT_TRANSLATE_NOOP("ModelText", "nothing else speaks against it")}};
+  const auto found = names.find(name);
+  return found == names.end() ? nullptr : found->second;
 }
 
 }  // namespace
@@ -135,6 +154,36 @@ QString values_text(const std::vector<ParameterEstimate>& parameters, bool held)
 
 QString move_text(double mm, double mrad) {
   return QStringLiteral("%1 mm, %2 mrad").arg(mm, 0, 'f', 1).arg(mrad, 0, 'f', 2);
+}
+
+QString criteria_html(const EffectProposal& proposal) {
+  const EffectFinding& f = proposal.finding;
+  if (f.criteria.empty()) return {};
+  const auto number = [](double value) {
+    return std::abs(value) > 1e6 ? QString(QChar(0x221E)) : QString::number(value, 'g', 3);
+  };
+  const auto plain = [](const char* text) { return translated(text).toHtmlEscaped(); };
+  QString rows;
+  for (const Criterion& c : f.criteria) {
+    const char* name = criterion_name(c.name);
+    const QString title = name != nullptr ? translated(name) : QString::fromStdString(c.name);
+    rows +=
+        QStringLiteral(
+            "<tr><td>%1&nbsp;</td><td>%2&nbsp;</td><td align=right>%3&nbsp;%4&nbsp;%5</td></tr>")
+            .arg(c.holds() ? QChar(0x2713) : QChar(0x2717))
+            .arg(title.toHtmlEscaped(), number(c.value),
+                 QString(QChar(c.at_most ? 0x2264 : 0x2265)), number(c.threshold));
+  }
+  const QString head = proposal.suggested
+                           ? plain(QT_TRANSLATE_NOOP("ModelText", "Why it is suggested"))
+                           : plain(QT_TRANSLATE_NOOP("ModelText", "Why it is not suggested"));
+  const QString relevance =
+      f.matters ? plain(QT_TRANSLATE_NOOP("ModelText",
+                                          "Left out, it may move the extrinsic by more than the "
+                                          "tolerance: it matters."))
+                : plain(QT_TRANSLATE_NOOP(
+                      "ModelText", "Left out, it moves the extrinsic by less than the tolerance."));
+  return QStringLiteral("<p><b>%1</b></p><table>%2</table><p>%3</p>").arg(head, rows, relevance);
 }
 
 QString step_text(const ModelStep& step) {

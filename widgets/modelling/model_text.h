@@ -27,6 +27,10 @@ QString values_text(const std::vector<ParameterEstimate>& parameters, bool held)
 /// "1.3 mm, 0.2 mrad".
 QString move_text(double mm, double mrad);
 
+/// The rules that an effect had to pass, one by one, as HTML: which hold, value and threshold, and
+/// whether it matters. Empty if nobody asked.
+QString criteria_html(const EffectProposal& proposal);
+
 /// A step of the history in a few words: "base", "+ Range walk".
 QString step_text(const ModelStep& step);
 

@@ -180,7 +180,8 @@ void ModelWork::run(Place goal, const QString& text) {
         step = at->second;
         continue;
       }
-      auto next = k == 0 ? start_model(discovery_input(*source), source->options.discovery, context)
+      auto next = k == 0 ? start_model(discovery_input(*source), discovery_options(source->options),
+                                       context)
                          : apply_decision(step, wanted[k - 1], context);
       if (!next) return fail(next.error());
       step = *next;

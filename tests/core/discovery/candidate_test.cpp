@@ -20,7 +20,7 @@ class Candidates : public ::testing::Test {
     reference_ = make_reference(linear_, {}, {}, {});
   }
   [[nodiscard]] Candidate evaluate(std::size_t k) const {
-    return evaluate_candidate(linear_, reference_, k, {});
+    return evaluate_candidate(linear_, reference_, k, {}, {});
   }
   Linearization linear_;
   Reference reference_;
@@ -54,7 +54,7 @@ TEST_F(Candidates, ASureButTinyEffectIsNotMaterial) {
   prepare(test::synthetic_table({}, wrong), {"boundary_bias"});
   const Candidate bias = evaluate(0);
   EXPECT_LT(bias.p_value, 1e-3);
-  EXPECT_FALSE(bias.material);
+  EXPECT_FALSE(bias.material());
   EXPECT_FALSE(is_accepted(bias, 1, 6, options_));
 }
 
@@ -73,9 +73,9 @@ TEST_F(Candidates, ParametersThatActAlikeAreJudgedTogether) {
   prepare(collinear_intensity(0.0), {"intensity_geometry"});
   const Candidate none = evaluate(0);
   EXPECT_GT(std::sqrt(none.fit.parameter_covariance()(0, 0)), 0.3);  // n alone: undetermined
-  EXPECT_FALSE(none.material);
+  EXPECT_FALSE(none.material());
   prepare(collinear_intensity(1.5), {"intensity_geometry"});
-  EXPECT_TRUE(evaluate(0).material);
+  EXPECT_TRUE(evaluate(0).material());
 }
 
 TEST_F(Candidates, WhatIsLeftOfAnEffectIsTheShareThatNothingElseDoes) {
@@ -91,6 +91,63 @@ TEST_F(Candidates, WhatIsLeftOfAnEffectIsTheShareThatNothingElseDoes) {
   EXPECT_LT(determined_share(fit, 7, 1), 1e-6);
   EXPECT_GT(determined_share(fit, 8, 1), 0.01);
   EXPECT_LE(determined_share(fit, 8, 1), 1.0);
+}
+
+// By how much, and by which rule: the list says what is_accepted() says.
+TEST(CriteriaOf, AreThoseByWhichACandidateIsAccepted) {
+  DiscoveryOptions options;
+  Candidate c;
+  c.p_value = 1e-4;
+  c.scene_gain = {4.0, 5.0, 6.0, 0.1};
+  c.scene_squares_fall = {8.0, 10.0, 12.0, 0.0};
+  c.size = 7.0;
+  c.heldout_gain = {0.0, 0.2, 0.0, 0.0};
+  c.acting_share = {0.0, 1.0, 0.0, 0.0};
+  const auto find = [](const std::vector<Criterion>& all, const std::string& name) {
+    for (const Criterion& one : all) {
+      if (one.name == name) return one;
+    }
+    ADD_FAILURE() << "no " << name;
+    return Criterion{};
+  };
+  const auto criteria = criteria_of(c, 60, 4, options);
+  EXPECT_TRUE(is_accepted(c, 60, 4, options));
+  EXPECT_NEAR(find(criteria, "p_value").value, 6e-3, 1e-12);
+  EXPECT_TRUE(find(criteria, "p_value").at_most);
+  // Mean 3.775, standard error 1.2912 over four scenes; of three that speak, three improve.
+  EXPECT_NEAR(find(criteria, "mean_gain").value, 2.9236, 1e-4);
+  EXPECT_NEAR(find(criteria, "total_gain").value, 15.1, 1e-12);
+  EXPECT_NEAR(find(criteria, "total_gain").threshold, std::log(60.0), 1e-12);
+  EXPECT_NEAR(find(criteria, "scenes_improved").value, 1.0, 1e-12);
+  EXPECT_NEAR(find(criteria, "two_scenes").value, 3.0, 1e-12);
+  EXPECT_NEAR(find(criteria, "held_out").value, 20.0, 1e-9);  // 20 % of the 1 % asked for
+  const auto fails_by = [&](const char* name, auto&& spoil) {
+    Candidate bad = c;
+    spoil(bad);
+    EXPECT_FALSE(is_accepted(bad, 60, 4, options)) << name;
+    for (const Criterion& one : criteria_of(bad, 60, 4, options))
+      EXPECT_EQ(one.holds(), one.name != name) << one.name << " where " << name << " fails";
+  };
+  fails_by("p_value", [](Candidate& bad) { bad.p_value = 1e-3; });
+  fails_by("size", [](Candidate& bad) { bad.size = 0.99; });
+  fails_by("possible", [](Candidate& bad) { bad.beyond_possible = 4.1; });
+  fails_by("explained", [](Candidate& bad) { bad.explained_share = 0.1; });
+  fails_by("held_out", [](Candidate& bad) { bad.heldout_gain[1] = 0.009; });
+  fails_by("not_contradicted", [](Candidate& bad) { bad.contradiction = Contradiction::kPrints; });
+}
+
+TEST(Tolerated, IsTheUsersOrWhatIsLeftOpenAnyway) {
+  ModelFit fit;
+  fit.covariance = Eigen::MatrixXd::Zero(6, 6);
+  fit.covariance.diagonal() << 4e-6, 1e-6, 1e-6, 1e-8, 9e-8, 1e-8;  // 2 mm and 0.3 mrad at worst
+  const ExtrinsicMove usual = tolerated({}, fit);
+  EXPECT_NEAR(usual.translation_m, 1e-3, 1e-9);
+  EXPECT_NEAR(usual.rotation_rad, 2e-4, 1e-9);
+  const ExtrinsicMove own = tolerated({{1e-4, 1e-5}, 0.0}, fit);
+  EXPECT_NEAR(own.translation_m, 1e-4, 1e-12);
+  EXPECT_NEAR(own.rotation_rad, 1e-5, 1e-12);
+  EXPECT_TRUE(usual.exceeds(own));
+  EXPECT_NEAR(usual.over(own), 20.0, 1e-6);
 }
 
 TEST(IsGain, MeansMoreThanOneStandardError) {
@@ -127,10 +184,10 @@ TEST_F(Candidates, EveryConditionCounts) {
   c.extrinsic_move_sigmas = 2.0;  // … but to the extrinsic
   EXPECT_TRUE(is_accepted(c, 60, 6, options_));
   c = good;
-  c.material = false;  // excluded at the size that matters
+  c.size = 0.9;  // excluded at the size that matters
   EXPECT_FALSE(is_accepted(c, 60, 6, options_));
   c = good;
-  c.possible = false;  // of a size that no device has
+  c.beyond_possible = 5.0;  // of a size that no device has
   EXPECT_FALSE(is_accepted(c, 60, 6, options_));
   c = good;
   c.contradiction = Contradiction::kPrints;  // one print alone shows it

@@ -221,7 +221,7 @@ TEST_F(SearchState, AFootprintOfNegativeVarianceIsNotAccepted) {
     const std::string id = id_of(search, c);
     if (id != "beam_divergence" && id != "footprint_anisotropy") continue;
     seen = true;
-    EXPECT_FALSE(c.possible) << id;
+    EXPECT_FALSE(c.possible()) << id;
     EXPECT_FALSE(is_accepted(c, search.candidates().size(), made.table.scenes.size(), options_));
   }
   EXPECT_TRUE(seen);

@@ -26,6 +26,25 @@ TEST(ModelText, EveryCovariateOfAChannelHasAName) {
   EXPECT_EQ(category_name("tag", 7.0), "7");
 }
 
+TEST(ModelText, EveryRuleThatAnEffectMustPassHasAName) {
+  ASSERT_TRUE(test::model_example().missing);
+  std::size_t asked = 0;
+  for (const EffectProposal& p : test::model_example().missing->proposals) {
+    const QString html = criteria_html(p);
+    EXPECT_EQ(html.isEmpty(), p.finding.criteria.empty()) << p.finding.id;
+    bool all = !p.finding.criteria.empty();
+    for (const Criterion& c : p.finding.criteria) {
+      EXPECT_FALSE(html.contains(QString::fromStdString(c.name))) << c.name;
+      all = all && c.holds();
+      ++asked;
+    }
+    // What is suggested has passed them all, and nothing else has.
+    if (!p.finding.criteria.empty()) EXPECT_EQ(all, p.suggested) << p.finding.id;
+    EXPECT_EQ(html.contains(QChar(0x2717)), !html.isEmpty() && !all) << p.finding.id;
+  }
+  EXPECT_GT(asked, 0U);
+}
+
 TEST(ModelText, StepsSayWhatWasDone) {
   const auto& example = test::model_example();
   EXPECT_EQ(step_text(*example.base), "base model");
