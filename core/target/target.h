@@ -80,6 +80,10 @@ struct Target {
   /// square at the top left; all others with a black one.
   bool legacy_pattern = false;
 
+  /// Relative standard deviation of the lengths above, where one of them was measured on the print;
+  /// 0: nobody did.
+  double size_sigma = 0.0;
+
   /// Fiducial tags or markers, whose ids and bits say which way up the board is.
   [[nodiscard]] bool has_tags() const { return type != TargetType::kCheckerboard; }
   [[nodiscard]] bool has_squares() const {

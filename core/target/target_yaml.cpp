@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <charconv>
+#include <cmath>
 #include <string>
 
 #include "base/yaml_file.h"
@@ -132,6 +133,37 @@ void read_single_tag(Reader& reader, const YamlFile& file, Target& target) {
   read_outline(reader, file, target);
 }
 
+// A length on the print as a rule tells it, beside the one that was drawn: everything printed is
+// that much larger. The board that it is glued to is not.
+std::optional<Error> read_measured_length(Reader& reader, const YamlFile& file, Target& target) {
+  double measured_m = 0.0;
+  double drawn_m = 0.0;
+  double sigma_m = 0.0;
+  reader.optional_number("measuredLength", measured_m);
+  reader.optional_number("drawnLength", drawn_m);
+  reader.optional_number("measuredSigma", sigma_m);
+  if (reader.error() || (measured_m == 0.0 && drawn_m == 0.0)) return std::nullopt;
+  // No printer is off by a tenth; another unit is.
+  constexpr double kMost = 0.1;
+  if (!(measured_m > 0.0) || !(drawn_m > 0.0) || std::abs(measured_m / drawn_m - 1.0) > kMost) {
+    return file.error_at(*file.root().find(measured_m > 0.0 ? "measuredLength" : "drawnLength"),
+                         "measuredLength and drawnLength belong together, both in metres, and no "
+                         "print is off by more than a tenth; found " +
+                             text(measured_m) + " and " + text(drawn_m));
+  }
+  // A steel rule is read to half a millimetre at best.
+  constexpr double kRule_m = 0.0005;
+  target.size_sigma = (sigma_m > 0.0 ? sigma_m : kRule_m) / measured_m;
+  const double larger = measured_m / drawn_m;
+  for (double* length : {&target.tag_size_m, &target.circle_radius_m, &target.margin_m,
+                         &target.column_spacing_m, &target.row_spacing_m}) {
+    *length *= larger;
+  }
+  if (!file.has("boardWidth")) target.board_width_m *= larger;
+  if (!file.has("boardHeight")) target.board_height_m *= larger;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<TargetFile> read_target(const std::filesystem::path& path) {
@@ -171,7 +203,9 @@ Result<TargetFile> read_target(const std::filesystem::path& path) {
             "' is not known; expected aprilgrid_circles, aprilgrid, checkerboard, charuco or "
             "apriltag");
   }
+  known.insert(known.end(), {"measuredLength", "drawnLength", "measuredSigma"});
   std::vector<std::string> warnings = file->unknown_keys(known);
+  if (const auto wrong = read_measured_length(reader, *file, target)) return *wrong;
   if (reader.error()) {
     // A key that is missing may be there under a misspelt name.
     Error error = *reader.error();
@@ -191,6 +225,13 @@ std::string to_yaml(const Target& t) {
   const auto line = [&out](const char* key, const std::string& value) {
     out += std::string(key) + ": " + value + "\n";
   };
+  // The sizes are those measured: what is left to say is how well they are known.
+  const auto measured = [&] {
+    if (!(t.size_sigma > 0.0)) return;
+    line("measuredLength", "1");
+    line("drawnLength", "1");
+    line("measuredSigma", text(t.size_sigma));
+  };
   const auto outline = [&] {
     line("boardWidth", text(t.board_width_m));
     line("boardHeight", text(t.board_height_m));
@@ -206,6 +247,7 @@ std::string to_yaml(const Target& t) {
     line("firstMarkerId", std::to_string(t.first_tag_id));
     line("legacyPattern", t.legacy_pattern ? "true" : "false");
     outline();
+    measured();
     return out;
   }
   if (t.type == TargetType::kAprilTag) {
@@ -215,6 +257,7 @@ std::string to_yaml(const Target& t) {
     line("tagSize", text(t.tag_size_m));
     line("tagBorder", std::to_string(t.tag_border_bits));
     outline();
+    measured();
     return out;
   }
   if (t.type == TargetType::kCheckerboard) {
@@ -224,6 +267,7 @@ std::string to_yaml(const Target& t) {
     line("colSpacingMeters", text(t.column_spacing_m));
     line("rowSpacingMeters", text(t.row_spacing_m));
     outline();
+    measured();
     return out;
   }
   line("target_type", t.has_circles() ? "aprilgrid_circles" : "aprilgrid");
@@ -236,6 +280,7 @@ std::string to_yaml(const Target& t) {
   line("firstTagId", std::to_string(t.first_tag_id));
   if (t.has_circles()) line("circleRadius", text(t.circle_radius_m));
   line("margin", text(t.margin_m));
+  measured();
   return out;
 }
 

@@ -21,6 +21,14 @@ class PrintScale final : public CatalogueEffect {
                          {"anisotropy", "ppm", 1e-6, 500e-6, 0.02},
                          {"shear", "ppm", 1e-6, 500e-6, 0.02}}) {}
 
+  // A rule on the print knows its size better than printers in general are known.
+  [[nodiscard]] std::vector<EffectParameter> parameters(
+      const MeasurementTable& table) const override {
+    std::vector<EffectParameter> out = CatalogueEffect::parameters(table);
+    if (table.target.size_sigma > 0.0) out.front().prior_sigma = table.target.size_sigma;
+    return out;
+  }
+
   void board(const PrintPoint& point, const Target& target, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {
     const Eigen::Vector2d p = point.board_m - target.outline().center_m();

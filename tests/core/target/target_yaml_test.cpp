@@ -259,5 +259,36 @@ TEST_F(TargetYaml, RefusesBadCheckerboardsAndStrangers) {
   EXPECT_FALSE(read_target("/nonexistent/target.yaml").ok());
 }
 
+TEST_F(TargetYaml, AMeasuredLengthIsThePrintsSize) {
+  const std::string measured = "measuredLength: 0.4985\ndrawnLength: 0.5\nmeasuredSigma: 0.0002\n";
+  const auto plain = read(kGrid);
+  const auto grid = read(std::string(kGrid) + measured);
+  ASSERT_TRUE(plain && grid);
+  EXPECT_TRUE(grid->warnings.empty());
+  EXPECT_EQ(plain->target.size_sigma, 0.0);
+  EXPECT_NEAR(grid->target.tag_size_m, 0.0997, 1e-12);
+  EXPECT_NEAR(grid->target.circle_radius_m, 0.03988, 1e-12);
+  EXPECT_NEAR(grid->target.tag_spacing, 0.9, 1e-12);  // a ratio
+  EXPECT_NEAR(grid->target.size_sigma, 0.0002 / 0.4985, 1e-12);
+  // The board that the print is glued to is as large as it is.
+  const auto squares = read(std::string(kChecker) + measured);
+  ASSERT_TRUE(squares);
+  EXPECT_NEAR(squares->target.column_spacing_m, 0.095 * 0.997, 1e-12);
+  EXPECT_NEAR(squares->target.board_width_m, 0.61, 1e-12);
+  // Written and read again it is the same board, not one scaled twice.
+  const auto again = read(to_yaml(grid->target));
+  ASSERT_TRUE(again);
+  EXPECT_NEAR(again->target.tag_size_m, grid->target.tag_size_m, 1e-12);
+  EXPECT_NEAR(again->target.size_sigma, grid->target.size_sigma, 1e-12);
+  // Without a standard deviation half a millimetre of a rule.
+  const auto rule = read(std::string(kGrid) + "measuredLength: 0.5\ndrawnLength: 0.5\n");
+  ASSERT_TRUE(rule);
+  EXPECT_NEAR(rule->target.size_sigma, 0.001, 1e-12);
+  for (const char* wrong :
+       {"measuredLength: 0.5\n", "drawnLength: 0.5\n", "measuredLength: 500\ndrawnLength: 0.5\n",
+        "measuredLength: -0.5\ndrawnLength: 0.5\n", "measuredLength: abc\ndrawnLength: 0.5\n"})
+    EXPECT_THAT(error(std::string(kGrid) + wrong), HasSubstr("Length")) << wrong;
+}
+
 }  // namespace
 }  // namespace lvcalib
