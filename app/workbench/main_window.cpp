@@ -163,7 +163,7 @@ void MainWindow::connect_workspace() {
     parameters_->set_options(decisions.options);
     pages_->set_crop_box(decision_of(decisions, scene_.toStdString()).crop);
     actions_->use_crops->setChecked(decisions.use_crops);
-    status_->show_quality(workspace_->result(), workspace_->up_to_date());
+    status_->show_quality(final_result(), workspace_->up_to_date());
     update_actions();
   });
   connect(w, &Workspace::result_changed, this, &MainWindow::take_result);
@@ -251,9 +251,15 @@ void MainWindow::take_opened() {
 
 void MainWindow::take_result() {
   pages_->model_page()->setReason({});
-  model_.set_result(workspace_->result());
-  pages_->set_result(workspace_->result());
-  status_->show_quality(workspace_->result(), workspace_->up_to_date());
+  show_result();
+}
+
+// Every page shows the result of the model in force.
+void MainWindow::show_result() {
+  const auto shown = final_result();
+  model_.set_result(shown);
+  pages_->set_result(shown);
+  status_->show_quality(shown, workspace_->up_to_date());
   update_actions();
 }
 
@@ -381,7 +387,7 @@ void MainWindow::changeEvent(QEvent* event) {
     actions_->retranslate();
     update_title();
     if (!workspace_->busy()) status_->show_idle({});  // What it said was in the other language.
-    status_->show_quality(workspace_->result(), workspace_->up_to_date());
+    status_->show_quality(final_result(), workspace_->up_to_date());
   } else if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
     actions_->repaint_icons(palette());
   }

@@ -62,6 +62,7 @@ class MainWindow : public QMainWindow {
   void show_error(const Error& error);
   void take_opened();
   void take_result();
+  void show_result();
   void look_at(const QString& scene);
   void update_actions();
   void update_title();

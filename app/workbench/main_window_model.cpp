@@ -32,6 +32,7 @@ void MainWindow::connect_model() {
     }
   });
   connect(work, &ModelWork::logged, log_, &LogDock::append);
+  connect(work, &ModelWork::result_changed, this, &MainWindow::show_result);
 }
 
 std::shared_ptr<const CalibrationResult> MainWindow::final_result() const {

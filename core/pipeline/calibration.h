@@ -85,7 +85,15 @@ struct CalibrationResult {
   Matrix6d covariance_with_budget = Matrix6d::Zero();
   ModelScales model_scales;             ///< What the numbers of the model refer to.
   double modelled_dark_offset_m = 0.0;  ///< How much farther black reads than white by the model.
-  std::vector<MethodResult> methods;    ///< The paper's objectives on the scenes in use.
+  /// By which share the print is larger than the target says by the model, along x and y.
+  Eigen::Vector2d modelled_print_scale = Eigen::Vector2d::Zero();
+  /// Of the range rows under the model with effects: RMS over noise floor. 0 without effects.
+  double modelled_range_misfit = 0.0;
+  /// Structure that the model with effects leaves and that matters.
+  std::vector<StructureScore> unexplained;
+  /// What the scenes give one by one with the model's effects; null without effects.
+  std::shared_ptr<const ModelFit> model_fit;
+  std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.
   Quality quality = Quality::kFailed;

@@ -9,6 +9,46 @@
 
 namespace lvcalib {
 
+std::vector<SceneObservations> observations_of(const CalibrationResult& result,
+                                               const std::vector<bool>& use,
+                                               std::vector<std::size_t>& index) {
+  std::vector<SceneObservations> observations;
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    const SceneResult& scene = result.scenes[s];
+    if (!scene.view || !scene.refinement) continue;
+    SceneObservations o;
+    o.name = scene.name;
+    o.use = s < use.size() && use[s];
+    o.corners = scene.view->corners;
+    o.camera_from_board = scene.view->camera_from_board.transform;
+    // Of an ambiguous camera pose take the reading that the LiDAR supports.
+    if (scene.view->alternative_pose) {
+      const Rigid3 predicted =
+          result.consensus.camera_from_lidar.transform * scene.refinement->lidar_from_board;
+      if (rotation_distance_rad(*scene.view->alternative_pose, predicted) <
+          rotation_distance_rad(o.camera_from_board, predicted)) {
+        o.camera_from_board = *scene.view->alternative_pose;
+      }
+    }
+    o.plane = scene.refinement->plane;
+    o.lidar_from_board = scene.refinement->lidar_from_board;
+    o.nodes = scene.refinement->nodes;
+    observations.push_back(std::move(o));
+    index.push_back(s);
+  }
+  return observations;
+}
+
+Target target_in_use(const CalibrationResult& result,
+                     const std::vector<SceneObservations>& observations) {
+  Target target = result.target;
+  const bool nodes =
+      std::any_of(observations.begin(), observations.end(),
+                  [](const SceneObservations& o) { return o.use && !o.nodes.empty(); });
+  if (target.has_circles() && !nodes) target.type = TargetType::kAprilGrid;
+  return target;
+}
+
 std::vector<ForwardScene> forward_scenes(const CalibrationResult& result,
                                          const std::vector<SceneObservations>& observations,
                                          const std::vector<std::size_t>& index,
@@ -44,27 +84,35 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                        options, context);
 }
 
-ExtrinsicSolution report_forward(const ForwardSolution& forward, const ExtrinsicSolution& start,
+ReportedPose pose_of(const ForwardSolution& forward) {
+  return {{forward.state.camera_from_lidar, forward.camera_from_lidar.covariance},
+          forward.state.camera_from_board,
+          forward.uses_intensity,
+          forward.converged,
+          forward.iterations};
+}
+
+ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& subset,
+                                 const ExtrinsicSolution& start,
                                  const std::vector<SceneObservations>& observations,
                                  const Camera& camera, const Target& target,
                                  const ExtrinsicOptions& options) {
+  const Rigid3& all = pose.camera_from_lidar.transform;
   RobustFit fit;
   fit.mask = mask_of(start);
   fit.scales = scales_of(start);
-  fit.fit.iterations = forward.iterations;
-  fit.fit.converged = forward.converged;
-  fit.fit.state.camera_from_lidar = forward.state.camera_from_lidar;
-  fit.fit.information = forward.camera_from_lidar.covariance.ldlt().solve(Matrix6d::Identity());
+  fit.fit.iterations = pose.iterations;
+  fit.fit.converged = pose.converged;
+  fit.fit.state.camera_from_lidar = all;
+  fit.fit.information = pose.camera_from_lidar.covariance.ldlt().solve(Matrix6d::Identity());
   std::size_t next = 0;
   for (const SceneSolution& scene : start.scenes) {
     fit.reasons.push_back(scene.reason);
-    fit.fit.state.camera_from_board.push_back(scene.used ? forward.state.camera_from_board[next++]
+    fit.fit.state.camera_from_board.push_back(scene.used ? pose.camera_from_board[next++]
                                                          : scene.camera_from_board);
   }
   ExtrinsicSolution solution = report_solution(fit, observations, camera, target, options, false);
-  const SubsetSolver subset = forward_subsets(forward, start);
-  const Rigid3& all = forward.state.camera_from_lidar;
-  const int fewest = forward.uses_intensity ? 2 : fewest_to_leave_one_out(target);
+  const int fewest = pose.uses_intensity ? 2 : fewest_to_leave_one_out(target);
   for (std::size_t k = 0; solution.used_scenes >= fewest && k < start.scenes.size(); ++k) {
     if (!start.scenes[k].used) continue;
     std::vector<std::size_t> rest;
@@ -81,16 +129,52 @@ ExtrinsicSolution report_forward(const ForwardSolution& forward, const Extrinsic
   return solution;
 }
 
-SubsetSolver forward_subsets(const ForwardSolution& forward, const ExtrinsicSolution& start) {
+namespace {
+
+// Where the observations in use stand among the scenes of a joint solve.
+std::vector<std::size_t> places_in_use(const ExtrinsicSolution& start) {
   std::vector<std::size_t> place(start.scenes.size(), 0);
   std::size_t next = 0;
   for (std::size_t k = 0; k < start.scenes.size(); ++k) {
     if (start.scenes[k].used) place[k] = next++;
   }
-  return [&forward, place](const std::vector<std::size_t>& scenes) {
+  return place;
+}
+
+}  // namespace
+
+SubsetSolver forward_subsets(const ForwardSolution& forward, const ExtrinsicSolution& start) {
+  return [&forward, place = places_in_use(start)](const std::vector<std::size_t>& scenes) {
     std::vector<bool> use(forward.terms.size(), false);
     for (const std::size_t k : scenes) use[place[k]] = true;
     return solve_subset(forward, use);
+  };
+}
+
+SubsetSolver model_subsets(const std::shared_ptr<const ModelFit>& fit,
+                           const Rigid3& camera_from_lidar, const ExtrinsicSolution& start) {
+  return [fit, camera_from_lidar, place = places_in_use(start)](
+             const std::vector<std::size_t>& scenes) -> std::optional<UncertainRigid3> {
+    Eigen::MatrixXd information = fit->prior.information;
+    Eigen::VectorXd gradient = fit->prior.gradient;
+    for (const std::size_t k : scenes) {
+      if (place[k] >= fit->scenes.size()) return std::nullopt;
+      information += fit->scenes[place[k]].information;
+      gradient += fit->scenes[place[k]].gradient;
+    }
+    // Scaled to a unit diagonal, so that metres and radians compare.
+    const Eigen::VectorXd unit = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::LDLT<Eigen::MatrixXd> factor(unit.asDiagonal() * information * unit.asDiagonal());
+    constexpr double kSingular = 1e-13;
+    if (factor.info() != Eigen::Success || !factor.isPositive() || factor.rcond() < kSingular)
+      return std::nullopt;
+    const Eigen::VectorXd step = unit.asDiagonal() * factor.solve(unit.asDiagonal() * gradient);
+    const Eigen::MatrixXd covariance =
+        unit.asDiagonal() *
+        factor.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols())) *
+        unit.asDiagonal();
+    const Vector6d move = step.head<6>() - fit->solution.head<6>();
+    return UncertainRigid3{se3_exp(move) * camera_from_lidar, covariance.topLeftCorner<6, 6>()};
   };
 }
 

@@ -9,6 +9,16 @@
 
 namespace lvcalib {
 
+/// What the solves need of every scene that got so far as a refined board; `use` says which scenes
+/// are wanted, `index` then which scene of the result an observation is.
+std::vector<SceneObservations> observations_of(const CalibrationResult& result,
+                                               const std::vector<bool>& use,
+                                               std::vector<std::size_t>& index);
+
+/// The target as the solve sees it: where no cloud's intensity shows the circles, a board without.
+Target target_in_use(const CalibrationResult& result,
+                     const std::vector<SceneObservations>& observations);
+
 /// What the joint solve takes of the scenes that `start` uses; points into `result`.
 std::vector<ForwardScene> forward_scenes(const CalibrationResult& result,
                                          const std::vector<SceneObservations>& observations,
@@ -25,14 +35,28 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                                            const ForwardOptions& options,
                                            const RunContext& context);
 
-/// The same observations at the forward solution: pose, covariance, board poses, residuals, the
-/// influence of single scenes. What was left out stays as in `start`.
-ExtrinsicSolution report_forward(const ForwardSolution& forward, const ExtrinsicSolution& start,
+/// The same observations at the forward solution, or at that of a model with effects: pose,
+/// covariance, poses of the boards in use, residuals, the influence of single scenes by `subset`.
+/// What was left out stays as in `start`. `uses_intensity`: two scenes are enough to leave one out.
+struct ReportedPose {
+  UncertainRigid3 camera_from_lidar;
+  std::vector<Rigid3> camera_from_board;
+  bool uses_intensity = true;
+  bool converged = true;
+  int iterations = 0;
+};
+ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& subset,
+                                 const ExtrinsicSolution& start,
                                  const std::vector<SceneObservations>& observations,
                                  const Camera& camera, const Target& target,
                                  const ExtrinsicOptions& options);
+ReportedPose pose_of(const ForwardSolution& forward);
 
 /// Solves the forward model for some of the observations of `start`.
 SubsetSolver forward_subsets(const ForwardSolution& forward, const ExtrinsicSolution& start);
+
+/// The same for a model with effects, to first order about its pose.
+SubsetSolver model_subsets(const std::shared_ptr<const ModelFit>& fit,
+                           const Rigid3& camera_from_lidar, const ExtrinsicSolution& start);
 
 }  // namespace lvcalib

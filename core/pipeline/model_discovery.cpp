@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/model_discovery.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
-#include "base/statistics.h"
 #include "model/residuals.h"
+#include "model/table_builder.h"
+#include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
 
 namespace lvcalib {
@@ -21,27 +25,207 @@ const SceneSolution* solution_of(const CalibrationResult& result, const std::str
   return nullptr;
 }
 
+// What the effects of a model do to a LiDAR point (the measured from the true one), to a point of
+// the print, and to a corner's image.
+class ModelledMovements {
+ public:
+  explicit ModelledMovements(const Discovery& discovery)
+      : model_(discovery.model), table_(empty_table(discovery.scales)) {}
+
+  [[nodiscard]] Eigen::Vector3d point(const BeamPoint& beam) const {
+    return sum<Eigen::Vector3d>([&](const EffectInUse& use, auto moves) {
+      use.effect->lidar(beam, table_, use.shape, moves);
+    });
+  }
+  // By how much the print is seen beside its place.
+  [[nodiscard]] Eigen::Vector3d spot(const BeamPoint& beam) const {
+    return sum<Eigen::Vector3d>([&](const EffectInUse& use, auto moves) {
+      use.effect->spot(beam, table_, use.shape, moves);
+    });
+  }
+  [[nodiscard]] Eigen::Vector3d print(const PrintPoint& at, const Target& target) const {
+    return sum<Eigen::Vector3d>([&](const EffectInUse& use, auto moves) {
+      use.effect->board(at, target, use.shape, moves);
+    });
+  }
+
+ private:
+  template <class Vector, class Add>
+  [[nodiscard]] Vector sum(const Add& add) const {
+    Vector out = Vector::Zero();
+    for (const EffectInUse& use : model_) {
+      std::vector<Vector> moves(static_cast<std::size_t>(use.values.size()), Vector::Zero());
+      add(use, std::span<Vector>(moves));
+      for (std::size_t k = 0; k < moves.size(); ++k)
+        out += use.values(static_cast<Eigen::Index>(k)) * moves[k];
+    }
+    return out;
+  }
+
+  const std::vector<EffectInUse>& model_;
+  MeasurementTable table_;
+};
+
 // By how much farther black print reads than white with the effects of a model, square to the beam
 // at a usual range.
-double dark_offset_m(const Discovery& discovery) {
-  constexpr double kRange_m = 3.0;
-  const MeasurementTable table = empty_table(discovery.scales);
+double dark_offset_m(const ModelledMovements& movements) {
   BeamPoint beam;
-  beam.range_m = kRange_m;
-  double sum = 0.0;
-  for (const EffectInUse& use : discovery.model) {
-    for (const double darkness : {1.0, 0.0}) {
-      beam.darkness = darkness;
-      std::vector<Eigen::Vector3d> moves(static_cast<std::size_t>(use.values.size()),
-                                         Eigen::Vector3d::Zero());
-      use.effect->lidar(beam, table, use.shape, moves);
-      for (std::size_t k = 0; k < moves.size(); ++k) {
-        sum += (darkness > 0.5 ? 1.0 : -1.0) * use.values(static_cast<Eigen::Index>(k)) *
-               beam.direction.dot(moves[k]);
-      }
+  beam.range_m = 3.0;
+  beam.darkness = 1.0;
+  const double black = beam.direction.dot(movements.point(beam));
+  beam.darkness = 0.0;
+  return black - beam.direction.dot(movements.point(beam));
+}
+
+// By which share the print is larger along its axes than the target says, over the whole board.
+Eigen::Vector2d print_scale(const ModelledMovements& movements, const Target& target) {
+  const BoardOutline outline = target.outline();
+  const Eigen::Vector2d half = 0.5 * outline.size_m();
+  const auto at = [&](double x, double y) {
+    PrintPoint point;
+    point.board_m = outline.center_m() + Eigen::Vector2d(x, y);
+    return Eigen::Vector2d(movements.print(point, target).head<2>());
+  };
+  return {(at(half.x(), 0).x() - at(-half.x(), 0).x()) / (2.0 * half.x()),
+          (at(0, half.y()).y() - at(0, -half.y()).y()) / (2.0 * half.y())};
+}
+
+// Share of the board that is black.
+double black_share(const Target& target) {
+  constexpr int kSide = 60;
+  const BoardOutline outline = target.outline();
+  double black = 0.0;
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const Eigen::Vector2d at =
+          outline.lower_left_m +
+          outline.size_m().cwiseProduct(Eigen::Vector2d(i + 0.5, j + 0.5)) / kSide;
+      black += 1.0 - target.albedo(at).value_or(1.0);
     }
   }
-  return sum;
+  return black / (kSide * kSide);
+}
+
+// The beam to a point of a board's plane, as dark as the board on average, of no line in
+// particular: what is told of planes, and of circles on them, is a mean over many returns.
+BeamPoint beam_to(const Eigen::Vector3d& point_m, const FittedPlane& plane, double darkness) {
+  BeamPoint beam;
+  beam.range_m = point_m.norm();
+  beam.direction = point_m / beam.range_m;
+  beam.azimuth_rad = std::atan2(beam.direction.y(), beam.direction.x());
+  beam.elevation_rad = std::asin(std::clamp(beam.direction.z(), -1.0, 1.0));
+  beam.incidence_rad = std::acos(std::clamp(std::abs(plane.normal.dot(beam.direction)), 0.0, 1.0));
+  beam.darkness = darkness;
+  beam.line = -1;
+  return beam;
+}
+
+// Takes what the effects do to the corners' images out of them, as the model predicts it.
+void take_out_of_corners(const Discovery& discovery, const Camera& camera, const Target& target,
+                         std::vector<SceneObservations>& observations) {
+  MeasurementTable table = empty_table(discovery.scales);
+  table.scenes.assign(observations.size(), {});
+  table.target = target;
+  table.camera = camera;
+  ModelState state;
+  state.camera_from_lidar = discovery.state.camera_from_lidar;
+  for (const SceneObservations& o : observations)
+    state.camera_from_board.push_back(o.camera_from_board);
+  for (std::size_t s = 0; s < observations.size(); ++s) {
+    SceneMeasurements scene;
+    scene.corners = observations[s].corners;
+    add_corners(scene, static_cast<int>(s), state, 1.0, table);
+  }
+  const auto without = residuals_of(table, state, {}, Channel::kCorner);
+  const auto with = residuals_of(table, state, discovery.model, Channel::kCorner);
+  if (with.values.size() != without.values.size() || with.values.size() != 2 * table.corner.size())
+    return;  // A corner that no camera sees has no rows; then none is touched.
+  std::size_t next = 0;
+  for (SceneObservations& o : observations) {
+    for (CornerObservation& c : o.corners) {
+      for (Eigen::Index axis = 0; axis < 2; ++axis, ++next)
+        c.pixel(axis) += with.values[next] - without.values[next];
+    }
+  }
+}
+
+// By how much a board that is bent lies off its plane, on average (board frame): what a plane
+// fitted to its returns takes for its place.
+Eigen::Vector3d mean_bend(const ModelledMovements& movements, const Target& target) {
+  constexpr int kSide = 9;
+  const BoardOutline outline = target.outline();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      PrintPoint at;
+      at.board_m = outline.lower_left_m +
+                   outline.size_m().cwiseProduct(Eigen::Vector2d(i + 0.5, j + 0.5)) / kSide;
+      sum += movements.print(at, target);
+    }
+  }
+  return sum / (kSide * kSide);
+}
+
+// The observations of the classical solve with a model's effects taken out of them.
+void take_out(const Discovery& discovery, const ModelledMovements& movements, const Camera& camera,
+              const Target& target, std::vector<SceneObservations>& observations) {
+  const Eigen::Vector3d bend = mean_bend(movements, target);
+  const double darkness = black_share(target);
+  for (SceneObservations& o : observations) {
+    const auto& rotation = o.lidar_from_board.rotation;
+    for (RefinedNode& node : o.nodes) {
+      if (!node.valid) continue;
+      PrintPoint at;
+      at.board_m = node.board_m;
+      // Its height is the plane's, its place on it its own.
+      const Eigen::Vector2d shift = movements.print(at, target).head<2>();
+      const BeamPoint beam = beam_to(node.center_lidar_m, o.plane, darkness);
+      node.center_lidar_m -= movements.spot(beam) + movements.point(beam) +
+                             rotation * Eigen::Vector3d(shift.x(), shift.y(), bend.z());
+    }
+    o.plane.center_m -= movements.point(beam_to(o.plane.center_m, o.plane, darkness)) +
+                        rotation * Eigen::Vector3d(0.0, 0.0, bend.z());
+  }
+  take_out_of_corners(discovery, camera, target, observations);
+}
+
+// Everything that is told of the scenes, under the model's effects: residuals, methods, what single
+// scenes and halves would give. Where the classical solve does not bear the corrected observations
+// the base's stands, with the model's pose.
+void report_model(const Discovery& discovery, const ModelledMovements& movements,
+                  CalibrationResult& result) {
+  std::vector<bool> use;
+  for (const SceneResult& scene : result.scenes) use.push_back(scene.used);
+  std::vector<std::size_t> index;
+  auto observations = observations_of(result, use, index);
+  const Target target = target_in_use(result, observations);
+  take_out(discovery, movements, result.camera, target, observations);
+  const ExtrinsicOptions& how = result.options.extrinsic;
+  ExtrinsicSolution nodes = result.extrinsic;
+  const auto same_scenes = [&](const ExtrinsicSolution& other) {
+    return std::equal(
+        other.scenes.begin(), other.scenes.end(), nodes.scenes.begin(), nodes.scenes.end(),
+        [](const SceneSolution& a, const SceneSolution& b) { return a.used == b.used; });
+  };
+  if (auto again = solve_extrinsic(observations, result.camera, target, how);
+      again && same_scenes(*again))
+    nodes = std::move(*again);
+  ReportedPose pose{{discovery.state.camera_from_lidar, discovery.covariance},
+                    discovery.state.camera_from_board};
+  if (result.forward) {
+    pose.uses_intensity = result.forward->uses_intensity;
+    pose.converged = result.forward->converged;
+    pose.iterations = result.forward->iterations;
+  }
+  const SubsetSolver subsets =
+      model_subsets(discovery.fit, discovery.state.camera_from_lidar, nodes);
+  result.extrinsic = report_forward(pose, subsets, nodes, observations, result.camera, target, how);
+  result.extrinsic.camera_from_lidar = pose.camera_from_lidar;
+  MethodOptions methods;
+  methods.other = {"forward_model", discovery.state.camera_from_lidar, subsets};
+  result.methods = compare_methods(observations, result.camera, target, nodes, how, methods);
+  result.uncertainty =
+      assess_uncertainty(observations, result.camera, target, result.extrinsic, how, {}, subsets);
 }
 
 }  // namespace
@@ -78,6 +262,13 @@ DiscoveryInput discovery_input(const CalibrationResult& result) {
   return input;
 }
 
+DiscoveryOptions discovery_options(const CalibrationOptions& options) {
+  DiscoveryOptions out = options.discovery;
+  const QualityOptions& q = options.quality;
+  out.tolerance = {{q.tolerance_m, q.tolerance_rad}, q.tolerance_sigmas};
+  return out;
+}
+
 Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptions& options,
                            const RunContext& context) {
   return discover_effects(discovery_input(result), options, context);
@@ -86,18 +277,7 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery) {
   // With nothing selected the calibration's own extrinsic stands: it rests on every return.
   const bool changed = !discovery.model.empty();
-  if (changed) {
-    result.extrinsic.camera_from_lidar = {discovery.state.camera_from_lidar, discovery.covariance};
-  }
-  std::size_t next = 0;
-  for (const SceneResult& scene : result.scenes) {
-    if (!changed || !takes_part(scene)) continue;
-    for (SceneSolution& s : result.extrinsic.scenes) {
-      if (s.name == scene.name && next < discovery.state.camera_from_board.size())
-        s.camera_from_board = discovery.state.camera_from_board[next];
-    }
-    ++next;
-  }
+  const ModelledMovements movements(discovery);
   result.budget = discovery.budget;
   result.covariance_with_budget = discovery.covariance_with_budget;
   // What an effect of the model explains is no longer left out.
@@ -110,9 +290,22 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
       result.model.push_back({f.id, f.parameters, use.shape, f.shape_sigma, f.spec});
     }
   }
-  result.modelled_dark_offset_m = dark_offset_m(discovery);
+  result.model_fit = changed ? discovery.fit : nullptr;
+  result.modelled_dark_offset_m = dark_offset_m(movements);
+  result.modelled_print_scale = print_scale(movements, result.target);
+  result.modelled_range_misfit = 0.0;
+  result.unexplained.clear();
+  if (!changed) return result;
+  for (const ChannelSummary& c : discovery.history.back().channels) {
+    if (c.channel == Channel::kRange && c.noise_floor > 0.0)
+      result.modelled_range_misfit = c.rms / c.noise_floor;
+  }
+  std::copy_if(discovery.unknown.begin(), discovery.unknown.end(),
+               std::back_inserter(result.unexplained),
+               [](const StructureScore& s) { return s.matters; });
+  report_model(discovery, movements, result);
   // What the model explains is no fault of the result any more.
-  if (changed) judge_quality(result, result.options.quality);
+  judge_quality(result, result.options.quality);
   return result;
 }
 

@@ -10,6 +10,9 @@ namespace lvcalib {
 /// `result`, which must outlive it.
 DiscoveryInput discovery_input(const CalibrationResult& result);
 
+/// How effects are searched in a calibration: its options for that, and its tolerance.
+DiscoveryOptions discovery_options(const CalibrationOptions& options);
+
 /// Looks for effects that the calibration's model misses.
 /// Errors: as discover_effects.
 Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptions& options,

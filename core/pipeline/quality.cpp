@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "pipeline/forward_stage.h"
 #include "pipeline/scene_loading.h"
 
 namespace lvcalib {
@@ -69,15 +71,22 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
 void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
   if (!result.forward) return;
   const UncertainRigid3& all = result.extrinsic.camera_from_lidar;
-  const std::size_t n = result.forward->terms.size();
+  const SubsetSolver subset = result.model_fit
+                                  ? model_subsets(result.model_fit, all.transform, result.extrinsic)
+                                  : forward_subsets(*result.forward, result.extrinsic);
+  std::vector<std::size_t> in_use;
+  for (std::size_t k = 0; k < result.extrinsic.scenes.size(); ++k) {
+    if (result.extrinsic.scenes[k].used) in_use.push_back(k);
+  }
+  const std::size_t n = in_use.size();
   // As many tests as scenes, one in a hundred together.
   const double gate = chi_square_gate(6, 0.01 / static_cast<double>(std::max<std::size_t>(1, n)));
-  std::size_t next = 0;
-  for (const SceneSolution& scene : result.extrinsic.scenes) {
-    if (!scene.used) continue;
-    std::vector<bool> use(n, true);
-    use[next++] = false;
-    const auto rest = n > 2 ? solve_subset(*result.forward, use) : std::nullopt;
+  for (const std::size_t k : in_use) {
+    const SceneSolution& scene = result.extrinsic.scenes[k];
+    std::vector<std::size_t> others;
+    std::copy_if(in_use.begin(), in_use.end(), std::back_inserter(others),
+                 [&](std::size_t other) { return other != k; });
+    const auto rest = n > 2 ? subset(others) : std::nullopt;
     if (!rest) continue;
     const Vector6d move = se3_log(rest->transform * all.transform.inverse());
     const Vector6d sigma = all.covariance.diagonal().cwiseSqrt();
@@ -257,12 +266,32 @@ std::pair<const char*, double> size_field(const Target& t, int axis) {
   }
 }
 
+// What a model with effects leaves: its ranges against their noise, and structure that moves the
+// extrinsic by more than the tolerance. Planes and circles, one number for many returns, tell less.
+void judge_model(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
+  if (result.modelled_range_misfit > options.max_noise_scale) {
+    verdict.doubtful(
+        formatted("ranges miss the model by %.1f times their noise: another effect is "
+                  "missing in the model",
+                  result.modelled_range_misfit));
+  }
+  for (const StructureScore& s : result.unexplained) {
+    verdict.doubtful(std::string("the ") + name_of(s.channel) + " channel shows structure over " +
+                     s.covariates() +
+                     formatted(" that no effect of the model explains; it could move the extrinsic "
+                               "by %.1f mm and %.2f mrad",
+                               1e3 * s.extrinsic_move.translation_m,
+                               1e3 * s.extrinsic_move.rotation_rad));
+  }
+}
+
 // A print of another size than the target's, by the intensities.
 void judge_print_size(const CalibrationResult& result, const QualityOptions& options,
                       Verdict& verdict) {
   const PrintSize& size = result.forward->print_size;
   if (!size.measured) return;
-  const Eigen::Array2d off = size.scale.array() - 1.0;
+  // What the model in force says of the print is no contradiction any more.
+  const Eigen::Array2d off = size.scale.array() - 1.0 - result.modelled_print_scale.array();
   const bool clear =
       (off.abs() > 4.0 * size.sigma.array() && off.abs() > options.scale_warning).any();
   if (!clear) return;
@@ -438,7 +467,9 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
         "tag corners miss their model by %.2f px: check the intrinsics and that the board is flat",
         x.sigma_px));
   }
-  if (x.node_scale > options.max_noise_scale || x.plane_scale > options.max_noise_scale) {
+  if (result.model_fit) {
+    judge_model(result, options, verdict);
+  } else if (x.node_scale > options.max_noise_scale || x.plane_scale > options.max_noise_scale) {
     verdict.doubtful(
         formatted("LiDAR residuals are %.1f times (nodes) and %.1f times (planes) their noise: an "
                   "effect is missing in the model",

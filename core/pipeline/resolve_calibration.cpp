@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of the calibration that is done again when scenes are ticked or unticked.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "pipeline/calibration.h"
@@ -11,48 +12,6 @@
 
 namespace lvcalib {
 namespace {
-
-// What the joint solve needs of every scene that got so far; `index` says which scene it is.
-std::vector<SceneObservations> observations_of(const CalibrationResult& result,
-                                               const std::vector<bool>& use,
-                                               std::vector<std::size_t>& index) {
-  std::vector<SceneObservations> observations;
-  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
-    const SceneResult& scene = result.scenes[s];
-    if (!scene.view || !scene.refinement) continue;
-    SceneObservations o;
-    o.name = scene.name;
-    o.use = s < use.size() && use[s];
-    o.corners = scene.view->corners;
-    o.camera_from_board = scene.view->camera_from_board.transform;
-    // Of an ambiguous camera pose take the reading that the LiDAR supports.
-    if (scene.view->alternative_pose) {
-      const Rigid3 predicted =
-          result.consensus.camera_from_lidar.transform * scene.refinement->lidar_from_board;
-      if (rotation_distance_rad(*scene.view->alternative_pose, predicted) <
-          rotation_distance_rad(o.camera_from_board, predicted)) {
-        o.camera_from_board = *scene.view->alternative_pose;
-      }
-    }
-    o.plane = scene.refinement->plane;
-    o.lidar_from_board = scene.refinement->lidar_from_board;
-    o.nodes = scene.refinement->nodes;
-    observations.push_back(std::move(o));
-    index.push_back(s);
-  }
-  return observations;
-}
-
-// The target as the solve sees it: where no cloud's intensity shows the circles, a board without.
-Target target_in_use(const CalibrationResult& result,
-                     const std::vector<SceneObservations>& observations) {
-  Target target = result.target;
-  const bool nodes =
-      std::any_of(observations.begin(), observations.end(),
-                  [](const SceneObservations& o) { return o.use && !o.nodes.empty(); });
-  if (target.has_circles() && !nodes) target.type = TargetType::kAprilGrid;
-  return target;
-}
 
 // The boundary response of the scenes in use.
 Status respond(CalibrationResult& result, const Target& target, const CalibrationOptions& options,
@@ -107,11 +66,14 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
   result.camera = result.forward->state.camera;
   result.intrinsics.sigma =
       result.forward->globals_covariance.diagonal().tail<kIntrinsics>().cwiseMax(0.0).cwiseSqrt();
-  result.extrinsic = report_forward(*result.forward, nodes, observations, result.camera, target,
-                                    result.options.extrinsic);
+  result.extrinsic =
+      report_forward(pose_of(*result.forward), forward_subsets(*result.forward, nodes), nodes,
+                     observations, result.camera, target, result.options.extrinsic);
   LeftOutSizes sizes;
   if (result.intrinsics.mode == IntrinsicsMode::kFixed)
     sizes.intrinsics = result.intrinsics.prior_sigma;
+  // A print of another size is, but for the extrinsic's own length, ranges of another scale.
+  sizes.range_scale = std::hypot(sizes.range_scale, target.size_sigma);
   result.covariance_total =
       total_covariance(forward_scenes(result, observations, index, nodes), *result.print,
                        *result.forward, sizes, how, context.thread_count());
@@ -131,6 +93,12 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
                                               const CalibrationOptions& options,
                                               const RunContext& context) {
   result.options = options;
+  result.model.clear();
+  result.model_fit.reset();
+  result.modelled_dark_offset_m = 0.0;
+  result.modelled_print_scale.setZero();
+  result.modelled_range_misfit = 0.0;
+  result.unexplained.clear();
   std::vector<std::size_t> index;
   const auto observations = observations_of(result, use, index);
   const Target target = target_in_use(result, observations);
