@@ -17,6 +17,7 @@ struct CalibrationArguments {
   std::string rough;
   std::string intrinsics;  ///< fixed, prior or free; empty: as the options say.
   bool crops = false;
+  bool no_intensity = false;
   std::vector<std::string> rejected;
 };
 

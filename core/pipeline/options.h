@@ -18,6 +18,12 @@
 
 namespace lvcalib {
 
+/// What is taken from the clouds.
+struct CloudOptions {
+  /// Without, every cloud is taken for one that has no intensity: planes and corners have to do.
+  bool use_intensity = true;
+};
+
 /// When a result counts as trustworthy.
 struct QualityOptions {
   double scale_warning = 0.003;  ///< Size difference between LiDAR and model worth a warning.
@@ -53,6 +59,7 @@ struct IntrinsicsOptions {
 /// Every option of a calibration.
 struct CalibrationOptions {
   DetectionOptions detection;
+  CloudOptions clouds;
   BoardSearchOptions localization;
   ConsensusOptions consensus;
   RefinementOptions refinement;
