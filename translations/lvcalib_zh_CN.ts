@@ -3270,6 +3270,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
 <context>
     <name>lvcalib::widgets::MethodsPane</name>
     <message>
+        <source>Joint, as in the paper</source>
+        <translation>联合，按论文原文</translation>
+    </message>
+    <message>
         <source>3D-SVD</source>
         <translation>3D-SVD</translation>
     </message>

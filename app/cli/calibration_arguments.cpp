@@ -25,6 +25,7 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
   for (std::size_t k = 0; k < kModes.size(); ++k) {
     if (options.intrinsics == kModes[k]) request.options.intrinsics.mode = static_cast<int>(k);
   }
+  request.options.ablation = options.ablation;
   if (options.no_intensity) request.options.clouds.use_intensity = false;
   if (!options.rough.empty()) {
     auto rough = read_rough_extrinsic(options.rough);

@@ -69,6 +69,9 @@ struct CalibrationOptions {
   ResponseOptions response;
   QualityOptions quality;
   DiscoveryOptions discovery;
+  /// Also what each departure from the paper's method is worth, CalibrationResult::ablation. Asked
+  /// for with a run and not declared below: it changes no result.
+  bool ablation = false;
 };
 
 /// One option as forms, command line and files see it. All options are numbers; switches are

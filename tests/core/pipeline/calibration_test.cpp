@@ -228,7 +228,7 @@ TEST(Calibrate, EvidenceFollowsTheScenesInUse) {
   const test::SimulatedDataset data(test::dataset_options(1, 4));
   const auto all = calibrate(data.open(), {}, {});
   ASSERT_TRUE(all.ok()) << all.error().text();
-  ASSERT_EQ(all->methods.size(), 9U);
+  ASSERT_EQ(all->methods.size(), 10U);
   EXPECT_EQ(all->methods.back().name, "forward_model");
   EXPECT_EQ(all->methods.back().camera_from_lidar.translation,
             all->extrinsic.camera_from_lidar.transform.translation);
