@@ -650,6 +650,10 @@ were saved. Take them up again?</source>
         <translation>激光雷达残差达到其 σ 的这么多倍时结果存疑。</translation>
     </message>
     <message>
+        <source>Use the clouds&apos; intensities; without them planes and corners have to do.</source>
+        <translation>使用点云的强度；不用时只能依靠平面和角点。</translation>
+    </message>
+    <message>
         <source>Look for the pattern on planes larger than the board from the start.</source>
         <translation>从一开始就在大于标定板的平面上搜索图案。</translation>
     </message>
@@ -3266,6 +3270,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
 <context>
     <name>lvcalib::widgets::MethodsPane</name>
     <message>
+        <source>Joint, as in the paper</source>
+        <translation>联合，按论文原文</translation>
+    </message>
+    <message>
         <source>3D-SVD</source>
         <translation>3D-SVD</translation>
     </message>
@@ -3629,6 +3637,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Detection</source>
         <translation>检测</translation>
+    </message>
+    <message>
+        <source>Clouds</source>
+        <translation>点云</translation>
     </message>
     <message>
         <source>Localisation</source>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
+#include <optional>
 
 #include "calibration_arguments.h"
 #include "command.h"
@@ -25,10 +26,31 @@ std::string summary_of(const CalibrationResult& result, const std::string& outpu
   return text + (" -> " + output);
 }
 
+// The ablation as lines of a table; a dash where there is nothing to hold out.
+void print_ablation(const std::vector<AblationStep>& steps, Session& session) {
+  const auto cell = [](const std::optional<double>& value) {
+    char text[32] = "-";
+    if (value) std::snprintf(text, sizeof text, "%.3f", *value);
+    return std::string(text);
+  };
+  char line[256];
+  std::snprintf(line, sizeof line, "%-14s %9s %9s %13s %13s %11s %13s", "step", "rms [px]",
+                "rms [mm]", "heldout [px]", "heldout [mm]", "moves [mm]", "moves [mrad]");
+  session.print(line);
+  for (const AblationStep& step : steps) {
+    const MethodResult& m = step.method;
+    std::snprintf(line, sizeof line, "%-14s %9.3f %9.3f %13s %13s %11.3f %13.3f", m.name.c_str(),
+                  m.rms_px, m.rms_mm, cell(m.heldout_px).c_str(), cell(m.heldout_mm).c_str(),
+                  m.translation_mm, m.rotation_mrad);
+    session.print(line);
+  }
+}
+
 Result<std::string> run(const CalibrationArguments& arguments, Session& session) {
   auto result = run_calibration(arguments, session);
   if (!result) return result.error();
   if (Status s = write_results(*result, arguments.output); !s) return s.error();
+  if (!result->ablation.empty()) print_ablation(result->ablation, session);
   if (result->quality == Quality::kFailed || result->extrinsic.used_scenes < 2)
     return untrusted_result(*result, arguments);
   return summary_of(*result, arguments.output);
@@ -41,6 +63,9 @@ Command add_calibrate_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("calibrate", "Find T_camera_lidar from a dataset of board scenes");
   add_calibration_arguments(*command, *arguments, "folder for result.json and result.yaml");
+  command->add_flag("--methods", arguments->ablation,
+                    "also what each departure from the paper's method is worth, one at a time: a "
+                    "table, and the key ablation of result.json");
   return {command, [arguments](Session& session) { return run(*arguments, session); }};
 }
 

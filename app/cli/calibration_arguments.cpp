@@ -48,6 +48,8 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
   if (!options.tolerance.empty()) {
     if (Status s = read_tolerance(options.tolerance, request.options.quality); !s) return s.error();
   }
+  request.options.ablation = options.ablation;
+  if (options.no_intensity) request.options.clouds.use_intensity = false;
   if (!options.rough.empty()) {
     auto rough = read_rough_extrinsic(options.rough);
     if (!rough) return rough.error();
@@ -68,6 +70,8 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
   command.add_option("--init", arguments.rough,
                      "rig.yaml with a rough T_camera_lidar; narrows the search");
   command.add_flag("--crops", arguments.crops, "use scenes/NAME/board.pcd where present");
+  command.add_flag("--no-intensity", arguments.no_intensity,
+                   "calibrate as if the clouds had no intensity: by planes and corners alone");
   command
       .add_option("--intrinsics", arguments.intrinsics,
                   "the camera's intrinsics: fixed (as given), prior (estimated, with the standard "

@@ -18,6 +18,8 @@ struct CalibrationArguments {
   std::string intrinsics;  ///< fixed, prior or free; empty: as the options say.
   std::string tolerance;   ///< MM,MRAD; empty: as the options say.
   bool crops = false;
+  bool no_intensity = false;
+  bool ablation = false;  ///< See CalibrationOptions::ablation; of calibrate alone.
   std::vector<std::string> rejected;
 };
 

@@ -12,11 +12,28 @@ struct EvaluateArguments {
   std::string truth;
 };
 
-Result<std::string> run(const EvaluateArguments& options) {
+// What each step of the result's ablation is off the truth by.
+void print_steps(const std::vector<StoredStep>& steps, const Rigid3& truth, Session& session) {
+  char line[160];
+  std::snprintf(line, sizeof line, "%-14s %9s %9s %9s %11s", "step", "rms [px]", "rms [mm]",
+                "off [mm]", "off [mrad]");
+  session.print(line);
+  for (const StoredStep& step : steps) {
+    const ExtrinsicError e = compare_extrinsics({step.camera_from_lidar, {}}, truth);
+    std::snprintf(line, sizeof line, "%-14.40s %9.3f %9.3f %9.3f %11.3f", step.name.c_str(),
+                  step.rms_px, step.rms_mm, e.translation_mm, e.rotation_mrad);
+    session.print(line);
+  }
+}
+
+Result<std::string> run(const EvaluateArguments& options, Session& session) {
   auto estimate = read_result(options.result);
   if (!estimate) return estimate.error();
   auto truth = read_truth(options.truth);
   if (!truth) return truth.error();
+  const auto steps = read_ablation(options.result);
+  if (!steps) return steps.error();
+  if (!steps->empty()) print_steps(*steps, *truth, session);
   const ExtrinsicError e = compare_extrinsics(*estimate, *truth);
   const Vector6d& x = e.left_perturbation;
   const Vector6d& n = e.normalized;
@@ -40,7 +57,7 @@ Command add_evaluate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("evaluate", "Compare a result with a simulation's truth");
   command->add_option("RESULT", options->result, "result.json")->required();
   command->add_option("--truth", options->truth, "truth.json")->required();
-  return {command, [options](Session&) { return run(*options); }};
+  return {command, [options](Session& session) { return run(*options, session); }};
 }
 
 }  // namespace lvcalib::cli

@@ -88,6 +88,10 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
     session.context.progress = [&printer](const Progress& progress) { printer.show(progress); };
   }
   session.warn = [&printer](const std::string& text) { printer.line("lvcalib: warning: " + text); };
+  session.print = [&printer](const std::string& text) {
+    printer.finish();
+    std::printf("%s\n", printable(text).c_str());
+  };
   session.note = [&printer, quiet = common.quiet](const std::string& text) {
     if (!quiet) printer.line(text);
   };

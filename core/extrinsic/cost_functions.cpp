@@ -122,6 +122,19 @@ bool NodeCost::Evaluate(double const* const* parameters, double* residuals,
   return true;
 }
 
+NodePointCost::NodePointCost(const Eigen::Vector2d& board_m, const Eigen::Vector3d& center_lidar_m,
+                             const PlaneAxes& axes, const Eigen::Matrix3d& whitening)
+    : point_(board_m.x(), board_m.y(), 0.0), center_(center_lidar_m), map_(whitening * axes) {}
+
+bool NodePointCost::Evaluate(double const* const* parameters, double* residuals,
+                             double** jacobians) const {
+  const LidarPoint p = board_point_in_lidar(parameters, point_);
+  Eigen::Map<Eigen::Vector3d> r(residuals);
+  r = map_ * (p.in_lidar - center_);
+  store<3>(jacobians, Eigen::Matrix<double, 3, 6>(map_ * p.by_board_pose));
+  return true;
+}
+
 PlaneCost::PlaneCost(const Eigen::Matrix3d& board_points_m, const Eigen::Vector3d& plane_center_m,
                      const Eigen::Vector3d& normal, const Eigen::Matrix3d& whitening)
     : points_(board_points_m), center_(plane_center_m), normal_(normal), whitening_(whitening) {}

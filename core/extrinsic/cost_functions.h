@@ -73,6 +73,21 @@ class NodeCost final : public ceres::SizedCostFunction<2, 7, 7> {
   Eigen::Matrix2d whitening_;
 };
 
+/// The same difference along all three axes, whitened by a 3×3 covariance in their order. With a
+/// multiple of the identity it is the distance in any frame, the board's too. Blocks as above.
+class NodePointCost final : public ceres::SizedCostFunction<3, 7, 7> {
+ public:
+  NodePointCost(const Eigen::Vector2d& board_m, const Eigen::Vector3d& center_lidar_m,
+                const PlaneAxes& axes, const Eigen::Matrix3d& whitening);
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Eigen::Vector3d point_;
+  Eigen::Vector3d center_;
+  Eigen::Matrix3d map_;  // whitening · axes
+};
+
 /// Heights of three board points over the measured plane, whitened by the plane's covariance: all
 /// that the LiDAR points on the board say about its plane. Blocks: T_camera_lidar, T_camera_board.
 class PlaneCost final : public ceres::SizedCostFunction<3, 7, 7> {

@@ -27,7 +27,15 @@ struct SceneObservations {
   std::vector<RefinedNode> nodes;  ///< Empty for targets without circles.
 };
 
+/// What of a node takes part in the joint objective.
+enum class NodeTerm {
+  kInPlane,    ///< Its place in the plane by its covariance; the plane has a term of its own.
+  kAllAxes,    ///< All three axes: in the plane by its covariance, along the normal by its σ.
+  kIsotropic,  ///< All three axes by its one σ, as the paper prints it.
+};
+
 struct ExtrinsicOptions {
+  NodeTerm node_term = NodeTerm::kInPlane;
   double sigma_px_floor = 0.01;       ///< Corner noise is never taken below this.
   double node_sigma_floor_m = 5e-5;   ///< Added in quadrature to every node's standard deviation.
   double plane_sigma_floor_m = 2e-5;  ///< Added in quadrature to the plane's height.

@@ -98,18 +98,36 @@ class JointProblem {
     axes.row(0) = scene.plane.axis_u.transpose();
     axes.row(1) = scene.plane.axis_v.transpose();
     axes.row(2) = scene.plane.normal.transpose();
-    const double floor_sq = options_.node_sigma_floor_m * options_.node_sigma_floor_m;
     for (std::size_t k = 0; k < scene.nodes.size(); ++k) {
-      if (!mask_.node[s][k]) continue;
-      const RefinedNode& node = scene.nodes[k];
-      const Eigen::Matrix2d covariance =
-          scales_.node * scales_.node *
-          (node.covariance_m2 + floor_sq * Eigen::Matrix2d::Identity());
-      add(problem_.AddResidualBlock(
-              new NodeCost(node.board_m, node.center_lidar_m, axes, whitening_2(covariance)),
-              &loss_, extrinsic_.data(), boards_[s].data()),
-          ResidualGroup::kNode, 2);
+      if (mask_.node[s][k]) add_node(s, scene.nodes[k], axes);
     }
+    // Otherwise the nodes' third axis stands for the plane.
+    if (options_.node_term == NodeTerm::kInPlane) add_plane(s);
+  }
+
+  void add_node(std::size_t s, const RefinedNode& node, const PlaneAxes& axes) {
+    const double floor_sq = options_.node_sigma_floor_m * options_.node_sigma_floor_m;
+    const double scale_sq = scales_.node * scales_.node;
+    const Eigen::Matrix2d in_plane =
+        scale_sq * (node.covariance_m2 + floor_sq * Eigen::Matrix2d::Identity());
+    if (options_.node_term == NodeTerm::kInPlane) {
+      add(problem_.AddResidualBlock(
+              new NodeCost(node.board_m, node.center_lidar_m, axes, whitening_2(in_plane)), &loss_,
+              extrinsic_.data(), boards_[s].data()),
+          ResidualGroup::kNode, 2);
+      return;
+    }
+    const double variance = scale_sq * (node.sigma_m() * node.sigma_m() + floor_sq);
+    Eigen::Matrix3d covariance = variance * Eigen::Matrix3d::Identity();
+    if (options_.node_term == NodeTerm::kAllAxes) covariance.topLeftCorner<2, 2>() = in_plane;
+    add(problem_.AddResidualBlock(
+            new NodePointCost(node.board_m, node.center_lidar_m, axes, whitening_3(covariance)),
+            &loss_, extrinsic_.data(), boards_[s].data()),
+        ResidualGroup::kNode, 3);
+  }
+
+  void add_plane(std::size_t s) {
+    const SceneObservations& scene = scenes_[s];
     const Eigen::Matrix3d covariance = scales_.plane * scales_.plane *
                                        probe_covariance(scene.plane, scene.lidar_from_board,
                                                         probes_, options_.plane_sigma_floor_m);

@@ -115,6 +115,12 @@ Rigid3 solve_by_joint(const MethodInput& input, const Rigid3& start) {
   return state.camera_from_lidar;
 }
 
+Rigid3 solve_as_stated(const MethodInput& input, const Rigid3& start) {
+  return solve_joint(input.scenes, input.camera, input.target, {start, input.camera_from_board},
+                     input.scales, input.mask, input.options)
+      .state.camera_from_lidar;
+}
+
 std::vector<SceneObservations> with_raw_nodes(std::vector<SceneObservations> scenes) {
   for (SceneObservations& scene : scenes) {
     for (RefinedNode& node : scene.nodes) {

@@ -25,6 +25,9 @@ Rigid3 solve_by_reprojection(const MethodInput& input);
 /// The joint objective, its node scale widened to what the residuals say.
 Rigid3 solve_by_joint(const MethodInput& input, const Rigid3& start);
 
+/// The joint objective once, with σ as stated: nothing widened, nothing left out.
+Rigid3 solve_as_stated(const MethodInput& input, const Rigid3& start);
+
 /// The scenes with their nodes as initialised, before the angle–distance refinement.
 std::vector<SceneObservations> with_raw_nodes(std::vector<SceneObservations> scenes);
 

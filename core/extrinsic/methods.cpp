@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "base/statistics.h"
 #include "extrinsic/method_solvers.h"
@@ -33,6 +34,28 @@ MethodInput input_of(const std::vector<SceneObservations>& scenes, const Camera&
   for (const SceneObservations& scene : scenes)
     input.camera_from_board.push_back(scene.camera_from_board);
   return input;
+}
+
+// Everything that the scenes of the joint solve have, bad tags and nodes too.
+ObservationMask whole_mask(const std::vector<SceneObservations>& scenes,
+                           const std::vector<bool>& in_use) {
+  ObservationMask mask;
+  mask.scene = in_use;
+  for (const SceneObservations& scene : scenes) {
+    mask.corner.emplace_back(scene.corners.size(), true);
+    std::vector<bool> valid;
+    for (const RefinedNode& node : scene.nodes) valid.push_back(node.valid);
+    mask.node.push_back(std::move(valid));
+  }
+  return mask;
+}
+
+bool has_three_nodes(const ObservationMask& mask) {
+  std::ptrdiff_t nodes = 0;
+  for (std::size_t s = 0; s < mask.scene.size(); ++s) {
+    if (mask.scene[s]) nodes += std::count(mask.node[s].begin(), mask.node[s].end(), true);
+  }
+  return nodes >= 3;
 }
 
 class Comparison {
@@ -68,6 +91,29 @@ class Comparison {
       }
       const auto solved = other.subset(rest);
       return solved ? std::optional(solved->transform) : std::nullopt;
+    });
+    return result;
+  }
+
+  std::optional<MethodResult> evaluate(const JointVariant& variant, bool held_out) const {
+    NoiseScales scales;
+    scales.sigma_px = refined_.scales.sigma_px;
+    const MethodInput input{variant.scenes,
+                            refined_.camera,
+                            refined_.target,
+                            variant.options,
+                            whole_mask(variant.scenes, refined_.mask.scene),
+                            scales,
+                            refined_.camera_from_board};
+    if (!has_three_nodes(input.mask)) return std::nullopt;
+    const Rigid3& start = joint_.camera_from_lidar.transform;
+    MethodResult result = measured(variant.name, solve_as_stated(input, start));
+    if (!held_out) return result;
+    hold_out(result, [&](std::size_t s) -> std::optional<Rigid3> {
+      MethodInput without = input;
+      without.mask.scene[s] = false;
+      if (!has_three_nodes(without.mask)) return std::nullopt;
+      return solve_as_stated(without, start);
     });
     return result;
   }
@@ -202,6 +248,12 @@ class Comparison {
 
 }  // namespace
 
+ExtrinsicOptions paper_objective(ExtrinsicOptions options) {
+  options.node_term = NodeTerm::kIsotropic;
+  options.robust_threshold = std::numeric_limits<double>::infinity();
+  return options;
+}
+
 std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& scenes,
                                           const Camera& camera, const Target& target,
                                           const ExtrinsicSolution& joint,
@@ -217,9 +269,29 @@ std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& 
     results.push_back(
         comparison.evaluate(method, method_options.held_out && joint.used_scenes >= fewest));
   }
+  if (method_options.paper && target.has_circles()) {
+    auto paper = comparison.evaluate(*method_options.paper,
+                                     method_options.held_out && joint.used_scenes >= 2);
+    if (paper) results.push_back(std::move(*paper));
+  }
   if (method_options.other) {
     results.push_back(comparison.evaluate(*method_options.other,
                                           method_options.held_out && joint.used_scenes >= 2));
+  }
+  return results;
+}
+
+std::vector<MethodResult> compare_variants(const std::vector<SceneObservations>& scenes,
+                                           const Camera& camera, const Target& target,
+                                           const ExtrinsicSolution& joint,
+                                           const ExtrinsicOptions& options,
+                                           const std::vector<JointVariant>& variants,
+                                           bool held_out) {
+  const Comparison comparison(scenes, camera, target, joint, options);
+  std::vector<MethodResult> results;
+  for (const JointVariant& variant : variants) {
+    auto result = comparison.evaluate(variant, held_out && joint.used_scenes >= 2);
+    if (result) results.push_back(std::move(*result));
   }
   return results;
 }

@@ -29,7 +29,7 @@ struct MethodScene {
 /// together fit best (the joint objective). What then remains at corners (px) and nodes (mm) is
 /// what the extrinsic cannot explain. For joint_refined these are the solve's own residuals.
 struct MethodResult {
-  std::string name;  ///< svd_raw … joint_refined, as in the paper's table of objectives.
+  std::string name;  ///< svd_raw … joint_refined as in the paper's table, and further ways.
   Rigid3 camera_from_lidar;
   double rms_px = 0.0;
   double rms_mm = 0.0;
@@ -50,8 +50,22 @@ struct OtherMethod {
   SubsetSolver subset;  ///< Solves it without a scene.
 };
 
+/// The joint objective in another form, perhaps with nodes measured otherwise. Solved as stated, on
+/// all corners and valid nodes of the scenes in use: nothing widened, nothing left out.
+struct JointVariant {
+  std::string name;
+  std::vector<SceneObservations> scenes;  ///< Those of the comparison, in its order.
+  ExtrinsicOptions options;
+};
+
+/// The options of the paper's joint objective: corners over σ_px, each node's three coordinates
+/// over its one σ, squares alone. σ_px, for which the paper prints no number, is the corners' own.
+ExtrinsicOptions paper_objective(ExtrinsicOptions options);
+
 struct MethodOptions {
   bool held_out = true;  ///< Solve every method once more without each scene.
+  /// With nodes as the paper refines them and paper_objective(): its method as it is printed.
+  std::optional<JointVariant> paper = {};
   std::optional<OtherMethod> other = {};
 };
 
@@ -63,11 +77,20 @@ struct MethodOptions {
 /// joint — the joint objective.
 /// Each with the centres as initialised (raw) and as refined. Boards without circles have no nodes
 /// to compare: joint_refined alone is listed, its rms_mm the heights over the planes.
-/// Behind them `other`, the joint solve over every return.
+/// Behind them `paper`, and `other`, the joint solve over every return.
 std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& scenes,
                                           const Camera& camera, const Target& target,
                                           const ExtrinsicSolution& joint,
                                           const ExtrinsicOptions& options,
                                           const MethodOptions& method_options = {});
+
+/// Variants of the joint objective, measured as compare_methods() does. Those that fewer than three
+/// nodes leave undetermined are not listed.
+std::vector<MethodResult> compare_variants(const std::vector<SceneObservations>& scenes,
+                                           const Camera& camera, const Target& target,
+                                           const ExtrinsicSolution& joint,
+                                           const ExtrinsicOptions& options,
+                                           const std::vector<JointVariant>& variants,
+                                           bool held_out = true);
 
 }  // namespace lvcalib

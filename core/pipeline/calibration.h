@@ -45,6 +45,9 @@ struct SceneResult {
   std::optional<std::size_t> chosen;  ///< Candidate that all scenes agree on.
   Cloud board_points;                 ///< Full-density points about the board.
   std::optional<BoardRefinement> refinement;
+  /// The circles refined exactly as the paper prints it, for the method joint_paper; empty where
+  /// `refinement` has none.
+  std::vector<RefinedNode> paper_nodes;
 };
 
 enum class Quality { kGood, kDoubtful, kFailed };
@@ -57,6 +60,12 @@ struct ModelEffect {
   double shape = 0.0;  ///< Its shape number (a period, a decay length); 0 if it has none.
   double shape_sigma = 0.0;
   std::string spec = {};  ///< Of a user's own effect; see make_user_effect().
+};
+
+/// One step of the way from the paper's method to the result.
+struct AblationStep {
+  std::string change;   ///< What is other than in the step before, in words.
+  MethodResult method;  ///< Its translation_mm and rotation_mrad are those to the final extrinsic.
 };
 
 /// A finished calibration.
@@ -93,7 +102,8 @@ struct CalibrationResult {
   std::vector<StructureScore> unexplained;
   /// What the scenes give one by one with the model's effects; null without effects.
   std::shared_ptr<const ModelFit> model_fit;
-  std::vector<MethodResult> methods;  ///< The paper's objectives on the scenes in use.
+  std::vector<MethodResult> methods;    ///< The paper's objectives on the scenes in use.
+  std::vector<AblationStep> ablation;   ///< If the options ask for it; see ablate().
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.
   Quality quality = Quality::kFailed;

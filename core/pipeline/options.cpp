@@ -34,6 +34,7 @@ OptionDeclaration declare(const char* key, const char* unit, double low, double 
 std::vector<OptionDeclaration> make_declarations() {
   using O = CalibrationOptions;
   using D = DetectionOptions;
+  using K = CloudOptions;
   using L = BoardSearchOptions;
   using C = ConsensusOptions;
   using R = RefinementOptions;
@@ -51,6 +52,9 @@ std::vector<OptionDeclaration> make_declarations() {
               &D::max_reprojection_px),
       declare("detection.min_tags", "1", 1, 1000, "detect", "Fewer tags make an image unusable.",
               &O::detection, &D::min_tags),
+      declare("clouds.use_intensity", "0/1", 0, 1, "localize",
+              "Use the clouds' intensities; without them planes and corners have to do.",
+              &O::clouds, &K::use_intensity),
       declare("localization.min_range_m", "m", 0, 100, "localize",
               "Closer points (the rig itself) are ignored.", &O::localization, &L::min_range_m),
       declare("localization.max_lever_arm_m", "m", 0.01, 1000, "localize",

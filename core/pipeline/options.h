@@ -18,6 +18,12 @@
 
 namespace lvcalib {
 
+/// What is taken from the clouds.
+struct CloudOptions {
+  /// Without, every cloud is taken for one that has no intensity: planes and corners have to do.
+  bool use_intensity = true;
+};
+
 /// When a result counts as trustworthy.
 struct QualityOptions {
   double scale_warning = 0.003;  ///< Size difference between LiDAR and model worth a warning.
@@ -54,6 +60,7 @@ struct IntrinsicsOptions {
 /// Every option of a calibration.
 struct CalibrationOptions {
   DetectionOptions detection;
+  CloudOptions clouds;
   BoardSearchOptions localization;
   ConsensusOptions consensus;
   RefinementOptions refinement;
@@ -63,6 +70,9 @@ struct CalibrationOptions {
   ResponseOptions response;
   QualityOptions quality;
   DiscoveryOptions discovery;
+  /// Also what each departure from the paper's method is worth, CalibrationResult::ablation. Asked
+  /// for with a run and not declared below: it changes no result.
+  bool ablation = false;
 };
 
 /// One option as forms, command line and files see it. All options are numbers; switches are

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "pipeline/ablation.h"
 #include "pipeline/calibration.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
@@ -136,9 +137,17 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     subsets = forward_subsets(*result.forward, nodes);
     methods.other = {"forward_model", result.extrinsic.camera_from_lidar.transform, subsets};
   }
+  methods.paper = JointVariant{"joint_paper", with_paper_nodes(observations, result, index),
+                               paper_objective(options.extrinsic)};
   result.methods =
       compare_methods(observations, result.camera, target, nodes, options.extrinsic, methods);
   if (context.stopped()) return Error::cancelled();
+  result.ablation.clear();
+  if (options.ablation) {
+    auto steps = ablate(result, observations, index, target, nodes, context);
+    if (!steps) return steps.error();
+    result.ablation = std::move(*steps);
+  }
   result.uncertainty = assess_uncertainty(observations, result.camera, target, result.extrinsic,
                                           options.extrinsic, {}, subsets);
   if (Status status = respond(result, target, options, context); !status) return status.error();

@@ -184,6 +184,8 @@ Result<Cloud> read_scene_cloud(const SceneFiles& files, const CalibrationRequest
   const auto& path = request.use_crops && !files.crop.empty() ? files.crop : files.cloud;
   auto cloud = read_cloud(path, std::move(stop));
   if (!cloud) return cloud.error();
+  // Here and nowhere else, so that all that follows meets a cloud that never had any.
+  if (!request.options.clouds.use_intensity) cloud->intensity.clear();
   const auto box = request.crop_boxes.find(files.name);
   if (box == request.crop_boxes.end()) return cloud;
   if (Status s = check(box->second); !s) return s.error();

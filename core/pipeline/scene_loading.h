@@ -6,7 +6,8 @@
 
 namespace lvcalib {
 
-/// A scene's cloud as the request wants it: board.pcd or cloud.pcd, cut by its crop box.
+/// A scene's cloud as the request wants it: board.pcd or cloud.pcd, cut by its crop box, with or
+/// without its intensities.
 Result<Cloud> read_scene_cloud(const SceneFiles& files, const CalibrationRequest& request,
                                std::stop_token stop);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "detection/board_view.h"
 #include "localization/board_search.h"
@@ -58,6 +59,7 @@ struct SceneStages {
   Kept<BoardSearchResult> search;  ///< First look.
   Kept<SecondLook> second_look;    ///< Where the other scenes put the board.
   Kept<BoardRefinement> refinement;
+  Kept<std::vector<RefinedNode>> paper_nodes;  ///< Of the same points, as the paper refines them.
 };
 
 /// Stage results of a dataset's scenes between runs. A changed option, crop box, guess or file

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/statistics.h"
 #include "refinement/layout.h"
@@ -108,6 +109,10 @@ class NodeRefiner {
   }
 
  private:
+  [[nodiscard]] bool by_midpoints() const {
+    return options_.estimator == CenterEstimator::kMidpoint;
+  }
+
   void collect_samples(const Cloud& cloud) {
     // Samples that the nodes may still reach while the layout moves.
     const double reach = window_.radius_m + window_.outside_m + 4.0 * options_.max_step_m;
@@ -118,7 +123,8 @@ class NodeRefiner {
       const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
       const auto residual = result_.plane.range_residual_m(p);
       if (!residual || std::abs(*residual) > gate) continue;
-      const auto uv = result_.plane.ray_hit(p);
+      const auto uv =
+          options_.along_rays ? result_.plane.ray_hit(p) : std::optional(result_.plane.to_plane(p));
       if (!uv) continue;
       for (std::size_t n = 0; n < nodes_.size(); ++n) {
         if ((*uv - layout_ * nodes_[n].center_m).squaredNorm() < reach * reach) {
@@ -141,13 +147,15 @@ class NodeRefiner {
     std::vector<UnwrappedSample> centred;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       if (unwrapped[n].empty()) {
-        fits_.push_back({records[n], Eigen::Matrix3d::Zero(), 0.0, 0});
+        NodeFit none;
+        none.record = records[n];
+        fits_.push_back(std::move(none));
         continue;
       }
       fits_.push_back(fit_node(unwrapped[n], records[n], window_, model_, options_));
       if (fits_.back().record.valid) append_centred(unwrapped[n], fits_.back(), centred);
     }
-    if (!centred.empty() && iteration < kSettlingRounds) {
+    if (!centred.empty() && iteration < kSettlingRounds && !by_midpoints()) {
       model_.update(centred, kSmallestFootprint * window_.radius_m,
                     kLargestFootprint * window_.radius_m);
     }
@@ -180,7 +188,7 @@ class NodeRefiner {
       if (step.norm() > options_.max_step_m) step *= options_.max_step_m / step.norm();
       centers.push_back(fits_[n].record.center_uv_m + share * step);
       model.push_back(nodes_[n].center_m);
-      weights.push_back(1.0 / fits_[n].covariance_m2.topLeftCorner<2, 2>().trace());
+      weights.push_back(fits_[n].weight);
     }
     if (centers.size() < 2) return 0.0;
     const LayoutPose next = fit_layout(centers, model, weights);
@@ -190,6 +198,19 @@ class NodeRefiner {
     }
     layout_ = next;
     return largest;
+  }
+
+  // The centres as the paper has them: constrained to the layout, and one σ from the scatter of the
+  // circle's midpoints about their wave.
+  void place_on_layout(const NodeFit& fit, RefinedNode& node) const {
+    node.center_uv_m = layout_ * node.board_m;
+    double weights = 0.0;
+    for (const BinRecord& bin : fit.record.bins) {
+      if (bin.state == BinState::kUsed) weights += 1.0 / (bin.sigma_m * bin.sigma_m);
+    }
+    const double scatter = weights > 0.0 ? std::sqrt(fit.chi_square / weights) : 0.0;
+    const double sigma = std::max(options_.midpoint_sigma_floor_m, scatter);
+    node.covariance_m2 = sigma * sigma * Eigen::Matrix2d::Identity();
   }
 
   void finish() {
@@ -214,16 +235,17 @@ class NodeRefiner {
       node.board_m = nodes_[n].center_m;
       node.center_uv_m = fit.record.center_uv_m + fit.record.wave_m.head<2>();
       node.covariance_m2 = excess * fit.covariance_m2.topLeftCorner<2, 2>();
-      node.center_lidar_m = result_.plane.to_lidar(node.center_uv_m);
-      node.raw_lidar_m = result_.plane.to_lidar(raw_[n]);
-      node.valid_bins = static_cast<int>(
-          std::count_if(fit.record.bins.begin(), fit.record.bins.end(),
-                        [](const BinRecord& b) { return b.state == BinState::kUsed; }));
       if (node.valid) {
         centers.push_back(node.center_uv_m);
         model.push_back(node.board_m);
         variances.push_back(0.5 * node.covariance_m2.trace());
       }
+      if (by_midpoints()) place_on_layout(fit, node);
+      node.center_lidar_m = result_.plane.to_lidar(node.center_uv_m);
+      node.raw_lidar_m = result_.plane.to_lidar(raw_[n]);
+      node.valid_bins = static_cast<int>(
+          std::count_if(fit.record.bins.begin(), fit.record.bins.end(),
+                        [](const BinRecord& b) { return b.state == BinState::kUsed; }));
       result_.nodes.push_back(std::move(node));
     }
     const LayoutScale scale = measure_scale(centers, model, variances);
@@ -288,6 +310,12 @@ bool fit_board_plane(const Cloud& cloud, const Target& target, BoardRefinement& 
 }
 
 }  // namespace
+
+RefinementOptions as_in_paper(RefinementOptions options) {
+  options.estimator = CenterEstimator::kMidpoint;
+  options.along_rays = false;
+  return options;
+}
 
 std::string describe(BinState state) {
   switch (state) {

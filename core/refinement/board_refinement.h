@@ -16,6 +16,17 @@
 
 namespace lvcalib {
 
+/// How the centres of the circles are measured.
+enum class CenterEstimator {
+  /// The error-function profile of a footprint common to all circles, see refine_board().
+  kTransition,
+  /// As the paper prints it: in every bin the medians of the two levels and the mid-level between
+  /// them by linear interpolation of the profile; bins weighted by contrast and support, none left
+  /// out for contradicting the others; the centres are those of the layout, each with one σ from
+  /// the scatter of its midpoints. Footprint and noise stay what they were at the start.
+  kMidpoint,
+};
+
 /// Options of the angle–distance refinement.
 struct RefinementOptions {
   int max_bins = 24;              ///< Angular bins of a densely sampled node.
@@ -26,7 +37,16 @@ struct RefinementOptions {
   double max_step_m = 0.005;      ///< Largest correction of one iteration.
   double tolerance_m = 2e-5;      ///< Done when no node moves by more.
   int max_iterations = 30;
+  CenterEstimator estimator = CenterEstimator::kTransition;
+  /// A sample lies where its ray meets the plane; otherwise at its foot on the plane, where range
+  /// noise moves it sideways on a tilted board.
+  bool along_rays = true;
+  /// Least σ of a centre by midpoints; the paper has such a floor and prints no number.
+  double midpoint_sigma_floor_m = 1e-3;
 };
+
+/// The same options with the estimator as printed in the paper, on points projected to the plane.
+RefinementOptions as_in_paper(RefinementOptions options);
 
 enum class BinState {
   kUsed,

@@ -85,6 +85,63 @@ void step_crossings(const std::vector<std::vector<UnwrappedSample>>& by_bin,
   }
 }
 
+using BinnedSamples = std::vector<std::vector<UnwrappedSample>>;
+
+// Parts the samples by their angle and makes a record for every bin.
+BinnedSamples part_by_angle(const std::vector<UnwrappedSample>& samples,
+                            const RefinementOptions& options, NodeFit& fit) {
+  const int bins = choose_bin_count(samples.size(), options);
+  fit.record.bins.resize(static_cast<std::size_t>(bins));
+  BinnedSamples by_bin(fit.record.bins.size());
+  const double width = 2.0 * std::numbers::pi / bins;
+  for (UnwrappedSample s : samples) {
+    const double psi = std::atan2(s.sin_psi, s.cos_psi);
+    s.bin = std::clamp(static_cast<int>((psi + std::numbers::pi) / width), 0, bins - 1);
+    by_bin[static_cast<std::size_t>(s.bin)].push_back(s);
+  }
+  for (std::size_t k = 0; k < by_bin.size(); ++k) {
+    fit.record.bins[k].angle_rad = -std::numbers::pi + (static_cast<double>(k) + 0.5) * width;
+  }
+  return by_bin;
+}
+
+// Where the plateaus of a window begin: two standard deviations of the transition from the edge,
+// but so that half of the window is left.
+MidpointWindow plateaus_of(const NodeWindow& window, double transition_sigma_m) {
+  return {window.inside_m, window.outside_m,
+          std::min(2.0 * transition_sigma_m, 0.5 * window.inside_m),
+          std::min(2.0 * transition_sigma_m, 0.5 * window.outside_m)};
+}
+
+// The bins as the paper has them, and their wave. What the midpoints scatter about it tells the
+// unit of their weights.
+NodeFit fit_midpoints(const std::vector<UnwrappedSample>& samples, NodeRecord record,
+                      const MidpointWindow& window, const RefinementOptions& options) {
+  // Midpoints that scatter not at all still have a standard deviation.
+  constexpr double kLeastUnit_m = 1e-6;
+  NodeFit fit;
+  fit.record = std::move(record);
+  const BinnedSamples by_bin = part_by_angle(samples, options, fit);
+  for (std::size_t k = 0; k < by_bin.size(); ++k) {
+    interpolate_midpoint(by_bin[k], window, options.min_bin_samples, options.min_contrast,
+                         fit.record.bins[k]);
+  }
+  if (!solve_wave(fit)) {
+    fit.record.reason = "too few usable bins around the circle";
+    return fit;
+  }
+  const double unit_m = std::max(kLeastUnit_m, std::sqrt(fit.chi_square / fit.degrees_of_freedom));
+  for (BinRecord& bin : fit.record.bins) {
+    if (bin.state != BinState::kUsed) continue;
+    fit.weight += 1.0 / (bin.sigma_m * bin.sigma_m);
+    bin.sigma_m *= unit_m;
+  }
+  fit.covariance_m2 *= unit_m * unit_m;
+  fit.chi_square /= unit_m * unit_m;
+  fit.record.valid = true;
+  return fit;
+}
+
 }  // namespace
 
 NodeWindow node_window(const Target& target) {
@@ -106,9 +163,7 @@ std::vector<UnwrappedSample> unwrap_node(const std::vector<PlaneSample>& samples
   std::vector<UnwrappedSample> out;
   std::vector<double> inner;
   std::vector<double> outer;
-  // Plateaus begin two standard deviations from the edge, but must keep half of the window.
-  const double clear_in = std::min(2.0 * transition_sigma_m, 0.5 * window.inside_m);
-  const double clear_out = std::min(2.0 * transition_sigma_m, 0.5 * window.outside_m);
+  const MidpointWindow plateaus = plateaus_of(window, transition_sigma_m);
   const double largest = window.radius_m + window.outside_m;
   for (const PlaneSample& sample : samples) {
     const Eigen::Vector2d d = sample.uv_m - center_uv_m;
@@ -116,8 +171,8 @@ std::vector<UnwrappedSample> unwrap_node(const std::vector<PlaneSample>& samples
     if (radius_sq > largest * largest) continue;
     const double radius = std::sqrt(radius_sq);
     const double distance = radius - window.radius_m;
-    if (distance < -clear_in) inner.push_back(sample.intensity);
-    if (distance > clear_out) outer.push_back(sample.intensity);
+    if (distance < -plateaus.clear_inside_m) inner.push_back(sample.intensity);
+    if (distance > plateaus.clear_outside_m) outer.push_back(sample.intensity);
     if (distance < -window.inside_m) continue;
     out.push_back({d.x() / radius, d.y() / radius, distance, sample.intensity, 0});
   }
@@ -139,24 +194,20 @@ std::vector<UnwrappedSample> unwrap_node(const std::vector<PlaneSample>& samples
   return out;
 }
 
-NodeFit fit_node(std::vector<UnwrappedSample> samples, NodeRecord record, const NodeWindow& window,
-                 const TransitionModel& model, const RefinementOptions& options) {
+NodeFit fit_node(const std::vector<UnwrappedSample>& samples, NodeRecord record,
+                 const NodeWindow& window, const TransitionModel& model,
+                 const RefinementOptions& options) {
+  if (options.estimator == CenterEstimator::kMidpoint) {
+    return fit_midpoints(samples, std::move(record), plateaus_of(window, model.mean_sigma_m()),
+                         options);
+  }
   NodeFit fit;
   fit.record = std::move(record);
-  const int bins = choose_bin_count(samples.size(), options);
-  fit.record.bins.resize(static_cast<std::size_t>(bins));
-  std::vector<std::vector<UnwrappedSample>> by_bin(fit.record.bins.size());
-  const double width = 2.0 * std::numbers::pi / bins;
-  for (UnwrappedSample& s : samples) {
-    const double psi = std::atan2(s.sin_psi, s.cos_psi);
-    s.bin = std::clamp(static_cast<int>((psi + std::numbers::pi) / width), 0, bins - 1);
-    by_bin[static_cast<std::size_t>(s.bin)].push_back(s);
-  }
+  const BinnedSamples by_bin = part_by_angle(samples, options, fit);
   const double plateau_noise = model.noise().plateau_sigma();
   const bool weak = plateau_noise * options.min_contrast > 1.0;
   for (std::size_t k = 0; k < by_bin.size(); ++k) {
     BinRecord& bin = fit.record.bins[k];
-    bin.angle_rad = -std::numbers::pi + (static_cast<double>(k) + 0.5) * width;
     solve_crossing(by_bin[k], model, window.inside_m, window.outside_m, options.min_bin_samples,
                    bin);
     if (weak && bin.state == BinState::kUsed) bin.state = BinState::kWeakContrast;
@@ -172,7 +223,9 @@ NodeFit fit_node(std::vector<UnwrappedSample> samples, NodeRecord record, const 
     return fit;
   }
   // A centre known no better than a quarter of the radius is no measurement.
-  const double sigma = std::sqrt(fit.covariance_m2.topLeftCorner<2, 2>().trace());
+  const double variance = fit.covariance_m2.topLeftCorner<2, 2>().trace();
+  fit.weight = 1.0 / variance;
+  const double sigma = std::sqrt(variance);
   fit.record.valid = sigma < 0.25 * window.radius_m;
   if (!fit.record.valid) fit.record.reason = "centre too uncertain";
   return fit;

@@ -32,6 +32,7 @@ struct NodeFit {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< Of (Δc_u, Δc_v, Δr).
   double chi_square = 0.0;                                  ///< Of the bins about the wave.
   int degrees_of_freedom = 0;
+  double weight = 0.0;  ///< Of the centre in the projection to the layout.
 };
 
 /// Levels of a node by robust medians well inside and well outside its edge, and the samples of
@@ -41,8 +42,10 @@ std::vector<UnwrappedSample> unwrap_node(const std::vector<PlaneSample>& samples
                                          const NodeWindow& window, double transition_sigma_m,
                                          NodeRecord& record);
 
-/// Bins the unwrapped samples, finds the crossings, refuses bad bins and fits the wave.
-NodeFit fit_node(std::vector<UnwrappedSample> samples, NodeRecord record, const NodeWindow& window,
-                 const TransitionModel& model, const RefinementOptions& options);
+/// Bins the unwrapped samples, finds the crossings, refuses bad bins and fits the wave; by the
+/// estimator that the options name.
+NodeFit fit_node(const std::vector<UnwrappedSample>& samples, NodeRecord record,
+                 const NodeWindow& window, const TransitionModel& model,
+                 const RefinementOptions& options);
 
 }  // namespace lvcalib

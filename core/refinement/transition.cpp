@@ -2,7 +2,9 @@
 #include "refinement/transition.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -199,6 +201,78 @@ void step_crossing(const std::vector<UnwrappedSample>& samples, const Transition
   bin.midpoint_m = expected_m + system.rhs / system.information;
   bin.sigma_m = 1.0 / std::sqrt(system.information);
   bin.angle_rad = std::atan2(system.sin_sum, system.cos_sum);
+}
+
+namespace {
+
+// The profile of a bin: medians of distance and level in slots of equal width, from inside out.
+std::vector<Eigen::Vector2d> median_profile(const std::vector<UnwrappedSample>& samples,
+                                            const MidpointWindow& window) {
+  constexpr std::size_t kProfileSlots = 10;
+  std::array<std::vector<double>, kProfileSlots> distances;
+  std::array<std::vector<double>, kProfileSlots> levels;
+  const double width = (window.inside_m + window.outside_m) / kProfileSlots;
+  for (const UnwrappedSample& s : samples) {
+    const double k = std::floor((s.distance_m + window.inside_m) / width);
+    if (!(k >= 0.0 && k < static_cast<double>(kProfileSlots))) continue;
+    distances[static_cast<std::size_t>(k)].push_back(s.distance_m);
+    levels[static_cast<std::size_t>(k)].push_back(s.level);
+  }
+  std::vector<Eigen::Vector2d> profile;
+  for (std::size_t k = 0; k < kProfileSlots; ++k) {
+    if (!levels[k].empty()) profile.emplace_back(median(distances[k]), median(levels[k]));
+  }
+  return profile;
+}
+
+// Where a profile rises through a level; of several such places the one nearest to the circle.
+std::optional<double> nearest_rise(const std::vector<Eigen::Vector2d>& profile, double level) {
+  std::optional<double> nearest;
+  for (std::size_t k = 1; k < profile.size(); ++k) {
+    const Eigen::Vector2d& a = profile[k - 1];
+    const Eigen::Vector2d& b = profile[k];
+    if (!(a.y() < level && b.y() >= level)) continue;
+    const double d = a.x() + (b.x() - a.x()) * (level - a.y()) / (b.y() - a.y());
+    if (!nearest || std::abs(d) < std::abs(*nearest)) nearest = d;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void interpolate_midpoint(const std::vector<UnwrappedSample>& samples, const MidpointWindow& window,
+                          int min_samples, double min_contrast, BinRecord& bin) {
+  bin.samples = static_cast<int>(samples.size());
+  if (bin.samples < min_samples) {
+    bin.state = BinState::kTooFewSamples;
+    return;
+  }
+  std::vector<double> inner;
+  std::vector<double> outer;
+  for (const UnwrappedSample& s : samples) {
+    if (s.distance_m < -window.clear_inside_m) inner.push_back(s.level);
+    if (s.distance_m > window.clear_outside_m) outer.push_back(s.level);
+  }
+  // A median of one is no median.
+  if (inner.size() < 2 || outer.size() < 2) {
+    bin.state = BinState::kOneSided;
+    return;
+  }
+  const double noise = std::max(mad_sigma(inner), mad_sigma(outer));
+  const double black = median(std::move(inner));
+  const double contrast = median(std::move(outer)) - black;
+  if (!(contrast > 0.0) || contrast < min_contrast * noise) {
+    bin.state = BinState::kWeakContrast;
+    return;
+  }
+  const auto crossing = nearest_rise(median_profile(samples, window), black + 0.5 * contrast);
+  if (!crossing) {
+    bin.state = BinState::kNoCrossing;
+    return;
+  }
+  bin.midpoint_m = *crossing;
+  bin.sigma_m = 1.0 / std::sqrt(contrast * bin.samples);
+  bin.state = BinState::kUsed;
 }
 
 }  // namespace lvcalib

@@ -61,4 +61,19 @@ void solve_crossing(const std::vector<UnwrappedSample>& samples, const Transitio
 void step_crossing(const std::vector<UnwrappedSample>& samples, const TransitionModel& model,
                    double expected_m, BinRecord& bin);
 
+/// The ring in which a bin's midpoint is looked for, and where in it the plateaus begin.
+struct MidpointWindow {
+  double inside_m = 0.0;
+  double outside_m = 0.0;
+  double clear_inside_m = 0.0;   ///< Samples farther in are black.
+  double clear_outside_m = 0.0;  ///< Samples farther out are white.
+};
+
+/// Mid-level crossing of one bin as the paper has it: the two levels are medians of the bin's own
+/// samples, the profile is that of medians of distance and level in ten slots, and the crossing
+/// nearest to the circle is interpolated linearly. Sets midpoint and state, and as sigma
+/// 1/√(contrast · samples): weights alone, in no unit.
+void interpolate_midpoint(const std::vector<UnwrappedSample>& samples, const MidpointWindow& window,
+                          int min_samples, double min_contrast, BinRecord& bin);
+
 }  // namespace lvcalib

@@ -197,6 +197,23 @@ nlohmann::ordered_json methods_json(const std::vector<MethodResult>& methods) {
   return out;
 }
 
+nlohmann::ordered_json ablation_json(const std::vector<AblationStep>& steps) {
+  ordered_json out = ordered_json::array();
+  for (const AblationStep& step : steps) {
+    const MethodResult& m = step.method;
+    out.push_back({{"name", m.name},
+                   {"change", step.change},
+                   {"rms_px", m.rms_px},
+                   {"rms_mm", m.rms_mm},
+                   {"heldout_px", or_null(m.heldout_px)},
+                   {"heldout_mm", or_null(m.heldout_mm)},
+                   {"translation_mm", m.translation_mm},
+                   {"rotation_mrad", m.rotation_mrad},
+                   {"T_camera_lidar", rows_of(m.camera_from_lidar.matrix())}});
+  }
+  return out;
+}
+
 nlohmann::ordered_json uncertainty_json(const UncertaintyReport& report) {
   ordered_json j;
   j["split_half"] = ordered_json::array();

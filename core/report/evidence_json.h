@@ -14,6 +14,7 @@ namespace lvcalib {
 nlohmann::ordered_json camera_json(const Camera& camera);
 nlohmann::ordered_json inputs_json(const std::vector<InputFile>& inputs);
 nlohmann::ordered_json methods_json(const std::vector<MethodResult>& methods);
+nlohmann::ordered_json ablation_json(const std::vector<AblationStep>& steps);
 nlohmann::ordered_json uncertainty_json(const UncertaintyReport& report);
 nlohmann::ordered_json response_json(const BoundaryResponse& response);
 /// Effects of the model and what their numbers refer to; see report/stored_model.h.

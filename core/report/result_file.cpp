@@ -230,6 +230,7 @@ ordered_json to_json(const CalibrationResult& result) {
     j["scenes"].push_back(
         scene_json(scene, solution_of(result, scene.name), x.camera_from_lidar.transform));
   j["methods"] = methods_json(result.methods);
+  if (!result.ablation.empty()) j["ablation"] = ablation_json(result.ablation);
   j["leave_one_out"] = ordered_json::array();
   for (const LeaveOneOut& l : x.leave_one_out) {
     j["leave_one_out"].push_back({{"without", l.without},
@@ -390,6 +391,36 @@ Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {
   out.camera_from_lidar = *transform;
   if (j->contains("covariance") && read_rows((*j)["covariance"], 6, 6, m)) out.covariance = m;
   return out;
+}
+
+Result<std::vector<StoredStep>> read_ablation(const std::filesystem::path& path) {
+  auto j = read_json(path);
+  if (!j) return j.error();
+  std::vector<StoredStep> steps;
+  const auto list = j->find("ablation");
+  if (list == j->end()) return steps;
+  const auto bad = [&](std::size_t k) {
+    return Error::input("ablation[" + std::to_string(k) +
+                            "] must hold name, rms_px, rms_mm and T_camera_lidar (4 rows of 4 "
+                            "numbers)",
+                        path.string());
+  };
+  if (!list->is_array()) return Error::input("ablation is not a list", path.string());
+  for (std::size_t k = 0; k < list->size(); ++k) {
+    const auto& entry = (*list)[k];
+    Eigen::MatrixXd m;
+    for (const char* key : {"name", "rms_px", "rms_mm", "T_camera_lidar"}) {
+      if (!entry.is_object() || !entry.contains(key)) return bad(k);
+    }
+    if (!entry["name"].is_string() || !entry["rms_px"].is_number() ||
+        !entry["rms_mm"].is_number() || !read_rows(entry["T_camera_lidar"], 4, 4, m))
+      return bad(k);
+    const auto transform = rigid(m, "ablation[" + std::to_string(k) + "].T_camera_lidar", path);
+    if (!transform) return transform.error();
+    steps.push_back({entry["name"].get<std::string>(), entry["rms_px"].get<double>(),
+                     entry["rms_mm"].get<double>(), *transform});
+  }
+  return steps;
 }
 
 Result<Rigid3> read_truth(const std::filesystem::path& path) {

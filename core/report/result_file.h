@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "pipeline/calibration.h"
@@ -33,6 +34,17 @@ struct StoredExtrinsic {
 
 /// Reads T_camera_lidar and its covariance from result.json.
 Result<StoredExtrinsic> read_result(const std::filesystem::path& path);
+
+/// What `evaluate` needs of one step of a result's ablation.
+struct StoredStep {
+  std::string name;
+  double rms_px = 0.0;
+  double rms_mm = 0.0;
+  Rigid3 camera_from_lidar;
+};
+
+/// Reads the ablation from result.json; empty if it has none.
+Result<std::vector<StoredStep>> read_ablation(const std::filesystem::path& path);
 
 /// Reads T_CL from a truth.json of the simulator.
 Result<Rigid3> read_truth(const std::filesystem::path& path);

@@ -56,6 +56,11 @@ struct Tally {
   int rigs = 0, within = 0, best_together = 0, best_held_out = 0, nearest = 0, refined_first = 0;
 };
 
+// The study compares objectives on the circles' centres; the forward model is none.
+bool is_rival(const std::string& name) {
+  return !name.starts_with("joint") && name != "forward_model";
+}
+
 // Whether joint_refined is best in both domains together: no method of another objective has a
 // smaller sum of squares over corners and nodes, each in units of what joint_refined leaves there.
 bool is_best_together(const std::map<std::string, const MethodResult*>& by_name, bool held_out) {
@@ -69,7 +74,7 @@ bool is_best_together(const std::map<std::string, const MethodResult*>& by_name,
     nodes += static_cast<double>(scene.errors_mm.size());
   }
   for (const auto& [name, m] : by_name) {
-    if (name.starts_with("joint")) continue;
+    if (!is_rival(name)) continue;
     const double squares =
         corners * std::pow(px(*m) / px(joint), 2) + nodes * std::pow(mm(*m) / mm(joint), 2);
     if (squares < corners + nodes) return false;
@@ -88,7 +93,7 @@ bool is_nearest_truth(const std::map<std::string, const MethodResult*>& by_name,
   };
   const double joint = error(*by_name.at("joint_refined"));
   return std::all_of(by_name.begin(), by_name.end(), [&](const auto& entry) {
-    return entry.first.starts_with("joint") || error(*entry.second) >= joint;
+    return !is_rival(entry.first) || error(*entry.second) >= joint;
   });
 }
 
@@ -126,7 +131,7 @@ void study_condition(const NamedCondition& what, int rigs, std::uint64_t first_s
     const auto rig = simulation::simulate(
         paper_rig(first_seed + static_cast<std::uint64_t>(k), what.condition), context);
     auto result = rig ? calibrate_rig(*rig, folder) : Result<CalibrationResult>(rig.error());
-    if (!result || result->methods.size() != 8 || result->extrinsic.used_scenes < 3) {
+    if (!result || result->methods.size() < 8 || result->extrinsic.used_scenes < 3) {
       ++failed;
       std::fprintf(stderr, "seed %llu: %s\n",
                    static_cast<unsigned long long>(first_seed + static_cast<std::uint64_t>(k)),

@@ -204,11 +204,12 @@ void ParametersDock::retranslate() {
   setWindowTitle(tr("Parameters"));
   reset_all_->setText(tr("Reset all parameters"));
   const std::pair<const char*, QString> names[] = {
-      {"detection", tr("Detection")},   {"localization", tr("Localisation")},
-      {"consensus", tr("Consensus")},   {"refinement", tr("Refinement")},
-      {"intrinsics", tr("Intrinsics")}, {"extrinsic", tr("Extrinsic")},
-      {"forward", tr("Every return")},  {"response", tr("Boundary response")},
-      {"quality", tr("Quality")},       {"discovery", tr("Missing effects")}};
+      {"detection", tr("Detection")},        {"clouds", tr("Clouds")},
+      {"localization", tr("Localisation")},  {"consensus", tr("Consensus")},
+      {"refinement", tr("Refinement")},      {"intrinsics", tr("Intrinsics")},
+      {"extrinsic", tr("Extrinsic")},        {"forward", tr("Every return")},
+      {"response", tr("Boundary response")}, {"quality", tr("Quality")},
+      {"discovery", tr("Missing effects")}};
   for (auto& [section, heading] : headings_) {
     heading->setText(QString::fromStdString(section));
     for (const auto& [key, text] : names) {

@@ -27,6 +27,7 @@ QString cell_text(const std::optional<double>& value, int decimals) {
 QString method_title(const std::string& name) {
   const QString all = QString::fromStdString(name);
   if (name == "forward_model") return MethodsPane::tr("Every return");
+  if (name == "joint_paper") return MethodsPane::tr("Joint, as in the paper");
   const QString method = all.section('_', 0, 0);
   const QString centers = all.section('_', 1);
   const QString title = method == "svd"     ? MethodsPane::tr("3D-SVD")

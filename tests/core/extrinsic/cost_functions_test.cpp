@@ -182,5 +182,30 @@ TEST(PlaneCost, SeesHeightsOnly) {
   EXPECT_LT((residual({0.0, 0.0, -0.002}) - Eigen::Vector3d(2, 2, 2)).norm(), 1e-9);
 }
 
+TEST(NodePointCost, JacobiansHold) {
+  const Target target;
+  const PlaneAxes axes = so3_exp({0.3, -0.8, 0.4}).toRotationMatrix();
+  Eigen::Matrix3d whitening;
+  whitening << 2000, 300, -50, 0, 1500, 80, 0, 0, 900;
+  const NodePointCost cost({0.39, 0.17}, {2.5, 0.3, -0.2}, axes, whitening);
+  expect_jacobians_hold(
+      cost, {block_of(test::test_extrinsic()), block_of(test::spread_board(target, 2))});
+}
+
+// The paper's residual is taken in the board frame; with one σ the frame does not matter.
+TEST(NodePointCost, WithOneDeviationIsTheDistanceInTheBoardFrame) {
+  const Rigid3 extrinsic = test::test_extrinsic();
+  const Rigid3 board = test::spread_board(Target{}, 3);
+  const Eigen::Vector2d node(0.39, 0.17);
+  const Eigen::Vector3d off(0.002, -0.001, 0.003);  // In the board frame.
+  const Eigen::Vector3d center =
+      extrinsic.inverse() * (board * (Eigen::Vector3d(node.x(), node.y(), 0.0) + off));
+  const double sigma = 0.0015;
+  const NodePointCost cost(node, center, so3_exp({0.3, -0.8, 0.4}).toRotationMatrix(),
+                           Eigen::Matrix3d::Identity() / sigma);
+  EXPECT_NEAR(residuals_of(cost, {block_of(extrinsic), block_of(board)}).norm(), off.norm() / sigma,
+              1e-9);
+}
+
 }  // namespace
 }  // namespace lvcalib

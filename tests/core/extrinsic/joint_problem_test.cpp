@@ -111,6 +111,34 @@ TEST(JointProblem, WhatTheMaskHidesTakesNoPart) {
   EXPECT_NE(two.state.camera_from_board[0].matrix(), spoilt.start.camera_from_board[0].matrix());
 }
 
+TEST(JointProblem, NodesOnAllAxesStandForThePlane) {
+  for (const NodeTerm term : {NodeTerm::kAllAxes, NodeTerm::kIsotropic}) {
+    Problem setup(3, kNoiseFree, 1);
+    setup.scales.sigma_px = 0.1;
+    setup.options.node_term = term;
+    const JointFit fit = setup.solve();
+    EXPECT_THAT(fit.state.camera_from_lidar, test::IsNearPose(setup.truth, 1e-5, 1e-5));
+    EXPECT_EQ(fit.groups[1].count, 3 * 3 * 9);
+    EXPECT_EQ(fit.groups[2].count, 0);
+  }
+}
+
+// A centre known well along one axis alone: one deviation cannot say so, the covariance does.
+TEST(JointProblem, OneDeviationForgetsWhichWayACentreIsUncertain) {
+  Problem setup(2, kNoiseFree, 6);
+  setup.scales.sigma_px = 0.1;
+  SceneObservations& scene = setup.scenes[0];
+  for (RefinedNode& node : scene.nodes) {
+    node.covariance_m2 = Eigen::Vector2d(1e-4, 1e-8).asDiagonal();
+    node.center_lidar_m += 0.01 * scene.plane.axis_u;  // One σ off where it is uncertain.
+  }
+  const auto off = [&](NodeTerm term) {
+    setup.options.node_term = term;
+    return translation_distance_m(setup.solve().state.camera_from_lidar, setup.truth);
+  };
+  EXPECT_GT(off(NodeTerm::kIsotropic), 1.5 * off(NodeTerm::kAllAxes));
+}
+
 TEST(JointProblem, ABoardBehindTheCameraIsNotConverged) {
   Problem setup(2, {}, 5);
   setup.start.camera_from_board[0].translation.z() = -3.0;

@@ -140,6 +140,58 @@ TEST_F(Methods, BoardsWithoutCirclesHaveTheJointSolveOnly) {
   EXPECT_LT(methods.at("joint_refined").rms_mm, 1.0);
 }
 
+class PaperMethod : public Methods {
+ protected:
+  [[nodiscard]] std::vector<MethodResult> compare_with_paper(
+      const std::vector<SceneObservations>& observations,
+      const std::vector<SceneObservations>& paper) const {
+    const auto joint = solve_extrinsic(observations, camera_, target_, {});
+    if (!joint) {
+      ADD_FAILURE() << joint.error().text();
+      return {};
+    }
+    MethodOptions options;
+    options.paper = JointVariant{"joint_paper", paper, paper_objective({})};
+    return compare_methods(observations, camera_, target_, *joint, {}, options);
+  }
+};
+
+TEST_F(PaperMethod, StandsBehindTheOthersAndFindsTheTruthWithoutNoise) {
+  noise_ = {0.0, 0.0, 0.0, 0.0};
+  const auto observations = scenes(3, 7);
+  const auto methods = compare_with_paper(observations, observations);
+  ASSERT_EQ(methods.size(), 9U);
+  const MethodResult& paper = methods.back();
+  EXPECT_EQ(paper.name, "joint_paper");
+  EXPECT_THAT(paper.camera_from_lidar, test::IsNearPose(truth_, 1e-3, 1e-3));
+  ASSERT_TRUE(paper.heldout_mm);
+  EXPECT_LT(*paper.heldout_mm, 1e-2);
+}
+
+// Nothing is left out and squares count: one bad centre moves the paper's extrinsic, not ours.
+TEST_F(PaperMethod, KeepsWhatContradicts) {
+  const auto clean = scenes(3, 8);
+  auto spoilt = clean;
+  spoilt[0].nodes[0].center_lidar_m += 0.05 * spoilt[0].plane.axis_u;
+  spoilt[0].nodes[0].center_uv_m.x() += 0.05;
+  const auto moved = [&](std::size_t k) {
+    return translation_distance_m(compare_with_paper(clean, clean)[k].camera_from_lidar,
+                                  compare_with_paper(spoilt, spoilt)[k].camera_from_lidar);
+  };
+  EXPECT_LT(moved(7), 0.001);
+  EXPECT_GT(moved(8), 0.002);
+}
+
+TEST_F(PaperMethod, IsNotListedWithoutThreeNodesOrWithoutCircles) {
+  const auto observations = scenes(3, 9);
+  auto without = observations;
+  for (SceneObservations& scene : without) scene.nodes.clear();
+  EXPECT_EQ(compare_with_paper(observations, without).size(), 8U);
+  target_.type = TargetType::kAprilGrid;
+  const auto plain = test::observed_scenes(5, target_, camera_, truth_, noise_, 5);
+  EXPECT_EQ(compare_with_paper(plain, plain).size(), 1U);
+}
+
 // Ten scenes: leave-one-out is part of the solve and must stay interactive.
 TEST_F(Methods, TenScenesAreSolvedWithLeaveOneOutInHalfASecond) {
   const auto observations = scenes(10, 6);

@@ -192,13 +192,43 @@ TEST(Calibrate, AnImageOfAnotherSceneIsFoundOutAndNamed) {
   expect_within_four_sigma(*result, data.rig().camera_from_lidar);
 }
 
+// Intensities left out are intensities that were never there: the same numbers, the same words, and
+// a result that remembers it.
+TEST(Calibrate, WithoutIntensityIsAsIfTheCloudsHadNone) {
+  const test::SimulatedDataset data(test::dataset_options(1, 4));
+  CalibrationRequest request;
+  request.options.clouds.use_intensity = false;
+  const auto left_out = calibrate(data.open(), request, {});
+  ASSERT_TRUE(left_out.ok()) << left_out.error().text();
+  for (std::size_t s = 0; s < 4; ++s) {
+    const fs::path file =
+        data.path() / "scenes" / std::string(1, static_cast<char>('A' + s)) / "cloud.pcd";
+    auto cloud = read_cloud(file);
+    ASSERT_TRUE(cloud.ok());
+    cloud->intensity.clear();
+    ASSERT_TRUE(write_pcd(file, *cloud).ok());
+  }
+  const auto absent = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(absent.ok()) << absent.error().text();
+  EXPECT_EQ(left_out->extrinsic.camera_from_lidar.transform.matrix(),
+            absent->extrinsic.camera_from_lidar.transform.matrix());
+  EXPECT_EQ(left_out->extrinsic.camera_from_lidar.covariance,
+            absent->extrinsic.camera_from_lidar.covariance);
+  EXPECT_EQ(left_out->warnings, absent->warnings);
+  EXPECT_THAT(left_out->warnings, testing::Contains(HasSubstr("intensity is missing")));
+  ASSERT_TRUE(left_out->forward);
+  EXPECT_FALSE(left_out->forward->uses_intensity);
+  EXPECT_FALSE(left_out->options.clouds.use_intensity);
+  expect_within_four_sigma(*left_out, data.rig().camera_from_lidar);
+}
+
 // Everything that a result says of itself is there after a calibration and after leaving a scene
 // out.
 TEST(Calibrate, EvidenceFollowsTheScenesInUse) {
   const test::SimulatedDataset data(test::dataset_options(1, 4));
   const auto all = calibrate(data.open(), {}, {});
   ASSERT_TRUE(all.ok()) << all.error().text();
-  ASSERT_EQ(all->methods.size(), 9U);
+  ASSERT_EQ(all->methods.size(), 10U);
   EXPECT_EQ(all->methods.back().name, "forward_model");
   EXPECT_EQ(all->methods.back().camera_from_lidar.translation,
             all->extrinsic.camera_from_lidar.transform.translation);

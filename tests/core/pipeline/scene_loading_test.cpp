@@ -73,6 +73,19 @@ TEST(LoadScenes, ACloudWithoutIntensityIsSearchedByItsOutline) {
   EXPECT_EQ(result.scenes[0].search->candidates.front().correlation, 0.0);
 }
 
+TEST(ReadSceneCloud, IntensitiesAreLeftOutWhenTheyAreNotWanted) {
+  const test::SimulatedDataset data(test::dataset_options(13, 1));
+  const SceneFiles files = data.open().scenes.front();
+  CalibrationRequest request;
+  const auto with = read_scene_cloud(files, request, {});
+  request.options.clouds.use_intensity = false;
+  const auto without = read_scene_cloud(files, request, {});
+  ASSERT_TRUE(with.ok() && without.ok());
+  EXPECT_TRUE(with->has_intensity());
+  EXPECT_FALSE(without->has_intensity());
+  EXPECT_EQ(without->points_m, with->points_m);
+}
+
 TEST(LoadScenes, AnImageOfAnotherSizeSpoilsAll) {
   const test::SimulatedDataset data(test::dataset_options(14, 1));
   Dataset dataset = data.open();

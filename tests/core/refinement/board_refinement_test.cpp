@@ -280,5 +280,57 @@ TEST(BinStates, AreDescribedDifferently) {
   EXPECT_EQ(texts.size(), 6U);
 }
 
+// The paper's centres: on the printed layout exactly, each with one σ and that not below the floor.
+TEST(BoardRefinement, AsInThePaperCentresLieOnTheLayout) {
+  const BoardScene scene(2, LidarKind::kAvia, 1);
+  const RefinementOptions options = as_in_paper({});
+  const auto paper = scene.refine(scene.start(), options);
+  const auto ours = scene.refine(scene.start());
+  ASSERT_TRUE(paper.ok() && ours.ok());
+  ASSERT_GE(paper->valid_nodes(), 7);
+  for (const RefinedNode& node : paper->nodes) {
+    for (const RefinedNode& other : paper->nodes) {
+      EXPECT_NEAR((node.center_lidar_m - other.center_lidar_m).norm(),
+                  (node.board_m - other.board_m).norm(), 1e-9);
+    }
+    if (!node.valid) continue;
+    EXPECT_LT(scene.error(*paper, node).norm(), 0.003) << "node " << node.id;
+    EXPECT_EQ(node.covariance_m2(0, 1), 0.0);
+    EXPECT_EQ(node.covariance_m2(0, 0), node.covariance_m2(1, 1));
+    EXPECT_GE(node.sigma_m(), options.midpoint_sigma_floor_m);
+  }
+  EXPECT_THAT(paper->lidar_from_board, test::IsNearPose(scene.truth, 3.0, 3.0));
+  // Another estimator on the same plane.
+  EXPECT_EQ(paper->plane.center_m, ours->plane.center_m);
+  EXPECT_GT((paper->nodes[4].center_lidar_m - ours->nodes[4].center_lidar_m).norm(), 1e-6);
+}
+
+// On a tilted board range noise moves the feet of samples sideways, and along the ray it does not.
+TEST(BoardRefinement, SamplesAlongTheirRaysScatterLess) {
+  BoardScene scene(2, LidarKind::kAvia, 1);
+  const Eigen::Vector3d normal = scene.truth.rotation * Eigen::Vector3d::UnitZ();
+  const double incidence = std::acos(-normal.dot(scene.truth.translation.normalized()));
+  ASSERT_GT(std::abs(incidence), 10.0 * kDegree);
+  // Twice two centimetres of range noise that is none on average.
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    Eigen::Vector3f& p = scene.points.points_m[i];
+    p += (i % 2 == 0 ? 0.02F : -0.02F) * p.normalized();
+  }
+  RefinementOptions options = as_in_paper({});
+  const auto feet = scene.refine(scene.truth, options);
+  options.along_rays = true;
+  const auto rays = scene.refine(scene.truth, options);
+  ASSERT_TRUE(feet.ok() && rays.ok());
+  std::vector<double> by_feet;
+  std::vector<double> by_rays;
+  for (std::size_t n = 0; n < feet->nodes.size(); ++n) {
+    if (!feet->nodes[n].valid || !rays->nodes[n].valid) continue;
+    by_feet.push_back(feet->nodes[n].sigma_m());
+    by_rays.push_back(rays->nodes[n].sigma_m());
+  }
+  ASSERT_GE(by_feet.size(), 5U);
+  EXPECT_GT(rms(by_feet), rms(by_rays));
+}
+
 }  // namespace
 }  // namespace lvcalib

@@ -234,5 +234,41 @@ TEST_F(NodeFitTest, AnArcIsNotEnoughForAWave) {
   EXPECT_FALSE(result.record.reason.empty());
 }
 
+TEST_F(NodeFitTest, MidpointsGiveTheWaveToo) {
+  options_.estimator = CenterEstimator::kMidpoint;
+  Circle circle;
+  circle.center = {0.0005, -0.0003};
+  circle.samples = 5000;
+  const NodeFit result = fit(circle.draw(window_, random_), circle.center);
+  ASSERT_TRUE(result.record.valid) << result.record.reason;
+  EXPECT_LT((result.record.wave_m.head<2>() - circle.center).norm(), 6e-4);
+  // The unit of the weights is the one in which the midpoints scatter as they say.
+  EXPECT_NEAR(result.chi_square, result.degrees_of_freedom, 1e-6);
+  double weight = 0.0;
+  for (const BinRecord& bin : result.record.bins) {
+    if (bin.state == BinState::kUsed) weight += bin.samples;
+  }
+  // Contrast, over that of the whole node, is about one.
+  EXPECT_NEAR(result.weight, weight, 0.1 * weight);
+}
+
+// What ours leaves out as a contradiction, the paper keeps, and its centre is off by it.
+TEST_F(NodeFitTest, MidpointsKeepABinThatContradictsTheOthers) {
+  Circle circle;
+  circle.samples = 5000;
+  circle.edge_shift = [](double psi) { return std::abs(psi - 1.0) < 0.2 ? 0.012 : 0.0; };
+  const auto samples = circle.draw(window_, random_);
+  const NodeFit ours = fit(samples);
+  options_.estimator = CenterEstimator::kMidpoint;
+  const NodeFit paper = fit(samples);
+  ASSERT_TRUE(ours.record.valid && paper.record.valid);
+  EXPECT_GE(count(ours, BinState::kOutlier), 1);
+  EXPECT_EQ(count(paper, BinState::kOutlier), 0);
+  const auto error = [&](const NodeFit& f) {
+    return (f.record.wave_m.head<2>() - circle.center).norm();
+  };
+  EXPECT_GT(error(paper), 2.0 * error(ours));
+}
+
 }  // namespace
 }  // namespace lvcalib

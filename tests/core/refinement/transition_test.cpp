@@ -165,5 +165,73 @@ TEST_F(BadBins, AllBlackOrAllWhiteHasNoCrossing) {
   }
 }
 
+// A bin worked by hand. Slots of the profile are 6.5 mm wide, from 40 mm inside to 25 mm outside.
+class Midpoint : public ::testing::Test {
+ protected:
+  struct At {
+    double distance_mm;
+    double level;
+  };
+  static std::vector<UnwrappedSample> samples(const std::vector<At>& list) {
+    std::vector<UnwrappedSample> out;
+    for (const At& at : list) {
+      UnwrappedSample s;
+      s.distance_m = 1e-3 * at.distance_mm;
+      s.level = at.level;
+      out.push_back(s);
+    }
+    return out;
+  }
+  static BinRecord solve(const std::vector<UnwrappedSample>& samples, int min_samples = 4,
+                         double min_contrast = 3.0) {
+    BinRecord bin;
+    interpolate_midpoint(samples, {kIn, kOut, 0.0135, 0.0125}, min_samples, min_contrast, bin);
+    return bin;
+  }
+  const std::vector<At> black_ = {{-36, 0.1}, {-30, 0.1}, {-24, 0.12}, {-17, 0.08}};
+  const std::vector<At> white_ = {{15, 0.9}, {17, 0.88}, {22, 0.92}};
+  // One stray in the slot that ends at −1 mm; its median is none.
+  const std::vector<At> edge_ = {{-5, 0.2}, {-4, 0.3}, {-3, 0.9}, {1, 0.6}, {2, 0.7}, {3, 0.65}};
+  std::vector<At> all() const {
+    std::vector<At> out = black_;
+    out.insert(out.end(), edge_.begin(), edge_.end());
+    out.insert(out.end(), white_.begin(), white_.end());
+    return out;
+  }
+};
+
+TEST_F(Midpoint, IsInterpolatedBetweenMedians) {
+  const BinRecord bin = solve(samples(all()));
+  ASSERT_EQ(bin.state, BinState::kUsed);
+  // Levels 0.1 and 0.9, so the mid-level is 0.5, between (−4 mm, 0.3) and (2 mm, 0.65).
+  EXPECT_NEAR(bin.midpoint_m, -0.004 + 0.006 * (0.5 - 0.3) / (0.65 - 0.3), 1e-12);
+  // Weight: contrast times support.
+  EXPECT_NEAR(1.0 / (bin.sigma_m * bin.sigma_m), 0.8 * 13, 1e-9);
+  EXPECT_EQ(bin.samples, 13);
+}
+
+TEST_F(Midpoint, OfSeveralRisesTheNearestToTheCircleCounts) {
+  auto list = all();
+  // A white fleck well inside: the profile rises there too.
+  list.push_back({-25, 0.8});
+  list.push_back({-25.5, 0.8});
+  list.push_back({-25.2, 0.8});
+  const BinRecord bin = solve(samples(list), 4, 0.0);
+  ASSERT_EQ(bin.state, BinState::kUsed);
+  EXPECT_GT(bin.midpoint_m, -0.004);
+  EXPECT_LT(bin.midpoint_m, 0.002);
+}
+
+TEST_F(Midpoint, BinsThatSayTooLittleAreRefused) {
+  EXPECT_EQ(solve(samples(all()), 14).state, BinState::kTooFewSamples);
+  EXPECT_EQ(solve(samples(black_)).state, BinState::kOneSided);
+  // Of a contrast of 0.8 and a deviation of 0.03 by the medians.
+  EXPECT_EQ(solve(samples(all()), 4, 20.0).state, BinState::kUsed);
+  EXPECT_EQ(solve(samples(all()), 4, 40.0).state, BinState::kWeakContrast);
+  auto same = samples(all());
+  for (UnwrappedSample& s : same) s.level = 0.5;
+  EXPECT_EQ(solve(same).state, BinState::kWeakContrast);
+}
+
 }  // namespace
 }  // namespace lvcalib

@@ -214,7 +214,8 @@ TEST_F(HtmlReportTest, StopsWhenAsked) {
 // What calibrate leaves in result.json for everything downstream.
 TEST_F(HtmlReportTest, TheResultFileHoldsTheEvidence) {
   const auto j = nlohmann::json::parse(result_as_json(*result_));
-  ASSERT_EQ(j["methods"].size(), 9U);
+  ASSERT_EQ(j["methods"].size(), 10U);
+  EXPECT_FALSE(j.contains("ablation"));  // Nobody asked for it.
   for (const auto& m : j["methods"]) {
     EXPECT_EQ(m["scenes"].size(), 3U);
     EXPECT_EQ(m["box_mm"].size(), 5U);
@@ -222,10 +223,11 @@ TEST_F(HtmlReportTest, TheResultFileHoldsTheEvidence) {
     EXPECT_EQ(m["T_camera_lidar"].size(), 4U);
   }
   EXPECT_EQ(j["methods"][7]["name"], "joint_refined");
-  EXPECT_EQ(j["methods"][8]["name"], "forward_model");
-  EXPECT_NEAR(j["methods"][8]["rms_px"].get<double>(), j["rms_px"].get<double>(), 1e-3);
+  EXPECT_EQ(j["methods"][8]["name"], "joint_paper");
+  EXPECT_EQ(j["methods"][9]["name"], "forward_model");
+  EXPECT_NEAR(j["methods"][9]["rms_px"].get<double>(), j["rms_px"].get<double>(), 1e-3);
   // The result is that of the forward model, and what it measured stands beside it.
-  EXPECT_EQ(j["methods"][8]["T_camera_lidar"], j["T_camera_lidar"]["matrix"]);
+  EXPECT_EQ(j["methods"][9]["T_camera_lidar"], j["T_camera_lidar"]["matrix"]);
   EXPECT_EQ(j["applies_to"], "raw");
   EXPECT_GT(j["dof"].get<double>(), 1.0);
   EXPECT_GT(j["footprint"]["covariance_mrad2"][0][0].get<double>(), 0.5);

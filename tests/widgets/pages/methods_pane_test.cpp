@@ -16,20 +16,21 @@ TEST(MethodTitle, NamesOfTheComparisonInWords) {
   EXPECT_EQ(method_title("svd_raw"), "3D-SVD, raw");
   EXPECT_EQ(method_title("wsvd_refined"), "W-SVD, refined");
   EXPECT_EQ(method_title("joint_refined"), "Joint, refined");
+  EXPECT_EQ(method_title("joint_paper"), "Joint, as in the paper");
   EXPECT_EQ(method_title("forward_model"), "Every return");
   EXPECT_EQ(method_title("something_else"), "something_else");
   EXPECT_EQ(method_title("joint_other"), "joint_other");
 }
 
-TEST(MethodsPane, NineMethodsWithTheResultsNumbers) {
+TEST(MethodsPane, TenMethodsWithTheResultsNumbers) {
   const CalibrationResult& result = *test::calibrated_demo().result;
   MethodsPane pane;
   pane.setResult(&result);
   const auto* table = pane.findChild<QTableWidget*>("methods");
-  ASSERT_EQ(result.methods.size(), 9U);
-  ASSERT_EQ(table->rowCount(), 9);
+  ASSERT_EQ(result.methods.size(), 10U);
+  ASSERT_EQ(table->rowCount(), 10);
   std::size_t corners = 0;
-  for (int k = 0; k < 9; ++k) {
+  for (int k = 0; k < 10; ++k) {
     const MethodResult& m = result.methods[static_cast<std::size_t>(k)];
     EXPECT_EQ(table->item(k, 0)->text(), method_title(m.name));
     EXPECT_NEAR(table->item(k, 1)->text().toDouble(), m.rms_px, 6e-4);
