@@ -45,6 +45,8 @@ class Calibration {
     if (Status s = prepare(); !s) return s.error();
     if (Status s = load_scenes(dataset_, request_, context_, result_, cache_); !s) return s.error();
     if (Status s = some_view(); !s) return s.error();
+    if (Status s = load_extra_images(dataset_, request_, context_, result_, cache_); !s)
+      return s.error();
     settle_colors();
     free_camera(result_);
     if (Status s = agree(); !s) return s.error();

@@ -214,15 +214,17 @@ std::optional<IntrinsicsFit> choose_model(const std::vector<BoardImage>& images,
     }
     const auto squares = held_out_squares(images, use, fit->camera, options, context);
     out.predictions.push_back({model, squares.empty() ? 0.0 : std::sqrt(mean_of(squares))});
-    // A distortion that folds back inside the image is wrong there, whatever it predicts elsewhere.
-    const auto unfolds = [&] {
-      return blind_corners(best->camera) > 0 && blind_corners(fit->camera) == 0 &&
-             !predicts_better(squares, best_squares);
+    const auto better = [&] {
+      if (squares.empty() || best_squares.empty()) return best_squares.empty() && !squares.empty();
+      // A distortion that folds back inside the image is wrong there, whatever it predicts
+      // elsewhere.
+      const bool folds = blind_corners(fit->camera) > 0;
+      const bool best_folds = blind_corners(best->camera) > 0;
+      if (folds && !best_folds) return false;
+      return predicts_better(best_squares, squares) ||
+             (best_folds && !folds && !predicts_better(squares, best_squares));
     };
-    const bool better =
-        !best || (!squares.empty() &&
-                  (best_squares.empty() || predicts_better(best_squares, squares) || unfolds()));
-    if (!better) continue;
+    if (best && !better()) continue;
     best = std::move(fit);
     best_squares = squares;
   }

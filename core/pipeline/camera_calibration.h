@@ -68,7 +68,7 @@ struct CameraCalibration {
 /// almost anything last. A later one is taken if the logarithm of its mean squared error in
 /// held-out images is lower by more than two standard deviations of that difference over images,
 /// and the mean square of all by two per cent at least; or if it predicts no worse and the earlier
-/// one folds back inside the image.
+/// one folds back inside the image. One that folds back there does not replace one that does not.
 ///
 /// Errors: kInput without any image in use; kUntrusted if the corners do not determine the focal
 /// length; kCancelled.

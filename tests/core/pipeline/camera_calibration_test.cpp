@@ -153,13 +153,23 @@ TEST(CalibrateCamera, StartsFromNothingForAnyFocalLength) {
 }
 
 TEST(CalibrateCamera, ChoosesTheModelThatPredicts) {
-  const Camera truth = camera_of(DistortionModel::kEquidistant);
+  Camera truth = camera_of(DistortionModel::kEquidistant);
+  truth.fx = truth.fy = 900.0;
   const auto result = calibrated(images_of(truth, {}, 4));
   EXPECT_EQ(result.camera.model, DistortionModel::kEquidistant);
   expect_within_four_sigma(result, truth);
   ASSERT_EQ(result.predictions.size(), 3U);
   EXPECT_EQ(result.predictions[0].model, DistortionModel::kPlumbBob);
+  EXPECT_EQ(result.predictions[1].model, DistortionModel::kEquidistant);
   EXPECT_GT(result.predictions[0].held_out_px, 1.05 * result.predictions[1].held_out_px);
+}
+
+// So wide that plumb_bob folds back before the corners and cannot be fitted to all of them.
+TEST(CalibrateCamera, FindsAFisheyeFromNothing) {
+  const Camera truth = camera_of(DistortionModel::kEquidistant);
+  const auto result = calibrated(images_of(truth, {}, 4));
+  EXPECT_EQ(result.camera.model, DistortionModel::kEquidistant);
+  expect_within_four_sigma(result, truth);
 }
 
 // A model that contains the truth predicts no better than the truth's own: the simpler one stays.
