@@ -38,6 +38,7 @@ Command add_correct_command(CLI::App& app);
 Command add_evaluate_command(CLI::App& app);
 Command add_export_command(CLI::App& app);
 Command add_import_command(CLI::App& app);
+Command add_intrinsics_command(CLI::App& app);
 Command add_plan_command(CLI::App& app);
 Command add_report_command(CLI::App& app);
 

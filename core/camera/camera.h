@@ -60,6 +60,9 @@ struct CameraFile {
 /// their keys. A camchain with several cameras gives the first one and a warning.
 Result<CameraFile> read_camera(const std::filesystem::path& path);
 
+/// The model's name in ROS camera_info: "plumb_bob", "rational_polynomial", "equidistant".
+std::string name_of(DistortionModel model);
+
 /// The camera as ROS camera_info YAML.
 std::string to_yaml(const Camera& camera);
 

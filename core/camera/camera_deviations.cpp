@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "camera/camera_deviations.h"
 
+#include <cstdio>
 #include <string>
 
 #include "base/yaml_file.h"
@@ -9,12 +10,12 @@ namespace lvcalib {
 namespace {
 
 constexpr const char* kKey = "standard_deviations";
+constexpr const char* kNames[] = {"fx", "fy", "cx", "cy"};
 // Wider than any image; more is a slip.
 constexpr double kLargest = 1e6;
 
 Result<CameraDeviations> read_section(const YamlFile& section, const Camera& camera) {
   CameraDeviations out = CameraDeviations::Constant(-1.0);
-  constexpr const char* kNames[] = {"fx", "fy", "cx", "cy"};
   for (Eigen::Index k = 0; k < 4; ++k) {
     if (!section.has(kNames[k])) continue;
     const auto value = section.number(kNames[k], 0.0, kLargest);
@@ -54,6 +55,28 @@ Result<std::optional<CameraDeviations>> read_camera_deviations(const std::filesy
   auto read = read_section(*section, camera);
   if (!read) return read.error();
   return std::optional<CameraDeviations>(*read);
+}
+
+std::string to_yaml(const Camera& camera, const CameraDeviations& deviations) {
+  // Three digits of a standard deviation are more than is known of it.
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return std::string(text);
+  };
+  std::string entries;
+  const auto add = [&](const std::string& entry) {
+    entries += (entries.empty() ? "" : ", ") + entry;
+  };
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    if (deviations(k) >= 0.0) add(kNames[k] + (": " + number(deviations(k))));
+  }
+  std::string distortion;
+  for (Eigen::Index k = 4; k < 4 + camera.distortion_count() && deviations(k) >= 0.0; ++k)
+    distortion += (distortion.empty() ? "" : ", ") + number(deviations(k));
+  if (!distortion.empty()) add("distortion: [" + distortion + "]");
+  const std::string text = to_yaml(camera);
+  return entries.empty() ? text : text + kKey + ": {" + entries + "}\n";
 }
 
 }  // namespace lvcalib

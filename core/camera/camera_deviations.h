@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -20,5 +21,10 @@ using CameraDeviations = Eigen::Matrix<double, 12, 1>;
 /// that is no number or below zero, more distortion entries than the model has.
 Result<std::optional<CameraDeviations>> read_camera_deviations(const std::filesystem::path& path,
                                                                const Camera& camera);
+
+/// The camera as ROS camera_info YAML with its standard deviations, as read_camera() and
+/// read_camera_deviations() read them. What is not stated is left out; of the distortion all that
+/// stands before the first such entry is written.
+std::string to_yaml(const Camera& camera, const CameraDeviations& deviations);
 
 }  // namespace lvcalib

@@ -315,7 +315,9 @@ std::string text(double value) {
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
 }
 
-const char* model_name(DistortionModel model) {
+}  // namespace
+
+std::string name_of(DistortionModel model) {
   switch (model) {
     case DistortionModel::kPlumbBob:
       return "plumb_bob";
@@ -326,8 +328,6 @@ const char* model_name(DistortionModel model) {
   }
   return "equidistant";
 }
-
-}  // namespace
 
 Result<CameraFile> read_camera(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -362,7 +362,7 @@ std::string to_yaml(const Camera& c) {
   out += "camera_name: \"" + name + "\"\n";
   out += "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [" + text(c.fx) + ", 0, " + text(c.cx) +
          ", 0, " + text(c.fy) + ", " + text(c.cy) + ", 0, 0, 1]\n";
-  out += std::string("distortion_model: ") + model_name(c.model) + "\n";
+  out += "distortion_model: " + name_of(c.model) + "\n";
   const int count = c.distortion_count();
   out += "distortion_coefficients:\n  rows: 1\n  cols: " + std::to_string(count) + "\n  data: [";
   for (int i = 0; i < count; ++i) out += (i == 0 ? "" : ", ") + text(c.distortion[i]);

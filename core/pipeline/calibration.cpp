@@ -45,6 +45,8 @@ class Calibration {
     if (Status s = prepare(); !s) return s.error();
     if (Status s = load_scenes(dataset_, request_, context_, result_, cache_); !s) return s.error();
     if (Status s = some_view(); !s) return s.error();
+    if (Status s = load_extra_images(dataset_, request_, context_, result_, cache_); !s)
+      return s.error();
     settle_colors();
     free_camera(result_);
     if (Status s = agree(); !s) return s.error();
@@ -416,7 +418,8 @@ class Calibration {
     return refinement;
   }
 
-  // A twentieth of a calibration's time at most, so that the paper's method always stands beside ours.
+  // A twentieth of a calibration's time at most, so that the paper's method always stands beside
+  // ours.
   std::vector<RefinedNode> refine_as_in_paper(std::size_t s) {
     SceneResult& scene = result_.scenes[s];
     StageCache* const cache = scene.no_contrast ? nullptr : cache_;

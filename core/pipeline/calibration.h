@@ -102,8 +102,8 @@ struct CalibrationResult {
   std::vector<StructureScore> unexplained;
   /// What the scenes give one by one with the model's effects; null without effects.
   std::shared_ptr<const ModelFit> model_fit;
-  std::vector<MethodResult> methods;    ///< The paper's objectives on the scenes in use.
-  std::vector<AblationStep> ablation;   ///< If the options ask for it; see ablate().
+  std::vector<MethodResult> methods;   ///< The paper's objectives on the scenes in use.
+  std::vector<AblationStep> ablation;  ///< If the options ask for it; see ablate().
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.
   Quality quality = Quality::kFailed;

@@ -2,6 +2,8 @@
 #include "pipeline/dataset.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <system_error>
 
@@ -20,7 +22,12 @@ fs::path first_existing(const fs::path& folder, const std::vector<std::string>& 
   return {};
 }
 
-Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
+fs::path scene_image(const fs::path& folder) {
+  return first_existing(
+      folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
+}
+
+Result<std::vector<fs::path>> list_scene_folders(const fs::path& folder) {
   std::error_code code;
   if (!fs::is_directory(folder, code)) {
     return Error::input("folder not found; expected one folder per scene in it", folder.string());
@@ -33,13 +40,27 @@ Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
       folders.push_back(it->path());
   }
   if (code) return Error::input("cannot be listed: " + code.message(), folder.string());
-  if (folders.empty()) {
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+bool is_image_name(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array kExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".tiff", ".tif"};
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
+  const auto folders = list_scene_folders(folder);
+  if (!folders) return folders.error();
+  if (folders->empty()) {
     return Error::input("no scenes; expected folders with image.png and cloud.pcd",
                         folder.string());
   }
-  std::sort(folders.begin(), folders.end());
   std::vector<SceneFiles> scenes;
-  for (const fs::path& path : folders) {
+  for (const fs::path& path : *folders) {
     auto scene = open_scene(path);
     if (!scene) return scene.error();
     scenes.push_back(std::move(*scene));
@@ -52,8 +73,7 @@ Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
 Result<SceneFiles> open_scene(const fs::path& folder) {
   SceneFiles scene;
   scene.name = folder.filename().string();
-  scene.image = first_existing(
-      folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
+  scene.image = scene_image(folder);
   if (scene.image.empty()) {
     return Error::input("no image in this scene; expected image.png, .jpg, .bmp or .tiff",
                         folder.string());
@@ -64,6 +84,51 @@ Result<SceneFiles> open_scene(const fs::path& folder) {
   }
   scene.crop = first_existing(folder, {"board.pcd", "board.ply"});
   return scene;
+}
+
+Result<std::vector<fs::path>> list_images(const fs::path& folder) {
+  std::error_code code;
+  if (!fs::is_directory(folder, code)) return Error::input("folder not found", folder.string());
+  std::vector<fs::path> images;
+  for (auto it = fs::directory_iterator(folder, code); !code && it != fs::directory_iterator();
+       it.increment(code)) {
+    std::error_code inner;
+    if (!it->is_directory(inner) && is_image_name(it->path()) &&
+        !it->path().filename().string().starts_with('.'))
+      images.push_back(it->path());
+  }
+  if (code) return Error::input("cannot be listed: " + code.message(), folder.string());
+  std::sort(images.begin(), images.end());
+  return images;
+}
+
+Result<CameraImages> find_camera_images(const fs::path& path) {
+  std::error_code code;
+  if (!fs::is_directory(path, code)) {
+    return Error::input("folder not found; expected images of the board, or a dataset",
+                        path.string());
+  }
+  CameraImages out;
+  out.target = path / "target.yaml";
+  const bool dataset = fs::is_directory(path / "scenes", code);
+  const bool extra = fs::is_directory(path / "intrinsics", code);
+  if (dataset) {
+    const auto folders = list_scene_folders(path / "scenes");
+    if (!folders) return folders.error();
+    for (const fs::path& folder : *folders) {
+      if (fs::path image = scene_image(folder); !image.empty()) out.images.push_back(image);
+    }
+  }
+  if (extra || !dataset) {
+    const auto images = list_images(extra ? path / "intrinsics" : path);
+    if (!images) return images.error();
+    out.images.insert(out.images.end(), images->begin(), images->end());
+  }
+  if (out.images.empty()) {
+    return Error::input("no images; expected png, jpg, bmp or tiff files that show the board",
+                        path.string());
+  }
+  return out;
 }
 
 Result<Rigid3> read_transform(const fs::path& path, const std::string& key) {
@@ -142,6 +207,11 @@ Result<Dataset> open_dataset(const fs::path& path) {
   auto scenes = list_scenes(path / "scenes");
   if (!scenes) return scenes.error();
   dataset.scenes = std::move(*scenes);
+  if (fs::is_directory(path / "intrinsics", code)) {
+    auto images = list_images(path / "intrinsics");
+    if (!images) return images.error();
+    dataset.camera_images = std::move(*images);
+  }
   return dataset;
 }
 

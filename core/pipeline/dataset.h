@@ -22,7 +22,8 @@ struct SceneFiles {
   std::filesystem::path crop;  ///< board.pcd; empty if there is none.
 };
 
-/// A dataset folder: target.yaml, camera.yaml, optional rig.yaml, scenes/NAME/….
+/// A dataset folder: target.yaml, camera.yaml, optional rig.yaml, scenes/NAME/…, optional
+/// intrinsics/….
 struct Dataset {
   std::filesystem::path path;
   Target target;
@@ -30,6 +31,8 @@ struct Dataset {
   std::optional<CameraDeviations> camera_deviations;  ///< If camera.yaml states them.
   std::optional<Rigid3> rough_camera_from_lidar;
   std::vector<SceneFiles> scenes;  ///< Sorted by name.
+  /// Images of the board without a cloud, in intrinsics/: for the camera alone. Sorted.
+  std::vector<std::filesystem::path> camera_images;
   std::vector<std::string> warnings;
 };
 
@@ -40,6 +43,20 @@ Result<SceneFiles> open_scene(const std::filesystem::path& folder);
 /// Reads the descriptions and lists the scenes; images and clouds are not opened.
 /// Errors name what is missing and what was expected.
 Result<Dataset> open_dataset(const std::filesystem::path& path);
+
+/// The png, jpg, bmp and tiff files of a folder, by their names; sorted. Errors (kInput): no such
+/// folder, or it cannot be listed.
+Result<std::vector<std::filesystem::path>> list_images(const std::filesystem::path& folder);
+
+/// What a camera alone is calibrated from.
+struct CameraImages {
+  std::filesystem::path target;  ///< target.yaml of the folder; need not exist.
+  std::vector<std::filesystem::path> images;
+};
+
+/// A dataset's images (of its scenes, and of intrinsics/; nothing else of it need be there), or, in
+/// a folder without scenes/, the images that lie in it. Errors (kInput): no folder; no images.
+Result<CameraImages> find_camera_images(const std::filesystem::path& path);
 
 /// A rigid transform from a YAML file: rows of a 3×4 or 4×4 matrix, or translation_m and
 /// quaternion_xyzw, under `key`.

@@ -47,6 +47,7 @@ std::vector<InputFile> hash_inputs(const Dataset& dataset, bool use_crops,
     paths.push_back(scene.image);
     paths.push_back(use_crops && !scene.crop.empty() ? scene.crop : scene.cloud);
   }
+  paths.insert(paths.end(), dataset.camera_images.begin(), dataset.camera_images.end());
   std::vector<InputFile> files(paths.size());
   parallel_for(paths.size(), context.thread_count(), [&](std::size_t k) {
     files[k].path = paths[k].lexically_relative(dataset.path).generic_string();

@@ -22,21 +22,59 @@ constexpr double kFirstLook = 0.1;
 // the model: what is not is held at 1 µm and 1 µrad.
 constexpr double kInModel = 4e-12;
 
+// The images of intrinsics/.
+std::vector<CornerView> extra_views(const IntrinsicsReport& report) {
+  std::vector<CornerView> views;
+  for (const BoardImage& image : report.extra_images) {
+    if (image.used())
+      views.push_back({&image.view->corners, image.view->camera_from_board.transform});
+  }
+  return views;
+}
+
+void append_views(std::vector<CornerView>& views, const std::vector<CornerView>& more) {
+  views.insert(views.end(), more.begin(), more.end());
+}
+
+// The scenes' images first, then those of intrinsics/.
 std::vector<CornerView> views_of(const CalibrationResult& result) {
   std::vector<CornerView> views;
   for (const SceneResult& scene : result.scenes) {
     if (scene.view && scene.reason != kRejectedByUser)
       views.push_back({&scene.view->corners, scene.view->camera_from_board.transform});
   }
+  append_views(views, extra_views(result.intrinsics));
   return views;
 }
 
-std::vector<CornerView> views_of(const std::vector<SceneObservations>& observations) {
+std::vector<CornerView> views_of(const std::vector<SceneObservations>& observations,
+                                 const IntrinsicsReport& report) {
   std::vector<CornerView> views;
   for (const SceneObservations& o : observations) {
     if (o.use) views.push_back({&o.corners, o.camera_from_board});
   }
+  append_views(views, extra_views(report));
   return views;
+}
+
+// Leaves out images of intrinsics/ that are of something else; one of them would spoil the camera
+// for all scenes. True if there was any.
+bool drop_stray_images(CalibrationResult& result, const IntrinsicsFit& fit) {
+  const std::vector<CornerView> views = views_of(result);
+  std::vector<double> rms_px;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    rms_px.push_back(corner_rms_px(*views[v].corners, fit.camera, fit.camera_from_board[v]));
+  const double usual = median(rms_px);
+  std::size_t next = views.size() - extra_views(result.intrinsics).size();
+  bool any = false;
+  for (BoardImage& image : result.intrinsics.extra_images) {
+    if (!image.used()) continue;
+    image.reason = stray_reason(rms_px[next++], usual);
+    if (image.reason.empty()) continue;
+    any = true;
+    result.warnings.push_back(extra_image_name(image.path) + ": " + image.reason + "; left out");
+  }
+  return any;
 }
 
 double worst_axis(const Eigen::Matrix3d& covariance) {
@@ -97,6 +135,7 @@ std::optional<Freed> solve_freed(const CalibrationResult& result,
   const Camera& given = result.intrinsics.given;
   ForwardOptions options = result.options.forward;
   options.intrinsics_sigma = wide_intrinsics_sigma(given);
+  options.intrinsics_evidence = result.intrinsics.evidence;
   std::vector<SceneObservations> freed = observations;
   ExtrinsicSolution start = nodes;
   if (corners != nullptr) {
@@ -105,6 +144,10 @@ std::optional<Freed> solve_freed(const CalibrationResult& result,
       if (o.use) o.camera_from_board = corners->camera_from_board[next++];
     }
     options.first_camera = corners->camera;
+    // What the extra images say holds near where it was linearized.
+    std::vector<CornerView> extra = extra_views(result.intrinsics);
+    for (CornerView& view : extra) view.camera_from_board = corners->camera_from_board[next++];
+    options.intrinsics_evidence = intrinsics_evidence(extra, corners->camera, corners->sigma_px);
     auto solved = solve_extrinsic(freed, corners->camera, result.target, result.options.extrinsic);
     if (solved) start = std::move(*solved);
   }
@@ -205,14 +248,25 @@ IntrinsicsVector solve_prior(const IntrinsicsReport& report) {
 }
 
 void free_camera(CalibrationResult& result) {
-  if (result.intrinsics.mode == IntrinsicsMode::kFixed) return;
-  const auto fit =
-      fit_intrinsics(views_of(result), result.intrinsics.given, solve_prior(result.intrinsics));
+  IntrinsicsReport& report = result.intrinsics;
+  report.evidence.reset();
+  const bool fixed = report.mode == IntrinsicsMode::kFixed;
+  if (fixed && extra_views(report).empty()) return;
+  const Camera& given = report.given;
+  const IntrinsicsVector prior = fixed ? wide_intrinsics_sigma(given) : solve_prior(report);
+  auto fit = fit_intrinsics(views_of(result), given, prior);
+  if (fit && drop_stray_images(result, *fit)) fit = fit_intrinsics(views_of(result), given, prior);
   if (!fit) return;
-  result.camera = fit->camera;
-  for (SceneResult& scene : result.scenes) {
-    if (scene.view) refit_view(*scene.view, fit->camera, result.options.detection);
+  if (!fixed) {
+    result.camera = fit->camera;
+    for (SceneResult& scene : result.scenes) {
+      if (scene.view) refit_view(*scene.view, fit->camera, result.options.detection);
+    }
+    for (BoardImage& image : report.extra_images) {
+      if (image.view) refit_view(*image.view, fit->camera, result.options.detection);
+    }
   }
+  report.evidence = intrinsics_evidence(extra_views(report), result.camera, fit->sigma_px);
 }
 
 std::string contradicted_by_corners(const CalibrationResult& result) {
@@ -264,7 +318,7 @@ Status check_intrinsics(CalibrationResult& result,
                         const RunContext& context) {
   IntrinsicsReport& report = result.intrinsics;
   report.contradiction.reset();
-  const std::vector<CornerView> views = views_of(observations);
+  const std::vector<CornerView> views = views_of(observations, report);
   if (report.mode != IntrinsicsMode::kFixed) {
     if (report.mode == IntrinsicsMode::kPrior && result.forward) check_against_prior(result, views);
     return Done{};

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "camera/camera.h"
 #include "extrinsic/extrinsic_solver.h"
+#include "pipeline/board_images.h"
 #include "pipeline/dataset.h"
 #include "pipeline/options.h"
 #include "solve/intrinsics_fit.h"
@@ -37,6 +38,10 @@ struct IntrinsicsReport {
   bool stated = false;  ///< In camera.yaml.
   /// Of the estimated ones (prior, free); 0 where held.
   IntrinsicsVector sigma = IntrinsicsVector::Zero();
+  /// Images of intrinsics/, and what those in use say about the intrinsics (with `fixed`: about the
+  /// given camera, for the check).
+  std::vector<BoardImage> extra_images;
+  std::optional<IntrinsicsEvidence> evidence;
   double replicate_px = 0.0;  ///< Corner noise of replicates; 0 where there are none.
   std::optional<IntrinsicsContradiction> contradiction;
 };
@@ -44,8 +49,11 @@ struct IntrinsicsReport {
 /// The report of a dataset before anything has been looked at.
 IntrinsicsReport start_intrinsics(const Dataset& dataset, IntrinsicsMode mode);
 
-/// With `prior` and `free`: puts a camera into the result that fits the corners of all images, and
-/// the boards' poses under it; what follows starts there. Nothing with `fixed`.
+/// With `prior` and `free`: puts a camera into the result that fits the corners of all images,
+/// those of intrinsics/ included, and the boards' poses under it; what follows starts there. With
+/// `fixed` the camera stays. What the images of intrinsics/ say goes into the report's `evidence`,
+/// which the joint solve takes as a prior with all its correlations; linearized about a camera that
+/// fits all corners, as it holds nearby only.
 void free_camera(CalibrationResult& result);
 
 /// Standard deviations with which the joint solve draws the intrinsics to the given ones.

@@ -39,6 +39,7 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
   if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
   ForwardOptions how = result.options.forward;
   how.intrinsics_sigma = solve_prior(result.intrinsics);
+  how.intrinsics_evidence = result.intrinsics.evidence;
   how.first_camera = result.camera;
   auto forward = solve_every_return(result, observations, index, nodes, how, context);
   if (forward && result.intrinsics.mode != IntrinsicsMode::kFixed) {

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "pipeline/board_images.h"
 #include "pipeline/stopwatch.h"
 
 namespace lvcalib {
@@ -195,6 +196,53 @@ Result<Cloud> read_scene_cloud(const SceneFiles& files, const CalibrationRequest
 Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
                    const RunContext& context, CalibrationResult& result, StageCache* cache) {
   return SceneLoader(dataset, request, context, result, cache).run();
+}
+
+Status load_extra_images(const Dataset& dataset, const CalibrationRequest& request,
+                         const RunContext& context, CalibrationResult& result, StageCache* cache) {
+  std::vector<BoardImage>& images = result.intrinsics.extra_images;
+  images.assign(dataset.camera_images.size(), {});
+  std::mutex mutex;
+  RunContext quiet = context;
+  quiet.progress = {};
+  quiet.threads = 1;
+  parallel_for(images.size(), context.thread_count(), [&](std::size_t k) {
+    if (context.stopped()) return;
+    const std::filesystem::path& path = dataset.camera_images[k];
+    SceneFiles files;
+    files.image = path;
+    const std::string key = cache ? detection_key(dataset, files, request.options) : "";
+    Kept<SeenBoard>* kept = cache ? &cache->scene(extra_image_name(path)).seen : nullptr;
+    if (const SeenBoard* seen = kept ? kept->find(key) : nullptr) {
+      images[k] = {path, dataset.camera.width_px, dataset.camera.height_px, seen->view,
+                   seen->reason};
+      return;
+    }
+    const auto start = Clock::now();
+    images[k] = look_at_image(
+        path, dataset.target, [&](int, int) { return dataset.camera; }, request.options.detection,
+        quiet);
+    if (kept && !context.stopped()) kept->keep(key, {images[k].view, images[k].reason});
+    const std::lock_guard lock(mutex);
+    result.times.detect_ms += ms_since(start);
+  });
+  if (context.stopped()) return Error::cancelled();
+  const auto repeats = [&](const BoardImage& image, std::size_t k) {
+    for (const SceneResult& scene : result.scenes) {
+      if (scene.view && same_corners(*scene.view, *image.view)) return true;
+    }
+    for (std::size_t other = 0; other < k; ++other) {
+      if (images[other].view && same_corners(*images[other].view, *image.view)) return true;
+    }
+    return false;
+  };
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    BoardImage& image = images[k];
+    if (image.view && repeats(image, k)) image.reason = "it is there already, and counts once";
+    if (!image.reason.empty())
+      result.warnings.push_back(extra_image_name(image.path) + ": " + image.reason + "; left out");
+  }
+  return Done{};
 }
 
 Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,

@@ -20,6 +20,13 @@ Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
                    const RunContext& context, CalibrationResult& result,
                    StageCache* cache = nullptr);
 
+/// Looks at the images of intrinsics/ and puts what they show into the result's intrinsics. Those
+/// that cannot be read, show no board or are there already as a scene's are left out with a
+/// warning. Errors: kCancelled.
+Status load_extra_images(const Dataset& dataset, const CalibrationRequest& request,
+                         const RunContext& context, CalibrationResult& result,
+                         StageCache* cache = nullptr);
+
 /// Reads one scene's cloud (or crop) and searches the board in it once more, in a region.
 /// What is found has taken the place of scenes[index].search; if nothing is, that stays as it was.
 Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,

@@ -46,7 +46,16 @@ void StageCache::prepare(const Dataset& dataset) {
     const auto kept = scenes_.find(files.name);
     scenes[files.name] = kept == scenes_.end() ? SceneStages{} : std::move(kept->second);
   }
+  for (const fs::path& image : dataset.camera_images) {
+    const std::string name = extra_image_name(image);
+    const auto kept = scenes_.find(name);
+    scenes[name] = kept == scenes_.end() ? SceneStages{} : std::move(kept->second);
+  }
   scenes_ = std::move(scenes);
+}
+
+std::string extra_image_name(const fs::path& image) {
+  return "intrinsics/" + image.filename().string();
 }
 
 std::string detection_key(const Dataset& dataset, const SceneFiles& files,

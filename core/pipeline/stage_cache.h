@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -67,7 +68,7 @@ struct SceneStages {
 /// Entries of different scenes may be used from different threads at the same time.
 class StageCache {
  public:
-  /// Makes an entry for every scene; must come before scene().
+  /// Makes an entry for every scene and every extra image; must come before scene().
   void prepare(const Dataset& dataset);
   SceneStages& scene(const std::string& name) { return scenes_.at(name); }
   /// Forgets one scene, so that all its stages run again.
@@ -77,6 +78,9 @@ class StageCache {
  private:
   std::map<std::string, SceneStages> scenes_;
 };
+
+/// Name under which the cache keeps an image of intrinsics/; no scene can have it.
+std::string extra_image_name(const std::filesystem::path& image);
 
 struct CalibrationRequest;
 

@@ -162,6 +162,13 @@ ordered_json intrinsics_json(const IntrinsicsReport& report) {
                     {"given", camera_json(report.given)}};
   if (report.mode == IntrinsicsMode::kPrior) j["prior_sigma"] = deviations(report.prior_sigma);
   if (report.mode != IntrinsicsMode::kFixed) j["sigma"] = deviations(report.sigma);
+  if (!report.extra_images.empty()) {
+    j["extra_images"] = ordered_json::array();
+    for (const BoardImage& image : report.extra_images)
+      j["extra_images"].push_back({{"name", image.path.filename().string()},
+                                   {"used", image.used()},
+                                   {"reason", image.reason}});
+  }
   if (report.contradiction) {
     const IntrinsicsContradiction& found = *report.contradiction;
     ordered_json c = {{"what", found.what},

@@ -491,6 +491,8 @@ std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& term
     gradient += term->gradient;
   }
   if (!(information.topLeftCorner<6, 6>().diagonal().minCoeff() > 0.0)) return std::nullopt;
+  information.bottomRightCorner<kIntrinsics, kIntrinsics>() += prior.evidence;
+  gradient.tail<kIntrinsics>() += prior.evidence_gradient;
   const auto held = [&](Eigen::Index i) { return i >= 6 && !(prior.sigma(i) > 0.0); };
   for (Eigen::Index i = 6; i < kGlobals; ++i) {
     if (!held(i)) {

@@ -80,11 +80,27 @@ struct ForwardNoise {
 /// intrinsics (fx fy cx cy and eight distortion entries).
 inline constexpr Eigen::Index kIntrinsics = 12;
 inline constexpr Eigen::Index kGlobals = 6 + kBlurParameters + kIntrinsics;
+/// What images of the board without a cloud say about the intrinsics, to second order about a
+/// camera, their boards' poses eliminated: twice the log-likelihood changes by
+/// 2 gᵀd − dᵀ Λ d for intrinsics that differ by d from `at`.
+struct IntrinsicsEvidence {
+  Camera at;
+  Eigen::Matrix<double, kIntrinsics, kIntrinsics> information =
+      Eigen::Matrix<double, kIntrinsics, kIntrinsics>::Zero();
+  Eigen::Matrix<double, kIntrinsics, 1> gradient = Eigen::Matrix<double, kIntrinsics, 1>::Zero();
+};
 /// What is known of globals beforehand: standard deviation 0 holds one where it is.
 struct GlobalPrior {
   Eigen::Matrix<double, kGlobals, 1> sigma = Eigen::Matrix<double, kGlobals, 1>::Zero();
   /// Deviation of the present value from the prior's mean.
   Eigen::Matrix<double, kGlobals, 1> offset = Eigen::Matrix<double, kGlobals, 1>::Zero();
+  /// What else is known of the intrinsics, with its correlations: information, and its gradient at
+  /// the present value. Of intrinsics that are held it is not used, but kept for asking what
+  /// freeing them would do.
+  Eigen::Matrix<double, kIntrinsics, kIntrinsics> evidence =
+      Eigen::Matrix<double, kIntrinsics, kIntrinsics>::Zero();
+  Eigen::Matrix<double, kIntrinsics, 1> evidence_gradient =
+      Eigen::Matrix<double, kIntrinsics, 1>::Zero();
 };
 /// And of one scene, before the shared errors: T_camera_board (6) and its levels.
 inline constexpr Eigen::Index kLocals = 6 + kLevelParameters;

@@ -336,6 +336,14 @@ class ForwardSolver {
           now.fy - given_.fy, now.cx - given_.cx, now.cy - given_.cy,
           now.distortion - given_.distortion;
     }
+    if (const auto& evidence = options_.intrinsics_evidence) {
+      const Camera& now = solution_.state.camera;
+      Eigen::Matrix<double, kIntrinsics, 1> moved;
+      moved << now.fx - evidence->at.fx, now.fy - evidence->at.fy, now.cx - evidence->at.cx,
+          now.cy - evidence->at.cy, now.distortion - evidence->at.distortion;
+      prior.evidence = evidence->information;
+      prior.evidence_gradient = evidence->gradient - evidence->information * moved;
+    }
     return prior;
   }
 

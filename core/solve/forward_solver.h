@@ -29,6 +29,8 @@ struct ForwardOptions {
       Eigen::Matrix<double, kIntrinsics, 1>::Zero();
   /// Where freed intrinsics start; without it at the given camera, to which they are drawn anyway.
   std::optional<Camera> first_camera;
+  /// What further images say about the intrinsics.
+  std::optional<IntrinsicsEvidence> intrinsics_evidence;
   /// First guess of the beam's blur, rad: between a Livox (1 mrad) and a spinning 16-liner (3).
   double first_blur_rad = 0.0015;
 };

@@ -327,6 +327,24 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
   return out;
 }
 
+std::optional<IntrinsicsEvidence> intrinsics_evidence(const std::vector<CornerView>& views,
+                                                      const Camera& camera, double sigma_px) {
+  if (views.empty() || !(sigma_px > 0.0)) return std::nullopt;
+  BundleState state{camera, {}};
+  for (const CornerView& view : views) state.poses.push_back(view.camera_from_board);
+  if (!solve_bundle(views, intrinsics_of(camera), IntrinsicsVector::Zero(), sigma_px, state))
+    return std::nullopt;
+  const CornerEquations at = linearize_corners(views, state, sigma_px, true);
+  IntrinsicsEvidence out{camera, at.intrinsics, at.gradient};
+  for (const View& view : at.views) {
+    const Eigen::LDLT<Matrix6d> factor(view.own);
+    out.information -= view.coupling.transpose() * factor.solve(view.coupling);
+    out.gradient -= view.coupling.transpose() * factor.solve(view.own_gradient);
+  }
+  if (!out.information.allFinite() || !out.gradient.allFinite()) return std::nullopt;
+  return out;
+}
+
 double replicate_noise(const std::vector<CornerView>& views, const Camera& camera) {
   std::vector<double> z;
   for (const CornerView& view : views) add_differences(view, camera, z);

@@ -55,6 +55,14 @@ struct IntrinsicsFit {
 std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views,
                                             const Camera& camera, const IntrinsicsVector& prior);
 
+/// What views say about the intrinsics beyond any prior, for a joint solve that does not see these
+/// views: linearized about `camera`, with the poses that fit best under it, corners of standard
+/// deviation `sigma_px`. It holds near that camera; a board that faces the camera leaves a curve of
+/// focal lengths open, along which a parabola holds over some per cent only: so `camera` should be
+/// one that all views fit already. Nothing without views, or if a corner has no image.
+std::optional<IntrinsicsEvidence> intrinsics_evidence(const std::vector<CornerView>& views,
+                                                      const Camera& camera, double sigma_px);
+
 /// Standard deviation of one corner coordinate from replicates: over each smallest rectangle of
 /// corners of a board the residuals' mixed second difference (r00 − r10 − r01 + r11)/2 has the
 /// variance of one of them and is blind to all that is linear across the rectangle, which is what

@@ -138,6 +138,9 @@ Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const Blurred
     information.topRightCorner<kGlobals, kFaults>() += faults[s].coupling;
     information.bottomRightCorner<kFaults, kFaults>() += faults[s].information;
   }
+  constexpr Eigen::Index kFirst = kGlobals - kIntrinsics;
+  information.block<kIntrinsics, kIntrinsics>(kFirst, kFirst) += solution.prior.evidence;
+  gradient.segment<kIntrinsics>(kFirst) += solution.prior.evidence_gradient;
   information.bottomLeftCorner<kFaults, kGlobals>() =
       information.topRightCorner<kGlobals, kFaults>().transpose();
   // In units of what each may be; the extrinsic in metres and radians.

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "camera/camera.h"
+#include "camera/camera_deviations.h"
 
 namespace lvcalib {
 namespace {
@@ -194,6 +195,34 @@ TEST_F(CameraYaml, WritesWhatItReads) {
     EXPECT_EQ(file->camera.cy, camera.cy);
     EXPECT_EQ(file->camera.width_px, camera.width_px);
   }
+}
+
+TEST_F(CameraYaml, WritesStandardDeviationsThatItReads) {
+  Camera camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.fx = camera.fy = 500.25;
+  camera.cx = 319.5;
+  camera.cy = 239.5;
+  camera.model = DistortionModel::kEquidistant;
+  CameraDeviations sigma = CameraDeviations::Zero();
+  sigma.head<8>() << 0.125, 0.25, 0.5, 1.0, 1e-3, 2e-3, 4e-3, 1.5e-4;
+  const auto back = read(to_yaml(camera, sigma));
+  ASSERT_TRUE(back.ok()) << back.error().text();
+  EXPECT_TRUE(back->warnings.empty());
+  EXPECT_EQ(back->camera.fx, camera.fx);
+  const auto read_sigma = read_camera_deviations(path(), back->camera);
+  ASSERT_TRUE(read_sigma.ok() && read_sigma->has_value());
+  EXPECT_TRUE((**read_sigma).head<8>().isApprox(sigma.head<8>()));
+  // What is not stated is not written.
+  sigma.setConstant(-1.0);
+  sigma(2) = 0.75;
+  ASSERT_TRUE(read(to_yaml(camera, sigma)).ok());
+  const auto one = read_camera_deviations(path(), camera);
+  ASSERT_TRUE(one.ok() && one->has_value());
+  EXPECT_EQ((**one)(2), 0.75);
+  EXPECT_EQ((**one)(0), -1.0);
+  EXPECT_EQ((**one)(4), -1.0);
 }
 
 TEST_F(CameraYaml, WarnsOfUnknownKeysWithTheNearestKnownOne) {

@@ -52,6 +52,29 @@ TEST_F(DatasetTest, ListsItsScenesSortedByName) {
   EXPECT_EQ(dataset->camera.fx, test::test_camera().fx);
 }
 
+TEST_F(DatasetTest, ListsImagesForTheCameraAlone) {
+  EXPECT_TRUE(open_dataset(path())->camera_images.empty());
+  for (const char* name : {"b.JPG", "a.png", "c.tiff", "d.bmp", "notes.txt", ".hidden.png"})
+    folder_.write(std::string("d/intrinsics/") + name, "");
+  const auto dataset = open_dataset(path());
+  ASSERT_TRUE(dataset.ok()) << dataset.error().text();
+  ASSERT_EQ(dataset->camera_images.size(), 4U);
+  EXPECT_EQ(dataset->camera_images[0].filename(), "a.png");
+  EXPECT_EQ(dataset->camera_images[1].filename(), "b.JPG");
+  // With the scenes' own; clouds and camera.yaml need not be there.
+  fs::remove(path() / "camera.yaml");
+  fs::remove(path() / "scenes/A/cloud.ply");
+  const auto images = find_camera_images(path());
+  ASSERT_TRUE(images.ok()) << images.error().text();
+  EXPECT_EQ(images->images.size(), 6U);
+  EXPECT_EQ(images->target, path() / "target.yaml");
+  const auto folder = find_camera_images(path() / "intrinsics");
+  ASSERT_TRUE(folder.ok());
+  EXPECT_EQ(folder->images.size(), 4U);
+  EXPECT_THAT(find_camera_images(path() / "scenes/B/cloud.pcd").error().text(),
+              HasSubstr("folder not found"));
+}
+
 TEST_F(DatasetTest, MissingTarget) {
   EXPECT_THAT(without("target.yaml").text(), HasSubstr("target.yaml"));
 }

@@ -188,6 +188,59 @@ INSTANTIATE_TEST_SUITE_P(
                                 [](Camera& c) { c.distortion.setZero(); }, "distortion"}),
     [](const auto& info) { return info.param.name; });
 
+// What some views say, added to what others say, is what all say.
+TEST(IntrinsicsEvidence, AddsUpToTheFitOfAllViews) {
+  const Views views = seen(6, 6, 0.6);
+  const Camera given = true_camera();
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
+  const auto all = fit_intrinsics(views.views, given, wide);
+  ASSERT_TRUE(all);
+  std::vector<CornerView> fitted = views.views;
+  for (std::size_t v = 0; v < fitted.size(); ++v)
+    fitted[v].camera_from_board = all->camera_from_board[v];
+  const auto one =
+      intrinsics_evidence({fitted.begin(), fitted.begin() + 2}, all->camera, all->sigma_px);
+  const auto two =
+      intrinsics_evidence({fitted.begin() + 2, fitted.end()}, all->camera, all->sigma_px);
+  ASSERT_TRUE(one && two);
+  Eigen::MatrixXd information = one->information + two->information;
+  for (Eigen::Index k = 0; k < 9; ++k) information(k, k) += 1.0 / (wide(k) * wide(k));
+  const Eigen::MatrixXd covariance =
+      information.topLeftCorner<9, 9>().ldlt().solve(Eigen::MatrixXd::Identity(9, 9));
+  for (Eigen::Index k = 0; k < 9; ++k)
+    EXPECT_NEAR(std::sqrt(covariance(k, k)), std::sqrt(all->covariance(k, k)),
+                1e-3 * std::sqrt(all->covariance(k, k)))
+        << k;
+  // Each pulls its own way; together with the prior they rest, in units of the estimate's σ.
+  IntrinsicsVector pull = one->gradient + two->gradient;
+  const IntrinsicsVector off = intrinsics_of(all->camera) - intrinsics_of(given);
+  for (Eigen::Index k = 0; k < 9; ++k) pull(k) -= off(k) / (wide(k) * wide(k));
+  const Eigen::VectorXd step = covariance * pull.head<9>();
+  const Eigen::VectorXd alone = covariance * one->gradient.head<9>();
+  for (Eigen::Index k = 0; k < 9; ++k)
+    EXPECT_LT(std::abs(step(k)), 0.1 * std::sqrt(covariance(k, k)));
+  EXPECT_GT(alone.cwiseAbs().cwiseQuotient(covariance.diagonal().cwiseSqrt()).maxCoeff(), 0.1);
+}
+
+// From a camera that is a little off the evidence alone leads to the estimate.
+TEST(IntrinsicsEvidence, PointsToTheEstimate) {
+  const Views views = seen(7, 6, 0.6);
+  const auto fit = fit_intrinsics(views.views, true_camera(), wide_intrinsics_sigma(true_camera()));
+  ASSERT_TRUE(fit);
+  Camera near = fit->camera;
+  near.fx += 2.0;
+  near.cy -= 1.0;
+  const auto evidence = intrinsics_evidence(views.views, near, fit->sigma_px);
+  ASSERT_TRUE(evidence);
+  const Eigen::VectorXd step =
+      evidence->information.topLeftCorner<8, 8>().ldlt().solve(evidence->gradient.head<8>());
+  const Eigen::VectorXd wanted = (intrinsics_of(fit->camera) - intrinsics_of(near)).head<8>();
+  // k3, which is left out here, takes some of it.
+  EXPECT_NEAR(step(0), wanted(0), 0.2);
+  EXPECT_NEAR(step(3), wanted(3), 0.2);
+  EXPECT_FALSE(intrinsics_evidence({}, near, 0.1));
+}
+
 TEST(IntrinsicsFit, NeedsCorners) {
   EXPECT_FALSE(fit_intrinsics({}, true_camera(), wide_intrinsics_sigma(true_camera())));
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/board_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "base/text.h"
+
+namespace lvcalib {
+
+BoardImage look_at_image(const std::filesystem::path& path, const Target& target,
+                         const std::function<Camera(int width_px, int height_px)>& camera_for,
+                         const DetectionOptions& options, const RunContext& context) {
+  BoardImage out;
+  out.path = path;
+  const auto image = read_image(path);
+  if (!image) {
+    out.reason = image.error().message;
+    return out;
+  }
+  out.width_px = image->width_px;
+  out.height_px = image->height_px;
+  auto view = find_board_in_image(*image, target, camera_for(image->width_px, image->height_px),
+                                  options, context);
+  if (view) {
+    out.view = std::move(*view);
+  } else {
+    out.reason = view.error().message;
+  }
+  return out;
+}
+
+Result<std::vector<BoardImage>> look_at_images(
+    const std::vector<std::filesystem::path>& paths, const Target& target,
+    const std::function<Camera(int width_px, int height_px)>& camera_for,
+    const DetectionOptions& options, const RunContext& context, double first, double last) {
+  std::vector<BoardImage> out(paths.size());
+  RunContext quiet = context;
+  quiet.progress = {};
+  // One thread per image where there are enough images.
+  const auto count = std::max<std::size_t>(1, paths.size());
+  quiet.threads = std::max(1, context.thread_count() / static_cast<int>(count));
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(paths.size(), context.thread_count(), [&](std::size_t k) {
+    if (context.stopped()) return;
+    out[k] = look_at_image(paths[k], target, camera_for, options, quiet);
+    const std::lock_guard lock(mutex);
+    ++done;
+    context.report("detect",
+                   first + (last - first) * static_cast<double>(done) / static_cast<double>(count),
+                   paths[k].filename().string());
+  });
+  if (context.stopped()) return Error::cancelled();
+  return out;
+}
+
+bool same_corners(const BoardView& a, const BoardView& b) {
+  return std::equal(a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
+                    [](const CornerObservation& x, const CornerObservation& y) {
+                      return x.feature_id == y.feature_id && x.corner == y.corner &&
+                             x.pixel == y.pixel;
+                    });
+}
+
+double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera& camera,
+                     const Rigid3& camera_from_board) {
+  const double limit_px = 0.1 * camera.width_px;
+  double squares = 0.0;
+  for (const CornerObservation& c : corners) {
+    const auto pixel =
+        camera.project(camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+    const double e = pixel ? std::min((*pixel - c.pixel).norm(), limit_px) : limit_px;
+    squares += 0.5 * e * e;
+  }
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, corners.size())));
+}
+
+std::string stray_reason(double rms_px, double usual_px) {
+  constexpr double kFactor = 5.0;
+  constexpr double kFloor_px = 0.3;
+  if (rms_px <= std::max(kFloor_px, kFactor * usual_px)) return {};
+  return formatted("its corners miss the camera of the other images by %.2f px RMS", rms_px) +
+         "; was it taken in motion, or is it of another board?";
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "camera/camera.h"
+#include "detection/board_view.h"
+#include "target/target.h"
+
+namespace lvcalib {
+
+/// An image of the board without a cloud: for the camera alone.
+struct BoardImage {
+  std::filesystem::path path;
+  int width_px = 0;  ///< 0 if it could not be read.
+  int height_px = 0;
+  std::optional<BoardView> view;
+  std::string reason;  ///< Why there is no view, or why it is not used.
+  [[nodiscard]] bool used() const { return view && reason.empty(); }
+};
+
+/// Looks for the board in one image. `camera_for` gives the camera to look with, by the image's
+/// size. An image that cannot be read or does not show the board says so in `reason`.
+BoardImage look_at_image(const std::filesystem::path& path, const Target& target,
+                         const std::function<Camera(int width_px, int height_px)>& camera_for,
+                         const DetectionOptions& options, const RunContext& context);
+
+/// The same for many images, on the context's threads. The only error is kCancelled. Progress goes
+/// from `first` to `last`.
+Result<std::vector<BoardImage>> look_at_images(
+    const std::vector<std::filesystem::path>& paths, const Target& target,
+    const std::function<Camera(int width_px, int height_px)>& camera_for,
+    const DetectionOptions& options, const RunContext& context, double first, double last);
+
+/// Whether two views hold the very same corners: of one image that is there twice. Found under the
+/// same camera, as another one moves them by rounding at least.
+bool same_corners(const BoardView& a, const BoardView& b);
+
+/// RMS of a corner coordinate's distance from where a camera sees it. A corner that the camera
+/// does not image counts as a tenth of the image off.
+double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera& camera,
+                     const Rigid3& camera_from_board);
+
+/// Why an image is left out whose corners miss a camera that fits the others: it is of something
+/// else, moved, bent, another board or camera. Empty unless it misses by five times the usual, and
+/// by 0.3 px.
+std::string stray_reason(double rms_px, double usual_px);
+
+}  // namespace lvcalib

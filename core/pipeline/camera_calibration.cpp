@@ -1,0 +1,472 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/camera_calibration.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/statistics.h"
+#include "base/text.h"
+#include "detection/board_pose.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr std::array kModelOrder = {DistortionModel::kPlumbBob, DistortionModel::kEquidistant,
+                                    DistortionModel::kRationalPolynomial};
+// Focal lengths to start from, in widths of the image: from fisheyes (140° across and more) to
+// telephoto lenses. The bundle adjustment bridges the steps.
+constexpr std::array kFocalLadder = {0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0};
+// While the camera is a guess, corners may miss the board's pose by this share of the image's
+// width: distortion of tens of pixels does not cost the board.
+constexpr double kGuessTolerance = 0.03;
+constexpr std::size_t kFewestToJudgeStrays = 4;
+// Boards that face within this angle of each other leave the focal length to noise.
+constexpr double kAlike_deg = 15.0;
+constexpr std::size_t kFewImages = 5;
+// Residuals of so many times the noise of replicates, and this large, show a misfit.
+constexpr double kMisfitFactor = 2.0;
+constexpr double kMisfit_px = 0.1;
+
+using Indices = std::vector<std::size_t>;
+
+Camera guessed_camera(int width_px, int height_px, double widths, DistortionModel model) {
+  Camera camera;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.fx = camera.fy = widths * width_px;
+  camera.cx = 0.5 * (width_px - 1);
+  camera.cy = 0.5 * (height_px - 1);
+  camera.model = model;
+  return camera;
+}
+
+DetectionOptions tolerant(DetectionOptions options, int width_px) {
+  options.max_reprojection_px = std::max(options.max_reprojection_px, kGuessTolerance * width_px);
+  return options;
+}
+
+// Views with their poses under a camera; `misfit` is the RMS of a coordinate. Corners that fit no
+// pose at all count as if they missed by a tenth of the image.
+std::vector<CornerView> posed_views(const std::vector<BoardImage>& images, const Indices& use,
+                                    const Camera& camera, const DetectionOptions& options,
+                                    double& misfit_px) {
+  std::vector<CornerView> out;
+  double squares = 0.0;
+  double count = 0.0;
+  const double limit_px = 0.1 * camera.width_px;
+  for (const std::size_t i : use) {
+    const std::vector<CornerObservation>& corners = images[i].view->corners;
+    Rigid3 pose = images[i].view->camera_from_board.transform;
+    const auto fit = estimate_board_pose(corners, camera, tolerant(options, camera.width_px));
+    if (fit) pose = fit->camera_from_board.transform;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const double e = fit ? std::min(fit->residual_px[c], limit_px) : limit_px;
+      squares += 0.5 * e * e;
+      count += 1.0;
+    }
+    out.push_back({&corners, pose});
+  }
+  misfit_px = std::sqrt(squares / std::max(1.0, count));
+  return out;
+}
+
+std::vector<CornerView> fitted_views(std::vector<CornerView> views, const IntrinsicsFit& fit) {
+  for (std::size_t v = 0; v < views.size(); ++v)
+    views[v].camera_from_board = fit.camera_from_board[v];
+  return views;
+}
+
+// Where a bundle adjustment of one model may start, the most promising first.
+std::vector<Camera> starts_for(const std::vector<BoardImage>& images, const Indices& use,
+                               DistortionModel model, const CameraCalibrationOptions& options) {
+  if (options.start && options.start->model == model) return {*options.start};
+  const BoardImage& first = images[use.front()];
+  std::vector<std::pair<double, Camera>> ladder;
+  for (const double widths : kFocalLadder) {
+    const Camera camera = guessed_camera(first.width_px, first.height_px, widths, model);
+    double misfit = 0.0;
+    posed_views(images, use, camera, options.detection, misfit);
+    ladder.emplace_back(misfit, camera);
+  }
+  std::stable_sort(ladder.begin(), ladder.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Camera> out;
+  for (const auto& [misfit, camera] : ladder) out.push_back(camera);
+  return out;
+}
+
+// The bundle adjustment from one start. The prior is centred on the start, so it is laid about the
+// estimate and solved again until that no longer moves.
+std::optional<IntrinsicsFit> fit_from(const std::vector<BoardImage>& images, const Indices& use,
+                                      const Camera& start, const DetectionOptions& options) {
+  double misfit = 0.0;
+  std::vector<CornerView> views = posed_views(images, use, start, options, misfit);
+  auto fit = fit_intrinsics(views, start, wide_intrinsics_sigma(start));
+  if (!fit) return fit;
+  constexpr int kRounds = 4;
+  constexpr double kSettled = 0.05;  // In standard deviations.
+  for (int round = 0; round < kRounds; ++round) {
+    views = fitted_views(std::move(views), *fit);
+    auto next = fit_intrinsics(views, fit->camera, wide_intrinsics_sigma(fit->camera));
+    if (!next) break;
+    const IntrinsicsVector moved = intrinsics_of(next->camera) - intrinsics_of(fit->camera);
+    fit = std::move(next);
+    bool settled = true;
+    for (Eigen::Index k = 0; k < kIntrinsics; ++k)
+      settled = settled && std::abs(moved(k)) <= kSettled * std::sqrt(fit->covariance(k, k));
+    if (settled) break;
+  }
+  return fit;
+}
+
+std::optional<IntrinsicsFit> fit_model(const std::vector<BoardImage>& images, const Indices& use,
+                                       DistortionModel model,
+                                       const CameraCalibrationOptions& options) {
+  // A few: the best by its poses alone need not be where the adjustment ends best.
+  constexpr std::size_t kTried = 3;
+  std::optional<IntrinsicsFit> best;
+  const std::vector<Camera> starts = starts_for(images, use, model, options);
+  for (std::size_t k = 0; k < starts.size() && (k < kTried || !best); ++k) {
+    auto fit = fit_from(images, use, starts[k], options.detection);
+    if (fit && (!best || fit->sigma_px < 0.99 * best->sigma_px)) best = std::move(fit);
+  }
+  return best;
+}
+
+// Mean square of a coordinate in each image while it was held out. Empty if the model cannot be
+// fitted.
+std::vector<double> held_out_squares(const std::vector<BoardImage>& images, const Indices& use,
+                                     const Camera& start, const CameraCalibrationOptions& options,
+                                     const RunContext& context) {
+  const auto folds = std::min(use.size(), static_cast<std::size_t>(std::max(2, options.folds)));
+  std::vector<double> out(use.size(), 0.0);
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    if (context.stopped()) return {};
+    Indices kept;
+    for (std::size_t k = 0; k < use.size(); ++k) {
+      if (k % folds != fold) kept.push_back(use[k]);
+    }
+    const auto fit = fit_from(images, kept, start, options.detection);
+    if (!fit) return {};
+    for (std::size_t k = fold; k < use.size(); k += folds) {
+      double misfit = 0.0;
+      const auto views = posed_views(images, {use[k]}, fit->camera, options.detection, misfit);
+      // The pose alone, on all corners: a robust one would forgive a model what it cannot do.
+      const auto posed = fit_intrinsics(views, fit->camera, IntrinsicsVector::Zero());
+      const Rigid3& pose = posed ? posed->camera_from_board.front() : views[0].camera_from_board;
+      out[k] = std::pow(corner_rms_px(*views[0].corners, fit->camera, pose), 2);
+    }
+  }
+  return out;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(std::max<std::size_t>(1, values.size()));
+}
+
+// Whether squares `b` of held-out images are lower than `a` beyond chance. Logarithms, so that one
+// image in which both are far off does not drown what all others say.
+bool predicts_better(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kLeast_px2 = 1e-8;
+  std::vector<double> gain;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    gain.push_back(std::log(std::max(a[k], kLeast_px2) / std::max(b[k], kLeast_px2)));
+  const double mean = mean_of(gain);
+  double spread = 0.0;
+  for (const double g : gain) spread += (g - mean) * (g - mean);
+  const auto n = static_cast<double>(gain.size());
+  const double sigma = std::sqrt(spread / (n * std::max(1.0, n - 1.0)));
+  constexpr double kLeast = 0.02;
+  return mean > 2.0 * sigma && mean_of(b) < (1.0 - kLeast) * mean_of(a);
+}
+
+// Corners of the image that the camera has no ray for: the distortion folds back before them.
+int blind_corners(const Camera& camera) {
+  int blind = 0;
+  for (const double x : {0.0, camera.width_px - 1.0}) {
+    for (const double y : {0.0, camera.height_px - 1.0}) blind += camera.unproject({x, y}) ? 0 : 1;
+  }
+  return blind;
+}
+
+// The best fit over the models in question, and what held-out images say of them.
+std::optional<IntrinsicsFit> choose_model(const std::vector<BoardImage>& images, const Indices& use,
+                                          const CameraCalibrationOptions& options,
+                                          const RunContext& context, CameraCalibration& out) {
+  out.predictions.clear();
+  if (options.model) return fit_model(images, use, *options.model, options);
+  const bool compare = use.size() >= static_cast<std::size_t>(options.fewest_to_compare);
+  std::optional<IntrinsicsFit> best;
+  std::vector<double> best_squares;
+  for (const DistortionModel model : kModelOrder) {
+    if (context.stopped()) return std::nullopt;
+    // With too few images to compare the simplest that can be fitted stands.
+    if (!compare && best) break;
+    auto fit = fit_model(images, use, model, options);
+    if (!fit) continue;
+    if (!compare) {
+      best = std::move(fit);
+      continue;
+    }
+    const auto squares = held_out_squares(images, use, fit->camera, options, context);
+    out.predictions.push_back({model, squares.empty() ? 0.0 : std::sqrt(mean_of(squares))});
+    const auto better = [&] {
+      if (squares.empty() || best_squares.empty()) return best_squares.empty() && !squares.empty();
+      // A distortion that folds back inside the image is wrong there, whatever it predicts
+      // elsewhere.
+      const bool folds = blind_corners(fit->camera) > 0;
+      const bool best_folds = blind_corners(best->camera) > 0;
+      if (folds && !best_folds) return false;
+      return predicts_better(best_squares, squares) ||
+             (best_folds && !folds && !predicts_better(squares, best_squares));
+    };
+    if (best && !better()) continue;
+    best = std::move(fit);
+    best_squares = squares;
+  }
+  return best;
+}
+
+// Puts poses and residuals of a fit into the images' views; RMS of a coordinate per image in use.
+std::vector<double> take_fit(const IntrinsicsFit& fit, const Indices& use, CameraCalibration& out) {
+  std::vector<double> rms;
+  double squares = 0.0;
+  double corners = 0.0;
+  for (std::size_t k = 0; k < use.size(); ++k) {
+    BoardView& view = *out.images[use[k]].view;
+    view.camera_from_board.transform = fit.camera_from_board[k];
+    view.rms_px = corner_rms_px(view.corners, fit.camera, fit.camera_from_board[k]);
+    const auto n = static_cast<double>(view.corners.size());
+    squares += 2.0 * n * view.rms_px * view.rms_px;
+    corners += n;
+    rms.push_back(view.rms_px);
+  }
+  out.camera = fit.camera;
+  out.covariance = fit.covariance;
+  out.sigma = fit.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  out.noise_px = fit.sigma_px;
+  out.replicate_px = fit.replicate_px;
+  out.rms_px = std::sqrt(squares / std::max(1.0, corners));
+  return rms;
+}
+
+Indices in_use(const std::vector<BoardImage>& images) {
+  Indices out;
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    if (images[k].used()) out.push_back(k);
+  }
+  return out;
+}
+
+// An image that is there twice says no more than once.
+void leave_out_repeats(std::vector<BoardImage>& images) {
+  for (std::size_t b = 1; b < images.size(); ++b) {
+    for (std::size_t a = 0; a < b && images[b].used(); ++a) {
+      if (images[a].used() && same_corners(*images[a].view, *images[b].view))
+        images[b].reason =
+            "the same image as " + images[a].path.filename().string() + ", which counts once";
+    }
+  }
+}
+
+// Images whose corners miss the camera of all by far more than the others'.
+bool leave_out_strays(const std::vector<double>& rms_px, const Indices& use,
+                      std::vector<BoardImage>& images) {
+  if (use.size() < kFewestToJudgeStrays) return false;
+  const double usual = median(rms_px);
+  bool any = false;
+  for (std::size_t k = 0; k < use.size(); ++k) {
+    images[use[k]].reason = stray_reason(rms_px[k], usual);
+    any = any || !images[use[k]].reason.empty();
+  }
+  return any;
+}
+
+// Thirds of the image, row by row, that hold no corner.
+std::vector<std::string> unreached_parts(const std::vector<BoardImage>& images, const Indices& use,
+                                         const Camera& camera) {
+  constexpr std::array kNames = {"top left", "top",         "top right", "left",        "middle",
+                                 "right",    "bottom left", "bottom",    "bottom right"};
+  std::array<bool, 9> seen{};
+  const auto third = [](double at, int size) {
+    return static_cast<std::size_t>(std::clamp(3.0 * (at + 0.5) / size, 0.0, 2.0));
+  };
+  for (const std::size_t i : use) {
+    for (const CornerObservation& c : images[i].view->corners)
+      seen[3 * third(c.pixel.y(), camera.height_px) + third(c.pixel.x(), camera.width_px)] = true;
+  }
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    if (!seen[k]) out.emplace_back(kNames[k]);
+  }
+  return out;
+}
+
+// The widest angle between the normals of two boards.
+double widest_turn_deg(const std::vector<BoardImage>& images, const Indices& use) {
+  double least = 1.0;
+  const auto normal = [&](std::size_t i) -> Eigen::Vector3d {
+    return images[i].view->camera_from_board.transform.rotation * Eigen::Vector3d::UnitZ();
+  };
+  for (std::size_t a = 0; a < use.size(); ++a) {
+    for (std::size_t b = a + 1; b < use.size(); ++b)
+      least = std::min(least, normal(use[a]).dot(normal(use[b])));
+  }
+  return std::acos(std::clamp(least, -1.0, 1.0)) * 180.0 / M_PI;
+}
+
+void judge_views(const Indices& use, CameraCalibration& out) {
+  std::vector<std::string>& warnings = out.warnings;
+  if (use.size() == 1) {
+    warnings.emplace_back(
+        "one image only: nothing checks it; take ten or more, the board turned differently in "
+        "each");
+  } else {
+    if (use.size() < kFewImages)
+      warnings.push_back("only " + std::to_string(use.size()) +
+                         " images: take ten or more, the board turned differently in each");
+    if (const double turn = widest_turn_deg(out.images, use); turn < kAlike_deg) {
+      warnings.push_back(
+          formatted("the boards are turned by no more than %.0f° against each other: the focal "
+                    "length rests on little; turn the board by 20° to 45°, another way each time",
+                    turn));
+    }
+  }
+  const auto parts = unreached_parts(out.images, use, out.camera);
+  if (!parts.empty()) {
+    warnings.push_back("no board reached these parts of the image: " + joined(parts, ", ") +
+                       "; the distortion there is extrapolated");
+  }
+  if (out.replicate_px > 0.0 && out.noise_px > kMisfit_px &&
+      out.noise_px > kMisfitFactor * out.replicate_px) {
+    warnings.push_back(
+        formatted("corners miss the camera by %.2f px where their noise is %.2f px: the board is "
+                  "not flat, or the lens is not of this distortion model",
+                  out.noise_px, out.replicate_px));
+  }
+  if (const int blind = blind_corners(out.camera); blind > 0) {
+    warnings.push_back("the distortion folds back inside the image: " + std::to_string(blind) +
+                       " of its 4 corners have no ray; take images with the board there");
+  }
+}
+
+Status check_focal_length(const CameraCalibration& out, double largest_share) {
+  const double share = std::max(out.sigma(0) / out.camera.fx, out.sigma(1) / out.camera.fy);
+  if (share <= largest_share) return Done{};
+  return Error::untrusted(
+      formatted("the images do not determine the focal length: %.0f ± %.0f px", out.camera.fx,
+                out.sigma(0)) +
+          formatted(", known to %.0f %% where %.0f %% is the most that counts as a result",
+                    100.0 * share, 100.0 * largest_share),
+      {}, "take images of the board turned by 20° to 45°, another way each time");
+}
+
+Error nothing_fits() {
+  return Error::untrusted("no camera fits the corners of the images", {},
+                          "check target.yaml, and take more images of the board, turned by 20° to "
+                          "45°");
+}
+
+Error no_board(const std::vector<BoardImage>& images) {
+  for (const BoardImage& image : images) {
+    if (!image.reason.empty())
+      return Error::input("the board is not found in any image; the first: " + image.reason,
+                          image.path.string(), "check that target.yaml describes this board");
+  }
+  return Error::input("there is no image");
+}
+
+// All images must come from one camera at one resolution.
+Status check_sizes(const std::vector<BoardImage>& images, const std::optional<Camera>& given) {
+  const BoardImage* first = nullptr;
+  for (const BoardImage& image : images) {
+    if (image.width_px == 0) continue;
+    if (first == nullptr) first = &image;
+    const int width = given ? given->width_px : first->width_px;
+    const int height = given ? given->height_px : first->height_px;
+    if (image.width_px == width && image.height_px == height) continue;
+    return Error::input(
+        "the image has " + std::to_string(image.width_px) + " × " +
+            std::to_string(image.height_px) + " pixels, " +
+            (given ? "the given intrinsics are for " : first->path.filename().string() + " has ") +
+            std::to_string(width) + " × " + std::to_string(height),
+        image.path.string(), "use images of one camera at one resolution");
+  }
+  return Done{};
+}
+
+}  // namespace
+
+std::size_t CameraCalibration::used_images() const {
+  return in_use(images).size();
+}
+
+Result<CameraCalibration> calibrate_camera(std::vector<BoardImage> images,
+                                           const CameraCalibrationOptions& options,
+                                           const RunContext& context) {
+  if (Status s = check_sizes(images, options.start); !s) return s.error();
+  CameraCalibration out;
+  out.images = std::move(images);
+  leave_out_repeats(out.images);
+  Indices use = in_use(out.images);
+  if (use.empty()) return no_board(out.images);
+  auto fit = choose_model(out.images, use, options, context, out);
+  if (context.stopped()) return Error::cancelled();
+  if (!fit) return nothing_fits();
+  if (leave_out_strays(take_fit(*fit, use, out), use, out.images)) {
+    use = in_use(out.images);
+    fit = choose_model(out.images, use, options, context, out);
+    if (context.stopped()) return Error::cancelled();
+    if (!fit) return nothing_fits();
+    take_fit(*fit, use, out);
+  }
+  if (Status s = check_focal_length(out, options.largest_focal_sigma); !s) return s.error();
+  for (const BoardImage& image : out.images) {
+    if (!image.reason.empty()) {
+      out.warnings.push_back(image.path.string() + ": " + image.reason + "; left out");
+    } else {
+      for (const std::string& warning : image.view->warnings)
+        out.warnings.push_back(image.path.string() + ": " + warning);
+    }
+  }
+  judge_views(use, out);
+  return out;
+}
+
+Result<CameraCalibration> calibrate_camera(const std::vector<std::filesystem::path>& paths,
+                                           const Target& target,
+                                           const CameraCalibrationOptions& options,
+                                           const RunContext& context) {
+  CameraCalibrationOptions how = options;
+  if (!options.start) {
+    // The guess finds boards well enough for a first fit; what it misses the second look finds.
+    const DistortionModel model = options.model.value_or(DistortionModel::kPlumbBob);
+    const auto guess = [&](int width, int height) {
+      return guessed_camera(width, height, 1.0, model);
+    };
+    constexpr int kUsualWidth_px = 1500;
+    auto first = look_at_images(paths, target, guess, tolerant(options.detection, kUsualWidth_px),
+                                context, 0.0, 0.4);
+    if (!first) return first.error();
+    if (Status s = check_sizes(*first, options.start); !s) return s.error();
+    const auto rough = calibrate_camera(std::move(*first), options, context);
+    if (!rough) return rough.error();
+    how.start = rough->camera;
+  }
+  context.report("detect", 0.5, "with the camera found");
+  const Camera& camera = *how.start;
+  auto images = look_at_images(
+      paths, target, [&](int, int) { return camera; }, options.detection, context, 0.5, 0.9);
+  if (!images) return images.error();
+  if (Status s = check_sizes(*images, options.start); !s) return s.error();
+  context.report("optimize", 0.9, "bundle adjustment");
+  auto out = calibrate_camera(std::move(*images), how, context);
+  if (out) context.report("optimize", 1.0, "done");
+  return out;
+}
+
+}  // namespace lvcalib

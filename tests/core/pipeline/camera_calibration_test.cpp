@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/camera_calibration.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "support/simulated_dataset.h"
+#include "support/synthetic_observations.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+constexpr double kNoise_px = 0.05;
+
+struct Views {
+  double noise_px = kNoise_px;
+  int count = 8;
+  double tilt_rad = 0.6;
+  double nearest_widths = 1.0;  ///< Distance of the nearest board: it covers the image about once.
+};
+
+// Boards turned about two axes and spread over the image, as corners with white noise.
+std::vector<BoardImage> images_of(const Camera& camera, const Views& views, std::uint64_t seed) {
+  Random random(seed);
+  const Target target;
+  std::vector<BoardImage> out;
+  const double view = camera.fx / camera.width_px;
+  for (int v = 0; v < views.count; ++v) {
+    const double turn = 2.0 * M_PI * v / views.count;
+    const double depth = views.nearest_widths * (1.0 + 0.8 * v / views.count) * 1.1 * view;
+    const Eigen::Vector3d place(0.3 * depth / view * std::cos(turn),
+                                0.15 * depth / view * std::sin(turn), depth);
+    const Rigid3 pose = test::facing_board(
+        target, place,
+        {views.tilt_rad * std::cos(1.7 * turn), views.tilt_rad * std::sin(1.7 * turn), 0.0});
+    BoardImage image;
+    image.path = "image" + std::to_string(v) + ".png";
+    image.width_px = camera.width_px;
+    image.height_px = camera.height_px;
+    image.view.emplace();
+    for (const TargetTag& tag : target.tags()) {
+      const auto at = target.tag_corners_m(tag);
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const auto p = camera.project(pose * Eigen::Vector3d(at[k].x(), at[k].y(), 0));
+        if (!p || !camera.in_image(*p)) continue;
+        const Eigen::Vector2d e(random.normal(), random.normal());
+        image.view->corners.push_back(
+            {tag.id, static_cast<int>(k), at[k], *p + views.noise_px * e, 0.0});
+      }
+    }
+    EXPECT_GT(image.view->corners.size(), 16U) << v;
+    out.push_back(std::move(image));
+  }
+  return out;
+}
+
+Camera camera_of(DistortionModel model) {
+  Camera camera = test::test_camera();
+  camera.model = model;
+  if (model == DistortionModel::kEquidistant) {
+    camera.fx = 620.0;
+    camera.fy = 618.0;
+    camera.distortion << -0.02, 0.008, -0.003, 0.0005, 0, 0, 0, 0;
+  }
+  return camera;
+}
+
+CameraCalibration calibrated(std::vector<BoardImage> images,
+                             const CameraCalibrationOptions& options = {}) {
+  auto out = calibrate_camera(std::move(images), options, {});
+  if (!out) {
+    ADD_FAILURE() << out.error().text();
+    return {};
+  }
+  return std::move(*out);
+}
+
+void expect_within_four_sigma(const CameraCalibration& result, const Camera& truth) {
+  const IntrinsicsVector off = intrinsics_of(result.camera) - intrinsics_of(truth);
+  for (Eigen::Index k = 0; k < 4 + truth.distortion_count(); ++k)
+    EXPECT_LE(std::abs(off(k)), 4.0 * result.sigma(k)) << k;
+  EXPECT_EQ(result.sigma.tail(8 - truth.distortion_count()).norm(), 0.0);
+}
+
+// From files, with nothing known of the camera.
+TEST(CalibrateCamera, FindsTheTruthFromSimulatedImages) {
+  simulation::SimulationOptions options = test::dataset_options(5, 8);
+  options.lidar.points = 500;  // Nobody looks at the clouds.
+  options.placement.min_distance_m = 1.2;
+  options.placement.max_distance_m = 2.5;
+  options.placement.max_tilt_deg = 45.0;
+  const test::SimulatedDataset data(options);
+  fs::remove(data.path() / "camera.yaml");
+  const auto files = find_camera_images(data.path());
+  ASSERT_TRUE(files.ok()) << files.error().text();
+  ASSERT_EQ(files->images.size(), 8U);
+  const auto result = calibrate_camera(files->images, data.rig().target, {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(result->used_images(), 8U);
+  EXPECT_EQ(result->camera.model, DistortionModel::kPlumbBob);
+  expect_within_four_sigma(*result, data.rig().camera);
+  EXPECT_LT(result->sigma(0), 0.005 * result->camera.fx);
+  EXPECT_LT(result->rms_px, 0.2);
+  EXPECT_EQ(result->predictions.size(), 3U);
+}
+
+// χ² of what matters has its mean, the noise estimated from the residuals.
+TEST(CalibrateCamera, StatesItsErrorAboutRight) {
+  const Camera truth = camera_of(DistortionModel::kPlumbBob);
+  CameraCalibrationOptions options;
+  options.model = truth.model;
+  options.start = truth;
+  options.start->fx *= 1.1;
+  options.start->fy *= 1.1;
+  options.start->distortion.setZero();
+  constexpr int kTrials = 120;
+  constexpr int kDof = 6;  // fx fy cx cy k1 k2; the data alone determine them.
+  double sum = 0.0;
+  double largest = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto result =
+        calibrated(images_of(truth, {}, 1000 + static_cast<std::uint64_t>(trial)), options);
+    const Eigen::VectorXd d = (intrinsics_of(result.camera) - intrinsics_of(truth)).head<kDof>();
+    const Eigen::MatrixXd c = result.covariance.topLeftCorner<kDof, kDof>();
+    const double chi = d.dot(c.ldlt().solve(d));
+    sum += chi;
+    largest = std::max(largest, chi);
+  }
+  // √(2/(6·120)) is 0.053: four of them.
+  EXPECT_NEAR(sum / (kTrials * kDof), 1.0, 0.21);
+  // One in a million.
+  EXPECT_LT(largest, 38.0);
+}
+
+TEST(CalibrateCamera, StartsFromNothingForAnyFocalLength) {
+  for (const double widths : {0.6, 1.0, 2.6}) {
+    Camera truth = camera_of(DistortionModel::kPlumbBob);
+    truth.fx = truth.fy = widths * truth.width_px;
+    const auto result = calibrated(images_of(truth, {}, 3));
+    EXPECT_EQ(result.camera.model, truth.model) << widths;
+    EXPECT_NEAR(result.camera.fx, truth.fx, 4.0 * result.sigma(0)) << widths;
+    EXPECT_LT(result.sigma(0), 0.01 * truth.fx) << widths;
+  }
+}
+
+TEST(CalibrateCamera, ChoosesTheModelThatPredicts) {
+  Camera truth = camera_of(DistortionModel::kEquidistant);
+  truth.fx = truth.fy = 900.0;
+  const auto result = calibrated(images_of(truth, {}, 4));
+  EXPECT_EQ(result.camera.model, DistortionModel::kEquidistant);
+  expect_within_four_sigma(result, truth);
+  ASSERT_EQ(result.predictions.size(), 3U);
+  EXPECT_EQ(result.predictions[0].model, DistortionModel::kPlumbBob);
+  EXPECT_EQ(result.predictions[1].model, DistortionModel::kEquidistant);
+  EXPECT_GT(result.predictions[0].held_out_px, 1.05 * result.predictions[1].held_out_px);
+}
+
+// So wide that plumb_bob folds back before the corners and cannot be fitted to all of them.
+TEST(CalibrateCamera, FindsAFisheyeFromNothing) {
+  const Camera truth = camera_of(DistortionModel::kEquidistant);
+  const auto result = calibrated(images_of(truth, {}, 4));
+  EXPECT_EQ(result.camera.model, DistortionModel::kEquidistant);
+  expect_within_four_sigma(result, truth);
+}
+
+// A model that contains the truth predicts no better than the truth's own: the simpler one stays.
+TEST(CalibrateCamera, KeepsTheSimplerModel) {
+  const Camera truth = camera_of(DistortionModel::kPlumbBob);
+  int kept = 0;
+  for (std::uint64_t seed = 20; seed < 26; ++seed)
+    kept += calibrated(images_of(truth, {}, seed)).camera.model == truth.model ? 1 : 0;
+  EXPECT_EQ(kept, 6);
+}
+
+TEST(CalibrateCamera, TakesTheModelThatIsAskedFor) {
+  CameraCalibrationOptions options;
+  options.model = DistortionModel::kRationalPolynomial;
+  const auto result = calibrated(images_of(camera_of(DistortionModel::kPlumbBob), {}, 6), options);
+  EXPECT_EQ(result.camera.model, DistortionModel::kRationalPolynomial);
+  EXPECT_TRUE(result.predictions.empty());
+}
+
+TEST(CalibrateCamera, BoardsThatFaceTheCameraAreNotEnough) {
+  Views views;
+  views.tilt_rad = 0.0;
+  views.noise_px = 0.2;
+  const auto result =
+      calibrate_camera(images_of(camera_of(DistortionModel::kPlumbBob), views, 7), {}, {});
+  ASSERT_FALSE(result.ok()) << result->sigma(0);
+  EXPECT_EQ(result.error().kind, ErrorKind::kUntrusted);
+  EXPECT_THAT(result.error().text(), HasSubstr("do not determine the focal length"));
+}
+
+TEST(CalibrateCamera, SaysWhatSpeaksAgainstIt) {
+  Views views;
+  views.count = 2;
+  const Camera camera = camera_of(DistortionModel::kPlumbBob);
+  auto images = images_of(camera, views, 8);
+  // All that lies in the right third is gone.
+  for (BoardImage& image : images)
+    std::erase_if(image.view->corners, [&](const auto& c) { return c.pixel.x() > 900.0; });
+  const auto result = calibrated(images);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("only 2 images")));
+  EXPECT_THAT(result.warnings,
+              Contains(AllOf(HasSubstr("no board reached"), HasSubstr("right, "))));
+  images = images_of(camera, {}, 9);
+  EXPECT_THAT(calibrated(images).warnings, Not(Contains(HasSubstr("images: take"))));
+}
+
+TEST(CalibrateCamera, LeavesOutStraysAndRepeats) {
+  const Camera truth = camera_of(DistortionModel::kPlumbBob);
+  auto images = images_of(truth, {}, 10);
+  images.push_back(images[0]);
+  images.back().path = "again.png";
+  // Another board: its columns of tags lie otherwise.
+  for (CornerObservation& c : images[2].view->corners)
+    c.pixel.x() += c.feature_id % 2 == 0 ? 2.0 : -2.0;
+  const auto result = calibrated(images);
+  EXPECT_EQ(result.used_images(), 7U);
+  EXPECT_THAT(result.images[2].reason, HasSubstr("miss the camera of the other images"));
+  EXPECT_THAT(result.images.back().reason, HasSubstr("the same image as image0.png"));
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("again.png")));
+  expect_within_four_sigma(result, truth);
+}
+
+TEST(CalibrateCamera, RefusesImagesOfTwoSizesAndNone) {
+  auto images = images_of(camera_of(DistortionModel::kPlumbBob), {}, 11);
+  images[3].width_px = 1280;
+  const auto result = calibrate_camera(images, {}, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(result.error().where, "image3.png");
+  EXPECT_EQ(calibrate_camera(std::vector<BoardImage>{}, {}, {}).error().kind, ErrorKind::kInput);
+}
+
+}  // namespace
+}  // namespace lvcalib

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/intrinsics_stage.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/calibration.h"
+#include "support/simulated_dataset.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// Images without a cloud narrow what a few scenes leave open, and the result stays honest.
+TEST(Calibrate, ImagesForTheCameraAloneNarrowItsIntrinsics) {
+  constexpr int kScenes = 3;
+  simulation::SimulationOptions options = test::dataset_options(21, kScenes);
+  const test::SimulatedDataset data(options);
+  CalibrationRequest request;
+  request.options.intrinsics.mode = static_cast<int>(IntrinsicsMode::kFree);
+  const auto without = calibrate(data.open(), request, {});
+  ASSERT_TRUE(without.ok()) << without.error().text();
+  EXPECT_TRUE(without->intrinsics.extra_images.empty());
+
+  // The same rig goes on: scenes of which only the images are kept.
+  options.scenes = kScenes + 6;
+  options.placement.max_tilt_deg = 45.0;
+  options.lidar.points = 500;
+  const auto simulator = simulation::Simulator::create(options);
+  ASSERT_TRUE(simulator.ok());
+  ASSERT_EQ(simulator->rig().camera.fx, data.rig().camera.fx);
+  fs::create_directories(data.path() / "intrinsics");
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    std::ofstream(data.path() / "intrinsics" / name, std::ios::binary) << bytes;
+  };
+  for (int s = kScenes; s < options.scenes; ++s) {
+    const auto scene = simulator->simulate_scene(s, {});
+    ASSERT_TRUE(scene.ok());
+    write(scene->name + ".png", *simulation::encode_png(scene->image));
+  }
+  write("broken.png", "this is no image");
+  fs::copy_file(data.path() / "scenes/A/image.png", data.path() / "intrinsics/copy.png");
+  const auto with = calibrate(data.open(), request, {});
+  ASSERT_TRUE(with.ok()) << with.error().text();
+  EXPECT_EQ(with->intrinsics.extra_images.size(), 8U);
+  EXPECT_THAT(with->warnings, Contains(HasSubstr("intrinsics/broken.png")));
+  EXPECT_THAT(with->warnings, Contains(HasSubstr("intrinsics/copy.png")));
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    EXPECT_LT(with->intrinsics.sigma(k), 0.8 * without->intrinsics.sigma(k)) << k;
+    EXPECT_LT(std::abs(intrinsics_of(with->camera)(k) - intrinsics_of(data.rig().camera)(k)),
+              4.0 * with->intrinsics.sigma(k))
+        << k;
+  }
+  const Matrix6d& before = without->extrinsic.camera_from_lidar.covariance;
+  const Matrix6d& after = with->extrinsic.camera_from_lidar.covariance;
+  EXPECT_LT(after.trace(), before.trace());
+  const Vector6d off =
+      se3_log(data.rig().camera_from_lidar * with->extrinsic.camera_from_lidar.transform.inverse());
+  for (int k = 0; k < 6; ++k) EXPECT_LT(std::abs(off(k)), 4.0 * std::sqrt(after(k, k))) << k;
+
+  // Held intrinsics that are wrong: the images tell.
+  Dataset wrong = data.open();
+  wrong.camera.fx *= 1.01;
+  wrong.camera.fy *= 1.01;
+  request.options.intrinsics.mode = static_cast<int>(IntrinsicsMode::kFixed);
+  const auto fixed = calibrate(wrong, request, {});
+  ASSERT_TRUE(fixed.ok()) << fixed.error().text();
+  EXPECT_TRUE(fixed->intrinsics.contradiction.has_value());
+}
+
+}  // namespace
+}  // namespace lvcalib
