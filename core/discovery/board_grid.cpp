@@ -38,7 +38,7 @@ bool is_seen(const Target& target, const Camera& camera, const Rigid3& camera_fr
 }
 
 // Board at a point of the camera frame: turned to the line of sight, then tilted and rolled.
-Rigid3 pose_at(const Target& target, const Eigen::Vector3d& center, const BoardPose& pose) {
+Rigid3 pose_at(const Target& target, const Eigen::Vector3d& center, const GridPose& pose) {
   const Eigen::Quaterniond to_sight =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), center.normalized());
   // Board x right, y up, z towards the camera.
@@ -78,7 +78,7 @@ Status BoardGridOptions::check() const {
   return Done{};
 }
 
-std::string BoardPose::text() const {
+std::string GridPose::text() const {
   const auto number = [](const char* format, double v) {
     char out[64];
     std::snprintf(out, sizeof out, format, std::abs(v));
@@ -104,9 +104,9 @@ std::string BoardPose::text() const {
   return out;
 }
 
-std::vector<BoardPose> board_grid(const Target& target, const Camera& camera,
-                                  const BoardGridOptions& options) {
-  std::vector<BoardPose> out;
+std::vector<GridPose> board_grid(const Target& target, const Camera& camera,
+                                 const BoardGridOptions& options) {
+  std::vector<GridPose> out;
   for (int i = 0; i < options.cells; ++i) {
     for (int j = 0; j < options.cells; ++j) {
       const Eigen::Vector2d pixel((i + 0.5) / options.cells * camera.width_px - 0.5,
@@ -116,13 +116,13 @@ std::vector<BoardPose> board_grid(const Target& target, const Camera& camera,
       for (const double distance : options.distances_m) {
         for (const auto& [tilt_x, tilt_y] : tilts_of(options)) {
           for (const double roll : options.rolls_deg) {
-            BoardPose pose{{},
-                           distance,
-                           tilt_x,
-                           tilt_y,
-                           roll,
-                           std::atan2(ray->x(), ray->z()) / kRadPerDeg,
-                           std::atan2(ray->y(), ray->z()) / kRadPerDeg};
+            GridPose pose{{},
+                          distance,
+                          tilt_x,
+                          tilt_y,
+                          roll,
+                          std::atan2(ray->x(), ray->z()) / kRadPerDeg,
+                          std::atan2(ray->y(), ray->z()) / kRadPerDeg};
             pose.camera_from_board = pose_at(target, distance * *ray, pose);
             if (is_seen(target, camera, pose.camera_from_board, options.min_tag_px))
               out.push_back(pose);

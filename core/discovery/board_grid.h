@@ -22,7 +22,7 @@ struct BoardGridOptions {
 };
 
 /// One pose of the grid, with what it was made from.
-struct BoardPose {
+struct GridPose {
   Rigid3 camera_from_board;
   double distance_m = 0.0;
   double tilt_x_deg = 0.0;  ///< Top towards the camera positive.
@@ -36,7 +36,7 @@ struct BoardPose {
 };
 
 /// All poses of the grid at which the camera sees every corner of the pattern.
-std::vector<BoardPose> board_grid(const Target& target, const Camera& camera,
-                                  const BoardGridOptions& options);
+std::vector<GridPose> board_grid(const Target& target, const Camera& camera,
+                                 const BoardGridOptions& options);
 
 }  // namespace lvcalib

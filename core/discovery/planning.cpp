@@ -105,7 +105,7 @@ class Planner {
     context_.report("plan", 0.0, "predicting measurements");
     poses_ = board_grid(table_.target, table_.camera, options_.grid);
     const std::size_t in_image = poses_.size();
-    std::erase_if(poses_, [&](const BoardPose& pose) {
+    std::erase_if(poses_, [&](const GridPose& pose) {
       return !lidar_sees(sensors_, table_.target,
                          out_.camera_from_lidar.inverse() * pose.camera_from_board);
     });
@@ -203,7 +203,7 @@ class Planner {
   const RunContext& context_;
   EffectColumnsList columns_;
   ColumnSubset subset_;
-  std::vector<BoardPose> poses_;
+  std::vector<GridPose> poses_;
   std::vector<Eigen::MatrixXd> added_;
   std::vector<bool> taken_;
   Eigen::MatrixXd now_;

@@ -25,7 +25,7 @@ struct EffectVisibility {
 
 /// A board pose to take, with what is known once it is taken.
 struct PlannedScene {
-  BoardPose pose;
+  GridPose pose;
   Rigid3 lidar_from_board;
   bool determined = false;                 ///< All six directions of the extrinsic are.
   Matrix6d covariance = Matrix6d::Zero();  ///< Of the extrinsic: left perturbation, camera frame.

@@ -43,7 +43,7 @@ double points_in_bin(const SensorModel& sensors, const BeamPoint& beam, double r
 
 class ScenePredictor {
  public:
-  ScenePredictor(const BoardPose& pose, const SensorModel& sensors, MeasurementTable& table,
+  ScenePredictor(const GridPose& pose, const SensorModel& sensors, MeasurementTable& table,
                  const ModelState& state)
       : sensors_(sensors),
         table_(table),
@@ -287,14 +287,14 @@ bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& 
   return normal.dot(-at.normalized()) > kSteepest;
 }
 
-void append_predicted_scene(const BoardPose& pose, const SensorModel& sensors,
+void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
                             MeasurementTable& table, ModelState& state) {
   ScenePredictor(pose, sensors, table, state).run();
   state.camera_from_board.push_back(pose.camera_from_board);
 }
 
 std::vector<Eigen::MatrixXd> predicted_information(
-    const std::vector<BoardPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
+    const std::vector<GridPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
     const Rigid3& camera_from_lidar, const EffectColumnsList& columns, const ColumnSubset& subset,
     const ModelVariances& variances, const RunContext& context) {
   MeasurementTable empty;

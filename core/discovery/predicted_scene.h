@@ -42,14 +42,14 @@ bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& 
 /// Appends the rows that the sensors would measure at a pose, without noise: ranges and intensities
 /// on a grid over the board, weighted as many points as there would be, the circles' edges and all
 /// corners. The table must have camera, target, levels and lines; `state` gets the pose.
-void append_predicted_scene(const BoardPose& pose, const SensorModel& sensors,
+void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
                             MeasurementTable& table, ModelState& state);
 
 /// What each pose would say about the extrinsic and all columns, in the order of `poses`.
 /// `like` gives target, camera, levels and lines. In chunks, so that memory stays small; stops
 /// early (short list) when asked to.
 std::vector<Eigen::MatrixXd> predicted_information(
-    const std::vector<BoardPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
+    const std::vector<GridPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
     const Rigid3& camera_from_lidar, const EffectColumnsList& columns, const ColumnSubset& subset,
     const ModelVariances& variances, const RunContext& context);
 

@@ -121,7 +121,7 @@ class Adviser {
     const SensorModel sensors = sensors_of(search_.table());
     const Rigid3& camera_from_lidar = search_.state().camera_from_lidar;
     poses_ = board_grid(search_.table().target, search_.table().camera, options_.grid);
-    std::erase_if(poses_, [&](const BoardPose& pose) {
+    std::erase_if(poses_, [&](const GridPose& pose) {
       return !lidar_sees(sensors, search_.table().target,
                          camera_from_lidar.inverse() * pose.camera_from_board);
     });
@@ -236,7 +236,7 @@ class Adviser {
   ColumnSubset subset_;
   EffectColumnsList predicted_columns_;
   Eigen::MatrixXd now_;
-  std::vector<BoardPose> poses_;
+  std::vector<GridPose> poses_;
   std::vector<Eigen::MatrixXd> added_;
   std::vector<std::string> out_;
 };

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <utility>
 
 #include "model/residuals.h"
 #include "model/table_builder.h"
+#include "pipeline/ablation.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
 
@@ -199,6 +201,8 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   std::vector<std::size_t> index;
   auto observations = observations_of(result, use, index);
   const Target target = target_in_use(result, observations);
+  auto paper = with_paper_nodes(observations, result, index);
+  take_out(discovery, movements, result.camera, target, paper);
   take_out(discovery, movements, result.camera, target, observations);
   const ExtrinsicOptions& how = result.options.extrinsic;
   ExtrinsicSolution nodes = result.extrinsic;
@@ -222,8 +226,10 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   result.extrinsic = report_forward(pose, subsets, nodes, observations, result.camera, target, how);
   result.extrinsic.camera_from_lidar = pose.camera_from_lidar;
   MethodOptions methods;
+  methods.paper = JointVariant{"joint_paper", std::move(paper), paper_objective(how)};
   methods.other = {"forward_model", discovery.state.camera_from_lidar, subsets};
   result.methods = compare_methods(observations, result.camera, target, nodes, how, methods);
+  result.ablation.clear();  // Of the base model.
   result.uncertainty =
       assess_uncertainty(observations, result.camera, target, result.extrinsic, how, {}, subsets);
 }

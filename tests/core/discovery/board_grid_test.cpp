@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Eigen::Vector3d center_of(const Target& target, const BoardPose& pose) {
+Eigen::Vector3d center_of(const Target& target, const GridPose& pose) {
   const Eigen::Vector2d c = target.outline().center_m();
   return pose.camera_from_board * Eigen::Vector3d(c.x(), c.y(), 0.0);
 }
@@ -24,7 +24,7 @@ TEST(BoardGrid, PosesAreWhatTheirNumbersSay) {
   const auto poses = board_grid(target, camera, {});
   ASSERT_GT(poses.size(), 50U);
   bool tilted = false;
-  for (const BoardPose& pose : poses) {
+  for (const GridPose& pose : poses) {
     const Eigen::Vector3d center = center_of(target, pose);
     EXPECT_NEAR(center.norm(), pose.distance_m, 1e-9);
     EXPECT_NEAR(std::atan2(center.x(), center.z()) * 180.0 / M_PI, pose.right_deg, 1e-6);
@@ -39,7 +39,7 @@ TEST(BoardGrid, PosesAreWhatTheirNumbersSay) {
 
 TEST(BoardGrid, DirectionsOfTiltAreAsDescribed) {
   const Target target;
-  for (const BoardPose& pose : board_grid(target, test::test_camera(), {})) {
+  for (const GridPose& pose : board_grid(target, test::test_camera(), {})) {
     if (pose.roll_deg != 0.0) continue;
     const BoardOutline o = target.outline();
     const auto depth = [&](double x, double y) {
@@ -59,7 +59,7 @@ TEST(BoardGrid, DirectionsOfTiltAreAsDescribed) {
 TEST(BoardGrid, KeepsToWhatTheCameraSees) {
   const Target target;
   const Camera camera = test::test_camera();
-  for (const BoardPose& pose : board_grid(target, camera, {})) {
+  for (const GridPose& pose : board_grid(target, camera, {})) {
     for (const TargetTag& tag : target.tags()) {
       for (const Eigen::Vector2d& corner : target.tag_corners_m(tag)) {
         const auto pixel =
@@ -75,7 +75,7 @@ TEST(BoardGrid, KeepsToWhatTheCameraSees) {
 }
 
 TEST(BoardGrid, SaysWhereTheBoardGoes) {
-  BoardPose pose;
+  GridPose pose;
   pose.distance_m = 2.0;
   EXPECT_EQ(pose.text(), "at 2.0 m, in the middle of the image, facing the camera");
   pose.right_deg = -12.0;

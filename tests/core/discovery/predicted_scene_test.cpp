@@ -35,7 +35,7 @@ TEST(PredictedScene, PredictsItselfWithoutResidual) {
   table.has_intensity = true;
   table.level = made.table.level;
   ModelState state{made.truth.camera_from_lidar, {}};
-  BoardPose pose;
+  GridPose pose;
   pose.camera_from_board = made.truth.camera_from_board[2];
   append_predicted_scene(pose, sensors, table, state);
   ASSERT_EQ(state.camera_from_board.size(), 1U);
@@ -52,7 +52,7 @@ TEST(PredictedScene, PromisesAboutWhatASceneDelivers) {
   const SensorModel sensors = sensors_of(made.table);
   const EffectColumnsList none;
   const Linearization linear = linearize(made.table, made.truth, {}, none, {});
-  std::vector<BoardPose> poses(made.table.scenes.size());
+  std::vector<GridPose> poses(made.table.scenes.size());
   for (std::size_t s = 0; s < poses.size(); ++s)
     poses[s].camera_from_board = made.truth.camera_from_board[s];
   const ModelVariances variances;
@@ -77,7 +77,7 @@ TEST(PredictedScene, StopsWhenAsked) {
   stop.request_stop();
   RunContext context;
   context.stop = stop.get_token();
-  BoardPose pose;
+  GridPose pose;
   pose.camera_from_board = made.truth.camera_from_board[0];
   EXPECT_TRUE(predicted_information({pose}, sensors_of(made.table), made.table,
                                     made.truth.camera_from_lidar, {}, {}, {}, context)
