@@ -1805,6 +1805,26 @@ were saved. Take them up again?</source>
         <source>the clouds&apos; intensities do not follow the target&apos;s print</source>
         <translation>点云强度与标定板图案不符</translation>
     </message>
+    <message>
+        <source>Nor does one that moves it by fewer standard deviations.</source>
+        <translation>也不包括使其移动少于这么多个标准差的误差。</translation>
+    </message>
+    <message>
+        <source>tolerance sigmas</source>
+        <translation>容差（标准差）</translation>
+    </message>
+    <message>
+        <source>use intensity</source>
+        <translation>使用强度</translation>
+    </message>
+    <message>
+        <source>ranges miss the model by %1 times their noise: another effect is missing in the model</source>
+        <translation>距离与模型的偏差为其噪声的 %1 倍：模型中还缺少另一种效应</translation>
+    </message>
+    <message>
+        <source>the %1 channel shows structure over %2 that no effect of the model explains; it could move the extrinsic by %3 mm and %4 mrad</source>
+        <translation>%1通道随%2呈现出模型中任何效应都无法解释的结构；它可能使外参移动 %3 mm 和 %4 mrad</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -2041,6 +2061,62 @@ were saved. Take them up again?</source>
     <message>
         <source>%1 fitted</source>
         <translation>%1 拟合</translation>
+    </message>
+    <message>
+        <source>chance of something this large, after the search</source>
+        <translation>搜索之后偶然出现这么大的概率</translation>
+    </message>
+    <message>
+        <source>gain in scenes held out, standard errors</source>
+        <translation>留出场景中的增益（标准误差）</translation>
+    </message>
+    <message>
+        <source>gain, against what chance finds in a search</source>
+        <translation>增益，与搜索中偶然所得相比</translation>
+    </message>
+    <message>
+        <source>share of scenes predicted better</source>
+        <translation>预测得更好的场景所占比例</translation>
+    </message>
+    <message>
+        <source>scenes predicted better</source>
+        <translation>预测得更好的场景数</translation>
+    </message>
+    <message>
+        <source>largest size it may have, over what matters</source>
+        <translation>可能的最大大小与有影响大小之比</translation>
+    </message>
+    <message>
+        <source>distance from what devices have, σ²</source>
+        <translation>与设备可能取值的距离（σ²）</translation>
+    </message>
+    <message>
+        <source>share of what its channel misses by</source>
+        <translation>占其通道失配的比例</translation>
+    </message>
+    <message>
+        <source>fall of held-out squares, over the least asked</source>
+        <translation>留出平方和的下降与最低要求之比</translation>
+    </message>
+    <message>
+        <source>nothing else speaks against it</source>
+        <translation>没有其他证据反对它</translation>
+    </message>
+    <message>
+        <source>Why it is suggested</source>
+        <translation>为何建议</translation>
+    </message>
+    <message>
+        <source>Why it is not suggested</source>
+        <translation>为何不建议</translation>
+    </message>
+    <message>
+        <source>Left out, it may move the extrinsic by more than the tolerance: it matters.</source>
+        <translation>若不考虑，它可能使外参移动超过容差：它有影响。</translation>
+    </message>
+    <message>
+        <source>Left out, it moves the extrinsic by less than the tolerance.</source>
+        <translation>若不考虑，它使外参的移动小于容差。</translation>
     </message>
 </context>
 <context>

@@ -7,6 +7,14 @@ namespace lvcalib::widgets {
 
 /// Like kCorePatterns: the core library's sentences about effects and the model.
 inline constexpr const char* kModelPatterns[] = {
+    // What a model with effects leaves.
+    QT_TRANSLATE_NOOP("Core",
+                      "ranges miss the model by %1 times their noise: another effect is missing in "
+                      "the model"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "the %1 channel shows structure over %2 that no effect of the model explains; "
+        "it could move the extrinsic by %3 mm and %4 mrad"),
     // Why the page suggests an effect, or what it knows of one.
     QT_TRANSLATE_NOOP("Core",
                       "%1 Found: %2. With it, scenes held out have %3 % less squared error in the "

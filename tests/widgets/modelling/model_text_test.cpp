@@ -39,7 +39,9 @@ TEST(ModelText, EveryRuleThatAnEffectMustPassHasAName) {
       ++asked;
     }
     // What is suggested has passed them all, and nothing else has.
-    if (!p.finding.criteria.empty()) EXPECT_EQ(all, p.suggested) << p.finding.id;
+    if (!p.finding.criteria.empty()) {
+      EXPECT_EQ(all, p.suggested) << p.finding.id;
+    }
     EXPECT_EQ(html.contains(QChar(0x2717)), !html.isEmpty() && !all) << p.finding.id;
   }
   EXPECT_GT(asked, 0U);
