@@ -95,8 +95,7 @@ TEST_F(DiscoverCommand, TheUsersToleranceDecidesWhatMatters) {
   }
   EXPECT_FALSE(fs::exists(out()));
   const auto count = [&](const char* tolerance) {
-    const Outcome outcome =
-        discover(good_dataset(), {"--tolerance", tolerance, "--max-effects", "0"});
+    const Outcome outcome = discover(good_dataset(), {"--tolerance", tolerance});
     EXPECT_LE(outcome.status, 1) << outcome.err;
     std::pair<int, int> out{0, 0};  // Absent; that matter.
     const auto discovery = json("discovery.json");
