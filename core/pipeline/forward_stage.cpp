@@ -155,6 +155,7 @@ SubsetSolver model_subsets(const std::shared_ptr<const ModelFit>& fit,
                            const Rigid3& camera_from_lidar, const ExtrinsicSolution& start) {
   return [fit, camera_from_lidar, place = places_in_use(start)](
              const std::vector<std::size_t>& scenes) -> std::optional<UncertainRigid3> {
+    if (!fit) return std::nullopt;
     Eigen::MatrixXd information = fit->prior.information;
     Eigen::VectorXd gradient = fit->prior.gradient;
     for (const std::size_t k : scenes) {

@@ -55,7 +55,7 @@ ReportedPose pose_of(const ForwardSolution& forward);
 /// Solves the forward model for some of the observations of `start`.
 SubsetSolver forward_subsets(const ForwardSolution& forward, const ExtrinsicSolution& start);
 
-/// The same for a model with effects, to first order about its pose.
+/// The same for a model with effects, to first order about its pose; nothing without a fit.
 SubsetSolver model_subsets(const std::shared_ptr<const ModelFit>& fit,
                            const Rigid3& camera_from_lidar, const ExtrinsicSolution& start);
 

@@ -191,6 +191,20 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements, co
   take_out_of_corners(discovery, camera, target, observations);
 }
 
+// Pose of the LiDAR and of the boards in use, in their order.
+void put_poses(const Discovery& discovery, CalibrationResult& result) {
+  result.extrinsic.camera_from_lidar = {discovery.state.camera_from_lidar, discovery.covariance};
+  std::size_t next = 0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!takes_part(scene)) continue;
+    for (SceneSolution& s : result.extrinsic.scenes) {
+      if (s.name == scene.name && next < discovery.state.camera_from_board.size())
+        s.camera_from_board = discovery.state.camera_from_board[next];
+    }
+    ++next;
+  }
+}
+
 // Everything that is told of the scenes, under the model's effects: residuals, methods, what single
 // scenes and halves would give. Where the classical solve does not bear the corrected observations
 // the base's stands, with the model's pose.
@@ -200,6 +214,15 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   for (const SceneResult& scene : result.scenes) use.push_back(scene.used);
   std::vector<std::size_t> index;
   auto observations = observations_of(result, use, index);
+  const auto& solved = result.extrinsic.scenes;
+  const auto boards = static_cast<std::size_t>(
+      std::count_if(solved.begin(), solved.end(), [](const SceneSolution& s) { return s.used; }));
+  if (!discovery.fit || solved.size() != observations.size() ||
+      boards != discovery.state.camera_from_board.size()) {
+    // Not made by one solve: what it says of its measurements stays.
+    put_poses(discovery, result);
+    return;
+  }
   const Target target = target_in_use(result, observations);
   auto paper = with_paper_nodes(observations, result, index);
   take_out(discovery, movements, result.camera, target, paper);
@@ -302,7 +325,9 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   result.modelled_range_misfit = 0.0;
   result.unexplained.clear();
   if (!changed) return result;
-  for (const ChannelSummary& c : discovery.history.back().channels) {
+  const std::vector<ChannelSummary> none;
+  for (const ChannelSummary& c :
+       discovery.history.empty() ? none : discovery.history.back().channels) {
     if (c.channel == Channel::kRange && c.noise_floor > 0.0)
       result.modelled_range_misfit = c.rms / c.noise_floor;
   }
