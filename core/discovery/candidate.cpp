@@ -352,8 +352,9 @@ double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index co
 
 namespace {
 
-// Two standard deviations from what a device can have.
+// Squared: two standard deviations, which one right estimate in twenty is off by.
 constexpr double kImpossible = 4.0;
+// What one scene alone shows may be that scene's own fault.
 constexpr double kFewestImproved = 2.0;
 
 // That it is there, however small.

@@ -347,7 +347,8 @@ std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chos
 
 void judge_unknown(const EffectSearch& explained, const DiscoveryOptions& options,
                    std::vector<StructureScore>& unknown) {
-  // Each asks for a linearization; the strongest matter.
+  // Each asks for a linearization of all rows, and there are four channels: beyond the strongest of
+  // each, other covariates mostly see the same structure.
   constexpr std::size_t kMost = 4;
   const ExtrinsicMove tolerance = tolerated(options.tolerance, explained.reference().fit);
   for (std::size_t k = 0; k < std::min(kMost, unknown.size()); ++k) {

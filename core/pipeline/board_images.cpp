@@ -79,6 +79,8 @@ double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera
 }
 
 std::string stray_reason(double rms_px, double usual_px) {
+  // Five standard deviations of one corner, as all of an image's corners together hardly ever are,
+  // and more than the smear of a hand that is nearly still.
   constexpr double kFactor = 5.0;
   constexpr double kFloor_px = 0.3;
   if (rms_px <= std::max(kFloor_px, kFactor * usual_px)) return {};

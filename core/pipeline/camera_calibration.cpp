@@ -21,11 +21,15 @@ constexpr std::array kFocalLadder = {0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0};
 // While the camera is a guess, corners may miss the board's pose by this share of the image's
 // width: distortion of tens of pixels does not cost the board.
 constexpr double kGuessTolerance = 0.03;
+// Of three the median is one of them, and a stray may be it.
 constexpr std::size_t kFewestToJudgeStrays = 4;
-// Boards that face within this angle of each other leave the focal length to noise.
+// Foreshortening, by which the focal length is told from the distance, grows with the sine of the
+// turn: at 15° it is a quarter of what 90° would give, and its standard deviation four times that.
 constexpr double kAlike_deg = 15.0;
+// As many as there are folds of held-out images by default.
 constexpr std::size_t kFewImages = 5;
-// Residuals of so many times the noise of replicates, and this large, show a misfit.
+// At twice the noise of replicates three quarters of the variance are misfit; below a tenth of a
+// pixel it moves no projection by what a LiDAR would notice.
 constexpr double kMisfitFactor = 2.0;
 constexpr double kMisfit_px = 0.1;
 
@@ -105,6 +109,8 @@ std::optional<IntrinsicsFit> fit_from(const std::vector<BoardImage>& images, con
   std::vector<CornerView> views = posed_views(images, use, start, options, misfit);
   auto fit = fit_intrinsics(views, start, wide_intrinsics_sigma(start));
   if (!fit) return fit;
+  // The prior is a thousand times wider than what the images tell: each round leaves a millionth of
+  // what the one before moved, and only images that hardly tell anything need more than one.
   constexpr int kRounds = 4;
   constexpr double kSettled = 0.05;  // In standard deviations.
   for (int round = 0; round < kRounds; ++round) {
