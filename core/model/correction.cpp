@@ -20,17 +20,6 @@ void set_direction(const Eigen::Vector3d& direction, BeamPoint& beam) {
   beam.elevation_rad = std::asin(std::clamp(direction.z(), -1.0, 1.0));
 }
 
-// Displacement of the measured from the true point by one effect.
-Eigen::Vector3d movement(const EffectInUse& use, const BeamPoint& beam,
-                         const MeasurementTable& table, std::vector<Eigen::Vector3d>& scratch) {
-  scratch.assign(static_cast<std::size_t>(use.values.size()), Eigen::Vector3d::Zero());
-  use.effect->lidar(beam, table, use.shape, scratch);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < scratch.size(); ++k)
-    sum += use.values(static_cast<Eigen::Index>(k)) * scratch[k];
-  return sum;
-}
-
 // Tries an effect with one circumstance changed at a time.
 class Probe {
  public:
@@ -81,7 +70,9 @@ class Probe {
     b.line = table_.lines[static_cast<std::size_t>(k) % table_.lines.size()];
     return b;
   }
-  Eigen::Vector3d movement_of(const BeamPoint& b) { return movement(use_, b, table_, scratch_); }
+  Eigen::Vector3d movement_of(const BeamPoint& b) {
+    return point_movement(use_, b, table_, scratch_);
+  }
 
   EffectInUse use_;
   MeasurementTable table_;
@@ -244,14 +235,14 @@ class Corrector {
     take_out(i, beam);
   }
 
-  // p_true = p − movement(range of p_true), by fixed point.
+  // p_true = p − point_movement(range of p_true), by fixed point.
   void take_out(std::size_t i, BeamPoint& beam) {
     if (active_.empty()) return;
     const Eigen::Vector3d measured = cloud_.points_m[i].cast<double>();
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     for (int round = 0; round < kMostRounds; ++round) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const Plan* p : active_) sum += movement(*p->use, beam, table_, scratch_);
+      for (const Plan* p : active_) sum += point_movement(*p->use, beam, table_, scratch_);
       const double change = (sum - moved).norm();
       moved = sum;
       beam.range_m = (measured - moved).norm();
@@ -260,7 +251,7 @@ class Corrector {
     cloud_.points_m[i] = (measured - moved).cast<float>();
     for (const Plan* p : active_) {
       EffectCorrection& entry = summary_.effects[p->at];
-      const double size = movement(*p->use, beam, table_, scratch_).norm();
+      const double size = point_movement(*p->use, beam, table_, scratch_).norm();
       entry.points += size > 0.0 ? 1 : 0;
       entry.rms_m += size * size;
       entry.largest_m = std::max(entry.largest_m, size);
@@ -293,6 +284,17 @@ class Corrector {
 };
 
 }  // namespace
+
+Eigen::Vector3d point_movement(const EffectInUse& use, const BeamPoint& beam,
+                               const MeasurementTable& table,
+                               std::vector<Eigen::Vector3d>& scratch) {
+  scratch.assign(static_cast<std::size_t>(use.values.size()), Eigen::Vector3d::Zero());
+  use.effect->lidar(beam, table, use.shape, scratch);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < scratch.size(); ++k)
+    sum += use.values(static_cast<Eigen::Index>(k)) * scratch[k];
+  return sum;
+}
 
 CorrectionReads correction_reads(const EffectInUse& use, const ModelScales& scales) {
   return Probe(use, scales).run();

@@ -64,6 +64,11 @@ Result<CorrectionSummary> correct_cloud(Cloud& cloud, const std::vector<EffectIn
                                         const ModelScales& scales, const CorrectionOptions& options,
                                         const RunContext& context);
 
+/// Displacement (LiDAR frame, m) of the measured from the true point by one effect at its values.
+Eigen::Vector3d point_movement(const EffectInUse& use, const BeamPoint& beam,
+                               const MeasurementTable& table,
+                               std::vector<Eigen::Vector3d>& scratch);
+
 /// What an effect's movement of points depends on, found by trying: an effect needs no
 /// declarations of its own.
 struct CorrectionReads {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/normal_equations.h"
 #include "extrinsic/solution_report.h"
 
 namespace lvcalib {
@@ -163,19 +164,11 @@ SubsetSolver model_subsets(const std::shared_ptr<const ModelFit>& fit,
       information += fit->scenes[place[k]].information;
       gradient += fit->scenes[place[k]].gradient;
     }
-    // Scaled to a unit diagonal, so that metres and radians compare.
-    const Eigen::VectorXd unit = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::LDLT<Eigen::MatrixXd> factor(unit.asDiagonal() * information * unit.asDiagonal());
-    constexpr double kSingular = 1e-13;
-    if (factor.info() != Eigen::Success || !factor.isPositive() || factor.rcond() < kSingular)
-      return std::nullopt;
-    const Eigen::VectorXd step = unit.asDiagonal() * factor.solve(unit.asDiagonal() * gradient);
-    const Eigen::MatrixXd covariance =
-        unit.asDiagonal() *
-        factor.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols())) *
-        unit.asDiagonal();
-    const Vector6d move = step.head<6>() - fit->solution.head<6>();
-    return UncertainRigid3{se3_exp(move) * camera_from_lidar, covariance.topLeftCorner<6, 6>()};
+    const auto solved = solve_normal_equations(information, gradient);
+    if (!solved) return std::nullopt;
+    const Vector6d move = solved->x.head<6>() - fit->solution.head<6>();
+    return UncertainRigid3{se3_exp(move) * camera_from_lidar,
+                           solved->covariance.topLeftCorner<6, 6>()};
   };
 }
 

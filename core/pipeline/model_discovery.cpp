@@ -7,7 +7,9 @@
 #include <span>
 #include <utility>
 
+#include "model/correction.h"
 #include "model/residuals.h"
+#include "model/scene_geometry.h"
 #include "model/table_builder.h"
 #include "pipeline/ablation.h"
 #include "pipeline/forward_stage.h"
@@ -35,9 +37,10 @@ class ModelledMovements {
       : model_(discovery.model), table_(empty_table(discovery.scales)) {}
 
   [[nodiscard]] Eigen::Vector3d point(const BeamPoint& beam) const {
-    return sum<Eigen::Vector3d>([&](const EffectInUse& use, auto moves) {
-      use.effect->lidar(beam, table_, use.shape, moves);
-    });
+    Eigen::Vector3d out = Eigen::Vector3d::Zero();
+    std::vector<Eigen::Vector3d> scratch;
+    for (const EffectInUse& use : model_) out += point_movement(use, beam, table_, scratch);
+    return out;
   }
   // By how much the print is seen beside its place.
   [[nodiscard]] Eigen::Vector3d spot(const BeamPoint& beam) const {
@@ -108,15 +111,12 @@ double black_share(const Target& target) {
   return black / (kSide * kSide);
 }
 
-// The beam to a point of a board's plane, as dark as the board on average, of no line in
-// particular: what is told of planes, and of circles on them, is a mean over many returns.
-BeamPoint beam_to(const Eigen::Vector3d& point_m, const FittedPlane& plane, double darkness) {
+// The beam towards a point of a board, as dark as the board on average, of no line in particular:
+// what is told of planes, and of circles on them, is a mean over many returns.
+BeamPoint beam_towards(const Eigen::Vector3d& point_m, const Rigid3& lidar_from_board,
+                       double darkness) {
   BeamPoint beam;
-  beam.range_m = point_m.norm();
-  beam.direction = point_m / beam.range_m;
-  beam.azimuth_rad = std::atan2(beam.direction.y(), beam.direction.x());
-  beam.elevation_rad = std::asin(std::clamp(beam.direction.z(), -1.0, 1.0));
-  beam.incidence_rad = std::acos(std::clamp(std::abs(plane.normal.dot(beam.direction)), 0.0, 1.0));
+  static_cast<void>(SceneGeometry(Rigid3(), lidar_from_board).describe(point_m.normalized(), beam));
   beam.darkness = darkness;
   beam.line = -1;
   return beam;
@@ -181,12 +181,13 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements, co
       at.board_m = node.board_m;
       // Its height is the plane's, its place on it its own.
       const Eigen::Vector2d shift = movements.print(at, target).head<2>();
-      const BeamPoint beam = beam_to(node.center_lidar_m, o.plane, darkness);
+      const BeamPoint beam = beam_towards(node.center_lidar_m, o.lidar_from_board, darkness);
       node.center_lidar_m -= movements.spot(beam) + movements.point(beam) +
                              rotation * Eigen::Vector3d(shift.x(), shift.y(), bend.z());
     }
-    o.plane.center_m -= movements.point(beam_to(o.plane.center_m, o.plane, darkness)) +
-                        rotation * Eigen::Vector3d(0.0, 0.0, bend.z());
+    o.plane.center_m -=
+        movements.point(beam_towards(o.plane.center_m, o.lidar_from_board, darkness)) +
+        rotation * Eigen::Vector3d(0.0, 0.0, bend.z());
   }
   take_out_of_corners(discovery, camera, target, observations);
 }

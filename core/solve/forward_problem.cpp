@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
+#include "base/normal_equations.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "model/linear_model.h"
@@ -505,23 +507,17 @@ std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& term
     information(i, i) = 1.0;
     gradient(i) = 0.0;
   }
-  // Scaled to a unit diagonal, so that metres, radians and pixels compare.
-  const Eigen::VectorXd unit = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> factor(unit.asDiagonal() * information * unit.asDiagonal());
-  constexpr double kSingular = 1e-13;
-  if (factor.info() != Eigen::Success || !factor.isPositive() || factor.rcond() < kSingular)
-    return std::nullopt;
+  auto solved = solve_normal_equations(information, gradient);
+  if (!solved) return std::nullopt;
   GlobalStep out;
-  out.step = unit.asDiagonal() * factor.solve(unit.asDiagonal() * gradient);
-  out.covariance = unit.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(kGlobals, kGlobals)) *
-                   unit.asDiagonal();
+  out.step = std::move(solved->x);
+  out.covariance = std::move(solved->covariance);
   for (Eigen::Index i = 6; i < kGlobals; ++i) {
     if (!held(i)) continue;
     out.covariance.row(i).setZero();
     out.covariance.col(i).setZero();
   }
   out.decrement = out.step.dot(gradient);
-  if (!out.step.allFinite() || !out.covariance.allFinite()) return std::nullopt;
   return out;
 }
 
