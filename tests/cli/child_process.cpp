@@ -7,6 +7,8 @@
 #include <sstream>
 #include <thread>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -113,6 +115,15 @@ std::vector<std::string> lines_with(const std::string& text, const std::string& 
     if (line.starts_with(prefix)) lines.push_back(line);
   }
   return lines;
+}
+
+void expect_refusal(const Outcome& outcome, int status, const std::string& what,
+                    const std::filesystem::path& output) {
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  EXPECT_EQ(lines_with(outcome.err, "lvcalib: error: ").size(), 1U) << outcome.err;
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr(what));
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_FALSE(std::filesystem::exists(output));
 }
 
 }  // namespace lvcalib::testing

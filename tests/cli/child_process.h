@@ -36,4 +36,9 @@ std::vector<std::string> lines_of(const std::string& text);
 /// The lines of `text` that start with `prefix`.
 std::vector<std::string> lines_with(const std::string& text, const std::string& prefix);
 
+/// Checks how a run must end that was refused before it made anything: the status, one error line
+/// that says `what`, silence on standard output, and no `output`.
+void expect_refusal(const Outcome& outcome, int status, const std::string& what,
+                    const std::filesystem::path& output);
+
 }  // namespace lvcalib::testing

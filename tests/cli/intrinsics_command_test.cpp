@@ -56,11 +56,7 @@ class IntrinsicsCommand : public ::testing::Test {
     return run_lvcalib(arguments);
   }
   void expect_refused(const Outcome& outcome, int status, const std::string& what) const {
-    EXPECT_EQ(outcome.status, status) << outcome.err;
-    EXPECT_EQ(lines_with(outcome.err, "lvcalib: error: ").size(), 1U) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(what));
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_FALSE(fs::exists(output()));
+    expect_refusal(outcome, status, what, output());
     EXPECT_TRUE(unfinished_files(folder_.path()).empty());
   }
   TemporaryFolder folder_{"intrinsics"};
