@@ -1518,10 +1518,6 @@ were saved. Take them up again?</source>
         <translation>正在拟合模型</translation>
     </message>
     <message>
-        <source>fitting the base model</source>
-        <translation>正在拟合基础模型</translation>
-    </message>
-    <message>
         <source>looking for structure</source>
         <translation>正在寻找结构</translation>
     </message>
@@ -1536,10 +1532,6 @@ were saved. Take them up again?</source>
     <message>
         <source>judging effects</source>
         <translation>正在判断效应</translation>
-    </message>
-    <message>
-        <source>refining shape numbers</source>
-        <translation>正在细化形状参数</translation>
     </message>
     <message>
         <source>collecting measurements</source>
@@ -1824,6 +1816,46 @@ were saved. Take them up again?</source>
     <message>
         <source>the %1 channel shows structure over %2 that no effect of the model explains; it could move the extrinsic by %3 mm and %4 mrad</source>
         <translation>%1通道随%2呈现出模型中任何效应都无法解释的结构；它可能使外参移动 %3 mm 和 %4 mrad</translation>
+    </message>
+    <message>
+        <source>%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and %6 mrad. These scenes cannot tell it from %7; to tell: %8.</source>
+        <translation>%1 结果：%2；%3 = %4；不计入它会使外参移动 %5 mm 和 %6 mrad。这些场景无法将其与 %7 区分；区分方法：%8。</translation>
+    </message>
+    <message>
+        <source>%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and %6 mrad.</source>
+        <translation>%1 结果：%2；%3 = %4；不计入它会使外参移动 %5 mm 和 %6 mrad。</translation>
+    </message>
+    <message>
+        <source>%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad. These scenes cannot tell it from %5; to tell: %6.</source>
+        <translation>%1 结果：%2；不计入它会使外参移动 %3 mm 和 %4 mrad。这些场景无法将其与 %5 区分；区分方法：%6。</translation>
+    </message>
+    <message>
+        <source>%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad.</source>
+        <translation>%1 结果：%2；不计入它会使外参移动 %3 mm 和 %4 mrad。</translation>
+    </message>
+    <message>
+        <source>it runs from %1 to %2 over %3, known to %4</source>
+        <translation>在 %3 上从 %1 变到 %2，不确定度 %4</translation>
+    </message>
+    <message>
+        <source>period (m)</source>
+        <translation>周期（m）</translation>
+    </message>
+    <message>
+        <source>decay length (m)</source>
+        <translation>衰减长度（m）</translation>
+    </message>
+    <message>
+        <source>exponent (2 more: power by range and incidence)</source>
+        <translation>指数（另有两个：功率随距离和入射角的变化）</translation>
+    </message>
+    <message>
+        <source>decay (share of the session)</source>
+        <translation>衰减（占采集时段的比例）</translation>
+    </message>
+    <message>
+        <source>width s (rad)</source>
+        <translation>宽度 s（rad）</translation>
     </message>
 </context>
 <context>

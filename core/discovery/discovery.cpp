@@ -2,125 +2,86 @@
 #include "discovery/discovery.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "discovery/advice_text.h"
-#include "discovery/channel_summary.h"
-#include "discovery/closed_form.h"
-#include "discovery/effect_search.h"
-#include "discovery/findings.h"
-#include "discovery/model_growth.h"
-#include "discovery/scene_advice.h"
-#include "discovery/sensitivity_budget.h"
-#include "discovery/structure_scan.h"
-#include "discovery/wanted_effects.h"
+#include "base/yaml_file.h"
+#include "discovery/model_session.h"
+#include "discovery/proposals.h"
+#include "model/user_effect.h"
 #include "solve/print_table.h"
 
 namespace lvcalib {
 namespace {
 
-// What needs no measurements to be refused.
-Status check_usable(std::size_t scenes, const DiscoveryOptions& options) {
-  if (Status s = check_wanted(options.with); !s) return s;
-  if (Status s = options.user.check(); !s) return s;
-  if (Status s = options.grid.check(); !s) return s;
-  if (scenes >= 3) return Done{};
-  return Error::untrusted(
-      "not enough scenes to look for effects: " + std::to_string(scenes) +
-          (scenes == 1 ? " scene" : " scenes") + ", three or more are needed to hold one out",
-      {}, "take scenes at other distances and with the board turned differently");
+// A part of a longer work: its fractions run from `from` to `to` of the whole.
+RunContext part_of(const RunContext& context, double from, double to) {
+  RunContext out = context;
+  if (!context.progress) return out;
+  out.progress = [progress = context.progress, from, to](const Progress& p) {
+    progress({p.stage, from + (to - from) * std::clamp(p.fraction, 0.0, 1.0), p.text});
+  };
+  return out;
 }
 
-class Discoverer {
- public:
-  Discoverer(const MeasurementTable& table, const ModelState& state,
-             const DiscoveryOptions& options, const RunContext& context)
-      : table_(table), state_(state), options_(options), context_(context) {}
-
-  Result<Discovery> run() {
-    context_.report("model", 0.1, "fitting the base model");
-    EffectSearch search(table_, state_, options_, context_);
-    if (Status s = add_wanted(search); !s) return s.error();
-    search.remeasure();
-    if (context_.stopped()) return Error::cancelled();
-    record("", search);
-    out_.channels = out_.history.front().channels;
-    context_.report("structure", 0.2, "looking for structure");
-    out_.structure =
-        notable_structure(search.table(), search.state(), search.model(), options_, context_);
-    grow_model(search, selections_, fixed_, options_, context_,
-               [&] { record(selections_.back().id, search); });
-    if (context_.stopped()) return Error::cancelled();
-    settle_shapes(search);
-    context_.report("verdicts", 0.9, "judging effects");
-    out_.effects = judge_effects(search, selections_, options_);
-    for (EffectFinding& f : refused_) {
-      f.rank = static_cast<int>(out_.effects.size()) + 1;
-      out_.effects.push_back(std::move(f));
-    }
-    const EffectSearch explained = search.with_immaterial();
-    if (context_.stopped()) return Error::cancelled();
-    out_.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
-                                     options_, context_);
-    judge_unknown(explained, options_, out_.unknown);
-    suggest_closed_forms(explained.table(), explained.state(), explained.model(),
-                         options_.closed_forms, context_, out_.unknown);
-    context_.report("advice", 0.95, "looking for the next scene");
-    out_.advice = options_.advise_scenes ? advise_scenes(search, out_.effects, options_, context_)
-                                         : advise(out_.effects);
-    const auto about_unknown = advise_unknown(out_.unknown);
-    out_.advice.insert(out_.advice.end(), about_unknown.begin(), about_unknown.end());
-    for (const Selection& s : selections_) out_.selected.push_back(s.id);
-    out_.state = search.state();
-    out_.scales = scales_of(search.table());
-    out_.covariance = search.joint_covariance().topLeftCorner<6, 6>();
-    out_.budget = sensitivity_budget(search);
-    out_.covariance_with_budget = covariance_with_budget(out_.covariance, out_.budget);
-    out_.model = search.in_use();
-    out_.fit = std::make_shared<const ModelFit>(search.reference().fit);
-    if (context_.stopped()) return Error::cancelled();
-    context_.report("verdicts", 1.0, "done");
-    return std::move(out_);
-  }
-
- private:
-  Status add_wanted(EffectSearch& search) {
-    auto wanted = add_wanted_effects(search, options_);
-    if (!wanted) return wanted.error();
-    for (const std::string& id : wanted->added) selections_.push_back({id, {}, 0.0, 0.0, 1.0});
-    fixed_ = selections_.size();
-    refused_ = std::move(wanted->refused);
-    out_.warnings = std::move(wanted->warnings);
-    return Done{};
-  }
-
-  void record(const std::string& added, const EffectSearch& search) {
-    out_.history.push_back(
-        {added,
-         summarize_channels(search.table(), search.state(), search.model(), search.reference()),
-         search.state().camera_from_lidar});
-  }
-
-  // The verdicts come from candidates about the model with its final shape numbers.
-  void settle_shapes(EffectSearch& search) {
-    const bool shaped =
-        std::any_of(search.in_use().begin(), search.in_use().end(),
-                    [](const EffectInUse& use) { return use.effect->has_smooth_shape(); });
-    if (!shaped) return;
-    context_.report("shapes", 0.85, "refining shape numbers");
-    search.refine_shapes();
-    search.rank();
-  }
-
-  const MeasurementTable& table_;
-  const ModelState& state_;
-  const DiscoveryOptions& options_;
-  const RunContext& context_;
-  Discovery out_;
-  std::vector<Selection> selections_;
-  std::size_t fixed_ = 0;  // of the selections: what the user asked for
-  std::vector<EffectFinding> refused_;
+// The model that the user asked for, step by step. What the data cannot bear is left out, named in
+// the warnings, and the rest goes on.
+struct WantedModel {
+  std::vector<ModelStepPtr> steps;     // The base model first.
+  std::vector<EffectFinding> refused;  // The user's own that these data cannot bear.
+  std::vector<std::string> warnings;
 };
+
+Result<WantedModel> add_wanted(const ModelStepPtr& start, const RunContext& context) {
+  WantedModel out{{start}, {}, {}};
+  for (const std::string& text : start->basis->options.with) {
+    const bool own = is_user_effect(text);
+    const std::string id = own ? parse_user_effect(text)->id : text;
+    if (out.steps.back()->find(id)) {
+      out.warnings.push_back("the effect '" + id + "' was asked for twice; it is taken once");
+      continue;
+    }
+    auto next = add_effect(out.steps.back(), text, std::nullopt, context);
+    if (next) {
+      out.steps.push_back(*next);
+      continue;
+    }
+    const Error& error = next.error();
+    if (error.kind == ErrorKind::kUsage || error.kind == ErrorKind::kCancelled) return error;
+    out.warnings.push_back(error.text() + "; it is left out");
+    if (!own) continue;  // The catalogue's verdict says so anyway.
+    EffectFinding f;
+    f.id = id;
+    f.verdict = EffectVerdict::kNotTestable;
+    f.explanation = "Not testable: " + error.text() + ".";
+    out.refused.push_back(std::move(f));
+  }
+  return out;
+}
+
+Result<Discovery> search(const ModelStepPtr& start, const RunContext& context) {
+  auto wanted = add_wanted(start, part_of(context, 0.2, 0.3));
+  if (!wanted) return wanted.error();
+  std::vector<ModelStepPtr>& steps = wanted->steps;
+  const auto found = find_all(
+      steps.back(), [&](const ModelStepPtr& next) { steps.push_back(next); },
+      part_of(context, 0.3, 0.85));
+  if (!found) return found.error();
+  const auto ranking = rank_effects(**found, part_of(context, 0.85, 1.0));
+  if (!ranking) return ranking.error();
+  Discovery out = as_discovery(steps, &*ranking);
+  out.warnings = std::move(wanted->warnings);
+  for (EffectFinding& f : wanted->refused) {
+    f.rank = static_cast<int>(out.effects.size()) + 1;
+    out.effects.push_back(std::move(f));
+  }
+  return out;
+}
+
+// What needs no measurements to be refused.
+Status check_options(const DiscoveryOptions& options) {
+  if (Status s = check_wanted(options.with); !s) return s;
+  if (Status s = options.user.check(); !s) return s;
+  return options.grid.check();
+}
 
 }  // namespace
 
@@ -134,19 +95,37 @@ MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& optio
   return build_table(input.scenes, input.target, input.camera, input.state, input.sigma_px, how);
 }
 
+Status check_wanted(const std::vector<std::string>& with) {
+  std::vector<std::string> known;
+  for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
+  for (const std::string& id : with) {
+    if (is_user_effect(id)) {
+      if (auto spec = parse_user_effect(id); !spec) return spec.error();
+      continue;
+    }
+    if (find_effect(id) != nullptr) continue;
+    const std::string near = nearest_word(id, known);
+    return Error::usage(
+        "there is no effect '" + id + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"),
+        {}, "your own: formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE");
+  }
+  return Done{};
+}
+
 Result<Discovery> discover_effects(const MeasurementTable& table, const ModelState& state,
                                    const DiscoveryOptions& options, const RunContext& context) {
-  if (Status s = check_usable(table.scenes.size(), options); !s) return s.error();
-  return Discoverer(table, state, options, context).run();
+  if (Status s = check_options(options); !s) return s.error();
+  const auto start = start_model(table, state, options, part_of(context, 0.0, 0.2));
+  if (!start) return start.error();
+  return search(*start, context);
 }
 
 Result<Discovery> discover_effects(const DiscoveryInput& input, const DiscoveryOptions& options,
                                    const RunContext& context) {
-  if (Status s = check_usable(input.scenes.size(), options); !s) return s.error();
-  context.report("table", 0.0, "collecting measurements");
-  const MeasurementTable table = table_of(input, options.table);
-  if (context.stopped()) return Error::cancelled();
-  return Discoverer(table, input.state, options, context).run();
+  if (Status s = check_options(options); !s) return s.error();
+  const auto start = start_model(input, options, part_of(context, 0.0, 0.2));
+  if (!start) return start.error();
+  return search(*start, context);
 }
 
 }  // namespace lvcalib

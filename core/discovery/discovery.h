@@ -132,6 +132,18 @@ struct EffectFinding {
   FoundCurve curve;
 };
 
+/// How an effect came into the model: as it was judged then, with those that could not be told from
+/// it.
+struct Selection {
+  std::string id;
+  std::vector<std::string> aliases = {};
+  double heldout_gain = 0.0;
+  double log_density_gain = 0.0;
+  double p_value = 1.0;
+  std::vector<Criterion> criteria = {};
+  bool wanted = false;  ///< The user's own wish: the search never takes it out.
+};
+
 /// How well a channel is predicted. Display units; each row counts by its own standard deviation:
 /// rms² = Σ(r/σ)² / Σ(1/σ²), floor² = n / Σ(1/σ²).
 struct ChannelSummary {

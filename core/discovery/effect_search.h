@@ -21,6 +21,8 @@ class EffectSearch {
   EffectSearch(const MeasurementTable& table, ModelState state, std::vector<EffectInUse> in_use,
                const DiscoveryOptions& options, const RunContext& context);
 
+  /// Who is told of progress and may stop it from now on.
+  void set_context(const RunContext& context) { context_ = context; }
   /// Adds an effect without asking and refits.
   void add(const EffectPtr& effect, double shape);
   /// Takes effect number k out and refits.

@@ -188,9 +188,9 @@ class Judge {
     const EffectInfo& info = effect.info();
     f.explanation = info.physics + " Found: " + found_text(f);
     if (!effect.shape_name().empty()) {
-      f.explanation += ", " + effect.shape_name() +
-                       (f.shape_sigma > 0.0 ? formatted(" %.4g ± %.2g", f.shape, f.shape_sigma)
-                                            : formatted(" %.3g", f.shape));
+      f.explanation += "; " + effect.shape_name() +
+                       (f.shape_sigma > 0.0 ? formatted(" = %.4g ± %.2g", f.shape, f.shape_sigma)
+                                            : formatted(" = %.3g", f.shape));
     }
     f.explanation += "; leaving it out would move the extrinsic by " + move_text(f) + ".";
     if (!f.aliases.empty()) {

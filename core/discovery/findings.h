@@ -7,16 +7,6 @@
 
 namespace lvcalib {
 
-/// A selected effect as it was when it was added, with those that could not be told from it.
-struct Selection {
-  std::string id;
-  std::vector<std::string> aliases;
-  double heldout_gain = 0.0;
-  double log_density_gain = 0.0;
-  double p_value = 1.0;
-  std::vector<Criterion> criteria = {};
-};
-
 /// Ids of accepted candidates that correlate with the one chosen, or that held-out scenes do not
 /// tell from it.
 std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,

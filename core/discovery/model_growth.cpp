@@ -8,25 +8,21 @@ namespace {
 
 class Growth {
  public:
-  Growth(EffectSearch& search, std::vector<Selection>& selections, std::size_t fixed,
-         const DiscoveryOptions& options, const RunContext& context,
-         const std::function<void()>& on_added)
+  Growth(EffectSearch& search, std::vector<Selection>& selections, const DiscoveryOptions& options,
+         const RunContext& context, const std::function<void()>& on_added)
       : search_(search),
         selections_(selections),
-        fixed_(fixed),
         options_(options),
         context_(context),
         on_added_(on_added) {}
 
   void run() {
     for (int step = 0;; ++step) {
-      context_.report("rank", 0.3 + 0.55 * step / (options_.max_effects + 1.0),
+      context_.report("rank", std::min(1.0, found() / (options_.max_effects + 1.0)),
                       "ranking effects, " + std::to_string(selections_.size()) + " in the model");
       search_.rank();
       // Steps are counted as well: what is dropped may come back.
-      if (context_.stopped() ||
-          static_cast<int>(selections_.size() - fixed_) >= options_.max_effects ||
-          step >= 2 * options_.max_effects)
+      if (context_.stopped() || found() >= options_.max_effects || step >= 2 * options_.max_effects)
         return;
       const auto best = search_.best();
       if (!best) return;
@@ -38,7 +34,8 @@ class Growth {
           c.best_heldout_gain(),
           c.total_gain(),
           c.p_value,
-          criteria_of(c, search_.candidates().size(), search_.table().scenes.size(), options_)};
+          criteria_of(c, search_.candidates().size(), search_.table().scenes.size(), options_),
+          false};
       const Channel channel = c.main_channel();
       const double before = heldout_squares(channel);
       search_.add(columns.effect, columns.shape);
@@ -54,6 +51,7 @@ class Growth {
       try_swaps();
       drop_superfluous();
       search_.remeasure();
+      search_.refine_shapes();
       on_added_();
       if (context_.stopped()) return;
     }
@@ -67,11 +65,22 @@ class Growth {
     return sum;
   }
 
+  [[nodiscard]] int found() const {
+    return static_cast<int>(std::count_if(selections_.begin(), selections_.end(),
+                                          [](const Selection& s) { return !s.wanted; }));
+  }
+
+  [[nodiscard]] bool is_wanted(const std::string& id) const {
+    return std::any_of(selections_.begin(), selections_.end(),
+                       [&](const Selection& s) { return s.id == id && s.wanted; });
+  }
+
   // Puts an alias in an effect's place if it predicts held-out scenes better by more than one
   // standard error over scenes, after a full refit; or as well, with fewer effects in the model.
   void try_swaps() {
     int left = options_.swaps;
-    for (std::size_t k = fixed_; k < selections_.size(); ++k) {
+    for (std::size_t k = 0; k < selections_.size(); ++k) {
+      if (selections_[k].wanted) continue;
       const std::vector<std::string> aliases = selections_[k].aliases;
       for (const std::string& id : aliases) {
         if (left-- <= 0 || context_.stopped()) return;
@@ -111,8 +120,10 @@ class Growth {
     std::vector<std::string> out;
     while (!context_.stopped()) {
       const auto j = trial.superfluous();
-      if (!j || *j < fixed_ || trial.in_use()[*j].effect->info().id == kept) break;
-      out.push_back(trial.in_use()[*j].effect->info().id);
+      if (!j) break;
+      const std::string& id = trial.in_use()[*j].effect->info().id;
+      if (is_wanted(id) || id == kept) break;
+      out.push_back(id);
       trial.remove(*j);
     }
     return out;
@@ -135,9 +146,9 @@ class Growth {
 
   // What a later effect explains better goes again (never what the user asked for).
   void drop_superfluous() {
-    while (!context_.stopped() && selections_.size() > fixed_ + 1) {
+    while (!context_.stopped() && found() > 1) {
       const auto k = search_.superfluous();
-      if (!k || *k < fixed_ || *k + 1 == selections_.size()) return;
+      if (!k || selections_[*k].wanted || *k + 1 == selections_.size()) return;
       search_.remove(*k);
       selections_.erase(selections_.begin() + static_cast<std::ptrdiff_t>(*k));
     }
@@ -145,7 +156,6 @@ class Growth {
 
   EffectSearch& search_;
   std::vector<Selection>& selections_;
-  std::size_t fixed_;
   const DiscoveryOptions& options_;
   const RunContext& context_;
   const std::function<void()>& on_added_;
@@ -153,10 +163,10 @@ class Growth {
 
 }  // namespace
 
-void grow_model(EffectSearch& search, std::vector<Selection>& selections, std::size_t fixed,
+void grow_model(EffectSearch& search, std::vector<Selection>& selections,
                 const DiscoveryOptions& options, const RunContext& context,
                 const std::function<void()>& on_added) {
-  Growth(search, selections, fixed, options, context, on_added).run();
+  Growth(search, selections, options, context, on_added).run();
 }
 
 }  // namespace lvcalib

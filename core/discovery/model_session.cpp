@@ -22,52 +22,57 @@ std::vector<EffectInUse> switched_on(const std::vector<ModelTerm>& terms) {
   return out;
 }
 
-ModelTerm new_term(const std::string& spec, const EffectPtr& effect, double shape,
-                   const MeasurementTable& table) {
+ModelTerm new_term(const EffectInUse& use, const MeasurementTable& table) {
   ModelTerm term;
-  term.spec = spec;
-  term.parameters = effect->parameters(table);
+  term.spec = use.effect->info().id;
+  term.parameters = use.effect->parameters(table);
   const auto n = static_cast<Eigen::Index>(term.parameters.size());
-  term.use = {effect, shape, Eigen::VectorXd::Zero(n)};
+  term.use = {use.effect, use.shape, Eigen::VectorXd::Zero(n)};
   term.sigma = Eigen::VectorXd::Zero(n);
+  term.selection.id = term.spec;
   return term;
 }
 
-// Takes values and standard deviations over from the fit.
+// Takes values, shape numbers and standard deviations over from the fit.
 void read_back(const EffectSearch& search, std::vector<ModelTerm>& terms) {
   std::size_t next = 0;
   Eigen::Index at = 6;
   for (ModelTerm& term : terms) {
     if (!term.on) continue;
-    const EffectInUse& fitted = search.in_use()[next++];
+    const EffectInUse& fitted = search.in_use()[next];
     const Eigen::Index n = fitted.values.size();
     if (!term.use.held) {
       term.use.values = fitted.values;
-      term.sigma =
-          search.reference().fit.covariance.diagonal().segment(at, n).cwiseMax(0.0).cwiseSqrt();
+      term.use.shape = fitted.shape;
+      term.shape_sigma = search.shape_sigma(next);
+      term.sigma = search.joint_covariance().diagonal().segment(at, n).cwiseMax(0.0).cwiseSqrt();
     } else {
       term.sigma.setZero(n);
+      term.shape_sigma = 0.0;
     }
     at += n;
+    ++next;
   }
 }
 
-Result<ModelStepPtr> step_from(const EffectSearch& search, ModelStep step,
-                               const RunContext& context) {
+// The step at which a search stands whose shape numbers are refined.
+Result<ModelStepPtr> step_from(EffectSearch search, ModelStep step, const RunContext& context) {
   if (context.stopped()) return Error::cancelled();
   step.state = search.state();
   step.remeasured = search.remeasured();
-  step.covariance = search.reference().fit.covariance.topLeftCorner<6, 6>();
+  step.covariance = search.joint_covariance().topLeftCorner<6, 6>();
   step.fit = std::make_shared<const ModelFit>(search.reference().fit);
   read_back(search, step.terms);
   const auto model = search.model();
   step.nuisance.assign(model.begin() + static_cast<std::ptrdiff_t>(search.in_use().size()),
                        model.end());
-  step.channels =
-      summarize_channels(search.table(), search.state(), search.model(), search.reference());
+  step.channels = summarize_channels(search.table(), search.state(), model, search.reference());
   context.report("structure", 0.7, "looking for structure");
-  step.structure = scan_structure(search.table(), search.state(), search.model(), context);
+  step.structure = scan_structure(search.table(), search.state(), model, context);
+  step.places = scan_places(search.table(), search.state(), model, step.structure, context);
   if (context.stopped()) return Error::cancelled();
+  search.set_context({});
+  step.search = std::make_shared<const EffectSearch>(std::move(search));
   return ModelStepPtr(std::make_shared<const ModelStep>(std::move(step)));
 }
 
@@ -76,7 +81,8 @@ Result<ModelStepPtr> fitted(ModelStep step, const RunContext& context) {
   const auto basis = step.basis;
   EffectSearch search(basis->table, step.state, switched_on(step.terms), basis->options, context);
   search.remeasure();
-  return step_from(search, std::move(step), context);
+  search.refine_shapes();
+  return step_from(std::move(search), std::move(step), context);
 }
 
 ModelStep changed(const ModelStepPtr& from, ModelChange change, const std::string& spec) {
@@ -89,22 +95,36 @@ ModelStep changed(const ModelStepPtr& from, ModelChange change, const std::strin
   return step;
 }
 
-// The shape number that held-out scenes prefer with the model as it is.
-Result<double> preferred_shape(const ModelStep& from, const EffectPtr& effect,
-                               const RunContext& context) {
-  const ModelBasis& basis = *from.basis;
-  if (effect->shapes(basis.table).size() < 2) return effect->shapes(basis.table).front();
-  EffectSearch search(basis.table, from.state, from.in_use(), basis.options, context);
-  search.remeasure();
-  if (context.stopped()) return Error::cancelled();
-  const double shape = search.preferred_shape(effect);
-  if (context.stopped()) return Error::cancelled();
-  return shape;
+// What the effect that was added last cannot be told from; empty if the data determine it.
+std::string singular_with(const EffectSearch& search) {
+  // Less of an effect than this is left by rounding alone.
+  constexpr double kSingular = 1e-6;
+  const auto& in_use = search.in_use();
+  const Eigen::Index count = in_use.back().values.size();
+  const ModelFit& fit = search.reference().fit;
+  Eigen::Index first = 6;
+  for (std::size_t k = 0; k + 1 < in_use.size(); ++k) first += in_use[k].values.size();
+  if (fit.solution.size() < first + count || determined_share(fit, first, count) >= kSingular)
+    return {};
+  std::string others = "the extrinsic and the board poses";
+  for (std::size_t k = 0; k + 1 < in_use.size(); ++k)
+    others += (k + 2 == in_use.size() ? " and " : ", ") + in_use[k].effect->info().id;
+  return others;
+}
+
+std::vector<Selection> selections_of(const std::vector<ModelTerm>& terms) {
+  std::vector<Selection> out;
+  for (const ModelTerm& term : terms) {
+    if (term.on) out.push_back(term.selection);
+  }
+  return out;
 }
 
 // The terms of the search's model, in its order, then those that are switched off. One that was off
 // comes back with the shape found.
-std::vector<ModelTerm> terms_of(const EffectSearch& search, const std::vector<ModelTerm>& before) {
+std::vector<ModelTerm> terms_of(const EffectSearch& search,
+                                const std::vector<Selection>& selections,
+                                const std::vector<ModelTerm>& before) {
   std::vector<ModelTerm> out;
   const auto same = [](const ModelTerm& term, const EffectInUse& use) {
     return term.use.effect->info().id == use.effect->info().id;
@@ -112,9 +132,8 @@ std::vector<ModelTerm> terms_of(const EffectSearch& search, const std::vector<Mo
   for (const EffectInUse& use : search.in_use()) {
     const auto at = std::find_if(before.begin(), before.end(),
                                  [&](const ModelTerm& term) { return term.on && same(term, use); });
-    out.push_back(at != before.end()
-                      ? *at
-                      : new_term(use.effect->info().id, use.effect, use.shape, search.table()));
+    out.push_back(at != before.end() ? *at : new_term(use, search.table()));
+    out.back().selection = selections[out.size() - 1];
   }
   for (const ModelTerm& term : before) {
     const bool back = std::any_of(search.in_use().begin(), search.in_use().end(),
@@ -153,8 +172,9 @@ std::optional<std::size_t> ModelStep::find(const std::string& spec) const {
   return static_cast<std::size_t>(at - terms.begin());
 }
 
-Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table) {
-  if (is_user_effect(spec)) return make_user_effect(spec, table, {});
+Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table,
+                              const UserEffectOptions& options) {
+  if (is_user_effect(spec)) return make_user_effect(spec, table, options);
   if (EffectPtr effect = find_effect(spec)) return effect;
   std::vector<std::string> known;
   for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
@@ -168,6 +188,7 @@ Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state
   if (table.scenes.size() < 3) {
     return Error::untrusted(
         "not enough scenes to look for effects: " + std::to_string(table.scenes.size()) +
+            (table.scenes.size() == 1 ? " scene" : " scenes") +
             ", three or more are needed to hold one out",
         {}, "take scenes at other distances and with the board turned differently");
   }
@@ -185,7 +206,7 @@ Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOpt
 
 Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spec,
                                 std::optional<double> shape, const RunContext& context) {
-  auto effect = make_effect(spec, from->table());
+  auto effect = make_effect(spec, from->table(), from->basis->options.user);
   if (!effect) return effect.error();
   const std::string& id = (*effect)->info().id;
   if (const auto there = from->find(id)) {
@@ -195,14 +216,20 @@ Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spe
   if (const std::string why = why_not_testable(**effect, from->table()); !why.empty())
     return Error::input("the effect '" + spec + "' cannot be used: " + why);
   context.report("model", 0.0, "fitting the model");
-  if (!shape) {
-    auto preferred = preferred_shape(*from, *effect, context);
-    if (!preferred) return preferred.error();
-    shape = *preferred;
+  EffectSearch search(*from->search);
+  search.set_context(context);
+  search.add(*effect, shape ? *shape : search.preferred_shape(*effect));
+  if (context.stopped()) return Error::cancelled();
+  if (const std::string others = singular_with(search); !others.empty()) {
+    return Error::input("the effect '" + spec + "' cannot be used: it acts just as " + others +
+                        " do, which makes the solve singular");
   }
+  search.remeasure();
+  search.refine_shapes();
   ModelStep step = changed(from, ModelChange::kAdd, id);
-  step.terms.push_back(new_term(id, *effect, *shape, from->table()));
-  return fitted(std::move(step), context);
+  step.terms.push_back(new_term(search.in_use().back(), from->table()));
+  step.terms.back().selection.wanted = true;
+  return step_from(std::move(search), std::move(step), context);
 }
 
 Result<ModelStepPtr> remove_effect(const ModelStepPtr& from, std::size_t k,
@@ -277,19 +304,17 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
                               const std::function<void(const ModelStepPtr&)>& on_step,
                               const RunContext& context) {
   ModelStepPtr step = from;
-  const ModelBasis& basis = *from->basis;
-  EffectSearch search(basis.table, from->state, from->in_use(), basis.options, context);
-  search.remeasure();
-  std::vector<Selection> selections;
-  for (const EffectInUse& use : search.in_use())
-    selections.push_back({use.effect->info().id, {}, 0.0, 0.0, 1.0});
-  const std::size_t protected_terms = selections.size();
+  EffectSearch search(*from->search);
+  search.set_context(context);
+  std::vector<Selection> selections = selections_of(from->terms);
+  RunContext silent = context;  // Its steps are parts of one work.
+  silent.progress = nullptr;
   std::optional<Error> failed;
-  grow_model(search, selections, protected_terms, basis.options, context, [&] {
+  grow_model(search, selections, from->basis->options, context, [&] {
     if (failed || context.stopped()) return;
     ModelStep next = changed(step, ModelChange::kAdd, selections.back().id);
-    next.terms = terms_of(search, step->terms);
-    auto made = step_from(search, std::move(next), context);
+    next.terms = terms_of(search, selections, step->terms);
+    auto made = step_from(search, std::move(next), silent);
     if (!made) {
       failed = made.error();
       return;

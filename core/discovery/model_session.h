@@ -11,6 +11,8 @@
 
 namespace lvcalib {
 
+class EffectSearch;
+
 /// What the steps of one session share: the measurements and how effects are judged.
 struct ModelBasis {
   MeasurementTable table;
@@ -25,8 +27,10 @@ struct ModelTerm {
   std::string spec;  ///< What make_effect() takes: an id, or a formula or curve.
   EffectInUse use;
   std::vector<EffectParameter> parameters;
-  Eigen::VectorXd sigma;  ///< Standard deviations (SI); zero where the values are held.
-  bool on = true;         ///< Off: kept with its values, no part of the model.
+  Eigen::VectorXd sigma;     ///< Standard deviations (SI); zero where the values are held.
+  double shape_sigma = 0.0;  ///< Of the shape number; zero if it has none or is held.
+  Selection selection;       ///< How it came into the model.
+  bool on = true;            ///< Off: kept with its values, no part of the model.
 
   [[nodiscard]] std::vector<ParameterEstimate> estimates() const;
 };
@@ -44,6 +48,9 @@ struct ModelStep {
   std::vector<EffectInUse> nuisance;  ///< Nature's share that is no effect to find.
   std::vector<ChannelSummary> channels;
   std::vector<StructureScore> structure;  ///< Every covariate's, best first.
+  std::vector<StructureScore> places;     ///< Of surfaces, best first (see scan_places()).
+  /// The search that stands at this model: where the next step takes it up.
+  std::shared_ptr<const EffectSearch> search;
   /// The measurements made again for this model (see lvcalib::remeasured()); null where that
   /// changes nothing.
   std::shared_ptr<const MeasurementTable> remeasured;
@@ -62,7 +69,8 @@ using ModelStepPtr = std::shared_ptr<const ModelStep>;
 
 /// The effect that a specification stands for: an id of the catalogue, or a user's own formula or
 /// curve (see make_user_effect()). Error (kUsage) if there is none, with the nearest known one.
-Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table);
+Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table,
+                              const UserEffectOptions& options = {});
 
 /// Collects the measurements and fits the base model. Errors as discover_effects().
 Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOptions& options,
@@ -71,9 +79,10 @@ Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOpt
 Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state,
                                  const DiscoveryOptions& options, const RunContext& context);
 
-/// The model with one more effect, fitted. Without `shape` the shape number that the data prefer.
-/// Switches it on if it is there and off. Errors: kUsage for unknown effects or one that is in use;
-/// kInput if the measurements lack what it needs; kCancelled.
+/// The model with one more effect, fitted. The shape number starts at `shape`, or at the one that
+/// held-out scenes prefer, and is refined. Switches it on if it is there and off. Errors: kUsage
+/// for unknown effects or one that is in use; kInput if the measurements lack what it needs, or if
+/// it acts just as what is in the model does, which makes the solve singular; kCancelled.
 Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spec,
                                 std::optional<double> shape, const RunContext& context);
 /// The model without term k, fitted. Errors: kCancelled.
@@ -104,8 +113,8 @@ Result<ModelStepPtr> apply_decision(const ModelStepPtr& from, const ModelDecisio
 std::vector<ModelDecision> decisions_between(const ModelStep& before, const ModelStep& after);
 
 /// The search's own loop from here: adds the best accepted effect and drops what it makes
-/// superfluous (nothing that was there before), until no effect is accepted. `on_step` sees every
-/// step. Errors: kCancelled.
+/// superfluous (nothing that the user added), until no effect is accepted. `on_step` sees every
+/// step; taken up at any of them, it ends at the same model. Errors: kCancelled.
 Result<ModelStepPtr> find_all(const ModelStepPtr& from,
                               const std::function<void(const ModelStepPtr&)>& on_step,
                               const RunContext& context);

@@ -6,8 +6,10 @@
 
 #include "base/text.h"
 #include "discovery/advice_text.h"
+#include "discovery/closed_form.h"
 #include "discovery/effect_search.h"
 #include "discovery/findings.h"
+#include "discovery/scene_advice.h"
 #include "discovery/sensitivity_budget.h"
 #include "discovery/structure_scan.h"
 
@@ -35,8 +37,8 @@ class Proposer {
       first_.try_emplace(columns_of(candidates[k]).effect->info().id, k);
   }
 
-  std::vector<EffectProposal> run() {
-    for (EffectFinding& finding : judge_effects(search_, {}, options_)) {
+  std::vector<EffectProposal> run(std::vector<EffectFinding> findings) {
+    for (EffectFinding& finding : findings) {
       EffectProposal proposal;
       proposal.finding = std::move(finding);
       if (const auto at = first_.find(proposal.finding.id); at != first_.end())
@@ -130,6 +132,21 @@ EffectFinding finding_in_model(const ModelTerm& term) {
   return f;
 }
 
+// What stands out of the structure left by a step, best first.
+std::vector<StructureScore> notable(const ModelStep& step) {
+  std::vector<StructureScore> kept;
+  const std::size_t tried = step.structure.size() + step.places.size();
+  for (const auto* scores : {&step.structure, &step.places}) {
+    for (const StructureScore& s : *scores) {
+      if (is_notable(s, tried, step.basis->options)) kept.push_back(s);
+    }
+  }
+  std::stable_sort(kept.begin(), kept.end(), [](const StructureScore& a, const StructureScore& b) {
+    return a.score > b.score;
+  });
+  return kept;
+}
+
 }  // namespace
 
 bool ModelRanking::nothing_missing() const {
@@ -138,33 +155,44 @@ bool ModelRanking::nothing_missing() const {
 }
 
 Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& context) {
-  const ModelBasis& basis = *step.basis;
+  const DiscoveryOptions& options = step.basis->options;
   context.report("rank", 0.1, "ranking effects");
-  EffectSearch search(basis.table, step.state, step.in_use(), basis.options, context);
-  search.remeasure();
-  if (context.stopped()) return Error::cancelled();
+  EffectSearch search(*step.search);
+  search.set_context(context);
   search.rank();
   if (context.stopped()) return Error::cancelled();
-  context.report("rank", 0.8, "judging effects");
-  ModelRanking out;
-  out.proposals = Proposer(search, basis.options).run();
-  if (context.stopped()) return Error::cancelled();
-  std::vector<EffectFinding> findings;
-  bool any = false;
-  for (const EffectProposal& p : out.proposals) {
-    findings.push_back(p.finding);
-    any = any || p.suggested;
+  context.report("verdicts", 0.7, "judging effects");
+  std::vector<Selection> selected;
+  for (const ModelTerm& term : step.terms) {
+    if (term.on) selected.push_back(term.selection);
   }
-  out.advice = advise(findings);
-  out.budget = sensitivity_budget(search);
+  ModelRanking out;
+  const std::vector<EffectFinding> findings = judge_effects(search, selected, options);
+  // Those in use come first.
+  const auto others = findings.begin() + static_cast<std::ptrdiff_t>(selected.size());
+  out.in_use.assign(findings.begin(), others);
+  out.proposals = Proposer(search, options).run({others, findings.end()});
+  if (context.stopped()) return Error::cancelled();
+  const bool any = std::any_of(out.proposals.begin(), out.proposals.end(),
+                               [](const EffectProposal& p) { return p.suggested; });
   if (!any) {
     const EffectSearch explained = search.with_immaterial();
     if (context.stopped()) return Error::cancelled();
     out.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
-                                    basis.options, context);
-    judge_unknown(explained, basis.options, out.unknown);
-    if (context.stopped()) return Error::cancelled();
+                                    options, context);
+    judge_unknown(explained, options, out.unknown);
+    suggest_closed_forms(explained.table(), explained.state(), explained.model(),
+                         options.closed_forms, context, out.unknown);
   }
+  if (context.stopped()) return Error::cancelled();
+  context.report("advice", 0.85, "looking for the next scene");
+  out.advice =
+      options.advise_scenes ? advise_scenes(search, findings, options, context) : advise(findings);
+  const auto about_unknown = advise_unknown(out.unknown);
+  out.advice.insert(out.advice.end(), about_unknown.begin(), about_unknown.end());
+  out.budget = sensitivity_budget(search);
+  if (context.stopped()) return Error::cancelled();
+  context.report("verdicts", 1.0, "done");
   return out;
 }
 
@@ -174,21 +202,15 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   const ModelStep& base = *steps.front();
   const ModelStep& last = *steps.back();
   out.channels = base.channels;
-  const auto notable = [&](const std::vector<StructureScore>& scores) {
-    std::vector<StructureScore> kept;
-    for (const StructureScore& s : scores) {
-      if (is_notable(s, scores.size(), base.basis->options)) kept.push_back(s);
-    }
-    return kept;
-  };
-  out.structure = notable(base.structure);
+  out.structure = notable(base);
   for (const ModelTerm& term : last.terms) {
     if (!term.on) continue;
-    out.effects.push_back(finding_in_model(term));
+    if (ranking == nullptr) out.effects.push_back(finding_in_model(term));
     out.selected.push_back(term.spec);
     out.model.push_back(term.use);
   }
   if (ranking != nullptr) {
+    out.effects = ranking->in_use;
     for (const EffectProposal& p : ranking->proposals) out.effects.push_back(p.finding);
     out.unknown = ranking->unknown;
     out.advice = ranking->advice;

@@ -20,25 +20,29 @@ struct EffectProposal {
   double gained_mrad = 0.0;  ///< … and turns.
 };
 
-/// What is missing in a model.
+/// What is in a model, and what is missing.
 struct ModelRanking {
+  /// Effects in use that are switched on, in the model's order: what they are known by, and what
+  /// leaving them out would do.
+  std::vector<EffectFinding> in_use;
   /// Suggested ones first, each followed by its aliases; then the rest by gain. Effects in use are
   /// not among them.
   std::vector<EffectProposal> proposals;
   /// Structure that is left although nothing is suggested: no known effect explains it.
   std::vector<StructureScore> unknown;
-  std::vector<std::string> advice;  ///< Scenes worth taking.
+  std::vector<std::string> advice;  ///< Scenes worth taking, and what else would tell.
   /// What effects that are not in the model could still do to the extrinsic, largest first.
   std::vector<BudgetItem> budget;
 
   [[nodiscard]] bool nothing_missing() const;
 };
 
-/// Tries every effect that is not in use. Deterministic. Errors: kCancelled.
+/// Judges the effects in use and tries every other. Structure that is left gets closed forms; the
+/// advice names board poses if the step's options ask for them. Deterministic. Errors: kCancelled.
 Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& context);
 
-/// A session as the outcome of a search: its steps (base first, the model shown last) and, if there
-/// is one, the last step's ranking. For files and reports.
+/// Steps (base first, the model shown last) and, if there is one, the last step's ranking as the
+/// outcome of a search: for files and reports. What `lvcalib discover` writes is this, too.
 Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRanking* ranking);
 
 }  // namespace lvcalib

@@ -64,7 +64,7 @@ double EffectSearch::profile(std::size_t k, double shape) const {
 
 bool EffectSearch::move_shape(std::size_t k) {
   const std::vector<double> shapes = in_use_[k].effect->shapes(table());
-  if (!in_use_[k].effect->has_smooth_shape() || shapes.size() < 2) return false;
+  if (in_use_[k].held || !in_use_[k].effect->has_smooth_shape() || shapes.size() < 2) return false;
   const auto [low, high] = bracket(shapes, in_use_[k].shape);
   std::uintmax_t most = kMostEvaluations;
   const auto [shape, value] = boost::math::tools::brent_find_minima(
@@ -91,7 +91,8 @@ void EffectSearch::estimate_joint_covariance() {
   ColumnSubset subset = own_subset(columns);
   std::vector<std::size_t> shaped;
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
-    if (!in_use_[k].effect->has_smooth_shape() || in_use_[k].effect->shapes(table()).size() < 2)
+    if (in_use_[k].held || !in_use_[k].effect->has_smooth_shape() ||
+        in_use_[k].effect->shapes(table()).size() < 2)
       continue;
     columns.add(make_shape_slope(in_use_[k], table()), 0.0, table());
     append_columns(columns.list().back(), nullptr, subset);

@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--crops") == 0) request.use_crops = true;
     if (std::strcmp(argv[i], "--truth") == 0) truth = argv[++i];
     if (std::strcmp(argv[i], "--free") == 0)
-      how.intrinsics_sigma << 6, 6, 0.01, 0.01, 0.0001, 0.0001, 0.0001, 0.0001, 0, 0, 0, 0;
+      how.intrinsics_sigma << 12, 12, 10, 10, 0.05, 0.05, 0.05, 0.05, 0, 0, 0, 0;
     if (std::strcmp(argv[i], "--splits") == 0) splits = std::atoi(argv[++i]);
   }
   const auto dataset = open_dataset(argv[1]);

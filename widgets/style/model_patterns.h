@@ -23,6 +23,23 @@ inline constexpr const char* kModelPatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "%1 Found: %2. With it, scenes held out have %3 % less squared error in the "
                       "%4 channel and the extrinsic moves by %5 mm and %6 mrad."),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and "
+                      "%6 mrad. These scenes cannot tell it from %7; to tell: %8."),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and "
+                      "%6 mrad."),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad. "
+                      "These scenes cannot tell it from %5; to tell: %6."),
+    QT_TRANSLATE_NOOP(
+        "Core", "%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad."),
+    QT_TRANSLATE_NOOP("Core", "it runs from %1 to %2 over %3, known to %4"),
+    QT_TRANSLATE_NOOP("Core", "period (m)"),
+    QT_TRANSLATE_NOOP("Core", "decay length (m)"),
+    QT_TRANSLATE_NOOP("Core", "exponent (2 more: power by range and incidence)"),
+    QT_TRANSLATE_NOOP("Core", "decay (share of the session)"),
+    QT_TRANSLATE_NOOP("Core", "width s (rad)"),
     QT_TRANSLATE_NOOP("Core", "%1 In the model, held: %2."),
     QT_TRANSLATE_NOOP("Core", "%1 In the model: %2."),
     QT_TRANSLATE_NOOP("Core",
@@ -107,12 +124,10 @@ inline constexpr const char* kModelPatterns[] = {
     QT_TRANSLATE_NOOP("Core", "the formula has %1 characters, expected at most %2"),
     // Progress of the search.
     QT_TRANSLATE_NOOP("Core", "fitting the model"),
-    QT_TRANSLATE_NOOP("Core", "fitting the base model"),
     QT_TRANSLATE_NOOP("Core", "looking for structure"),
     QT_TRANSLATE_NOOP("Core", "ranking effects, %1 in the model"),
     QT_TRANSLATE_NOOP("Core", "ranking effects"),
     QT_TRANSLATE_NOOP("Core", "judging effects"),
-    QT_TRANSLATE_NOOP("Core", "refining shape numbers"),
     QT_TRANSLATE_NOOP("Core", "collecting measurements"),
     QT_TRANSLATE_NOOP("Core", "looking for the next scene"),
     // Channels.

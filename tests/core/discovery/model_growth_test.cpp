@@ -40,7 +40,7 @@ class Growing : public ::testing::Test {
 TEST_F(Growing, AddsWhatIsThereAndKeepsTheListsInStep) {
   EffectSearch search(made_.table, made_.truth, options_, context_);
   std::size_t rounds = 0;
-  grow_model(search, selections_, 0, options_, context_, [&] {
+  grow_model(search, selections_, options_, context_, [&] {
     ++rounds;
     EXPECT_EQ(ids(), ids(search));
   });
@@ -52,9 +52,11 @@ TEST_F(Growing, AddsWhatIsThereAndKeepsTheListsInStep) {
 TEST_F(Growing, TheUsersOwnStayHoweverUseless) {
   EffectSearch search(made_.table, made_.truth, options_, context_);
   search.add(find_effect("range_cyclic"), 0.3);
-  selections_.push_back({"range_cyclic", {}, 0.0, 0.0, 1.0});
+  selections_.emplace_back();
+  selections_.back().id = "range_cyclic";
+  selections_.back().wanted = true;
   options_.max_effects = 1;  // beside the user's
-  grow_model(search, selections_, 1, options_, context_, [] {});
+  grow_model(search, selections_, options_, context_, [] {});
   ASSERT_EQ(selections_.size(), 2U);
   EXPECT_EQ(selections_[0].id, "range_cyclic");
   EXPECT_EQ(ids(), ids(search));
@@ -65,7 +67,7 @@ TEST_F(Growing, AStoppedSearchAddsNothing) {
   context_.stop = stop.get_token();
   EffectSearch search(made_.table, made_.truth, options_, context_);
   stop.request_stop();
-  grow_model(search, selections_, 0, options_, context_, [] { FAIL(); });
+  grow_model(search, selections_, options_, context_, [] { FAIL(); });
   EXPECT_TRUE(selections_.empty());
 }
 
@@ -78,7 +80,7 @@ TEST_F(Growing, AShapeBetweenTheOnesTriedLeavesNothingOver) {
   recipe.range_rows = 4000;
   made_ = test::synthetic_table(recipe, wrong);
   EffectSearch search(made_.table, made_.truth, options_, context_);
-  grow_model(search, selections_, 0, options_, context_, [] {});
+  grow_model(search, selections_, options_, context_, [] {});
   EXPECT_THAT(ids(), ::testing::ElementsAre("range_near"));
   ASSERT_FALSE(search.in_use().empty());
   EXPECT_NEAR(search.in_use()[0].shape, 1.7, 0.15);

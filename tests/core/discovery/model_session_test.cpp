@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "discovery/proposals.h"
 #include "support/pose_matchers.h"
 #include "support/synthetic_table.h"
 
@@ -172,6 +173,72 @@ TEST(DecisionsBetween, TellDropsSwapsAndWhatComesBack) {
                                             {ModelChange::kAdd, "blooming", {}}};
   EXPECT_EQ(decisions_between(before, after), expected);
   EXPECT_TRUE(decisions_between(after, after).empty());
+}
+
+// The command line searches in one go, the window step by step; where it was taken up again must
+// not show, to the last digit.
+TEST_F(Session, EveryWayToTheSameModelEndsAtTheSameDigits) {
+  test::Disturbance wrong = two_effects();
+  const auto made = test::synthetic_table({}, wrong);
+  DiscoveryOptions options;
+  options.with = {"range_cyclic"};
+  const auto base = start_model(made.table, made.truth, options, context_);
+  ASSERT_TRUE(base);
+  const auto added = add_effect(*base, "range_cyclic", std::nullopt, context_);
+  ASSERT_TRUE(added);
+  std::vector<ModelStepPtr> steps{*base, *added};
+  const auto found = find_all(
+      *added, [&](const ModelStepPtr& step) { steps.push_back(step); }, context_);
+  ASSERT_TRUE(found);
+  ASSERT_GE(steps.size(), 4U) << "two effects are hidden";
+
+  const auto expect_same = [](const ModelStep& a, const ModelStep& b) {
+    EXPECT_EQ(a.state.camera_from_lidar.translation, b.state.camera_from_lidar.translation);
+    EXPECT_EQ(a.covariance, b.covariance);
+    ASSERT_EQ(specs(a), specs(b));
+    for (std::size_t k = 0; k < a.terms.size(); ++k) {
+      EXPECT_EQ(a.terms[k].use.values, b.terms[k].use.values);
+      EXPECT_EQ(a.terms[k].use.shape, b.terms[k].use.shape);
+    }
+  };
+  for (std::size_t k = 1; k + 1 < steps.size(); ++k) {
+    const auto again = find_all(steps[k], {}, context_);
+    ASSERT_TRUE(again);
+    expect_same(**again, **found);
+  }
+
+  const auto one_go = discover_effects(made.table, made.truth, options, context_);
+  ASSERT_TRUE(one_go);
+  EXPECT_EQ(one_go->selected, specs(**found));
+  EXPECT_EQ(one_go->state.camera_from_lidar.translation,
+            (*found)->state.camera_from_lidar.translation);
+  EXPECT_EQ(one_go->covariance, (*found)->covariance);
+  const auto ranking = rank_effects(**found, context_);
+  ASSERT_TRUE(ranking);
+  const Discovery shown = as_discovery(steps, &*ranking);
+  ASSERT_EQ(shown.effects.size(), one_go->effects.size());
+  for (std::size_t k = 0; k < shown.effects.size(); ++k) {
+    const EffectFinding& a = shown.effects[k];
+    const EffectFinding& b = one_go->effects[k];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.verdict, b.verdict);
+    EXPECT_EQ(a.explanation, b.explanation);
+    EXPECT_EQ(a.extrinsic_move_mm, b.extrinsic_move_mm);
+  }
+  EXPECT_EQ(shown.advice, one_go->advice);
+  ASSERT_EQ(shown.history.size(), one_go->history.size());
+  for (std::size_t k = 0; k < shown.history.size(); ++k)
+    EXPECT_EQ(shown.history[k].added, one_go->history[k].added);
+}
+
+TEST_F(Session, WhatMakesTheSolveSingularIsRefused) {
+  const ModelStepPtr base = start({});
+  const auto scale = add_effect(base, "range_scale", std::nullopt, context_);
+  ASSERT_TRUE(scale);
+  const auto twice = add_effect(*scale, "formula:range:a*range", std::nullopt, context_);
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(twice.error().message, HasSubstr("range_scale do, which makes the solve singular"));
 }
 
 TEST_F(Session, FindAllLeavesACleanModelAlone) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "discovery/wanted_effects.h"
-
+// Effects that the user asks for before anything is searched.
 #include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "discovery/discovery.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {
@@ -17,19 +17,16 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-class Wanted : public ::testing::Test {
- protected:
-  WantedEffects add(const std::vector<std::string>& with) {
-    options_.with = with;
-    const auto out = add_wanted_effects(search_, options_);
-    EXPECT_TRUE(out.ok()) << out.error().text();
-    return *out;
-  }
-  DiscoveryOptions options_;
-  RunContext context_;
-  test::SyntheticTable made_ = test::synthetic_table({});
-  EffectSearch search_{made_.table, made_.truth, options_, context_};
-};
+// The model with what was asked for and nothing else.
+Discovery with(const std::vector<std::string>& wanted, const test::SyntheticTable& made) {
+  DiscoveryOptions options;
+  options.with = wanted;
+  options.max_effects = 0;
+  options.advise_scenes = false;
+  const auto out = discover_effects(made.table, made.truth, options, {});
+  EXPECT_TRUE(out.ok()) << out.error().text();
+  return *out;
+}
 
 TEST(CheckWanted, NamesTheNearest) {
   EXPECT_TRUE(check_wanted({"range_walk", "formula:range:a*range", "curve:range:line"}).ok());
@@ -38,54 +35,49 @@ TEST(CheckWanted, NamesTheNearest) {
   EXPECT_EQ(check_wanted({"formula:range:a*("}).error().kind, ErrorKind::kUsage);
 }
 
-TEST_F(Wanted, GoOnWithTheRest) {
-  const auto out = add({"formula:range:a/(board_x-board_x)", "range_walk", "range_walk",
-                        "formula:range:a*range*range"});
-  EXPECT_THAT(out.added, ElementsAre("range_walk", "formula:range:a*range*range"));
+TEST(Wanted, GoOnWithTheRest) {
+  const auto out = with({"formula:range:a/(board_x-board_x)", "range_walk", "range_walk",
+                         "formula:range:a*range*range"},
+                        test::synthetic_table({}));
+  EXPECT_THAT(out.selected, ElementsAre("range_walk", "formula:range:a*range*range"));
   EXPECT_THAT(out.warnings, SizeIs(2));
   EXPECT_THAT(out.warnings[0], HasSubstr("not a finite number on 9000 of 9000 rows"));
   EXPECT_THAT(out.warnings[1], HasSubstr("twice"));
-  ASSERT_THAT(out.refused, SizeIs(1));
-  EXPECT_EQ(out.refused[0].verdict, EffectVerdict::kNotTestable);
-  EXPECT_EQ(search_.in_use().size(), 2U);
+  EXPECT_EQ(out.effects.back().id, "formula:range:a/(board_x-board_x)");
+  EXPECT_EQ(out.effects.back().verdict, EffectVerdict::kNotTestable);
+  EXPECT_EQ(out.model.size(), 2U);
+  EXPECT_THAT(out.history, SizeIs(3)) << "the base model first";
 }
 
-TEST_F(Wanted, WhatMakesTheSolveSingularIsLeftOut) {
-  const auto out = add({"range_scale", "formula:range:a*range"});
-  EXPECT_THAT(out.added, ElementsAre("range_scale"));
+TEST(Wanted, WhatMakesTheSolveSingularIsLeftOut) {
+  const auto out = with({"range_scale", "formula:range:a*range"}, test::synthetic_table({}));
+  EXPECT_THAT(out.selected, ElementsAre("range_scale"));
   ASSERT_THAT(out.warnings, SizeIs(1));
   EXPECT_THAT(out.warnings[0], HasSubstr("range_scale do, which makes the solve singular"));
-  EXPECT_EQ(search_.in_use().size(), 1U);
-  EXPECT_TRUE(search_.state().camera_from_lidar.translation.allFinite());
+  EXPECT_EQ(out.model.size(), 1U);
+  EXPECT_TRUE(out.state.camera_from_lidar.translation.allFinite());
 }
 
-TEST_F(Wanted, FieldsThatAreMissingAreSaid) {
+TEST(Wanted, FieldsThatAreMissingAreSaid) {
   test::TableRecipe recipe;
   recipe.time = false;
-  const auto made = test::synthetic_table(recipe);
-  EffectSearch search(made.table, made.truth, options_, context_);
-  options_.with = {"scan_motion", "curve:range:time_in_scan"};
-  const auto out = add_wanted_effects(search, options_);
-  ASSERT_TRUE(out.ok());
-  EXPECT_THAT(out->added, IsEmpty());
-  EXPECT_THAT(out->warnings, SizeIs(2));
-  for (const std::string& w : out->warnings) EXPECT_THAT(w, HasSubstr("no time"));
+  const auto out = with({"scan_motion", "curve:range:time_in_scan"}, test::synthetic_table(recipe));
+  EXPECT_THAT(out.selected, IsEmpty());
+  EXPECT_THAT(out.warnings, SizeIs(2));
+  for (const std::string& w : out.warnings) EXPECT_THAT(w, HasSubstr("no time"));
 }
 
 TEST(WantedFormula, RecoversTheCoefficientWithinItsDeviation) {
   test::Disturbance wrong;
   wrong.range_m = [](const BeamPoint& beam) { return 0.006 * std::sin(12.0 * beam.azimuth_rad); };
   const auto made = test::synthetic_table({}, wrong);
-  DiscoveryOptions options;
-  options.with = {"formula:range:a*sin(12*azimuth)+b*cos(12*azimuth)"};
-  EffectSearch search(made.table, made.truth, options, {});
-  ASSERT_TRUE(add_wanted_effects(search, options).ok());
-  ASSERT_EQ(search.in_use().size(), 1U);
-  const Eigen::VectorXd values = search.in_use()[0].values;
-  const Eigen::MatrixXd covariance = search.joint_covariance().block<2, 2>(6, 6);
-  EXPECT_NEAR(values(0), 0.006, 3.0 * std::sqrt(covariance(0, 0)));
-  EXPECT_NEAR(values(1), 0.0, 3.0 * std::sqrt(covariance(1, 1)));
-  EXPECT_LT(std::sqrt(covariance(0, 0)), 0.001);
+  const auto out = with({"formula:range:a*sin(12*azimuth)+b*cos(12*azimuth)"}, made);
+  ASSERT_EQ(out.model.size(), 1U);
+  const std::vector<ParameterEstimate>& found = out.effects.front().parameters;
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].value, 0.006, 3.0 * found[0].sigma);
+  EXPECT_NEAR(found[1].value, 0.0, 3.0 * found[1].sigma);
+  EXPECT_LT(found[0].sigma, 0.001);
 }
 
 TEST(WantedCurve, FollowsWhatIsThereAndStaysFlatWhereNothingIs) {
@@ -95,12 +87,9 @@ TEST(WantedCurve, FollowsWhatIsThereAndStaysFlatWhereNothingIs) {
       return size * std::sin(12.0 * beam.azimuth_rad);
     };
     const auto made = test::synthetic_table({}, wrong);
-    DiscoveryOptions options;
-    options.with = {"curve:range:azimuth"};
-    EffectSearch search(made.table, made.truth, options, {});
-    ASSERT_TRUE(add_wanted_effects(search, options).ok());
-    ASSERT_EQ(search.in_use().size(), 1U);
-    const EffectInUse& use = search.in_use()[0];
+    const auto out = with({"curve:range:azimuth"}, made);
+    ASSERT_EQ(out.model.size(), 1U);
+    const EffectInUse& use = out.model[0];
     const CurveView* curve = as_curve(*use.effect);
     ASSERT_NE(curve, nullptr);
     // Where most beams are. A line over azimuth is all but a turn of the LiDAR: it may be anything.
