@@ -20,7 +20,7 @@ constexpr double kSpacing = 0.5;
 // any LiDAR's beam is wide at the nearest useful range.
 constexpr double kLargestRaster = 1800.0;
 // A spot sees nothing but white or black if less than this of another colour is in it.
-constexpr double kPlain = 1e-5;
+constexpr double kPlain = 1e-4;
 
 struct BlackRectangle {
   Eigen::Vector2d lower_left, upper_right;
@@ -177,6 +177,31 @@ struct Quadrature {
   int count = 0;
 };
 
+// A Gauss–Hermite rule, half of it: the middle first.
+struct HermiteRule {
+  double largest_excess;  // σₑ²/σ₁² up to which it misses an edge by less than 3·10⁻⁴.
+  int half;
+  std::array<double, 5> at, weight;
+};
+// Of three, five, nine and eleven places, the last two without their outermost pair, whose weights
+// are 2·10⁻⁵ and 8·10⁻⁷.
+constexpr std::array<HermiteRule, 4> kHermite{{
+    {0.27, 1, {0.0, 1.732050807568877}, {2.0 / 3.0, 1.0 / 6.0}},
+    {0.85,
+     2,
+     {0.0, 1.355626179974266, 2.856970013872806},
+     {0.533333333333333, 0.222075922005613, 0.011257411327721}},
+    {2.1,
+     3,
+     {0.0, 1.023255663789132, 2.076847978677830, 3.205429002856470},
+     {0.406349206349206, 0.244097502894939, 0.049916406765218, 0.002789141321232}},
+    {2.8,
+     4,
+     {0.0, 0.928868997381064, 1.876035020154846, 2.865123160643645, 3.936166607129977},
+     {0.369408369408369, 0.242240299873970, 0.066138746071058, 0.006720285235537,
+      0.000195671930271}},
+}};
+
 Quadrature quadrature(double excess_ratio) {
   Quadrature q;
   if (excess_ratio < 1e-3) {
@@ -185,21 +210,14 @@ Quadrature quadrature(double excess_ratio) {
     q.count = 1;
     return q;
   }
-  if (excess_ratio < 0.27) {
-    const double x = std::sqrt(3.0);
-    q.at = {-x, 0.0, x};
-    q.weight = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
-    q.count = 3;
-    return q;
-  }
-  if (excess_ratio < 0.61) {
-    const double a = std::sqrt(5.0 - std::sqrt(10.0));
-    const double b = std::sqrt(5.0 + std::sqrt(10.0));
-    const double wa = (7.0 + 2.0 * std::sqrt(10.0)) / 60.0;
-    const double wb = (7.0 - 2.0 * std::sqrt(10.0)) / 60.0;
-    q.at = {-b, -a, 0.0, a, b};
-    q.weight = {wb, wa, 8.0 / 15.0, wa, wb};
-    q.count = 5;
+  for (const HermiteRule& rule : kHermite) {
+    if (excess_ratio >= rule.largest_excess) continue;
+    for (int k = -rule.half; k <= rule.half; ++k) {
+      const auto from = static_cast<std::size_t>(std::abs(k));
+      const auto to = static_cast<std::size_t>(q.count++);
+      q.at[to] = k < 0 ? -rule.at[from] : rule.at[from];
+      q.weight[to] = rule.weight[from];
+    }
     return q;
   }
   constexpr double kExtent = 3.5;
@@ -228,16 +246,20 @@ Quadrature quadrature(double excess_ratio) {
 
 }  // namespace
 
-// One isotropic blur: at each sample the value, both slopes and the mixed derivative, all per step.
+// One isotropic blur: at each sample the value, the slopes along y and x and the mixed derivative,
+// all per step: in this order value and y slope, and x slope and mixed derivative, are interpolated
+// along x side by side.
 struct BlurredPrint::Level {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // Of sample (0, 0).
   double step = 0.0;
+  double per_step = 0.0;
   int columns = 0;
   int rows = 0;
   std::vector<std::array<float, 4>> samples;
 
   Level(const Target& target, const BoardOutline& outline, double sigma) {
     step = kSpacing * sigma;
+    per_step = 1.0 / step;
     // Room for the blur beyond the outline, where the print is white.
     const Eigen::Vector2d border = 4.0 * sigma * Eigen::Vector2d(1.0, 1.0);
     const Eigen::Vector2d size = outline.size_m() + 2.0 * border;
@@ -284,8 +306,8 @@ struct BlurredPrint::Level {
                    static_cast<std::size_t>(x.first)];
       for (std::size_t i = 0; i < x.value.size(); ++i) {
         row[i][0] -= static_cast<float>(x.value[i] * y.value[j]);
-        row[i][1] -= static_cast<float>(x.slope[i] * y.value[j]);
-        row[i][2] -= static_cast<float>(x.value[i] * y.slope[j]);
+        row[i][1] -= static_cast<float>(x.value[i] * y.slope[j]);
+        row[i][2] -= static_cast<float>(x.slope[i] * y.value[j]);
         row[i][3] -= static_cast<float>(x.slope[i] * y.slope[j]);
       }
     }
@@ -306,8 +328,8 @@ struct BlurredPrint::Level {
         sample[0] -= static_cast<float>(value);
         if (rho <= 0.0) continue;
         const Eigen::Vector2d u = d / rho;
-        sample[1] -= static_cast<float>(first * u.x() * step);
-        sample[2] -= static_cast<float>(first * u.y() * step);
+        sample[1] -= static_cast<float>(first * u.y() * step);
+        sample[2] -= static_cast<float>(first * u.x() * step);
         sample[3] -= static_cast<float>((second - first / rho) * u.x() * u.y() * step * step);
       }
     }
@@ -325,45 +347,62 @@ struct BlurredPrint::Level {
     return static_cast<double>(sample(c, r)[0]);
   }
 
-  // Adds weight × (value, gradient, Hessian), the derivatives per metre.
-  void add(const Eigen::Vector2d& p, double weight, PrintSample& out) const {
-    const Eigen::Vector2d at = (p - origin) / step;
-    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < columns - 1 && at.y() < rows - 1)) {
+  // Value, slopes and second derivatives, per metre, summed over places with weights.
+  struct Sum {
+    double white = 0.0;
+    double x = 0.0, y = 0.0;
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+  };
+
+  // Adds weight × what is seen at a place; derivatives per step. Hot: all six come from the three
+  // interpolations along x, each of value and y slope at once.
+  void add(const Eigen::Vector2d& p, double weight, Sum& out) const {
+    const double ax = (p.x() - origin.x()) * per_step;
+    const double ay = (p.y() - origin.y()) * per_step;
+    if (!(ax >= 0.0 && ay >= 0.0 && ax < columns - 1 && ay < rows - 1)) {
       out.white += weight;
       return;
     }
-    const int c = static_cast<int>(at.x());
-    const int r = static_cast<int>(at.y());
-    const double tx = at.x() - c;
-    const double ty = at.y() - r;
-    const HermiteWeights x = hermite(tx), dx = hermite_slope(tx), ddx = hermite_curvature(tx);
-    const HermiteWeights y = hermite(ty), dy = hermite_slope(ty), ddy = hermite_curvature(ty);
-    const std::array<float, 4>& a = sample(c, r);
-    const std::array<float, 4>& b = sample(c + 1, r);
-    const std::array<float, 4>& d = sample(c, r + 1);
-    const std::array<float, 4>& e = sample(c + 1, r + 1);
-    // Along x at the lower and upper row: the value's and the y slope's interpolants.
-    const auto along = [](const HermiteWeights& w, const std::array<float, 4>& p0,
-                          const std::array<float, 4>& p1, std::size_t k) {
-      return w.v0 * p0[k] + w.s0 * p0[k + 1] + w.v1 * p1[k] + w.s1 * p1[k + 1];
+    const int c = static_cast<int>(ax);
+    const int r = static_cast<int>(ay);
+    const double tx = ax - c;
+    const double ty = ay - r;
+    const std::array<float, 4>* lower = &sample(c, r);
+    const std::array<float, 4>* upper = lower + columns;
+    using Pair = Eigen::Array2d;
+    const auto pair = [](const std::array<float, 4>& s, std::size_t k) {
+      return Pair(static_cast<double>(s[k]), static_cast<double>(s[k + 1]));
     };
-    const auto combine = [&](const HermiteWeights& wx, const HermiteWeights& wy) {
-      return wy.v0 * along(wx, a, b, 0) + wy.s0 * along(wx, a, b, 2) + wy.v1 * along(wx, d, e, 0) +
-             wy.s1 * along(wx, d, e, 2);
+    const Pair a = pair(lower[0], 0), as = pair(lower[0], 2);
+    const Pair b = pair(lower[1], 0), bs = pair(lower[1], 2);
+    const Pair d = pair(upper[0], 0), ds = pair(upper[0], 2);
+    const Pair e = pair(upper[1], 0), es = pair(upper[1], 2);
+    struct Rows {
+      Pair lower, upper;  // Value and y slope on the rows below and above.
     };
-    const double first = weight / step;
-    const double second = first / step;
-    out.white += weight * combine(x, y);
-    out.gradient_per_m.x() += first * combine(dx, y);
-    out.gradient_per_m.y() += first * combine(x, dy);
-    out.hessian_per_m2(0, 0) += second * combine(ddx, y);
-    out.hessian_per_m2(1, 1) += second * combine(x, ddy);
-    out.hessian_per_m2(0, 1) += second * combine(dx, dy);
+    const auto along = [&](const HermiteWeights& w) -> Rows {
+      return {w.v0 * a + w.s0 * as + w.v1 * b + w.s1 * bs,
+              w.v0 * d + w.s0 * ds + w.v1 * e + w.s1 * es};
+    };
+    const auto across = [](const Rows& rows, const HermiteWeights& w) {
+      return (rows.lower * Pair(w.v0, w.s0) + rows.upper * Pair(w.v1, w.s1)).sum();
+    };
+    const Rows value = along(hermite(tx)), slope = along(hermite_slope(tx)),
+               curvature = along(hermite_curvature(tx));
+    const HermiteWeights y = hermite(ty), dy = hermite_slope(ty);
+    out.white += weight * across(value, y);
+    out.x += weight * across(slope, y);
+    out.y += weight * across(value, dy);
+    out.xx += weight * across(curvature, y);
+    out.xy += weight * across(slope, dy);
+    out.yy += weight * across(value, hermite_curvature(ty));
   }
 };
 
 BlurredPrint::BlurredPrint(const Target& target) : target_(target), outline_(target.outline()) {
   first_sigma_m_ = outline_.size_m().maxCoeff() / (kSpacing * kLargestRaster);
+  for (int k = 0; k < kLevels; ++k)
+    variance_m2_[static_cast<std::size_t>(k)] = std::pow(sigma_m(k), 2);
 }
 
 BlurredPrint::~BlurredPrint() {
@@ -413,18 +452,18 @@ double BlurredPrint::coarse(const Eigen::Vector2d& board_m, double sigma) const 
 }
 
 PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix2d& blur_m2) const {
+  static const double kPerLevel = 0.5 / std::log(kRatio);  // Of the logarithm of a variance.
   const double mean = 0.5 * (blur_m2(0, 0) + blur_m2(1, 1));
   const double difference = 0.5 * (blur_m2(0, 0) - blur_m2(1, 1));
-  const double spread = std::hypot(difference, blur_m2(0, 1));
-  const double floor = first_sigma_m_ * first_sigma_m_;
-  const double ceiling = std::pow(sigma_m(kLevels - 3), 2);
-  const double minor = std::clamp(mean - spread, floor, ceiling);
+  const double spread = std::sqrt(difference * difference + blur_m2(0, 1) * blur_m2(0, 1));
+  const double minor = std::clamp(mean - spread, variance_m2_.front(), variance_m2_[kLevels - 3]);
   const double major = std::max(mean + spread, minor);
 
   PrintSample out;
-  out.white = 0.0;
   // Plain print: N(0, S) lies nowhere above √(major/minor) times the isotropic N(0, major).
-  const int wide = std::min(kLevels - 1, level_below(std::sqrt(major)) + 2);
+  const double per_first = 1.0 / variance_m2_.front();
+  const int wide = std::min(
+      kLevels - 1, static_cast<int>(std::floor(kPerLevel * std::log(major * per_first))) + 2);
   const double around = level(wide).nearest(board_m);
   const double plain = kPlain * std::sqrt(minor / major);
   if (around > 1.0 - plain || around < plain) {
@@ -433,11 +472,9 @@ PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix
   }
 
   // Parabola in v = σ² through three neighbouring levels, the middle one nearest.
-  const double sigma = std::sqrt(minor);
-  int middle = static_cast<int>(std::lround(std::log(sigma / first_sigma_m_) / std::log(kRatio)));
-  middle = std::clamp(middle, 1, kLevels - 2);
-  std::array<double, 3> v{};
-  for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(i)] = std::pow(sigma_m(middle + i - 1), 2);
+  const int middle = std::clamp(
+      static_cast<int>(std::lround(kPerLevel * std::log(minor * per_first))), 1, kLevels - 2);
+  const double* v = &variance_m2_[static_cast<std::size_t>(middle - 1)];
   const std::array<double, 3> share{
       (minor - v[1]) * (minor - v[2]) / ((v[0] - v[1]) * (v[0] - v[2])),
       (minor - v[0]) * (minor - v[2]) / ((v[1] - v[0]) * (v[1] - v[2])),
@@ -447,18 +484,29 @@ PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix
   const Quadrature q = quadrature(excess / minor);
   Eigen::Vector2d axis(1.0, 0.0);
   if (spread > 0.0) {
-    const double angle = 0.5 * std::atan2(blur_m2(0, 1), difference);
-    axis = {std::cos(angle), std::sin(angle)};
+    // Half the angle of (difference, covariance).
+    const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + difference / spread)));
+    const double sine = std::sqrt(std::max(0.0, 0.5 * (1.0 - difference / spread)));
+    axis = {cosine, std::copysign(sine, blur_m2(0, 1))};
   }
   axis *= std::sqrt(excess);
+  out.white = 0.0;
   for (int i = 0; i < 3; ++i) {
     const double w = share[static_cast<std::size_t>(i)];
     if (std::abs(w) < 1e-9) continue;
     const Level& source = level(middle + i - 1);
+    Level::Sum sum;
     for (int k = 0; k < q.count; ++k) {
       const auto j = static_cast<std::size_t>(k);
-      source.add(board_m + q.at[j] * axis, w * q.weight[j], out);
+      source.add(board_m + q.at[j] * axis, q.weight[j], sum);
     }
+    const double first = w * source.per_step;
+    const double second = first * source.per_step;
+    out.white += w * sum.white;
+    out.gradient_per_m += first * Eigen::Vector2d(sum.x, sum.y);
+    out.hessian_per_m2(0, 0) += second * sum.xx;
+    out.hessian_per_m2(0, 1) += second * sum.xy;
+    out.hessian_per_m2(1, 1) += second * sum.yy;
   }
   out.hessian_per_m2(1, 0) = out.hessian_per_m2(0, 1);
   return out;

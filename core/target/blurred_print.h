@@ -72,6 +72,7 @@ class BlurredPrint {
   Target target_;
   BoardOutline outline_;
   double first_sigma_m_ = 0.0;
+  std::array<double, kLevels> variance_m2_{};
   // Each level has its own lock: two threads may make two levels.
   mutable std::array<std::atomic<const Level*>, kLevels> levels_{};
   mutable std::array<std::mutex, kLevels> building_;
