@@ -68,9 +68,8 @@ struct Trial {
 };
 
 // Correlation of the samples with the print when the board is shifted and turned about its middle.
-double correlation(const std::vector<Sample>& samples, const BlurredPrint& print,
-                   const Trial& trial, double sigma_m) {
-  const Eigen::Vector2d center = print.outline().center_m();
+double correlation(const std::vector<Sample>& samples, const BlurredPrint::Coarse& print,
+                   const Eigen::Vector2d& center, const Trial& trial) {
   const double c = std::cos(trial.turn_rad);
   const double s = std::sin(trial.turn_rad);
   double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
@@ -78,7 +77,7 @@ double correlation(const std::vector<Sample>& samples, const BlurredPrint& print
     const Eigen::Vector2d d = sample.board_m - center - trial.shift_m;
     const Eigen::Vector2d p =
         center + Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
-    const double white = print.coarse(p, sigma_m);
+    const double white = print.at(p);
     n += 1;
     a += white;
     i += sample.intensity;
@@ -220,6 +219,8 @@ std::vector<Trial> trials_about(const Trial& from, const std::vector<Sample>& sa
                                 double turns_rad, double step_m, double turn_rad) {
   const int n = static_cast<int>(std::ceil(reach_m / step_m));
   const int m = static_cast<int>(std::ceil(turns_rad / turn_rad));
+  const BlurredPrint::Coarse blurred = print.coarse(sigma_m);
+  const Eigen::Vector2d center = print.outline().center_m();
   std::vector<Trial> tried;
   for (int ix = -n; ix <= n; ++ix) {
     for (int iy = -n; iy <= n; ++iy) {
@@ -227,7 +228,7 @@ std::vector<Trial> trials_about(const Trial& from, const std::vector<Sample>& sa
         Trial t = from;
         t.shift_m += step_m * Eigen::Vector2d(ix, iy);
         t.turn_rad += turn_rad * it;
-        t.correlation = correlation(samples, print, t, sigma_m);
+        t.correlation = correlation(samples, blurred, center, t);
         tried.push_back(t);
       }
     }

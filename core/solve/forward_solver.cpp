@@ -185,12 +185,13 @@ class ForwardSolver {
     const BoardPredictor predictor(print_, board, {}, {});
     const BoardReturns& returns = returns_[s];
     if (!returns.has_intensity) return {};
+    const BlurredPrint::Coarse print = print_.coarse(0.012);
     double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
     const std::size_t stride = std::max<std::size_t>(1, returns.size() / 1500);
     for (std::size_t k = 0; k < returns.size(); k += stride) {
       const auto hit = predictor.hit(returns.point_m(k).normalized());
       if (!hit) continue;
-      const double white = print_.coarse(hit->board_m, 0.012);
+      const double white = print.at(hit->board_m);
       const double intensity = returns.intensity(k);
       n += 1;
       a += white;
@@ -208,6 +209,7 @@ class ForwardSolver {
   // Levels by regression of the intensities on the coarse print.
   void first_levels() {
     if (!solution_.uses_intensity) return;
+    const BlurredPrint::Coarse print = print_.coarse(kCoarseBlur_m);
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (!returns_[s].has_intensity) continue;
       const BoardPredictor predictor(print_, state().lidar_from_board(s), {}, {});
@@ -216,7 +218,7 @@ class ForwardSolver {
       for (std::size_t k = 0; k < returns_[s].size(); k += stride) {
         const auto hit = predictor.hit(returns_[s].point_m(k).normalized());
         if (!hit) continue;
-        const double white = print_.coarse(hit->board_m, kCoarseBlur_m);
+        const double white = print.at(hit->board_m);
         const double v = returns_[s].intensity(k);
         n += 1;
         a += white;

@@ -79,7 +79,7 @@ class SizeFit {
 
   // The stretch, alike in x and y, under which intensities and print correlate best.
   [[nodiscard]] double coarse_scale() const {
-    constexpr double kBlur_m = 0.01;
+    const BlurredPrint::Coarse print = print_.coarse(0.01);
     double best = 1.0;
     double largest = -1.0;
     const int steps = static_cast<int>(kCoarsest / kCoarseStep);
@@ -88,8 +88,7 @@ class SizeFit {
       double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
       const std::size_t stride = std::max<std::size_t>(1, places_.size() / 1500);
       for (std::size_t q = 0; q < places_.size(); q += stride) {
-        const double white =
-            print_.coarse(center_ + (places_[q].board_m - center_) / scale, kBlur_m);
+        const double white = print.at(center_ + (places_[q].board_m - center_) / scale);
         const double v = places_[q].intensity;
         n += 1, a += white, i += v, aa += white * white, ii += v * v, ai += white * v;
       }

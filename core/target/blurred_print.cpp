@@ -446,9 +446,15 @@ void BlurredPrint::prepare(double smallest_m, double largest_m, int threads) con
                [&](std::size_t k) { level(first + static_cast<int>(k)); });
 }
 
-double BlurredPrint::coarse(const Eigen::Vector2d& board_m, double sigma) const {
-  const int k = std::clamp(level_below(sigma), 0, kLevels - 1);
-  return level(k).nearest(board_m);
+BlurredPrint::Coarse BlurredPrint::coarse(double sigma) const {
+  const Level& source = level(std::clamp(level_below(sigma), 0, kLevels - 1));
+  Coarse view;
+  view.first_ = source.samples.front().data();
+  view.origin_ = source.origin;
+  view.per_step_ = source.per_step;
+  view.columns_ = source.columns;
+  view.rows_ = source.rows;
+  return view;
 }
 
 PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix2d& blur_m2) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <memory>
@@ -44,8 +45,20 @@ class BlurredPrint {
   [[nodiscard]] PrintSample at(const Eigen::Vector2d& board_m,
                                const Eigen::Matrix2d& blur_m2) const;
 
-  /// The value alone under an isotropic blur, from the nearest sample: for coarse searches.
-  [[nodiscard]] double coarse(const Eigen::Vector2d& board_m, double sigma_m) const;
+  /// The value alone under one isotropic blur, from the nearest sample: for coarse searches.
+  class Coarse {
+   public:
+    [[nodiscard]] double at(const Eigen::Vector2d& board_m) const;
+
+   private:
+    friend class BlurredPrint;
+    const float* first_ = nullptr;
+    Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+    double per_step_ = 0.0;
+    int columns_ = 0, rows_ = 0;
+  };
+  /// The view lives as long as the print.
+  [[nodiscard]] Coarse coarse(double sigma_m) const;
 
   /// Makes the levels that spots of these widths need, on several threads. What is not made ahead
   /// is made when it is first asked for.
@@ -77,5 +90,15 @@ class BlurredPrint {
   mutable std::array<std::atomic<const Level*>, kLevels> levels_{};
   mutable std::array<std::mutex, kLevels> building_;
 };
+
+// Called for every sample of every place that a search tries.
+inline double BlurredPrint::Coarse::at(const Eigen::Vector2d& board_m) const {
+  const auto nearest = [](double at, int count) {
+    return static_cast<std::size_t>(std::clamp(at + 0.5, 0.0, count - 1.0));
+  };
+  const std::size_t c = nearest((board_m.x() - origin_.x()) * per_step_, columns_);
+  const std::size_t r = nearest((board_m.y() - origin_.y()) * per_step_, rows_);
+  return static_cast<double>(first_[4 * (r * static_cast<std::size_t>(columns_) + c)]);
+}
 
 }  // namespace lvcalib
