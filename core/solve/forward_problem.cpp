@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "model/linear_model.h"
+#include "solve/surface_noise.h"
 
 namespace lvcalib {
 namespace {
@@ -164,10 +165,6 @@ struct Accumulator {
   }
 };
 
-double blended(double white, double black, double share) {
-  return std::exp(share * std::log(white) + (1.0 - share) * std::log(black));
-}
-
 class LidarRows {
  public:
   LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
@@ -209,7 +206,7 @@ class LidarRows {
 
  private:
   void add_range(std::size_t k, double e, const ReturnPrediction& p, Accumulator& out) {
-    const double sigma = blended(noise_.range_white_m, noise_.range_black_m, p.white);
+    const double sigma = noise_between(noise_.range_white_m, noise_.range_black_m, p.white);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.range_by_pose(i));
     if (layout_.range_shape >= 0) {
@@ -231,7 +228,7 @@ class LidarRows {
   }
 
   void add_intensity(std::size_t k, double e, const ReturnPrediction& p, Accumulator& out) {
-    const double plain = blended(noise_.intensity_white, noise_.intensity_black, p.white);
+    const double plain = noise_between(noise_.intensity_white, noise_.intensity_black, p.white);
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
     const Eigen::Matrix2d& jitter = state_.beam.jitter_rad2;
     const double variance = plain * plain + by_angle * jitter * by_angle.transpose();

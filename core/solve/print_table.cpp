@@ -16,6 +16,7 @@
 #include "model/scan_velocity.h"
 #include "model/scene_geometry.h"
 #include "solve/board_returns.h"
+#include "solve/surface_noise.h"
 
 namespace lvcalib {
 namespace {
@@ -266,13 +267,13 @@ class SceneRows {
     row.measured_m = r.measured_m;
     row.intensity = r.intensity;
     row.print = r.surface() == 0 ? Print::kWhite : Print::kBlack;
-    row.sigma_m = robust_sigma(noise_.range_m[r.surface()], r.range_residual_m);
+    row.sigma_m = robust_sigma(noise_between(noise_.range_m[0], noise_.range_m[1], r.white),
+                               r.range_residual_m);
     table.range.push_back(row);
   }
 
   [[nodiscard]] double intensity_sigma(const Return& r) const {
-    const double plain = std::exp(r.white * std::log(noise_.intensity[0]) +
-                                  (1.0 - r.white) * std::log(noise_.intensity[1]));
+    const double plain = noise_between(noise_.intensity[0], noise_.intensity[1], r.white);
     return robust_sigma(std::hypot(plain, r.jitter), r.intensity - r.predicted);
   }
 
