@@ -50,5 +50,36 @@ TEST(CornerNoise, IsTheOneGivenWhereTooFewCornersTell) {
   EXPECT_EQ(corner_noise(made.table, made.truth, 0.07), 0.07);
 }
 
+// A few close pairs tell a standard deviation badly: farther ones are asked until it is known to
+// some per cent, but not beyond centimetres as long as there are close ones.
+TEST(Replicates, AskForAsManyPairsAsTellTheNoise) {
+  double squares = 0.0;
+  constexpr int kTrials = 20;
+  for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
+    Random random(seed);
+    Replicates replicates;
+    // 3000 points on half a square metre: some hundred neighbours within 3 mm, thousands within 24.
+    for (int i = 0; i < 3000; ++i) {
+      BeamPoint beam;
+      beam.line = 0;
+      beam.board_m = {random.uniform(0.0, 0.7), random.uniform(0.0, 0.7)};
+      replicates.add(beam, 0.01 * random.normal());
+    }
+    squares += std::pow(replicates.sigma() / 0.01 - 1.0, 2);
+  }
+  EXPECT_LT(std::sqrt(squares / kTrials), 0.045) << "sixty pairs tell nine per cent";
+}
+
+TEST(Replicates, TooFewPairsTellNothing) {
+  Replicates replicates;
+  for (int i = 0; i < 50; ++i) {
+    BeamPoint beam;
+    beam.line = 0;
+    beam.board_m = {0.001 * i, 0.0};
+    replicates.add(beam, i);
+  }
+  EXPECT_EQ(replicates.sigma(), 0.0);
+}
+
 }  // namespace
 }  // namespace lvcalib
