@@ -132,21 +132,6 @@ EffectFinding finding_in_model(const ModelTerm& term) {
   return f;
 }
 
-// What stands out of the structure left by a step, best first.
-std::vector<StructureScore> notable(const ModelStep& step) {
-  std::vector<StructureScore> kept;
-  const std::size_t tried = step.structure.size() + step.places.size();
-  for (const auto* scores : {&step.structure, &step.places}) {
-    for (const StructureScore& s : *scores) {
-      if (is_notable(s, tried, step.basis->options)) kept.push_back(s);
-    }
-  }
-  std::stable_sort(kept.begin(), kept.end(), [](const StructureScore& a, const StructureScore& b) {
-    return a.score > b.score;
-  });
-  return kept;
-}
-
 }  // namespace
 
 bool ModelRanking::nothing_missing() const {
@@ -202,7 +187,9 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   const ModelStep& base = *steps.front();
   const ModelStep& last = *steps.back();
   out.channels = base.channels;
-  out.structure = notable(base);
+  out.structure = base.structure;
+  out.structure.insert(out.structure.end(), base.places.begin(), base.places.end());
+  out.structure = notable_of(std::move(out.structure), base.basis->options);
   for (const ModelTerm& term : last.terms) {
     if (!term.on) continue;
     if (ranking == nullptr) out.effects.push_back(finding_in_model(term));

@@ -307,6 +307,14 @@ bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryO
          scenes_agree(score, tried, options);
 }
 
+std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
+                                       const DiscoveryOptions& options) {
+  const std::size_t tried = scores.size();
+  std::erase_if(scores, [&](const StructureScore& s) { return !is_notable(s, tried, options); });
+  sort_best_first(scores);
+  return scores;
+}
+
 std::vector<StructureScore> notable_structure(const MeasurementTable& table,
                                               const ModelState& state,
                                               const std::vector<EffectInUse>& in_use,
@@ -315,10 +323,7 @@ std::vector<StructureScore> notable_structure(const MeasurementTable& table,
   std::vector<StructureScore> out = scan_structure(table, state, in_use, context);
   const auto places = scan_places(table, state, in_use, out, context);
   out.insert(out.end(), places.begin(), places.end());
-  const std::size_t tried = out.size();
-  std::erase_if(out, [&](const StructureScore& s) { return !is_notable(s, tried, options); });
-  sort_best_first(out);
-  return out;
+  return notable_of(std::move(out), options);
 }
 
 }  // namespace lvcalib

@@ -28,6 +28,10 @@ std::vector<StructureScore> scan_places(const MeasurementTable& table, const Mod
                                         const std::vector<StructureScore>& alone,
                                         const RunContext& context);
 
+/// Those of all scores tried that are notable, best first.
+std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
+                                       const DiscoveryOptions& options);
+
 /// scan_structure and scan_places together, those that are notable, best first.
 std::vector<StructureScore> notable_structure(const MeasurementTable& table,
                                               const ModelState& state,

@@ -19,7 +19,8 @@ constexpr double kSpacing = 0.5;
 // Largest raster side; the first width follows from it. 1.1 mm on a board of a metre: below what
 // any LiDAR's beam is wide at the nearest useful range.
 constexpr double kLargestRaster = 1800.0;
-// A spot sees nothing but white or black if less than this of another colour is in it.
+// A spot sees nothing but white or black if less than this of another colour is in it: a fifth of
+// what the parabola between levels may miss by.
 constexpr double kPlain = 1e-4;
 
 struct BlackRectangle {
@@ -347,14 +348,14 @@ struct BlurredPrint::Level {
     return static_cast<double>(sample(c, r)[0]);
   }
 
-  // Value, slopes and second derivatives, per metre, summed over places with weights.
+  // Value, slopes and second derivatives, per step, summed over places with weights.
   struct Sum {
     double white = 0.0;
     double x = 0.0, y = 0.0;
     double xx = 0.0, xy = 0.0, yy = 0.0;
   };
 
-  // Adds weight × what is seen at a place; derivatives per step. Hot: all six come from the three
+  // Adds weight × what is seen at a place. Hot: all six come from the three
   // interpolations along x, each of value and y slope at once.
   void add(const Eigen::Vector2d& p, double weight, Sum& out) const {
     const double ax = (p.x() - origin.x()) * per_step;
