@@ -2,7 +2,9 @@
 // Calibrates a dataset and prints what the joint solve over all returns says scene by scene; with
 // splits, how far random halves of the scenes disagree.
 //
-//   forward_probe DATASET [--crops] [--truth FILE] [--splits N]
+//   forward_probe DATASET [--crops] [--truth FILE] [--splits N] [--free]
+//
+// --free: intrinsics with a prior as wide as a factory's (1 % of the focal length, 10 px).
 #include <chrono>
 #include <cstdio>
 #include <cstring>
