@@ -93,16 +93,18 @@ std::pair<double, double> worst_sigmas(const UncertainRigid3& x) {
 
 // Whether what camera and LiDAR see of the boards disagrees beyond noise in the model of a solve.
 bool boards_disagree(const ForwardSolution& forward) {
-  for (const SharedError kind : {SharedError::kBoardShift, SharedError::kBoardNormal,
-                                 SharedError::kBoardTilt, SharedError::kBoardSpin}) {
+  for (const SharedError kind :
+       {SharedError::kBoardShift, SharedError::kBoardNormal, SharedError::kBoardTilt,
+        SharedError::kBoardSpin, SharedError::kSensorRange, SharedError::kSensorDark,
+        SharedError::kSensorLine}) {
     if (forward.noise.shared[static_cast<std::size_t>(kind)] > kInModel) return true;
   }
   return false;
 }
 
 GlobalPrior prior_with(GlobalPrior prior, const IntrinsicsVector& sigma) {
-  prior.sigma.tail<kIntrinsics>() = sigma;
-  prior.offset.tail<kIntrinsics>().setZero();
+  prior.sigma.segment<kIntrinsics>(kFirstIntrinsic) = sigma;
+  prior.offset.segment<kIntrinsics>(kFirstIntrinsic).setZero();
   return prior;
 }
 
@@ -115,8 +117,8 @@ bool first_look(const ForwardSolution& forward, const Camera& given) {
   const auto step = solve_terms(terms, prior_with(forward.prior, wide));
   if (!step) return false;
   const IntrinsicsVector values = intrinsics_of(given);
-  return contrast_intrinsics(values + step->step.tail<kIntrinsics>(), values, step->covariance,
-                             wide, kFirstLook)
+  return contrast_intrinsics(values + step->step.segment<kIntrinsics>(kFirstIntrinsic), values,
+                             step->covariance, wide, kFirstLook)
       .contradicts();
 }
 

@@ -66,8 +66,10 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
   }
   result.forward = std::move(*forward);
   result.camera = result.forward->state.camera;
-  result.intrinsics.sigma =
-      result.forward->globals_covariance.diagonal().tail<kIntrinsics>().cwiseMax(0.0).cwiseSqrt();
+  result.intrinsics.sigma = result.forward->globals_covariance.diagonal()
+                                .segment<kIntrinsics>(kFirstIntrinsic)
+                                .cwiseMax(0.0)
+                                .cwiseSqrt();
   result.extrinsic =
       report_forward(pose_of(*result.forward), forward_subsets(*result.forward, nodes), nodes,
                      observations, result.camera, target, result.options.extrinsic);

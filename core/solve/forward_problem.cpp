@@ -26,9 +26,6 @@ constexpr double kCut = 3.0;
 constexpr double kCutMean = 0.9904;
 // Light changes over a board by some per cent; this is one σ.
 constexpr double kSlopeSigma = 0.1;
-// A line has a gain of its own if so many of its returns are on the board; with fewer its mean is
-// known little better than a single return.
-constexpr int kLineRows = 8;
 
 constexpr Eigen::Index kLidarFixed = 6 + kBlurParameters + kLevelParameters;
 // Constant and slopes are the board's own motion.
@@ -44,7 +41,9 @@ struct Layout {
   Eigen::Index print_patch = -1;
   Eigen::Index line_gain = -1;
   Eigen::Index line_range = -1;
-  Eigen::Index corner_group = -1;  // Behind the LiDAR's.
+  Eigen::Index corner_group = -1;  // Behind the LiDAR's own,
+  Eigen::Index sensor = -1;        // which in its own equations the sensor's errors follow.
+  std::map<std::uint16_t, Eigen::Index> sensor_line;
   Eigen::Index corner_groups = 0;
   BoardPatches patches;
   std::map<int, int> corner_group_of;  // feature → group
@@ -53,7 +52,8 @@ struct Layout {
 };
 
 Layout make_layout(const ForwardScene& scene, const BoardReturns& returns,
-                   const BlurredPrint& print, const LinearizationOptions& options) {
+                   const BlurredPrint& print, const SensorErrors& sensor,
+                   const LinearizationOptions& options) {
   Layout layout;
   if (!options.shared_errors) return layout;
   const BoardOutline& outline = print.outline();
@@ -67,7 +67,7 @@ Layout make_layout(const ForwardScene& scene, const BoardReturns& returns,
     return at;
   };
   if (returns.cloud->has_line()) {
-    std::map<std::uint16_t, int> rows;
+    std::map<std::uint16_t, std::size_t> rows;
     for (const std::uint32_t i : returns.index) ++rows[returns.cloud->line[i]];
     for (const auto& [line, count] : rows) {
       if (count >= kLineRows) layout.line_of.emplace(line, static_cast<int>(layout.line_of.size()));
@@ -87,6 +87,11 @@ Layout make_layout(const ForwardScene& scene, const BoardReturns& returns,
         place(SharedError::kPrintPatch, 2 * static_cast<Eigen::Index>(layout.patches.count()));
     layout.line_gain = place(SharedError::kLineGain, lines);
   }
+  layout.sensor = layout.size;
+  for (std::size_t k = 0; k < sensor.lines.size(); ++k) {
+    layout.sensor_line.emplace(
+        sensor.lines[k], layout.sensor + SensorErrors::kFirstLine + static_cast<Eigen::Index>(k));
+  }
   const bool tags = print.target().has_tags();
   for (const CornerObservation& c : scene.corners) {
     const int feature = tags ? c.feature_id : layout.patches.of(outline, c.board_m);
@@ -98,14 +103,21 @@ Layout make_layout(const ForwardScene& scene, const BoardReturns& returns,
   return layout;
 }
 
+// The kind of the sensor's error number i.
+std::size_t sensor_kind(Eigen::Index i) {
+  return static_cast<std::size_t>(i == 0   ? SharedError::kSensorRange
+                                  : i == 1 ? SharedError::kSensorDark
+                                           : SharedError::kSensorLine);
+}
+
 // One row's non-zero entries.
 struct SparseRow {
   static constexpr int kMost = 40;
-  // Row times the shared errors u that start behind the LiDAR's fixed unknowns.
-  [[nodiscard]] double times(const Eigen::VectorXd& u) const {
+  // Row times the values u of the unknowns from `first` on.
+  [[nodiscard]] double times(const Eigen::VectorXd& u, Eigen::Index first) const {
     double sum = 0.0;
     for (int k = 0; k < count; ++k) {
-      const Eigen::Index i = at[static_cast<std::size_t>(k)] - kLidarFixed;
+      const Eigen::Index i = at[static_cast<std::size_t>(k)] - first;
       if (i >= 0 && i < u.size()) sum += value[static_cast<std::size_t>(k)] * u(i);
     }
     return sum;
@@ -176,7 +188,7 @@ class LidarRows {
         noise_(noise),
         layout_(layout),
         options_(options),
-        shared_(index < state.shared.size() ? state.shared[index] : Eigen::VectorXd()),
+        lidar_(Eigen::VectorXd::Zero(0)),
         predictor_(print, state.lidar_from_board(index), state.levels[index], state.beam),
         blur_by_factor_(blur_by_factor(blur_factor(state.beam.blur_rad2))),
         center_(print.outline().center_m()),
@@ -184,11 +196,17 @@ class LidarRows {
         has_intensity_(returns.has_intensity),
         range_z(returns.size(), kUnused),
         intensity_z(returns.size(), kUnused) {
+    if (layout.sensor < 0) return;
+    // The LiDAR's own shared errors and the sensor's, as they stand among its unknowns.
+    const Eigen::Index own = layout.sensor - kLidarFixed;
+    lidar_ = Eigen::VectorXd::Zero(own + state.sensor.count());
+    if (state.sensor.values.size() == state.sensor.count())
+      lidar_.tail(state.sensor.count()) = state.sensor.values;
+    if (index >= state.shared.size() || state.shared[index].size() != layout.columns.total) return;
+    lidar_.head(own) = state.shared[index].head(own);
     // The board's own motion moves a row as its pose does.
-    if (layout.board >= 0 && shared_.size() == layout.columns.total) {
-      board_ = board_motion(state.lidar_from_board(index), center_) *
-               shared_.segment<kBoardTerms>(layout.board - kLidarFixed);
-    }
+    board_ = board_motion(state.lidar_from_board(index), center_) *
+             lidar_.segment<kBoardTerms>(layout.board - kLidarFixed);
   }
 
   static constexpr float kUnused = 1e9F;
@@ -216,8 +234,14 @@ class LidarRows {
       for (Eigen::Index i = 0; i < kRangeTerms; ++i)
         row.add(layout_.range_shape + i, terms[static_cast<std::size_t>(3 + i)]);
       if (const int line = line_of(k); line >= 0) row.add(layout_.line_range + line, 1.0);
+      row.add(layout_.sensor, 1.0);
+      row.add(layout_.sensor + 1, 1.0 - p.white);
+      if (!layout_.sensor_line.empty()) {
+        const auto line = layout_.sensor_line.find(returns_.cloud->line[returns_.index[k]]);
+        if (line != layout_.sensor_line.end()) row.add(line->second, 1.0);
+      }
     }
-    e -= row.times(shared_) + p.range_by_pose * board_;
+    e -= row.times(lidar_, kLidarFixed) + p.range_by_pose * board_;
     const double z = e / sigma;
     range_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
@@ -246,7 +270,7 @@ class LidarRows {
       row.add(patch + 1, p.intensity_by_shift(1));
       if (const int line = line_of(k); line >= 0) row.add(layout_.line_gain + line, p.intensity);
     }
-    e -= row.times(shared_) + p.intensity_by_pose * board_;
+    e -= row.times(lidar_, kLidarFixed) + p.intensity_by_pose * board_;
     const double z = e / sigma;
     intensity_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
@@ -289,7 +313,7 @@ class LidarRows {
   const SceneNoise& noise_;
   const Layout& layout_;
   const LinearizationOptions& options_;
-  Eigen::VectorXd shared_;
+  Eigen::VectorXd lidar_;
   BoardPredictor predictor_;
   Eigen::Matrix3d blur_by_factor_;
   Eigen::Vector2d center_;
@@ -359,6 +383,7 @@ void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrin
                  const LinearizationOptions& options, SceneEquations& out, SceneFit& fit) {
   const Rigid3& camera_from_board = state.camera_from_board[index];
   const bool tags = print.target().has_tags();
+  const Eigen::Index pose = out.globals;
   for (const CornerObservation& c : scene.corners) {
     const Eigen::Vector3d p =
         camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
@@ -377,25 +402,24 @@ void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrin
       const Eigen::Index own =
           layout.corner_group - kLidarFixed + 2 * layout.corner_group_of.at(feature);
       if (own + 1 < out.shared.size()) e -= out.shared.segment<2>(own);
-      at = kGlobals + kLocals + own;
+      at = out.globals + kLocals + own;
     }
     const double size = e.norm() / sigma_px;
     const double w = huber_weight(size, options.robust_threshold + 1.0) / (sigma_px * sigma_px);
     fit.corner_squares += w * e.squaredNorm();
     fit.corner_rows += 2;
-    out.normal.block<6, 6>(kGlobals, kGlobals) += w * j.transpose() * j;
-    out.gradient.segment<6>(kGlobals) += w * j.transpose() * e;
-    constexpr Eigen::Index kCamera = 6 + kBlurParameters;
-    out.normal.block<kIntrinsics, kIntrinsics>(kCamera, kCamera) +=
+    out.normal.block<6, 6>(pose, pose) += w * j.transpose() * j;
+    out.gradient.segment<6>(pose) += w * j.transpose() * e;
+    out.normal.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) +=
         w * by_intrinsics.transpose() * by_intrinsics;
-    out.normal.block<6, kIntrinsics>(kGlobals, kCamera) += w * j.transpose() * by_intrinsics;
-    out.normal.block<kIntrinsics, 6>(kCamera, kGlobals) += w * by_intrinsics.transpose() * j;
-    out.gradient.segment<kIntrinsics>(kCamera) += w * by_intrinsics.transpose() * e;
+    out.normal.block<6, kIntrinsics>(pose, kFirstIntrinsic) += w * j.transpose() * by_intrinsics;
+    out.normal.block<kIntrinsics, 6>(kFirstIntrinsic, pose) += w * by_intrinsics.transpose() * j;
+    out.gradient.segment<kIntrinsics>(kFirstIntrinsic) += w * by_intrinsics.transpose() * e;
     if (at < 0) continue;
-    out.normal.block<2, 6>(at, kGlobals) += w * j;
-    out.normal.block<6, 2>(kGlobals, at) += w * j.transpose();
-    out.normal.block<2, kIntrinsics>(at, kCamera) += w * by_intrinsics;
-    out.normal.block<kIntrinsics, 2>(kCamera, at) += w * by_intrinsics.transpose();
+    out.normal.block<2, 6>(at, pose) += w * j;
+    out.normal.block<6, 2>(pose, at) += w * j.transpose();
+    out.normal.block<2, kIntrinsics>(at, kFirstIntrinsic) += w * by_intrinsics;
+    out.normal.block<kIntrinsics, 2>(kFirstIntrinsic, at) += w * by_intrinsics.transpose();
     out.normal(at, at) += w;
     out.normal(at + 1, at + 1) += w;
     out.gradient.segment<2>(at) += w * e;
@@ -428,12 +452,15 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
                                const LinearizationOptions& options, int threads, SceneFit& fit) {
   // Chunks of a fixed size, summed in order: the result does not depend on the threads.
   constexpr std::size_t kChunk = 4096;
-  const Layout layout = make_layout(scene, returns, print, options);
+  const Layout layout = make_layout(scene, returns, print, state.sensor, options);
   LidarRows rows(returns, print, state, index, noise.scenes[index], layout, options);
   const std::size_t stride = options.stride;
   const std::size_t chunk = kChunk * stride;
   const std::size_t chunks = (returns.size() + chunk - 1) / chunk;
-  const Eigen::Index lidar_size = layout.corner_group < 0 ? layout.size : layout.corner_group;
+  const Eigen::Index sensor = layout.sensor < 0 ? 0 : state.sensor.count();
+  // The LiDAR's own unknowns, and with the sensor's errors.
+  const Eigen::Index own_size = layout.sensor < 0 ? layout.size : layout.sensor;
+  const Eigen::Index lidar_size = own_size + sensor;
   Accumulator sums(lidar_size);
   std::vector<Accumulator> parts(chunks, Accumulator(0));
   parallel_for(chunks, threads, [&](std::size_t c) {
@@ -449,19 +476,22 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
   // T_LB = X⁻¹ B, so δ = Ad(X⁻¹)(ξ_B − ξ_X).
   const Matrix6d ad = state.camera_from_lidar.inverse().adjoint();
   const Eigen::Index shared = layout.size - kLidarFixed;
-  const Eigen::Index size = kGlobals + kLocals + shared;
+  const Eigen::Index globals = kGlobals + sensor;
+  const Eigen::Index size = globals + kLocals + shared;
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(lidar_size, size);
   map.block<6, 6>(0, 0) = -ad;
-  map.block<6, 6>(0, kGlobals) = ad;
+  map.block<6, 6>(0, globals) = ad;
   map.block<3, 3>(6, 6).setIdentity();
-  map.block<4, 4>(9, kGlobals + 6).setIdentity();
-  for (Eigen::Index i = kLidarFixed; i < lidar_size; ++i)
-    map(i, kGlobals + kLocals + i - kLidarFixed) = 1.0;
+  map.block<4, 4>(9, globals + 6).setIdentity();
+  for (Eigen::Index i = kLidarFixed; i < own_size; ++i)
+    map(i, globals + kLocals + i - kLidarFixed) = 1.0;
+  for (Eigen::Index i = 0; i < sensor; ++i) map(own_size + i, kGlobals + i) = 1.0;
   if (layout.board >= 0) {
-    map.block<6, kBoardTerms>(0, kGlobals + kLocals + layout.board - kLidarFixed) =
+    map.block<6, kBoardTerms>(0, globals + kLocals + layout.board - kLidarFixed) =
         board_motion(state.lidar_from_board(index), print.outline().center_m());
   }
   SceneEquations out;
+  out.globals = globals;
   out.columns = layout.columns;
   out.shared = index < state.shared.size() && state.shared[index].size() == shared
                    ? state.shared[index]
@@ -472,7 +502,7 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
   out.normal.noalias() = map.transpose() * half;
   out.gradient.noalias() = map.transpose() * sums.gradient;
   for (Eigen::Index i = 0; i < 2; ++i) {
-    const Eigen::Index at = kGlobals + 6 + 2 + i;
+    const Eigen::Index at = globals + 6 + 2 + i;
     out.normal(at, at) += 1.0 / (kSlopeSigma * kSlopeSigma);
     out.gradient(at) -= state.levels[index].slope(i) / (kSlopeSigma * kSlopeSigma);
   }
@@ -482,18 +512,21 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
 
 std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& terms,
                                       const GlobalPrior& prior) {
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kGlobals, kGlobals);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kGlobals);
+  const Eigen::Index globals = prior.sigma.size();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(globals, globals);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(globals);
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(globals, globals);
   for (const GlobalTerm* term : terms) {
     if (!term->usable) continue;
     information += term->information;
     gradient += term->gradient;
+    spread += term->spread;
   }
   if (!(information.topLeftCorner<6, 6>().diagonal().minCoeff() > 0.0)) return std::nullopt;
-  information.bottomRightCorner<kIntrinsics, kIntrinsics>() += prior.evidence;
-  gradient.tail<kIntrinsics>() += prior.evidence_gradient;
+  information.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) += prior.evidence;
+  gradient.segment<kIntrinsics>(kFirstIntrinsic) += prior.evidence_gradient;
   const auto held = [&](Eigen::Index i) { return i >= 6 && !(prior.sigma(i) > 0.0); };
-  for (Eigen::Index i = 6; i < kGlobals; ++i) {
+  for (Eigen::Index i = 6; i < globals; ++i) {
     if (!held(i)) {
       information(i, i) += 1.0 / (prior.sigma(i) * prior.sigma(i));
       gradient(i) -= prior.offset(i) / (prior.sigma(i) * prior.sigma(i));
@@ -509,18 +542,57 @@ std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& term
   GlobalStep out;
   out.step = std::move(solved->x);
   out.covariance = std::move(solved->covariance);
-  for (Eigen::Index i = 6; i < kGlobals; ++i) {
+  for (Eigen::Index i = 6; i < globals; ++i) {
     if (!held(i)) continue;
     out.covariance.row(i).setZero();
     out.covariance.col(i).setZero();
   }
+  out.covariance += out.covariance * spread * out.covariance;
   out.decrement = out.step.dot(gradient);
   return out;
 }
 
-GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const GlobalPrior& prior,
-                               const SharedVariances& variances, bool measure_shared, int threads) {
+namespace {
+
+// K D Kᵀ with K how the eliminated gradient answers to a motion of the board of variances D.
+Eigen::MatrixXd board_spread(const SceneEquations& scene, const Eigen::MatrixXd& to_globals,
+                             const SharedVariances& variances) {
+  const Eigen::Index globals = scene.globals;
+  const Eigen::Index n = scene.normal.rows() - globals;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(globals, globals);
+  for (std::size_t k = 0; k < kSceneErrors; ++k) {
+    if (!moves_board(k) || variances[k] <= kAbsentShared[k]) continue;
+    for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
+      const Eigen::Index at = globals + kLocals + scene.columns.first[k] + i;
+      const Eigen::VectorXd by = scene.normal.col(at).head(globals) -
+                                 to_globals.transpose() * scene.normal.col(at).tail(n);
+      out += variances[k] * by * by.transpose();
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void GlobalPrior::set_sensor(const SensorErrors& sensor, const SharedVariances& variances) {
+  const Eigen::Index count = sensor.count();
+  sigma.conservativeResize(kGlobals + count);
+  offset.conservativeResize(kGlobals + count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    sigma(kGlobals + i) = std::sqrt(variances[sensor_kind(i)]);
+    offset(kGlobals + i) = sensor.values.size() == count ? sensor.values(i) : 0.0;
+  }
+}
+
+GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, GlobalPrior prior,
+                               const SensorErrors& sensor, const SharedVariances& variances,
+                               BoardMotion motion, bool measure_shared, int threads) {
+  const auto weighed = [&](std::size_t kind) {
+    return motion == BoardMotion::kWeighed || !moves_board(kind);
+  };
   GlobalSolution out;
+  const Eigen::Index globals = scenes.front().globals;
+  if (globals > kGlobals) prior.set_sensor(sensor, variances);
   struct Eliminated {
     Eigen::LLT<Eigen::MatrixXd> own;
     Eigen::MatrixXd to_globals;  // own⁻¹ · coupling
@@ -530,15 +602,16 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const 
   out.terms.resize(scenes.size());
   parallel_for(scenes.size(), threads, [&](std::size_t s) {
     const SceneEquations& scene = scenes[s];
-    const Eigen::Index n = scene.normal.rows() - kGlobals;
+    const Eigen::Index n = scene.normal.rows() - globals;
     if (n <= 0) return;
     Eigen::MatrixXd own = scene.normal.bottomRightCorner(n, n);
     Eigen::VectorXd gradient = scene.gradient.tail(n);
-    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+    for (std::size_t k = 0; k < kSceneErrors; ++k) {
       for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
         const Eigen::Index u = scene.columns.first[k] + i;
-        own(kLocals + u, kLocals + u) += 1.0 / variances[k];
-        gradient(kLocals + u) -= scene.shared(u) / variances[k];
+        const double variance = weighed(k) ? variances[k] : kAbsentShared[k];
+        own(kLocals + u, kLocals + u) += 1.0 / variance;
+        gradient(kLocals + u) -= scene.shared(u) / variance;
       }
     }
     // Levels without any intensity row are nobody's.
@@ -548,13 +621,15 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const 
     Eliminated& part = parts[s];
     part.own.compute(own);
     if (part.own.info() != Eigen::Success) return;
-    const Eigen::MatrixXd coupling = scene.normal.bottomLeftCorner(n, kGlobals);
+    const Eigen::MatrixXd coupling = scene.normal.bottomLeftCorner(n, globals);
     part.to_globals = part.own.solve(coupling);
     part.rest = part.own.solve(gradient);
     GlobalTerm& term = out.terms[s];
     term.information =
-        scene.normal.topLeftCorner<kGlobals, kGlobals>() - coupling.transpose() * part.to_globals;
-    term.gradient = scene.gradient.head<kGlobals>() - coupling.transpose() * part.rest;
+        scene.normal.topLeftCorner(globals, globals) - coupling.transpose() * part.to_globals;
+    term.gradient = scene.gradient.head(globals) - coupling.transpose() * part.rest;
+    term.spread = motion == BoardMotion::kWidens ? board_spread(scene, part.to_globals, variances)
+                                                 : Eigen::MatrixXd::Zero(globals, globals);
     term.usable = term.information.allFinite() && term.gradient.allFinite();
   });
   std::vector<const GlobalTerm*> terms;
@@ -576,7 +651,8 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const 
     const Eigen::Index n = out.scenes[s].size();
     const Eigen::MatrixXd inverse = parts[s].own.solve(Eigen::MatrixXd::Identity(n, n));
     const Eigen::MatrixXd spread = parts[s].to_globals * out.covariance;
-    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+    for (std::size_t k = 0; k < kSceneErrors; ++k) {
+      if (!weighed(k)) continue;
       for (Eigen::Index i = 0; i < scenes[s].columns.count[k]; ++i) {
         const Eigen::Index at = kLocals + scenes[s].columns.first[k] + i;
         const double variance = inverse(at, at) + spread.row(at).dot(parts[s].to_globals.row(at));
@@ -589,6 +665,15 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const 
     }
   });
   SharedVariances second{};
+  for (Eigen::Index i = 0; measure_shared && i < globals - kGlobals; ++i) {
+    const std::size_t k = sensor_kind(i);
+    const Eigen::Index at = kGlobals + i;
+    const double u = prior.offset(at) + out.globals(at);
+    const double share = std::max(0.0, 1.0 - out.covariance(at, at) / variances[k]);
+    out.squares[k] += u * u;
+    out.determined[k] += share;
+    second[k] += share * share;
+  }
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
       out.squares[k] += squares[s][k];

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,21 @@ struct ForwardScene {
   double range_sigma_m = 0.01;  ///< Start.
 };
 
+/// A line has an error of its own if so many of its returns are on the board; with fewer its mean
+/// is known little better than a single return.
+inline constexpr std::size_t kLineRows = 8;
+
+/// Errors of the LiDAR's ranges that all scenes share (m, random effects): one of all ranges, what
+/// black print reads farther than white, and one per laser line.
+struct SensorErrors {
+  static constexpr Eigen::Index kFirstLine = 2;
+  std::vector<std::uint16_t> lines;  ///< Rising; none if fewer than two are seen.
+  Eigen::VectorXd values;            ///< As last estimated; empty before.
+  [[nodiscard]] Eigen::Index count() const {
+    return kFirstLine + static_cast<Eigen::Index>(lines.size());
+  }
+};
+
 /// All unknowns of the base model.
 struct ForwardState {
   Rigid3 camera_from_lidar;
@@ -39,6 +55,7 @@ struct ForwardState {
   Camera camera;
   /// Per scene the shared errors as last estimated, in the order of its columns; empty before.
   std::vector<Eigen::VectorXd> shared;
+  SensorErrors sensor;
   [[nodiscard]] Rigid3 lidar_from_board(std::size_t scene) const {
     return camera_from_lidar.inverse() * camera_from_board[scene];
   }
@@ -63,9 +80,29 @@ enum class SharedError {
   kCornerGroup,  ///< The corners of one tag (or of one patch of a checkerboard) move (px).
   kLineGain,     ///< Intensities of one line in one scene are scaled (1).
   kLineRange,    ///< Ranges of one line in one scene are off (m).
+  kSensorRange,  ///< All ranges of all scenes are off (m),
+  kSensorDark,   ///< those on black print against those on white (m),
+  kSensorLine,   ///< those of one line (m).
 };
-inline constexpr std::size_t kSharedErrors = 9;
+inline constexpr std::size_t kSharedErrors = 12;
+/// Kinds from here on are of the sensor; those before of single scenes.
+inline constexpr std::size_t kSceneErrors = 9;
 using SharedVariances = std::array<double, kSharedErrors>;
+/// Variances so small that no data see them: a kind of shared error that is not there (m², rad²,
+/// px², 1).
+inline constexpr SharedVariances kAbsentShared{1e-12, 1e-12, 1e-12, 1e-12, 1e-12, 1e-12,
+                                               1e-7,  1e-9,  1e-12, 1e-12, 1e-12, 1e-12};
+
+/// Whether a kind is a motion of whole boards. What moves a board between camera and LiDAR is
+/// rarely independent from scene to scene: intrinsics, ranges and angles that are a little wrong
+/// move it as smooth functions of where it stands. Weighing by it would trust the precise less for
+/// what all of a scene's measurements share, and draws the estimate by chance; so it widens what is
+/// stated and has no weight in the estimate (generalized estimating equations with a working
+/// covariance: Liang & Zeger 1986).
+constexpr bool moves_board(std::size_t kind) {
+  return kind >= static_cast<std::size_t>(SharedError::kBoardShift) &&
+         kind <= static_cast<std::size_t>(SharedError::kBoardSpin);
+}
 
 /// Standard deviations of everything.
 struct ForwardNoise {
@@ -77,9 +114,11 @@ struct ForwardNoise {
 
 /// Unknowns that all scenes share: the extrinsic's left perturbation (6), the three numbers of the
 /// beam's blur, as its Cholesky factor (a, b, c): Σ = [a 0; b c][a 0; b c]ᵀ, and the camera's
-/// intrinsics (fx fy cx cy and eight distortion entries).
+/// intrinsics (fx fy cx cy and eight distortion entries). Behind these stand the sensor's errors,
+/// as many as SensorErrors::count(), once shared errors are in the model.
 inline constexpr Eigen::Index kIntrinsics = 12;
-inline constexpr Eigen::Index kGlobals = 6 + kBlurParameters + kIntrinsics;
+inline constexpr Eigen::Index kFirstIntrinsic = 6 + kBlurParameters;
+inline constexpr Eigen::Index kGlobals = kFirstIntrinsic + kIntrinsics;
 /// What images of the board without a cloud say about the intrinsics, to second order about a
 /// camera, their boards' poses eliminated: twice the log-likelihood changes by
 /// 2 gᵀd − dᵀ Λ d for intrinsics that differ by d from `at`.
@@ -91,9 +130,11 @@ struct IntrinsicsEvidence {
 };
 /// What is known of globals beforehand: standard deviation 0 holds one where it is.
 struct GlobalPrior {
-  Eigen::Matrix<double, kGlobals, 1> sigma = Eigen::Matrix<double, kGlobals, 1>::Zero();
+  Eigen::VectorXd sigma = Eigen::VectorXd::Zero(kGlobals);
   /// Deviation of the present value from the prior's mean.
-  Eigen::Matrix<double, kGlobals, 1> offset = Eigen::Matrix<double, kGlobals, 1>::Zero();
+  Eigen::VectorXd offset = Eigen::VectorXd::Zero(kGlobals);
+  /// Appends the sensor's errors, whose prior is their variance.
+  void set_sensor(const SensorErrors& sensor, const SharedVariances& variances);
   /// What else is known of the intrinsics, with its correlations: information, and its gradient at
   /// the present value. Of intrinsics that are held it is not used, but kept for asking what
   /// freeing them would do.
@@ -115,6 +156,7 @@ struct SharedErrorColumns {
 /// Normal equations of one scene about the current state, in the order: globals, locals, shared
 /// errors (whose prior 1/D is not in yet). N x = g.
 struct SceneEquations {
+  Eigen::Index globals = kGlobals;
   Eigen::MatrixXd normal;
   Eigen::VectorXd gradient;
   SharedErrorColumns columns;
@@ -150,6 +192,8 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
 struct GlobalTerm {
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
+  /// What the gradient scatters beyond `information`, because whole boards move.
+  Eigen::MatrixXd spread;
   bool usable = false;
 };
 
@@ -166,10 +210,14 @@ struct GlobalSolution {
   bool solvable = false;
 };
 
-/// Eliminates the scenes (Schur complement) and solves. `priors` of locals are in the equations.
-/// With `determined` also measures what the shared errors' variances should be.
-GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, const GlobalPrior& prior,
-                               const SharedVariances& variances, bool measure_shared, int threads);
+/// Eliminates the scenes (Schur complement) and solves. Priors of locals are in the equations,
+/// those of the sensor's errors follow from the variances. Where motions of boards are not weighed
+/// (see moves_board()) they widen the covariance instead. With `measure_shared` also measures what
+/// the variances of the kinds that are weighed should be.
+enum class BoardMotion { kWeighed, kWidens };
+GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, GlobalPrior prior,
+                               const SensorErrors& sensor, const SharedVariances& variances,
+                               BoardMotion motion, bool measure_shared, int threads);
 
 /// The globals' step and its covariance from some scenes' terms. Nothing if they do not determine
 /// the extrinsic.

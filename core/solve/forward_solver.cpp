@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Eigenvalues>
 
@@ -19,6 +20,16 @@ constexpr std::size_t kEarlyRows = 6000;
 constexpr int kCoarseIterations = 6;
 // Of re-estimating the shared errors' variances within one linearization; they go on in the next.
 constexpr int kVarianceRounds = 12;
+// Of estimating the motions of boards, once, to the end.
+constexpr int kBoardRounds = 60;
+// An error of the whole sensor is nearly a move of the LiDAR: taken in by chance it costs most of
+// what ranges say about the extrinsic, some ten standard deviations, where errors of single scenes
+// cost next to nothing. So a tenth of the chance.
+constexpr double kSensorChance = 0.1;
+// Gauss–Newton that converges does better than this.
+constexpr double kShrinks = 0.5;
+// One error counts as one, rounding aside.
+constexpr double kOneError = 0.999;
 // The print is seen where it explains a tenth of the intensities' variance.
 constexpr double kPrintSeen = 0.3;
 
@@ -47,6 +58,7 @@ class ForwardSolver {
     if (!select()) return Error::untrusted("no LiDAR return lies on the board");
     if (!fine()) return failure();
     if (context_.stopped()) return Error::cancelled();
+    measure_board_motion();
     finish();
     return std::move(solution_);
   }
@@ -62,7 +74,7 @@ class ForwardSolver {
 
   void prepare(const Rigid3& start, double corner_sigma_px) {
     state().camera_from_lidar = start;
-    noise().shared = kAbsent;
+    noise().shared = kAbsentShared;
     noise().corner_px = std::max(options_.sigma_px_floor, corner_sigma_px);
     solution_.scenes.resize(scenes_.size());
     const double blur = options_.first_blur_rad * options_.first_blur_rad;
@@ -261,12 +273,16 @@ class ForwardSolver {
   bool fine() {
     int rounds_left = options_.max_iterations;
     // Few rows until the state stands still, then all of them, with shared errors.
+    double last = HUGE_VAL;
     for (; rounds_left > 0; --rounds_left) {
       const auto step = iterate(early_rows(), true);
       if (!step) return false;
-      if (*step < 0.5) break;
+      // Where steps hardly shrink any more it is shared errors that are missing.
+      if (*step < 0.5 || *step > kShrinks * last) break;
+      last = *step;
     }
     if (!select()) return false;
+    list_lines();
     for (; rounds_left > 0; --rounds_left) {
       const auto step = iterate(final_rows(), true);
       if (!step) return false;
@@ -276,6 +292,19 @@ class ForwardSolver {
       }
     }
     return true;
+  }
+
+  // The lines that have an offset of their own in all scenes.
+  void list_lines() {
+    std::map<std::uint16_t, std::size_t> rows;
+    for (const BoardReturns& r : returns_) {
+      if (r.cloud == nullptr || !r.cloud->has_line()) continue;
+      for (const std::uint32_t i : r.index) ++rows[r.cloud->line[i]];
+    }
+    for (const auto& [line, count] : rows) {
+      if (count >= kLineRows) state().sensor.lines.push_back(line);
+    }
+    if (state().sensor.lines.size() < 2) state().sensor.lines.clear();
   }
 
   [[nodiscard]] LinearizationOptions early_rows() const {
@@ -307,14 +336,16 @@ class ForwardSolver {
                                      context_.thread_count(), fits_[s]);
     }
     prior_ = global_prior(free_blur, how.stride == 1);
-    GlobalSolution step = solve_equations(equations, prior_, noise().shared, how.shared_errors,
-                                          context_.thread_count());
+    GlobalSolution step =
+        solve_equations(equations, prior_, state().sensor, noise().shared, BoardMotion::kWidens,
+                        how.shared_errors, context_.thread_count());
     if (!step.solvable) return std::nullopt;
     if (how.shared_errors) {
       for (int round = 0; round < kVarianceRounds; ++round) {
         const bool moved = update_shared(step);
         if (!moved && !admit_shared(step)) break;
-        step = solve_equations(equations, prior_, noise().shared, true, context_.thread_count());
+        step = solve_equations(equations, prior_, state().sensor, noise().shared,
+                               BoardMotion::kWidens, true, context_.thread_count());
         if (!step.solvable) return std::nullopt;
       }
       equations_ = std::move(equations);
@@ -332,11 +363,10 @@ class ForwardSolver {
     // Wide: any beam is narrower than 10 mrad; keeps a blur that no edge shows where it is.
     if (free_blur) prior.sigma.segment<kBlurParameters>(6).setConstant(0.01);
     if (free_intrinsics) {
-      prior.sigma.segment<kIntrinsics>(6 + kBlurParameters) = options_.intrinsics_sigma;
+      prior.sigma.segment<kIntrinsics>(kFirstIntrinsic) = options_.intrinsics_sigma;
       const Camera& now = solution_.state.camera;
-      prior.offset.segment<kIntrinsics>(6 + kBlurParameters) << now.fx - given_.fx,
-          now.fy - given_.fy, now.cx - given_.cx, now.cy - given_.cy,
-          now.distortion - given_.distortion;
+      prior.offset.segment<kIntrinsics>(kFirstIntrinsic) << now.fx - given_.fx, now.fy - given_.fy,
+          now.cx - given_.cx, now.cy - given_.cy, now.distortion - given_.distortion;
     }
     if (const auto& evidence = options_.intrinsics_evidence) {
       const Camera& now = solution_.state.camera;
@@ -361,8 +391,7 @@ class ForwardSolver {
         se3_exp(scale * Vector6d(step.globals.head<6>())) * state().camera_from_lidar;
     Eigen::Vector3d factor = blur_factor(state().beam.blur_rad2);
     const Eigen::Vector3d change = scale * step.globals.segment<kBlurParameters>(6);
-    const Eigen::VectorXd intrinsics =
-        scale * step.globals.segment<kIntrinsics>(6 + kBlurParameters);
+    const Eigen::VectorXd intrinsics = scale * step.globals.segment<kIntrinsics>(kFirstIntrinsic);
 
     Camera& camera = state().camera;
     camera.fx += intrinsics(0);
@@ -376,6 +405,13 @@ class ForwardSolver {
     factor(0) = std::max(std::abs(factor(0)), 1e-5);
     factor(2) = std::max(std::abs(factor(2)), 1e-5);
     state().beam.blur_rad2 = blur_from_factor(factor);
+    const Eigen::Index sensor = step.globals.size() - kGlobals;
+    before_ = state().sensor;
+    if (sensor > 0) {
+      if (state().sensor.values.size() != sensor)
+        state().sensor.values = Eigen::VectorXd::Zero(sensor);
+      state().sensor.values += scale * step.globals.tail(sensor);
+    }
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (step.scenes[s].size() == 0) continue;
       const Eigen::VectorXd local = scale * step.scenes[s].head(kLocals);
@@ -392,14 +428,40 @@ class ForwardSolver {
     }
   }
 
+  // How far boards move between camera and LiDAR, all else as it was found; and the covariance with
+  // it.
+  void measure_board_motion() {
+    asks_boards_ = true;
+    const auto solve = [&](BoardMotion motion, bool measure) {
+      return solve_equations(equations_, prior_, before_, noise().shared, motion, measure,
+                             context_.thread_count());
+    };
+    for (int round = 0; round < kBoardRounds; ++round) {
+      const GlobalSolution step = solve(BoardMotion::kWeighed, true);
+      if (!step.solvable) break;
+      for (std::size_t k = 0; k < kSharedErrors; ++k) {
+        if (moves_board(k)) board_determined_[k] = step.determined[k];
+      }
+      const bool moved = update_shared(step);
+      if (!moved && !admit_shared(step)) break;
+    }
+    GlobalSolution wide = solve(BoardMotion::kWidens, true);
+    if (!wide.solvable) return;
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      if (moves_board(k)) wide.determined[k] = board_determined_[k];
+    }
+    last_ = std::move(wide);
+  }
+
   // MacKay's fixed point σ² = uᵀu/γ, equal to restricted maximum likelihood where it stands still.
   bool update_shared(const GlobalSolution& step) {
     bool moved = false;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (!noise().admitted[k] || step.determined[k] < 0.02) continue;
+      if (asks_boards_ != moves_board(k) || !noise().admitted[k] || step.determined[k] < 0.02)
+        continue;
       const double wanted = step.squares[k] / step.determined[k];
       const double bounded = std::clamp(wanted, 0.05 * noise().shared[k], 20.0 * noise().shared[k]);
-      const double next = std::max(bounded, kAbsent[k]);
+      const double next = std::max(bounded, kAbsentShared[k]);
       moved = moved || std::abs(std::log(next / noise().shared[k])) > 0.03;
       noise().shared[k] = next;
     }
@@ -413,11 +475,12 @@ class ForwardSolver {
     std::size_t best = kSharedErrors;
     double largest = 1.0;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (noise().admitted[k] || step.effective[k] < 1.0) continue;
+      if (asks_boards_ != moves_board(k) || noise().admitted[k] || step.effective[k] < kOneError)
+        continue;
       const double n = step.effective[k];
       const double t = step.squares[k] / (noise().shared[k] * step.determined[k]);
-      const double gate =
-          chi_square_gate(static_cast<int>(std::lround(n)), options_.false_alarm) / n;
+      const double chance = options_.false_alarm * (k < kSceneErrors ? 1.0 : kSensorChance);
+      const double gate = chi_square_gate(static_cast<int>(std::lround(n)), chance) / n;
       if (t / gate > largest) {
         largest = t / gate;
         best = k;
@@ -477,6 +540,7 @@ class ForwardSolver {
       if (term.usable) term.gradient -= term.information * last_.globals;
     }
     solution_.prior = prior_;
+    solution_.prior.set_sensor(state().sensor, noise().shared);
     solution_.globals_covariance = last_.covariance;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       ForwardSceneResult& scene = solution_.scenes[s];
@@ -572,7 +636,8 @@ class ForwardSolver {
       SharedVariances varied = noise().shared;
       varied[k] *= 1.0 + kStep;
       const GlobalSolution s =
-          solve_equations(equations_, prior_, varied, false, context_.thread_count());
+          solve_equations(equations_, prior_, before_, varied, BoardMotion::kWidens, false,
+                          context_.thread_count());
       if (!s.solvable) continue;
       const double slope = (spread(s) - v) / kStep;  // By the logarithm of D.
       variance += slope * slope * 2.0 / std::max(1.0, last_.determined[k]);
@@ -580,11 +645,6 @@ class ForwardSolver {
     constexpr double kMany = 1e6;
     return variance > 0.0 ? std::min(kMany, 2.0 * v * v / variance) : kMany;
   }
-
-  // Variances so small that no data see them: a kind of shared error that is not there (m², rad²,
-  // px², 1).
-  static constexpr SharedVariances kAbsent{1e-12, 1e-12, 1e-12, 1e-12, 1e-12,
-                                           1e-12, 1e-7,  1e-9,  1e-12};
 
   const std::vector<ForwardScene>& scenes_;
   const BlurredPrint& print_;
@@ -597,6 +657,9 @@ class ForwardSolver {
   GlobalSolution last_;
   GlobalPrior prior_;
   std::vector<SceneEquations> equations_;
+  bool asks_boards_ = false;  ///< Which variances are being estimated.
+  SharedVariances board_determined_{};
+  SensorErrors before_;             ///< At the linearization of `equations_`.
   std::vector<bool> print_unseen_;  ///< Per scene, once the print was looked for.
 };
 

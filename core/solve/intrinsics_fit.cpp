@@ -364,8 +364,8 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
                                        const Eigen::MatrixXd& covariance,
                                        const IntrinsicsVector& prior, double false_alarm) {
   IntrinsicsContrast out;
-  const bool joint = covariance.rows() == kGlobals;
-  const Eigen::Index first = joint ? kGlobals - kIntrinsics : 0;
+  const bool joint = covariance.rows() >= kGlobals;
+  const Eigen::Index first = joint ? kFirstIntrinsic : 0;
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < kIntrinsics; ++i) {
     if (prior(i) > 0.0) free.push_back(i);

@@ -19,8 +19,7 @@ constexpr double kProbe_m = 2e-4;
 
 // What one scene says about the faults, its own unknowns eliminated.
 struct FaultTerm {
-  Eigen::Matrix<double, kGlobals, kFaults> coupling =
-      Eigen::Matrix<double, kGlobals, kFaults>::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, kFaults> coupling;  // By the globals.
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
 };
 
@@ -78,7 +77,9 @@ Eigen::MatrixXd gradient_by_faults(const ForwardScene& scene, std::size_t s,
 
 FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrint& print,
                      const ForwardSolution& solution, const ForwardOptions& options) {
+  const Eigen::Index globals = solution.prior.sigma.size();
   FaultTerm out;
+  out.coupling = Eigen::MatrixXd::Zero(globals, kFaults);
   const SceneNoise& noise = solution.noise.scenes[s];
   const BoardReturns returns = select_returns(
       *scene.board_points, print, solution.state.lidar_from_board(s), solution.state.beam,
@@ -90,12 +91,12 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   SceneFit fit;
   const SceneEquations at =
       linearize_scene(scene, s, returns, print, solution.state, solution.noise, how, 1, fit);
-  const Eigen::Index n = at.normal.rows() - kGlobals;
+  const Eigen::Index n = at.normal.rows() - globals;
   Eigen::MatrixXd own = at.normal.bottomRightCorner(n, n);
-  for (std::size_t k = 0; k < kSharedErrors; ++k) {
+  for (std::size_t k = 0; k < kSceneErrors; ++k) {
     for (Eigen::Index i = 0; i < at.columns.count[k]; ++i) {
       const Eigen::Index u = kLocals + at.columns.first[k] + i;
-      own(u, u) += 1.0 / solution.noise.shared[k];
+      own(u, u) += 1.0 / (moves_board(k) ? kAbsentShared[k] : solution.noise.shared[k]);
     }
   }
   for (Eigen::Index i = 6; i < kLocals; ++i) {
@@ -106,7 +107,7 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   const Eigen::MatrixXd by = gradient_by_faults(scene, s, returns, print, solution, how, at);
   const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
   const FaultTerm term{
-      by.topRows(kGlobals) - at.normal.topRightCorner(kGlobals, n) * eliminated,
+      by.topRows(globals) - at.normal.topRightCorner(globals, n) * eliminated,
       squared_effects(returns, print, solution, s) - by.bottomRows(n).transpose() * eliminated};
   return term.coupling.allFinite() && term.information.allFinite() ? term : out;
 }
@@ -121,41 +122,42 @@ Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const Blurred
   parallel_for(scenes.size(), threads, [&](std::size_t s) {
     if (solution.terms[s].usable) faults[s] = fault_term(scenes[s], s, print, solution, options);
   });
-  constexpr Eigen::Index kAll = kGlobals + kFaults;
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kAll, kAll);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kAll);
-  Eigen::VectorXd sigma = Eigen::VectorXd::Zero(kAll);
-  sigma.head<kGlobals>() = solution.prior.sigma;
+  const Eigen::Index globals = solution.prior.sigma.size();
+  const Eigen::Index all = globals + kFaults;
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(all);
+  Eigen::VectorXd sigma = Eigen::VectorXd::Zero(all);
+  sigma.head(globals) = solution.prior.sigma;
   for (Eigen::Index k = 0; k < kIntrinsics; ++k) {
-    double& s = sigma(kGlobals - kIntrinsics + k);
+    double& s = sigma(kFirstIntrinsic + k);
     if (!(s > 0.0)) s = sizes.intrinsics(k);
   }
   sigma.tail<kFaults>() << sizes.range_offset_m, sizes.range_scale;
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (!solution.terms[s].usable) continue;
-    information.topLeftCorner<kGlobals, kGlobals>() += solution.terms[s].information;
-    gradient.head<kGlobals>() += solution.terms[s].gradient;
-    information.topRightCorner<kGlobals, kFaults>() += faults[s].coupling;
+    information.topLeftCorner(globals, globals) += solution.terms[s].information;
+    gradient.head(globals) += solution.terms[s].gradient;
+    information.topRightCorner(globals, kFaults) += faults[s].coupling;
     information.bottomRightCorner<kFaults, kFaults>() += faults[s].information;
   }
-  constexpr Eigen::Index kFirst = kGlobals - kIntrinsics;
-  information.block<kIntrinsics, kIntrinsics>(kFirst, kFirst) += solution.prior.evidence;
-  gradient.segment<kIntrinsics>(kFirst) += solution.prior.evidence_gradient;
-  information.bottomLeftCorner<kFaults, kGlobals>() =
-      information.topRightCorner<kGlobals, kFaults>().transpose();
+  information.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) +=
+      solution.prior.evidence;
+  gradient.segment<kIntrinsics>(kFirstIntrinsic) += solution.prior.evidence_gradient;
+  information.bottomLeftCorner(kFaults, globals) =
+      information.topRightCorner(globals, kFaults).transpose();
   // In units of what each may be; the extrinsic in metres and radians.
   Eigen::VectorXd unit = sigma;
   unit.head<6>().setOnes();
   Eigen::MatrixXd scaled = unit.asDiagonal() * information * unit.asDiagonal();
-  for (Eigen::Index i = 6; i < kAll; ++i) scaled(i, i) += 1.0;
+  for (Eigen::Index i = 6; i < all; ++i) scaled(i, i) += 1.0;
   // Of the gradient only the held intrinsics' part is the data's: the rest stands at its minimum.
-  Eigen::VectorXd asked = Eigen::VectorXd::Zero(kAll);
-  for (Eigen::Index k = kGlobals - kIntrinsics; k < kGlobals; ++k) {
+  Eigen::VectorXd asked = Eigen::VectorXd::Zero(all);
+  for (Eigen::Index k = kFirstIntrinsic; k < kGlobals; ++k) {
     if (!(solution.prior.sigma(k) > 0.0)) asked(k) = gradient(k) * unit(k);
   }
   const Eigen::LDLT<Eigen::MatrixXd> factor(scaled);
   if (factor.info() != Eigen::Success || !factor.isPositive()) return own;
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(kAll, kAll));
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(all, all));
   const Vector6d shift = factor.solve(asked).head<6>();
   Matrix6d total = inverse.topLeftCorner<6, 6>() + shift * shift.transpose();
   if (!total.allFinite()) return own;

@@ -256,5 +256,60 @@ TEST(ForwardSolver, ErrorsThatScenesShareWidenTheInterval) {
   EXPECT_LT(moved->dof, 100.0);
 }
 
+TEST(ForwardSolver, AnOffsetOfAllRangesIsTheSensorsOwn) {
+  // Every range reads 15 mm far. The boards stand in many directions, so that no extrinsic makes up
+  // for it.
+  ForwardRig rig = forward_rig(options(61, LidarKind::kSpinning, 8));
+  const auto clean = solve(rig, Vector6d::Zero());
+  constexpr double kOffset_m = 0.015;
+  for (Cloud& cloud : rig.clouds) {
+    for (Eigen::Vector3f& p : cloud.points_m)
+      p *= static_cast<float>(1.0 + kOffset_m / static_cast<double>(p.norm()));
+  }
+  const auto off = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(clean && off);
+  const auto kind = static_cast<std::size_t>(SharedError::kSensorRange);
+  EXPECT_FALSE(clean->noise.admitted[kind]);
+  ASSERT_TRUE(off->noise.admitted[kind]);
+  EXPECT_NEAR(off->state.sensor.values(0), kOffset_m, 0.3 * kOffset_m);
+  EXPECT_LT(size_in_sigmas(off->camera_from_lidar, rig.camera_from_lidar), 2.0);
+  // It explains what would otherwise move the boards.
+  for (std::size_t k = 0; k < kSceneErrors; ++k) {
+    if (!moves_board(k)) continue;
+    EXPECT_LT(std::sqrt(off->noise.shared[k]), 0.5e-3) << k;
+  }
+}
+
+TEST(ForwardSolver, LinesThatReadFarInAllScenesAreOneError) {
+  ForwardRig rig = forward_rig(options(62, LidarKind::kSpinning, 4));
+  const auto wrong = [](int line) { return 0.01 * std::sin(2.3 * line); };
+  for (Cloud& cloud : rig.clouds) {
+    for (std::size_t k = 0; k < cloud.points_m.size(); ++k) {
+      Eigen::Vector3f& p = cloud.points_m[k];
+      p *= static_cast<float>(1.0 + wrong(cloud.line[k]) / static_cast<double>(p.norm()));
+    }
+  }
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  EXPECT_TRUE(solution->noise.admitted[static_cast<std::size_t>(SharedError::kSensorLine)]);
+  EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.0);
+  // What all lines have in common is the offset's.
+  const SensorErrors& found = solution->state.sensor;
+  ASSERT_GT(found.lines.size(), 8U);
+  double mean_found = 0.0;
+  double mean_wrong = 0.0;
+  for (std::size_t k = 0; k < found.lines.size(); ++k) {
+    mean_found += found.values(SensorErrors::kFirstLine + static_cast<Eigen::Index>(k));
+    mean_wrong += wrong(found.lines[k]);
+  }
+  const auto count = static_cast<double>(found.lines.size());
+  double squares = 0.0;
+  for (std::size_t k = 0; k < found.lines.size(); ++k) {
+    const double value = found.values(SensorErrors::kFirstLine + static_cast<Eigen::Index>(k));
+    squares += std::pow(value - mean_found / count - wrong(found.lines[k]) + mean_wrong / count, 2);
+  }
+  EXPECT_LT(std::sqrt(squares / count), 2e-3);
+}
+
 }  // namespace
 }  // namespace lvcalib
