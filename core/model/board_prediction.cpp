@@ -61,8 +61,20 @@ std::optional<BoardPredictor::Hit> BoardPredictor::hit(const Eigen::Vector3d& di
   return Hit{(board_from_lidar_ * (range * direction - origin_)).head<2>(), range};
 }
 
-std::optional<ReturnPrediction> BoardPredictor::predict(
-    const Eigen::Vector3d& direction, const Eigen::Vector2d& print_shift_m) const {
+PrintSample BoardPredictor::look(const Eigen::Vector2d& board_m, const Eigen::Matrix2d& spot,
+                                 const LocalPrint* known, LocalPrint* seen) const {
+  if (known != nullptr) {
+    if (const auto near = known->at(board_m, spot)) return *near;
+  }
+  const PrintSample sample = print_.at(board_m, spot);
+  if (seen != nullptr) *seen = LocalPrint(board_m, spot, sample);
+  return sample;
+}
+
+std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& direction,
+                                                        const Eigen::Vector2d& print_shift_m,
+                                                        const LocalPrint* known,
+                                                        LocalPrint* seen) const {
   const auto met = hit(direction);
   if (!met) return std::nullopt;
   const double along = normal_.dot(direction);
@@ -82,7 +94,7 @@ std::optional<ReturnPrediction> BoardPredictor::predict(
   ReturnPrediction out;
   out.board_m = met->board_m;
   out.cos_incidence = -along;
-  const PrintSample print = print_.at(met->board_m - print_shift_m, spot);
+  const PrintSample print = look(met->board_m - print_shift_m, spot, known, seen);
   out.white = print.white;
   const double widest = std::sqrt(0.5 * (spot(0, 0) + spot(1, 1)) +
                                   std::hypot(0.5 * (spot(0, 0) - spot(1, 1)), spot(0, 1)));

@@ -67,9 +67,13 @@ class BoardPredictor {
   [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction) const {
     return predict(direction, Eigen::Vector2d::Zero());
   }
-  /// The same with the print displaced on the board by `print_shift_m`.
+  /// The same with the print displaced on the board by `print_shift_m`. What was seen of the print
+  /// before is taken from `known` if it was seen near enough; if it has to be looked up, `seen`
+  /// gets it. Either may be null, or both the same.
   [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction,
-                                                        const Eigen::Vector2d& print_shift_m) const;
+                                                        const Eigen::Vector2d& print_shift_m,
+                                                        const LocalPrint* known = nullptr,
+                                                        LocalPrint* seen = nullptr) const;
 
   /// Where a ray meets the board's plane, in board coordinates, and its range; the cheap part.
   struct Hit {
@@ -79,6 +83,9 @@ class BoardPredictor {
   [[nodiscard]] std::optional<Hit> hit(const Eigen::Vector3d& direction) const;
 
  private:
+  [[nodiscard]] PrintSample look(const Eigen::Vector2d& board_m, const Eigen::Matrix2d& spot,
+                                 const LocalPrint* known, LocalPrint* seen) const;
+
   const BlurredPrint& print_;
   Eigen::Matrix3d board_from_lidar_;  // Rotation.
   Eigen::Vector3d origin_;            // Of the board, in the LiDAR frame.

@@ -59,6 +59,7 @@ struct RangeRow {
   double intensity = 0.0;  ///< Raw.
   Print print = Print::kWhite;
   double sigma_m = 0.0;
+  LocalPrint seen = {};  ///< Of tables with a print, where it was predicted last.
 };
 
 /// A return's intensity beside the print that the model predicts there. Its residual is measured
@@ -67,6 +68,7 @@ struct RangeRow {
 struct IntensityReading {
   double measured = 0.0;  ///< Raw.
   double unit = 1.0;      ///< Raw intensity in one unit of the row's channel.
+  LocalPrint seen = {};   ///< The print where it was predicted last.
 };
 
 /// How much of an edge a laser line saw.

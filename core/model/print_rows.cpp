@@ -20,7 +20,7 @@ void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
 }
 
 std::optional<PrintRow> PrintRows::range(const RangeRow& row) {
-  const auto p = predictor_.predict(row.beam.direction);
+  const auto p = predictor_.predict(row.beam.direction, Eigen::Vector2d::Zero(), &row.seen);
   if (!p) return std::nullopt;
   PrintRow out;
   out.residual = row.measured_m - p->range_m;
@@ -57,7 +57,7 @@ std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const Bounda
       log += v * by.log_intensity[k];
     }
   });
-  const auto p = predictor_.predict(direction, shift);
+  const auto p = predictor_.predict(direction, shift, &row.reading.seen);
   if (!p) return std::nullopt;
   PrintRow out;
   const double unit = row.reading.unit;

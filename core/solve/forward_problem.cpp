@@ -181,8 +181,9 @@ class LidarRows {
  public:
   LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
             std::size_t index, const SceneNoise& noise, const Layout& layout,
-            const LinearizationOptions& options)
+            const LinearizationOptions& options, std::vector<LocalPrint>* seen)
       : returns_(returns),
+        seen_(seen),
         print_(print),
         state_(state),
         noise_(noise),
@@ -215,7 +216,8 @@ class LidarRows {
     for (std::size_t k = begin; k < end; k += options_.stride) {
       const Eigen::Vector3d point = returns_.point_m(k);
       const double range = point.norm();
-      const auto p = predictor_.predict(point / range);
+      LocalPrint* const seen = seen_ != nullptr ? &(*seen_)[k] : nullptr;
+      const auto p = predictor_.predict(point / range, Eigen::Vector2d::Zero(), seen, seen);
       if (!p) continue;
       add_range(k, range - p->range_m, *p, out);
       if (has_intensity_) add_intensity(k, returns_.intensity(k) - p->intensity, *p, out);
@@ -308,6 +310,7 @@ class LidarRows {
   }
 
   const BoardReturns& returns_;
+  std::vector<LocalPrint>* seen_;
   const BlurredPrint& print_;
   const ForwardState& state_;
   const SceneNoise& noise_;
@@ -449,11 +452,12 @@ Eigen::Matrix3d blur_by_factor(const Eigen::Vector3d& f) {
 SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
                                const BoardReturns& returns, const BlurredPrint& print,
                                const ForwardState& state, const ForwardNoise& noise,
-                               const LinearizationOptions& options, int threads, SceneFit& fit) {
+                               const LinearizationOptions& options, int threads, SceneFit& fit,
+                               std::vector<LocalPrint>* seen) {
   // Chunks of a fixed size, summed in order: the result does not depend on the threads.
   constexpr std::size_t kChunk = 4096;
   const Layout layout = make_layout(scene, returns, print, state.sensor, options);
-  LidarRows rows(returns, print, state, index, noise.scenes[index], layout, options);
+  LidarRows rows(returns, print, state, index, noise.scenes[index], layout, options, seen);
   const std::size_t stride = options.stride;
   const std::size_t chunk = kChunk * stride;
   const std::size_t chunks = (returns.size() + chunk - 1) / chunk;

@@ -182,11 +182,13 @@ struct LinearizationOptions {
   double patch_m = 0.2;
 };
 
-/// Linearizes corners, ranges and intensities of one scene at a state, in parallel.
+/// Linearizes corners, ranges and intensities of one scene at a state, in parallel. `seen`: one
+/// per return, kept from one linearization to the next; null if there is no next.
 SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
                                const BoardReturns& returns, const BlurredPrint& print,
                                const ForwardState& state, const ForwardNoise& noise,
-                               const LinearizationOptions& options, int threads, SceneFit& fit);
+                               const LinearizationOptions& options, int threads, SceneFit& fit,
+                               std::vector<LocalPrint>* seen = nullptr);
 
 /// What one scene says about the globals once its own unknowns are eliminated.
 struct GlobalTerm {

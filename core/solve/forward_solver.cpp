@@ -98,6 +98,8 @@ class ForwardSolver {
                                    state().beam, std::max(n.range_white_m, n.range_black_m),
                                    options_.selection);
     });
+    seen_.clear();
+    for (const BoardReturns& r : returns_) seen_.emplace_back(r.size());
     // What does not show the print tells nothing of its place.
     for (std::size_t s = 0; s < print_unseen_.size(); ++s) {
       if (print_unseen_[s]) returns_[s].has_intensity = false;
@@ -333,7 +335,7 @@ class ForwardSolver {
     fits_.assign(scenes_.size(), {});
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       equations[s] = linearize_scene(scenes_[s], s, returns_[s], print_, state(), noise(), how,
-                                     context_.thread_count(), fits_[s]);
+                                     context_.thread_count(), fits_[s], &seen_[s]);
     }
     prior_ = global_prior(free_blur, how.stride == 1);
     GlobalSolution step =
@@ -653,6 +655,7 @@ class ForwardSolver {
   const RunContext& context_;
   ForwardSolution solution_;
   std::vector<BoardReturns> returns_;
+  std::vector<std::vector<LocalPrint>> seen_;  ///< The print as each return saw it last.
   std::vector<SceneFit> fits_;
   GlobalSolution last_;
   GlobalPrior prior_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -34,6 +35,7 @@ constexpr double kRobustThreshold = 3.0;  // Huber's threshold, as in the joint 
 // A return and what is predicted of it.
 struct Return {
   BeamPoint beam;
+  std::uint32_t point = 0;  // In the scene's cloud.
   double measured_m = 0.0;
   double range_residual_m = 0.0;
   double intensity = 0.0;
@@ -44,6 +46,7 @@ struct Return {
   double width_m = 0.0;      // Of the spot across the edge.
   bool mixed = false;        // Several edges in the spot.
   double jitter = 0.0;       // Standard deviation that the jitter gives the intensity.
+  LocalPrint seen;
 
   [[nodiscard]] bool is_plain() const { return white > 1.0 - kPlainPrint || white < kPlainPrint; }
   [[nodiscard]] std::size_t surface() const { return white > 0.5 ? 0 : 1; }
@@ -119,9 +122,13 @@ class ReturnEffects {
 
 class SceneRows {
  public:
+  // `known`: the print as all points of the scene saw it before, by their places in the cloud; may
+  // be null.
   SceneRows(const SceneMeasurements& input, int scene, const BlurredPrint& print,
-            const ModelState& state, const SceneNoise& noise, ReturnEffects& effects)
-      : input_(input),
+            const ModelState& state, const SceneNoise& noise, ReturnEffects& effects,
+            const std::vector<LocalPrint>* known)
+      : known_(known),
+        input_(input),
         scene_(scene),
         print_(print),
         levels_(state.levels[static_cast<std::size_t>(scene)]),
@@ -133,6 +140,12 @@ class SceneRows {
 
   [[nodiscard]] bool has_intensity() const { return has_intensity_; }
   [[nodiscard]] const BoardLevels& levels() const { return levels_; }
+  // The print as every point of the scene saw it.
+  [[nodiscard]] std::vector<LocalPrint> seen() const {
+    std::vector<LocalPrint> out(input_.board_points->size());
+    for (const Return& r : returns_) out[r.point] = r.seen;
+    return out;
+  }
 
   // `white`, `log_contrast`: the usual ones of all scenes, to which darkness refers.
   void add_rows(MeasurementTable& table, std::size_t most) {
@@ -159,16 +172,18 @@ class SceneRows {
     for (std::size_t k = 0; k < kept.size(); ++k) {
       const std::uint32_t i = kept.index[k];
       Return r;
+      r.point = i;
       r.measured_m = kept.point_m(k).norm();
       r.beam.scene = scene_;
       const Eigen::Vector3d direction = kept.point_m(k) / r.measured_m;
-      auto p = predictor.predict(direction);
+      if (known_ != nullptr) r.seen = (*known_)[i];
+      auto p = predictor.predict(direction, Eigen::Vector2d::Zero(), &r.seen, &r.seen);
       if (!p || !geometry_.describe(direction, r.beam)) continue;
       if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
       if (cloud.has_line()) r.beam.line = cloud.line[i];
       if (!velocities.empty()) r.beam.scan_rad_s = velocities[i];
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity);
-      if (!sum.shift_m.isZero()) p = predictor.predict(direction, sum.shift_m);
+      if (!sum.shift_m.isZero()) p = predictor.predict(direction, sum.shift_m, &r.seen, &r.seen);
       r.range_residual_m = r.measured_m - p->range_m - sum.range_m;
       r.white = p->white;
       r.plain_level = p->intensity;
@@ -269,6 +284,7 @@ class SceneRows {
     row.print = r.surface() == 0 ? Print::kWhite : Print::kBlack;
     row.sigma_m = robust_sigma(noise_between(noise_.range_m[0], noise_.range_m[1], r.white),
                                r.range_residual_m);
+    row.seen = r.seen;
     table.range.push_back(row);
   }
 
@@ -286,7 +302,7 @@ class SceneRows {
     row.log_contrast = std::log(white / std::max(levels_.black, kLeastShare * white));
     row.sigma_m = intensity_sigma(r) / r.slope;
     row.edge_normal_rad = edge_normal(geometry_, r.beam, row.psi_rad);
-    row.reading = {r.intensity, -r.slope};
+    row.reading = {r.intensity, -r.slope, r.seen};
     row.node = -1;
     const double radius = print_.target().circle_radius_m;
     for (const TargetNode& node : print_.target().nodes()) {
@@ -306,9 +322,10 @@ class SceneRows {
                                r.surface() == 0 ? Print::kWhite : Print::kBlack,
                                std::log(std::max(r.intensity, 1e-3 * unit)),
                                sigma / unit,
-                               {r.intensity, unit}});
+                               {r.intensity, unit, r.seen}});
   }
 
+  const std::vector<LocalPrint>* known_;
   const SceneMeasurements& input_;
   int scene_;
   const BlurredPrint& print_;
@@ -339,12 +356,20 @@ std::vector<double> structure_variances(const ForwardNoise& noise) {
   return out;
 }
 
-// `like`: the table that it replaces, to whose usual levels and lines effects in use refer.
+// The first table, to whose usual levels and lines effects in use refer, and what each scene's
+// points saw then.
+struct FirstTable {
+  MeasurementTable table;
+  std::vector<std::vector<LocalPrint>> seen;
+};
+
+// `like`: the first table if another replaces it. `first`: where the first one is kept.
 MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
                             const ModelState& state, const ForwardNoise& noise, double sigma_px,
                             const TableOptions& options, const RunContext& context,
-                            const MeasurementTable* like, const std::vector<EffectInUse>& in_use) {
+                            const FirstTable* like, FirstTable* first,
+                            const std::vector<EffectInUse>& in_use) {
   MeasurementTable table;
   table.print = print;
   table.target = print->target();
@@ -360,16 +385,17 @@ MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
     has_line = has_line && scenes[s].board_points->has_line();
   }
   if (like != nullptr) {
-    table.level = like->level;
-    table.log_contrast = like->log_contrast;
-    table.lines = like->lines;
-    table.has_intensity = like->has_intensity;
+    table.level = like->table.level;
+    table.log_contrast = like->table.log_contrast;
+    table.lines = like->table.lines;
+    table.has_intensity = like->table.has_intensity;
   }
   std::vector<std::optional<SceneRows>> rows(scenes.size());
   parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
     if (context.stopped()) return;
     ReturnEffects effects(table, in_use);
-    rows[s].emplace(scenes[s], static_cast<int>(s), *print, state, noise.scenes[s], effects);
+    rows[s].emplace(scenes[s], static_cast<int>(s), *print, state, noise.scenes[s], effects,
+                    like != nullptr ? &like->seen[s] : nullptr);
   });
   if (context.stopped()) return table;
   if (like == nullptr) {
@@ -389,6 +415,7 @@ MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     add_corners(scenes[s], static_cast<int>(s), state, sigma_px, table);
     rows[s]->add_rows(table, static_cast<std::size_t>(options.max_rows_per_scene));
+    if (first != nullptr) first->seen.push_back(rows[s]->seen());
     rows[s].reset();
   }
   const double noise_px = corner_noise(table, state, sigma_px);
@@ -420,16 +447,17 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
     kept->scenes[s].board_points = &kept->clouds[s];
     kept->scenes[s].refinement = nullptr;
   }
+  const auto first = std::make_shared<FirstTable>();
   MeasurementTable table = make_table(kept->scenes, print, camera, state, noise, sigma_px, options,
-                                      context, nullptr, {});
-  const auto like = std::make_shared<MeasurementTable>();
-  like->level = table.level;
-  like->log_contrast = table.log_contrast;
-  like->lines = table.lines;
-  like->has_intensity = table.has_intensity;
+                                      context, nullptr, first.get(), {});
+  if (context.stopped()) return table;
+  first->table.level = table.level;
+  first->table.log_contrast = table.log_contrast;
+  first->table.lines = table.lines;
+  first->table.has_intensity = table.has_intensity;
   table.again = [=](const ModelState& at, const std::vector<EffectInUse>& in_use) {
-    return make_table(kept->scenes, print, camera, at, noise, sigma_px, options, {}, like.get(),
-                      in_use);
+    return make_table(kept->scenes, print, camera, at, noise, sigma_px, options, {}, first.get(),
+                      nullptr, in_use);
   };
   return table;
 }

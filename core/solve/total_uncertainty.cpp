@@ -51,7 +51,7 @@ Eigen::Matrix2d squared_effects(const BoardReturns& returns, const BlurredPrint&
 Eigen::MatrixXd gradient_by_faults(const ForwardScene& scene, std::size_t s,
                                    const BoardReturns& returns, const BlurredPrint& print,
                                    const ForwardSolution& solution, const LinearizationOptions& how,
-                                   const SceneEquations& at) {
+                                   const SceneEquations& at, std::vector<LocalPrint>& seen) {
   Eigen::MatrixXd out(at.gradient.size(), kFaults);
   for (Eigen::Index fault = 0; fault < kFaults; ++fault) {
     Cloud moved = *returns.cloud;
@@ -68,8 +68,8 @@ Eigen::MatrixXd gradient_by_faults(const ForwardScene& scene, std::size_t s,
     BoardReturns shifted = returns;
     shifted.cloud = &moved;
     SceneFit fit;
-    const SceneEquations there =
-        linearize_scene(scene, s, shifted, print, solution.state, solution.noise, how, 1, fit);
+    const SceneEquations there = linearize_scene(scene, s, shifted, print, solution.state,
+                                                 solution.noise, how, 1, fit, &seen);
     out.col(fault) = (there.gradient - at.gradient) / unit;
   }
   return out;
@@ -89,8 +89,9 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   how.robust_threshold = options.robust_threshold;
   how.patch_m = options.patch_m;
   SceneFit fit;
+  std::vector<LocalPrint> seen(returns.size());
   const SceneEquations at =
-      linearize_scene(scene, s, returns, print, solution.state, solution.noise, how, 1, fit);
+      linearize_scene(scene, s, returns, print, solution.state, solution.noise, how, 1, fit, &seen);
   const Eigen::Index n = at.normal.rows() - globals;
   Eigen::MatrixXd own = at.normal.bottomRightCorner(n, n);
   for (std::size_t k = 0; k < kSceneErrors; ++k) {
@@ -104,7 +105,7 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(own);
   if (factor.info() != Eigen::Success) return out;
-  const Eigen::MatrixXd by = gradient_by_faults(scene, s, returns, print, solution, how, at);
+  const Eigen::MatrixXd by = gradient_by_faults(scene, s, returns, print, solution, how, at, seen);
   const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
   const FaultTerm term{
       by.topRows(globals) - at.normal.topRightCorner(globals, n) * eliminated,

@@ -519,4 +519,42 @@ PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix
   return out;
 }
 
+LocalPrint::LocalPrint(const Eigen::Vector2d& board_m, const Eigen::Matrix2d& blur_m2,
+                       const PrintSample& sample)
+    : board_m_(board_m.cast<float>()),
+      blur_m2_(Eigen::Vector3d(blur_m2(0, 0), blur_m2(0, 1), blur_m2(1, 1)).cast<float>()),
+      white_(static_cast<float>(sample.white)),
+      gradient_(sample.gradient_per_m.cast<float>()),
+      hessian_(Eigen::Vector3d(sample.hessian_per_m2(0, 0), sample.hessian_per_m2(0, 1),
+                               sample.hessian_per_m2(1, 1))
+                   .cast<float>()) {}
+
+std::optional<PrintSample> LocalPrint::at(const Eigen::Vector2d& board_m,
+                                          const Eigen::Matrix2d& blur_m2) const {
+  constexpr double kNear2 = 0.1 * 0.1;
+  constexpr double kLike2 = 0.01 * 0.01;
+  const Eigen::Vector3d s = blur_m2_.cast<double>();
+  const double determinant = s(0) * s(2) - s(1) * s(1);
+  if (!(determinant > 0.0)) return std::nullopt;
+  const Eigen::Vector2d d = board_m - board_m_.cast<double>();
+  // dᵀS⁻¹d, and the squared Frobenius norm of S⁻¹ΔS.
+  const double far2 = s(2) * d.x() * d.x() - 2.0 * s(1) * d.x() * d.y() + s(0) * d.y() * d.y();
+  if (!(far2 < kNear2 * determinant)) return std::nullopt;
+  const Eigen::Vector3d grown(blur_m2(0, 0) - s(0), blur_m2(0, 1) - s(1), blur_m2(1, 1) - s(2));
+  const double aa = s(2) * grown(0) - s(1) * grown(1);
+  const double ab = s(2) * grown(1) - s(1) * grown(2);
+  const double ba = s(0) * grown(1) - s(1) * grown(0);
+  const double bb = s(0) * grown(2) - s(1) * grown(1);
+  if (!(aa * aa + ab * ab + ba * ba + bb * bb < kLike2 * determinant * determinant))
+    return std::nullopt;
+  PrintSample out;
+  const Eigen::Vector3d h = hessian_.cast<double>();
+  out.hessian_per_m2 << h(0), h(1), h(1), h(2);
+  const Eigen::Vector2d bent = out.hessian_per_m2 * d;
+  out.gradient_per_m = gradient_.cast<double>() + bent;
+  out.white = static_cast<double>(white_) + gradient_.cast<double>().dot(d) + 0.5 * bent.dot(d) +
+              0.5 * (h(0) * grown(0) + 2.0 * h(1) * grown(1) + h(2) * grown(2));
+  return out;
+}
+
 }  // namespace lvcalib

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,28 @@ struct PrintSample {
   double white = 1.0;
   Eigen::Vector2d gradient_per_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d hessian_per_m2 = Eigen::Matrix2d::Zero();
+};
+
+/// A sample with the place and the blur that it was taken for: it answers for their neighbourhood,
+/// where a solve comes back to the same returns again and again.
+class LocalPrint {
+ public:
+  LocalPrint() = default;
+  LocalPrint(const Eigen::Vector2d& board_m, const Eigen::Matrix2d& blur_m2,
+             const PrintSample& sample);
+  /// The sample at another place and blur, by Taylor's series (second order in the place, first in
+  /// the blur, ∂A/∂S = ½∇∇ᵀA). Nothing beyond a tenth of the blur's width or a hundredth of its
+  /// variance: nearer it misses an edge by less than 3·10⁻⁴ of the contrast.
+  [[nodiscard]] std::optional<PrintSample> at(const Eigen::Vector2d& board_m,
+                                              const Eigen::Matrix2d& blur_m2) const;
+
+ private:
+  // Single precision: tables keep one per row. 10⁻⁷ of a board is far below what any row measures.
+  Eigen::Vector2f board_m_ = Eigen::Vector2f::Zero();
+  Eigen::Vector3f blur_m2_ = Eigen::Vector3f::Zero();  // xx, xy, yy; zero: nothing is known.
+  float white_ = 0.0F;
+  Eigen::Vector2f gradient_ = Eigen::Vector2f::Zero();
+  Eigen::Vector3f hessian_ = Eigen::Vector3f::Zero();
 };
 
 /// The print under any Gaussian blur.

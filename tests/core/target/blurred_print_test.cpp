@@ -163,5 +163,37 @@ TEST(BlurredPrint, IsPlainWhereNoEdgeIsNear) {
   EXPECT_EQ(print.at({-10.0, 3.0}, blur).white, 1.0);
 }
 
+TEST(LocalPrint, AnswersForItsNeighbourhoodOnly) {
+  const BlurredPrint print{Target{}};
+  Random random(5);
+  const BoardOutline outline = print.outline();
+  int near = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Vector2d at =
+        outline.lower_left_m +
+        Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)).cwiseProduct(outline.size_m());
+    Eigen::Matrix2d blur;
+    const double a = random.uniform(2e-3, 6e-3);
+    const double b = random.uniform(2e-3, 6e-3);
+    const double c = random.uniform(-0.6, 0.6) * a * b;
+    blur << a * a, c, c, b * b;
+    const LocalPrint local(at, blur, print.at(at, blur));
+    const Eigen::Vector2d there =
+        at + random.uniform(0.0, 0.2) * std::sqrt(blur.determinant()) / std::max(a, b) *
+                 Eigen::Vector2d(random.normal(), random.normal()).normalized();
+    const Eigen::Matrix2d other = blur * random.uniform(0.985, 1.015);
+    const auto answer = local.at(there, other);
+    if (!answer) continue;
+    ++near;
+    const PrintSample truth = print.at(there, other);
+    // The print's own interpolation misses by as much at either place.
+    EXPECT_NEAR(answer->white, truth.white, 1e-3);
+    EXPECT_LT((answer->gradient_per_m - truth.gradient_per_m).norm() * std::min(a, b), 0.02);
+  }
+  EXPECT_GT(near, 300);
+  EXPECT_LT(near, 1700);
+  EXPECT_FALSE(LocalPrint().at({0.1, 0.1}, Eigen::Matrix2d::Identity()));
+}
+
 }  // namespace
 }  // namespace lvcalib
