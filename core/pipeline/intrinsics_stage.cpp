@@ -178,6 +178,14 @@ void judge_move(const CalibrationResult& result, IntrinsicsContradiction& found)
       move_rad > std::max(q.tolerance_rad, q.tolerance_sigmas * std::min(own.second, freed.second));
 }
 
+// Faults that are in the data must lie within the total: with q = mᵀT⁻¹m above one for the move m,
+// T + (1 − 1/q) m mᵀ has it at one standard deviation (Sherman–Morrison).
+void widen_total(CalibrationResult& result, const Rigid3& freed) {
+  const Vector6d m = se3_log(freed * result.extrinsic.camera_from_lidar.transform.inverse());
+  const double q = m.dot(result.covariance_total.ldlt().solve(m));
+  if (std::isfinite(q) && q > 1.0) result.covariance_total += (1.0 - 1.0 / q) * m * m.transpose();
+}
+
 // How estimated intrinsics differ from what camera.yaml says of them, in its own σ.
 void check_against_prior(CalibrationResult& result, const std::vector<CornerView>& views) {
   IntrinsicsReport& report = result.intrinsics;
@@ -352,6 +360,7 @@ Status check_intrinsics(CalibrationResult& result,
         se3_exp(freed->contrast.correction) * freed->forward.state.camera_from_lidar,
         freed->contrast.covariance};
     judge_move(result, found);
+    widen_total(result, found.camera_from_lidar->transform);
   }
   report.contradiction = std::move(found);
   return Done{};

@@ -34,10 +34,16 @@ class SizeFit {
         center_(print.outline().center_m()) {
     const BoardPredictor predictor(print, lidar_from_board, levels, beam);
     const std::size_t stride = std::max<std::size_t>(1, returns.size() / kMostReturns);
+    std::vector<double> farther;
     for (std::size_t k = 0; k < returns.size(); k += stride) {
-      const auto hit = predictor.hit(returns.point_m(k).normalized());
-      if (hit) places_.push_back({hit->board_m, returns.intensity(k)});
+      const Eigen::Vector3d point = returns.point_m(k);
+      const auto hit = predictor.hit(point.normalized());
+      if (!hit) continue;
+      places_.push_back({hit->board_m, returns.intensity(k)});
+      if (returns.intensity(k) > 0.5 * (levels.white + levels.black))
+        farther.push_back(point.norm() / hit->range_m);
     }
+    if (!farther.empty()) distance_ = median(std::move(farther));
   }
 
   PrintSize run() {
@@ -53,7 +59,9 @@ class SizeFit {
     if (!settled || (scale_.array() - 1.0).abs().maxCoeff() > 1.5 * kCoarsest) return out;
     const Matrix7 covariance = normal_.ldlt().solve(Matrix7::Identity());
     const double excess = std::max(1.0, chi_square_);
-    out.scale = scale_;
+    // Beams tell angles; the board may stand elsewhere than where its returns are, if the joint
+    // solve weighs corners against ranges.
+    out.scale = distance_ * scale_;
     out.sigma = (excess * noise_.intensity_inflation * covariance.diagonal().head<2>())
                     .cwiseMax(0.0)
                     .cwiseSqrt();
@@ -163,6 +171,7 @@ class SizeFit {
   Matrix7 normal_ = Matrix7::Zero();
   Vector7 last_ = Vector7::Zero();
   double chi_square_ = 1.0;
+  double distance_ = 1.0;  // Of the white returns, over that of the board as solved.
 };
 
 }  // namespace

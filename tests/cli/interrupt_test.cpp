@@ -15,14 +15,20 @@ namespace lvcalib::testing {
 namespace {
 namespace fs = std::filesystem;
 
-// Many copies of each scene, so that a run lasts long enough to be interrupted in every stage.
+// Many copies of each scene, so that a run lasts long enough to be interrupted in every stage. The
+// same files count once; so each copy's last point has a time of its own.
 void make_long_dataset(const fs::path& path) {
   constexpr int kCopies = 12;
   copy_dataset(good_dataset(), path);
   for (const std::string& scene : scene_names(good_dataset())) {
     for (int copy = 0; copy < kCopies; ++copy) {
-      fs::copy(path / "scenes" / scene, path / "scenes" / (scene + std::to_string(100 + copy)),
+      const fs::path folder = path / "scenes" / (scene + std::to_string(100 + copy));
+      fs::copy(path / "scenes" / scene, folder,
                fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+      std::string cloud = read_file(folder / "cloud.pcd");
+      // A point ends with its time (float) and its line (two bytes).
+      cloud[cloud.size() - 6] = static_cast<char>(cloud[cloud.size() - 6] ^ (copy + 1));
+      write_file(folder / "cloud.pcd", cloud);
     }
   }
 }
