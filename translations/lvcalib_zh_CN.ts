@@ -1406,10 +1406,6 @@ were saved. Take them up again?</source>
         <translation>这些点云没有强度（或所有点的强度相同）</translation>
     </message>
     <message>
-        <source>no circles on this board</source>
-        <translation>该标定板上没有圆</translation>
-    </message>
-    <message>
         <source>no tags on this board</source>
         <translation>该标定板上没有标签</translation>
     </message>
@@ -1856,6 +1852,22 @@ were saved. Take them up again?</source>
     <message>
         <source>width s (rad)</source>
         <translation>宽度 s（rad）</translation>
+    </message>
+    <message>
+        <source>no edges of the print in the returns</source>
+        <translation>回波中没有印刷图案的边缘</translation>
+    </message>
+    <message>
+        <source>measured with the base model, as the beam&apos;s blur</source>
+        <translation>已在基础模型中作为光束模糊测得</translation>
+    </message>
+    <message>
+        <source>the joint solve over every return failed: nothing to look for effects with</source>
+        <translation>基于全部回波的联合求解失败：无从寻找效应</translation>
+    </message>
+    <message>
+        <source>see the warnings of the calibration</source>
+        <translation>请参阅标定的警告</translation>
     </message>
 </context>
 <context>

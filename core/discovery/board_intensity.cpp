@@ -3,41 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <optional>
 
-#include "model/effect_rows.h"
+#include "model/print_rows.h"
 
 namespace lvcalib {
 namespace {
 
-// Received power of every return as the model has it.
-class Predictor {
- public:
-  explicit Predictor(const ModelStep& step)
-      : table_(step.table()),
-        in_use_(step.in_use()),
-        columns_(columns_in_use(in_use_, table_)),
-        rows_(table_, columns_.list()) {}
-
-  double operator()(const RangeRow& row) {
-    // The print's mixture under the beam, then what the effects in use make of it.
-    double log_level =
-        std::log(table_.level_of(Print::kWhite)) - row.beam.darkness * table_.log_contrast;
-    IntensityRow intensity{row.beam, row.print, log_level, 1.0};
-    rows_.intensity(intensity, [&](const EffectColumns& c, std::span<const double> by) {
-      const auto at = static_cast<std::size_t>(&c - columns_.list().data());
-      for (std::size_t k = 0; k < by.size(); ++k)
-        log_level += by[k] * in_use_[at].values(static_cast<Eigen::Index>(k));
-    });
-    return std::exp(log_level);
+// Intensity of a return as the model has it; nothing where the model's beam misses the board.
+std::optional<double> predicted_intensity(PrintRows& rows, const RangeRow& row) {
+  const IntensityReading reading{row.intensity, 1.0, row.seen};
+  std::optional<PrintRow> p;
+  if (row.beam.edge) {
+    BoundaryRow edge;
+    edge.beam = row.beam;
+    edge.psi_rad = row.beam.edge->psi_rad;
+    edge.transition_m = row.beam.edge->transition_m;
+    edge.reading = reading;
+    p = rows.edge(edge);
+  } else {
+    p = rows.intensity({row.beam, row.print, 0.0, 1.0, reading});
   }
-
- private:
-  const MeasurementTable& table_;
-  std::vector<EffectInUse> in_use_;
-  EffectColumnsList columns_;
-  EffectRows rows_;
-};
+  if (!p) return std::nullopt;
+  return row.intensity - p->residual;
+}
 
 }  // namespace
 
@@ -66,14 +57,19 @@ BoardIntensity board_intensity(const ModelStep& step, int scene, double cell_m) 
   std::vector<double> measured(cells);
   std::vector<double> predicted(cells);
   std::vector<double> count(cells);
-  Predictor predict(step);
+  const std::vector<EffectInUse> in_use = step.in_use();
+  std::deque<PrintRows> print;
+  for (std::size_t k = 0; k < table.scenes.size(); ++k)
+    print.emplace_back(table, step.state, k, in_use);
   for (const RangeRow* row : rows) {
     const Eigen::Vector2d at = (row->beam.board_m - outline.lower_left_m).cwiseQuotient(size);
     const int x = std::clamp(static_cast<int>(at.x() * out.columns), 0, out.columns - 1);
     const int y = std::clamp(static_cast<int>(at.y() * out.rows), 0, out.rows - 1);
     const auto cell = static_cast<std::size_t>(y * out.columns + x);
+    const auto p = predicted_intensity(print[static_cast<std::size_t>(row->beam.scene)], *row);
+    if (!p) continue;
     measured[cell] += row->intensity;
-    predicted[cell] += predict(*row);
+    predicted[cell] += *p;
     count[cell] += 1.0;
   }
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();

@@ -18,7 +18,6 @@ std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
   for (const Channel channel : kAllChannels) {
     ChannelResiduals r = residuals_of(table, state, in_use, channel);
     if (r.values.empty()) continue;
-    remove_levels(table, r);
     double weights = 0.0;
     double whitened = 0.0;
     for (std::size_t k = 0; k < r.values.size(); ++k) {

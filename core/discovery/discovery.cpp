@@ -86,13 +86,8 @@ Status check_options(const DiscoveryOptions& options) {
 }  // namespace
 
 MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options) {
-  if (input.print) {
-    return print_table(input.scenes, input.print, input.camera, input.state, input.noise,
-                       input.sigma_px, options, {});
-  }
-  TableOptions how = options;
-  how.refinement = input.refinement;
-  return build_table(input.scenes, input.target, input.camera, input.state, input.sigma_px, how);
+  return print_table(input.scenes, input.print, input.camera, input.state, input.noise,
+                     input.sigma_px, options, {});
 }
 
 Status check_wanted(const std::vector<std::string>& with) {

@@ -15,9 +15,9 @@
 #include "model/linear_model.h"
 #include "model/mixed_model.h"
 #include "model/model_scales.h"
-#include "model/table_builder.h"
 #include "model/user_effect.h"
 #include "solve/forward_problem.h"
+#include "solve/print_table.h"
 
 namespace lvcalib {
 
@@ -227,14 +227,12 @@ struct DiscoveryInput {
   Camera camera;
   ModelState state;
   double sigma_px = 0.0;
-  RefinementOptions refinement;  ///< How the circles were refined.
-  /// Of a calibration that rests on every return: the print, and the noise that it found. The state
-  /// then has levels and the beam. Null: edges are those of the circles.
+  /// The print and the noise that the joint solve over every return found. Null where that failed.
   std::shared_ptr<const BlurredPrint> print;
   ForwardNoise noise;
 };
 
-/// The measurements of a calibration, with every covariate.
+/// The measurements of a calibration, with every covariate. The input needs its print.
 MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options);
 
 /// Checks the texts of `with` without data, so that a slip of the pen is known before long work.
@@ -243,10 +241,11 @@ Status check_wanted(const std::vector<std::string>& with);
 /// Searches which effects of the catalogue are missing in the model (linearised mixed model with
 /// random effects for structure that nothing explains, candidates compared on held-out scenes,
 /// full refit after each addition, drops and swaps). Deterministic.
-/// Errors: kUntrusted with fewer than three scenes; kUsage for an unknown effect in `with` or one
-/// of the user's own with an error in its text; kCancelled. Effects in `with` that these data
-/// cannot bear (a missing field, values that are not finite, the same as what is in the model) are
-/// left out with a warning and the verdict "not testable".
+/// Errors: kUntrusted with fewer than three scenes or without a joint solve over every return;
+/// kUsage for an unknown effect in `with` or one of the user's own with an error in its text;
+/// kCancelled. Effects in `with` that these data cannot bear (a missing field, values that are not
+/// finite, the same as what is in the model) are left out with a warning and the verdict "not
+/// testable".
 Result<Discovery> discover_effects(const DiscoveryInput& input, const DiscoveryOptions& options,
                                    const RunContext& context);
 

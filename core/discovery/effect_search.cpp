@@ -7,8 +7,7 @@
 
 #include "base/parallel.h"
 #include "discovery/print_contrast.h"
-#include "model/natural_footprint.h"
-#include "model/remeasurement.h"
+#include "model/beam_blur.h"
 #include "model/residuals.h"
 
 namespace lvcalib {
@@ -50,31 +49,17 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
       options_(options),
       context_(context),
       in_use_(std::move(in_use)),
-      natural_{natural_footprint(), 0.0, Eigen::VectorXd::Ones(1)} {
-  if (table.print) natural_ = {beam_blur(), 0.0, Eigen::VectorXd::Zero(3)};
+      blur_{beam_blur(), 0.0, Eigen::VectorXd::Zero(3)} {
   std::copy_n(table.structure_variances.begin(),
               std::min(table.structure_variances.size(), variances_.group.size()),
               variances_.group.begin());
   refit();
 }
 
-bool EffectSearch::natural() const {
-  if (table().print) return table().has_intensity;
-  return !table().boundary.empty() &&
-         std::none_of(in_use_.begin(), in_use_.end(), [](const EffectInUse& use) {
-           return describes_footprint(use.effect->info().id);
-         });
-}
-
 std::vector<EffectInUse> EffectSearch::model() const {
   std::vector<EffectInUse> out = in_use_;
-  if (natural()) out.push_back(natural_);
+  if (sees_print()) out.push_back(blur_);
   return out;
-}
-
-const Reference& EffectSearch::compared_with(std::size_t columns) const {
-  const bool rival = describes_footprint(linear_.columns.list()[columns].effect->info().id);
-  return rival && bare_ ? *bare_ : reference_;
 }
 
 EffectColumnsList EffectSearch::own_columns() const {
@@ -89,19 +74,8 @@ ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
     append_columns(columns.list()[k], &in_use_[k].values, subset);
     if (in_use_[k].held) hold_last(columns.list()[k], subset);
   }
-  if (natural()) {
-    append_columns(columns.list()[in_use_.size()], &natural_.values, subset);
-    if (!table().print) subset.prior_mean.back() += 1.0;  // about what the transitions tell
-  }
+  if (sees_print()) append_columns(columns.list()[in_use_.size()], &blur_.values, subset);
   return subset;
-}
-
-Reference EffectSearch::without_natural() const {
-  ColumnSubset subset = reference_.subset;
-  const std::size_t at = subset.columns.size() - 1;  // the natural footprint's comes last
-  subset.prior_mean[at] = -natural_.values(0);
-  subset.prior_sigma[at] = 1e-6;
-  return make_reference(linear_, subset, variances_, {});
 }
 
 void EffectSearch::add(const EffectPtr& effect, double shape) {
@@ -124,10 +98,10 @@ void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape)
 
 void EffectSearch::refit() {
   // A print is seen through a blur of millimetres: far from linear in what moves it.
-  const int steps = table().print ? 10 : 4;
+  constexpr int kSteps = 10;
   joint_covariance_.reset();
   shape_sigmas_.clear();
-  for (int step = 0; step < steps && !context_.stopped(); ++step) {
+  for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     const EffectColumnsList columns = own_columns();
     linear_ = linearize(table(), state_, model(), columns, context_);
     if (context_.stopped()) return;
@@ -147,16 +121,10 @@ void EffectSearch::refit() {
       use.values += x.segment(at, use.values.size());
       at += use.values.size();
     }
-    if (!natural()) continue;
-    if (table().print) {
-      move_blur(x.segment<3>(at));
-    } else {
-      natural_.values(0) += x(at);
-    }
+    if (sees_print()) move_blur(x.segment<3>(at));
   }
 }
 
-// Levels of tables with a print are part of the state.
 void EffectSearch::move_levels() {
   for (std::size_t s = 0; s < state_.levels.size(); ++s) {
     const Eigen::VectorXd step =
@@ -183,20 +151,7 @@ void EffectSearch::move_blur(const Eigen::Vector3d& step) {
   }
 }
 
-void EffectSearch::remeasure() {
-  if (base_->print) return remake();
-  constexpr int kRounds = 2;  // What is taken out is better known from what is left without it.
-  for (int round = 0; round < kRounds; ++round) {
-    auto again = lvcalib::remeasured(*base_, state_, in_use_, context_);
-    if (context_.stopped() || (!again && table_ == base_)) return;
-    remeasured_ = std::move(again);
-    table_ = remeasured_ ? remeasured_.get() : base_;
-    refit();
-    if (!is_outdated(*table_, state_, in_use_)) return;
-  }
-}
-
-// Rows of a table with a print: weights and classes follow the model, until both stand still.
+// Weights and classes of rows follow the model, until both stand still.
 void EffectSearch::remake() {
   if (!base_->again || (in_use_.empty() && table_ == base_)) return;
   // Each round leaves a few hundredths of what was wrong: more than two are rarely needed.
@@ -206,8 +161,8 @@ void EffectSearch::remake() {
     auto next = std::make_shared<MeasurementTable>(base_->again(state_, in_use_));
     if (context_.stopped()) return;
     next->again = base_->again;
-    remeasured_ = std::move(next);
-    table_ = remeasured_.get();
+    remade_ = std::move(next);
+    table_ = remade_.get();
     refit();
     // A twentieth of a standard deviation: what is left is far below what is known.
     constexpr double kStands = 0.05;
@@ -277,14 +232,11 @@ void EffectSearch::rank() {
   if (context_.stopped()) return;
   reference_ = make_reference(linear_, subset, variances_, {});
   variances_ = reference_.fit.variances;
-  bare_.reset();
-  if (natural() && !table().print) bare_ = without_natural();
   const std::size_t first = own_count();
   candidates_.resize(columns.list().size() - first);
   const auto evaluate = [&](std::size_t k, std::size_t columns_at, const MixedModelOptions& how) {
     if (context_.stopped()) return;
-    candidates_[k] =
-        evaluate_candidate(linear_, compared_with(columns_at), columns_at, options_.tolerance, how);
+    candidates_[k] = evaluate_candidate(linear_, reference_, columns_at, options_.tolerance, how);
   };
   parallel_for(candidates_.size(), context_.thread_count(),
                [&](std::size_t k) { evaluate(k, first + k, {.rounds = 3}); });
@@ -340,17 +292,19 @@ void EffectSearch::ask_both_prints() {
   const bool told = find_effect("range_walk") != nullptr &&
                     why_not_testable(*find_effect("range_walk"), table()).empty();
   if (!told) return;
+  constexpr auto kRangeChannel = static_cast<std::size_t>(Channel::kRange);
   const std::vector<EffectInUse> effects = model();
   const EffectColumnsList own = own_columns();
   const ColumnSubset subset = own_subset(own);
   const auto disagree = [&](const Candidate& c) {
     return prints_disagree({table(), state_, effects, own, subset, variances_},
-                           linear_.columns.list()[c.columns], c.main_channel(), options_, context_);
+                           linear_.columns.list()[c.columns], c.must_show.value_or(Channel::kRange),
+                           options_, context_);
   };
   doubt_levels(disagree);
   while (!context_.stopped()) {
     const auto chosen = best();
-    if (!chosen || candidates_[*chosen].main_channel() != Channel::kRange) return;
+    if (!chosen || !(candidates_[*chosen].acting_share[kRangeChannel] > 0.0)) return;
     if (!disagree(candidates_[*chosen])) return;
     contradict(candidates_[*chosen], Contradiction::kPrints);
   }
@@ -362,8 +316,7 @@ void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& dis
   bool doubted = false;
   for (const Candidate& c : candidates_) {
     if (context_.stopped()) return;
-    const bool asked = c.must_show && c.main_channel() == Channel::kIntensity &&
-                       c.contradiction == Contradiction::kNone &&
+    const bool asked = c.must_show && c.contradiction == Contradiction::kNone &&
                        is_accepted(c, candidates_.size(), table().scenes.size(), options_);
     if (!asked || !disagree(c)) continue;
     contradict(c, Contradiction::kPrints);
@@ -395,7 +348,7 @@ void EffectSearch::refit_promising() {
         c.material() && c.p_value * static_cast<double>(tried) <= options_.false_alarm;
     if (!promising) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
-    const Reference& without_it = compared_with(c.columns);
+    const Reference& without_it = reference_;
     EffectSearch trial(*this);
     trial.add(columns.effect, columns.shape);
     if (context_.stopped()) return;
@@ -427,8 +380,7 @@ EffectSearch EffectSearch::with_immaterial() const {
     if (c.material() || !is_sure(c, candidates_.size(), options_)) continue;
     if (!done.insert(c.main_channel()).second) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
-    const bool footprint_told = describes_footprint(columns.effect->info().id) && natural();
-    if (!footprint_told) out.add(columns.effect, columns.shape);
+    out.add(columns.effect, columns.shape);
   }
   return out;
 }

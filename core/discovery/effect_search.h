@@ -49,11 +49,11 @@ class EffectSearch {
   }
   /// Gauss–Newton on extrinsic, poses and effects until the extrinsic stands still.
   void refit();
-  /// Makes the table again for the model as it is (see lvcalib::remeasured()) and refits: to be
+  /// Makes the table again for the model as it is (see MeasurementTable::again) and refits: to be
   /// called when effects have come or gone.
-  void remeasure();
-  /// The table that remeasure() made; null if there was nothing to do.
-  [[nodiscard]] std::shared_ptr<const MeasurementTable> remeasured() const { return remeasured_; }
+  void remake();
+  /// The table that remake() made; null if there was nothing to do.
+  [[nodiscard]] std::shared_ptr<const MeasurementTable> remade() const { return remade_; }
   /// Linearises with all candidates that are testable and not in use, and evaluates each.
   void rank();
   /// From the next rank() on an effect is not accepted: scenes held out contradict it.
@@ -77,15 +77,13 @@ class EffectSearch {
   [[nodiscard]] const ModelState& state() const { return state_; }
   /// Effects found or asked for, in the order added.
   [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
-  /// Those and the natural footprint, unless an effect in use describes the footprint itself: what
-  /// the model predicts with.
+  /// Those and the beam's blur: what the model predicts with.
   [[nodiscard]] std::vector<EffectInUse> model() const;
   [[nodiscard]] const Linearization& linear() const { return linear_; }
   [[nodiscard]] const Reference& reference() const { return reference_; }
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
 
  private:
-  void remake();
   void move_levels();
   void move_blur(const Eigen::Vector3d& step);
   // Judges promising candidates again after a full refit, until one is accepted.
@@ -104,25 +102,21 @@ class EffectSearch {
   bool move_shape(std::size_t k);
   [[nodiscard]] double profile(std::size_t k, double shape) const;
   void estimate_joint_covariance();
-  // Effects in use and the natural footprint.
-  [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (natural() ? 1 : 0); }
-  [[nodiscard]] bool natural() const;
-  // The model without the natural footprint: what an effect that describes it is compared with.
-  [[nodiscard]] Reference without_natural() const;
-  [[nodiscard]] const Reference& compared_with(std::size_t columns) const;
+  // Effects in use and the beam's blur, which only intensities tell.
+  [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (sees_print() ? 1 : 0); }
+  [[nodiscard]] bool sees_print() const { return table().has_intensity; }
 
   const MeasurementTable* base_;   // what was given
   const MeasurementTable* table_;  // that, or …
-  std::shared_ptr<const MeasurementTable> remeasured_;
+  std::shared_ptr<const MeasurementTable> remade_;
   ModelState state_;
   const DiscoveryOptions& options_;
   RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it
   std::vector<EffectInUse> in_use_;
-  EffectInUse natural_;
+  EffectInUse blur_;
   ModelVariances variances_;
   Linearization linear_;
   Reference reference_;
-  std::optional<Reference> bare_;  ///< Without the natural footprint.
   std::vector<Candidate> candidates_;
   std::set<std::string> refused_;
   std::optional<Eigen::MatrixXd> joint_covariance_;

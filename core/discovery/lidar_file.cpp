@@ -144,10 +144,7 @@ Result<LidarFile> read_lidar(const std::filesystem::path& path) {
   out.lidar.has_intensity = reader.flag_or("intensity", true);
   const double speed = reader.number_or("scan_speed_rad_s", 0.0, 1e4, 0.0);
   const double period = reader.number_or("scan_period_s", 1e-6, 1e4, 0.1);
-  // Fisher information of an edge's place from points spread evenly over four widths of its
-  // transition: σ = width · noise · √(4·2√π / points).
-  s.edge_factor = reader.number_or("edge_noise", 1e-3, 10.0, 0.1) *
-                  std::sqrt(8.0 * std::sqrt(std::numbers::pi));
+  s.edge_noise = reader.number_or("edge_noise", 1e-3, 10.0, 0.1);
   out.lidar.camera_from_lidar = reader.transform("T_camera_lidar");
   if (file->has("name")) {
     if (const auto name = file->string("name")) out.lidar.name = *name;

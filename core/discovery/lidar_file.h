@@ -37,8 +37,7 @@ struct LidarFile {
 /// and optional
 ///   name: text                       lines: N (1)                time: true | false (false)
 ///   intensity: true | false (true)   scan_speed_rad_s: v (0)     scan_period_s: T (0.1)
-///   edge_noise: σ of the intensity over the contrast of the print (0.1); without it the circles'
-///                                    edges are no surer than the width of their transition
+///   edge_noise: σ of the intensity in an edge, over the contrast of the print (0.1)
 ///   T_camera_lidar: 3 or 4 rows of 4 numbers
 /// Errors: kInput with file, line, key and what was expected.
 Result<LidarFile> read_lidar(const std::filesystem::path& path);

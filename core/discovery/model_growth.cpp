@@ -50,7 +50,7 @@ class Growth {
       selections_.push_back(s);
       try_swaps();
       drop_superfluous();
-      search_.remeasure();
+      search_.remake();
       search_.refine_shapes();
       on_added_();
       if (context_.stopped()) return;

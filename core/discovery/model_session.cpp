@@ -55,11 +55,19 @@ void read_back(const EffectSearch& search, std::vector<ModelTerm>& terms) {
   }
 }
 
+Status enough_scenes(std::size_t scenes) {
+  if (scenes >= 3) return Done{};
+  return Error::untrusted(
+      "not enough scenes to look for effects: " + std::to_string(scenes) +
+          (scenes == 1 ? " scene" : " scenes") + ", three or more are needed to hold one out",
+      {}, "take scenes at other distances and with the board turned differently");
+}
+
 // The step at which a search stands whose shape numbers are refined.
 Result<ModelStepPtr> step_from(EffectSearch search, ModelStep step, const RunContext& context) {
   if (context.stopped()) return Error::cancelled();
   step.state = search.state();
-  step.remeasured = search.remeasured();
+  step.remade = search.remade();
   step.covariance = search.joint_covariance().topLeftCorner<6, 6>();
   step.fit = std::make_shared<const ModelFit>(search.reference().fit);
   read_back(search, step.terms);
@@ -80,7 +88,7 @@ Result<ModelStepPtr> fitted(ModelStep step, const RunContext& context) {
   context.report("model", 0.1, "fitting the model");
   const auto basis = step.basis;
   EffectSearch search(basis->table, step.state, switched_on(step.terms), basis->options, context);
-  search.remeasure();
+  search.remake();
   search.refine_shapes();
   return step_from(std::move(search), std::move(step), context);
 }
@@ -185,13 +193,7 @@ Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& t
 
 Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state,
                                  const DiscoveryOptions& options, const RunContext& context) {
-  if (table.scenes.size() < 3) {
-    return Error::untrusted(
-        "not enough scenes to look for effects: " + std::to_string(table.scenes.size()) +
-            (table.scenes.size() == 1 ? " scene" : " scenes") +
-            ", three or more are needed to hold one out",
-        {}, "take scenes at other distances and with the board turned differently");
-  }
+  if (Status s = enough_scenes(table.scenes.size()); !s) return s.error();
   ModelStep step;
   step.basis = std::make_shared<const ModelBasis>(ModelBasis{std::move(table), options});
   step.state = state;
@@ -200,6 +202,12 @@ Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state
 
 Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOptions& options,
                                  const RunContext& context) {
+  if (Status s = enough_scenes(input.scenes.size()); !s) return s.error();
+  if (!input.print) {
+    return Error::untrusted(
+        "the joint solve over every return failed: nothing to look for effects with", {},
+        "see the warnings of the calibration");
+  }
   context.report("table", 0.0, "collecting measurements");
   return start_model(table_of(input, options.table), input.state, options, context);
 }
@@ -224,7 +232,7 @@ Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spe
     return Error::input("the effect '" + spec + "' cannot be used: it acts just as " + others +
                         " do, which makes the solve singular");
   }
-  search.remeasure();
+  search.remake();
   search.refine_shapes();
   ModelStep step = changed(from, ModelChange::kAdd, id);
   step.terms.push_back(new_term(search.in_use().back(), from->table()));

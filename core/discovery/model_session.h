@@ -51,13 +51,11 @@ struct ModelStep {
   std::vector<StructureScore> places;     ///< Of surfaces, best first (see scan_places()).
   /// The search that stands at this model: where the next step takes it up.
   std::shared_ptr<const EffectSearch> search;
-  /// The measurements made again for this model (see lvcalib::remeasured()); null where that
+  /// The measurements made again for this model (see MeasurementTable::again); null where that
   /// changes nothing.
-  std::shared_ptr<const MeasurementTable> remeasured;
+  std::shared_ptr<const MeasurementTable> remade;
 
-  [[nodiscard]] const MeasurementTable& table() const {
-    return remeasured ? *remeasured : basis->table;
-  }
+  [[nodiscard]] const MeasurementTable& table() const { return remade ? *remade : basis->table; }
   /// The effects that are switched on.
   [[nodiscard]] std::vector<EffectInUse> in_use() const;
   /// Those and the nuisance: what the measurements are compared with.

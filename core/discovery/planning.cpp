@@ -17,11 +17,11 @@ namespace {
 // Before any scene: nothing is known. Metres and radians.
 constexpr double kKnownBefore = 1.0;
 
-// Unmodelled structure is not part of what calibrate states, but for the least that it allows a
-// plane (20 µm) and a node (50 µm); see ExtrinsicOptions.
+// Structure that nothing explains is not foreseen: calibrate asks for it, and states it, once there
+// are measurements.
 ModelVariances noise_alone() {
   ModelVariances out;
-  out.group = {4e-10, 1e-12, 2.5e-9, 1e-8, 1e-8};
+  out.group = kAbsentVariance;
   return out;
 }
 
@@ -30,11 +30,12 @@ MeasurementTable bare_table(const Target& target, const Camera& camera,
   MeasurementTable out;
   out.target = target;
   out.camera = camera;
+  out.print = std::make_shared<const BlurredPrint>(target);
   if (lidar.lines.size() > 1) out.lines = lidar.lines;
   out.has_time = lidar.has_time;
   out.has_intensity = lidar.has_intensity;
   // Print that returns a tenth of white; the numbers cancel in all that is planned.
-  out.level = {1.0, 0.1, 0.1};
+  out.level = {1.0, 0.1};
   out.log_contrast = std::log(10.0);
   return out;
 }
@@ -95,7 +96,6 @@ class Planner {
     if (needs.line && table_.lines.empty()) return "the LiDAR's description has one line only";
     if (needs.intensity && !table_.has_intensity)
       return "the LiDAR's description says no intensity";
-    if (needs.circles && !table_.target.has_circles()) return "this board has no circles";
     if (needs.tags && !table_.target.has_tags()) return "this board has no tags";
     if (effect.is_gauge()) return "no data can tell it from a turn of the LiDAR frame";
     return {};

@@ -14,9 +14,9 @@
 namespace lvcalib {
 namespace {
 
-constexpr int kGrid = 16;                // range rows along each side of the board
-constexpr int kBins = 24;                // of a circle
-constexpr double kRingWidths = 4.0;      // transition widths that hold the points of a bin
+// Places on the board, of which each stands for as many points as fall about it. Edges take a tenth
+// to a third of a print, so that tens of places see one.
+constexpr int kPlaces = 400;
 constexpr double kMostPoints = 20000.0;  // kept per scene, as in the table
 constexpr std::size_t kChunk = 48;
 
@@ -35,10 +35,22 @@ double points_per_m2(const SensorModel& sensors, const BeamPoint& beam) {
   return sensors.points_per_sr * std::cos(beam.incidence_rad) / (beam.range_m * beam.range_m);
 }
 
-double points_in_bin(const SensorModel& sensors, const BeamPoint& beam, double radius_m,
-                     double transition_m) {
-  const double area = 2.0 * std::numbers::pi * radius_m / kBins * kRingWidths * transition_m;
-  return std::max(1.0, points_per_m2(sensors, beam) * area);
+// Even in the plane at every length (R2 sequence: powers of the plastic number).
+Eigen::Vector2d quasi_random(int k) {
+  constexpr double kPlastic = 1.32471795724474602596;
+  double whole = 0.0;
+  return {std::modf(0.5 + (k + 1) / kPlastic, &whole),
+          std::modf(0.5 + (k + 1) / (kPlastic * kPlastic), &whole)};
+}
+
+BeamSpread beam_of(const SensorModel& sensors) {
+  BeamSpread out;
+  out.blur_rad2 = sensors.footprint_rad * sensors.footprint_rad * Eigen::Matrix2d::Identity();
+  return out;
+}
+
+BoardLevels levels_of(const MeasurementTable& table) {
+  return {table.level_of(Print::kWhite), table.level_of(Print::kBlack), Eigen::Vector2d::Zero()};
 }
 
 class ScenePredictor {
@@ -49,14 +61,16 @@ class ScenePredictor {
         table_(table),
         scene_(static_cast<int>(table.scenes.size())),
         camera_from_board_(pose.camera_from_board),
-        geometry_(state.camera_from_lidar, pose.camera_from_board) {
+        geometry_(state.camera_from_lidar, pose.camera_from_board),
+        levels_(levels_of(table)),
+        beam_(beam_of(sensors)),
+        predictor_(*table.print, geometry_.lidar_from_board(), levels_, beam_) {
     scene_info_.name = pose.text();
     scene_info_.clock = 0.5;
   }
 
   void run() {
-    add_ranges();
-    add_edges();
+    add_returns();
     add_corners();
     table_.scenes.push_back(std::move(scene_info_));
   }
@@ -80,69 +94,63 @@ class ScenePredictor {
     return true;
   }
 
-  [[nodiscard]] Print print_at(const Eigen::Vector2d& board_m) const {
-    if (table_.target.albedo(board_m).value_or(1.0) >= 0.5) return Print::kWhite;
-    for (const TargetNode& node : table_.target.nodes()) {
-      if ((board_m - node.center_m).norm() <= table_.target.circle_radius_m) return Print::kCircle;
-    }
-    return Print::kBlack;
+  void set_darkness(double intensity, BeamPoint& beam) const {
+    if (table_.log_contrast > 0.0 && intensity > 0.0)
+      beam.darkness = std::log(table_.level_of(Print::kWhite) / intensity) / table_.log_contrast;
   }
 
-  void set_darkness(Print print, BeamPoint& beam) const {
-    const double level = table_.level_of(print);
-    if (table_.log_contrast > 0.0 && level > 0.0)
-      beam.darkness = std::log(table_.level_of(Print::kWhite) / level) / table_.log_contrast;
-  }
-
-  void add_ranges() {
+  void add_returns() {
     const BoardOutline outline = table_.target.outline();
-    const double cell = board_area_m2(table_.target) / (kGrid * kGrid);
-    for (int i = 0; i < kGrid; ++i) {
-      for (int j = 0; j < kGrid; ++j) {
-        const Eigen::Vector2d share((i + 0.5) / kGrid, (j + 0.5) / kGrid);
-        RangeRow row;
-        const Eigen::Vector2d at = outline.lower_left_m + share.cwiseProduct(outline.size_m());
-        if (!beam_at(at, row.beam)) continue;
-        row.print = print_at(at);
-        set_darkness(row.print, row.beam);
-        row.measured_m = row.beam.range_m;
-        row.intensity = table_.level_of(row.print);
-        const double points = std::clamp(points_per_m2(sensors_, row.beam) * cell, 1e-3,
-                                         kMostPoints / (kGrid * kGrid));
-        row.sigma_m = sensors_.range_sigma_m / std::sqrt(points);
-        table_.range.push_back(row);
-        if (table_.has_intensity) {
-          table_.intensity.push_back({row.beam, row.print, std::log(row.intensity),
-                                      sensors_.intensity_sigma / std::sqrt(points)});
-        }
-      }
+    const double cell = board_area_m2(table_.target) / kPlaces;
+    for (int k = 0; k < kPlaces; ++k) {
+      BeamPoint beam;
+      const Eigen::Vector2d at =
+          outline.lower_left_m + quasi_random(k).cwiseProduct(outline.size_m());
+      if (!beam_at(at, beam)) continue;
+      const auto p = predictor_.predict(beam.direction);
+      if (!p) continue;
+      const double points =
+          std::clamp(points_per_m2(sensors_, beam) * cell, 1e-3, kMostPoints / kPlaces);
+      add_return(*p, beam, std::sqrt(points));
     }
   }
 
-  void add_edges() {
-    const double radius = table_.target.circle_radius_m;
-    for (const TargetNode& node : table_.target.nodes()) {
-      scene_info_.nodes.push_back(node.id);
-      for (int bin = 0; bin < kBins; ++bin) {
-        BoundaryRow row;
-        row.node = node.id;
-        row.center_m = node.center_m;
-        row.radius_m = radius;
-        row.psi_rad = 2.0 * std::numbers::pi * (bin + 0.5) / kBins;
-        const Eigen::Vector2d outward(std::cos(row.psi_rad), std::sin(row.psi_rad));
-        if (!beam_at(node.center_m + radius * outward, row.beam)) continue;
-        row.transition_m =
-            sensors_.footprint_rad * row.beam.range_m * stretch(row.beam, row.psi_rad);
-        row.sigma_m = sensors_.edge_factor * row.transition_m /
-                      std::sqrt(points_in_bin(sensors_, row.beam, radius, row.transition_m));
-        row.log_contrast = table_.log_contrast;
-        const Eigen::Vector3d a = geometry_.edge_row(
-            row.beam.direction,
-            geometry_.lidar_from_board().rotation * Eigen::Vector3d(outward.x(), outward.y(), 0.0));
-        const AngleAxes axes = angle_axes(row.beam);
-        row.edge_normal_rad << a.dot(axes.azimuth_m), a.dot(axes.elevation_m);
-        table_.boundary.push_back(row);
-      }
+  // A return that weighs as `root` squared of them.
+  void add_return(const ReturnPrediction& p, BeamPoint beam, double root) {
+    set_darkness(p.intensity, beam);
+    const PrintView view = view_print(p, levels_, beam_);
+    if (view.kind == PrintView::Kind::kEdge)
+      beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m};
+    const Print print = p.white > 0.5 ? Print::kWhite : Print::kBlack;
+    RangeRow range;
+    range.beam = beam;
+    range.print = print;
+    range.measured_m = p.range_m;
+    range.intensity = p.intensity;
+    range.sigma_m = sensors_.range_sigma_m / root;
+    table_.range.push_back(range);
+    if (!table_.has_intensity) return;
+    if (view.kind == PrintView::Kind::kPlain) {
+      table_.intensity.push_back({beam,
+                                  print,
+                                  std::log(p.intensity),
+                                  sensors_.intensity_sigma / root,
+                                  {p.intensity, p.intensity, {}}});
+    } else if (view.kind == PrintView::Kind::kEdge) {
+      BoundaryRow edge;
+      edge.beam = beam;
+      edge.psi_rad = view.psi_rad;
+      edge.transition_m = view.width_m;
+      edge.log_contrast = table_.log_contrast;
+      edge.sigma_m =
+          sensors_.edge_noise * std::abs(levels_.white - levels_.black) / view.slope / root;
+      edge.reading = {p.intensity, -view.slope, {}};
+      const AngleAxes axes = angle_axes(beam);
+      const Eigen::Vector3d outward(std::cos(view.psi_rad), std::sin(view.psi_rad), 0.0);
+      const Eigen::Vector3d a =
+          geometry_.edge_row(beam.direction, geometry_.lidar_from_board().rotation * outward);
+      edge.edge_normal_rad << a.dot(axes.azimuth_m), a.dot(axes.elevation_m);
+      table_.boundary.push_back(edge);
     }
   }
 
@@ -189,6 +197,9 @@ class ScenePredictor {
   int scene_;
   Rigid3 camera_from_board_;
   SceneGeometry geometry_;
+  BoardLevels levels_;
+  BeamSpread beam_;
+  BoardPredictor predictor_;
   TableScene scene_info_;
   std::size_t next_trait_ = 0;
 };
@@ -247,16 +258,16 @@ SensorModel sensors_of(const MeasurementTable& table) {
   for (const CornerRow& row : table.corner) values.push_back(row.sigma_px);
   if (!values.empty()) out.corner_sigma_px = median(values);
   std::vector<double> footprint;
-  std::vector<double> factor;
+  std::vector<double> noise;
+  const double contrast = std::abs(table.level_of(Print::kWhite) - table.level_of(Print::kBlack));
   for (const BoundaryRow& row : table.boundary) {
     if (!(row.transition_m > 0.0)) continue;
     footprint.push_back(row.transition_m / (row.beam.range_m * stretch(row.beam, row.psi_rad)));
-    factor.push_back(row.sigma_m / row.transition_m *
-                     std::sqrt(points_in_bin(out, row.beam, row.radius_m, row.transition_m)));
+    noise.push_back(row.sigma_m * std::abs(row.reading.unit) / contrast);
   }
   if (!footprint.empty()) {
     out.footprint_rad = median(footprint);
-    out.edge_factor = median(factor);
+    out.edge_noise = median(noise);
   }
   return out;
 }
@@ -290,6 +301,8 @@ bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& 
 void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
                             MeasurementTable& table, ModelState& state) {
   ScenePredictor(pose, sensors, table, state).run();
+  state.beam = beam_of(sensors);
+  state.levels.push_back(levels_of(table));
   state.camera_from_board.push_back(pose.camera_from_board);
 }
 
@@ -300,6 +313,7 @@ std::vector<Eigen::MatrixXd> predicted_information(
   MeasurementTable empty;
   empty.target = like.target;
   empty.camera = like.camera;
+  empty.print = like.print;
   empty.lines = like.lines;
   empty.has_time = like.has_time;
   empty.has_intensity = like.has_intensity;

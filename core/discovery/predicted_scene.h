@@ -25,7 +25,7 @@ struct SensorModel {
   double range_sigma_m = 0.01;
   double intensity_sigma = 0.2;  ///< Of the logarithm.
   double footprint_rad = 0.001;  ///< One σ of the beam.
-  double edge_factor = 1.0;      ///< σ of a bin = factor · width of the transition / √points.
+  double edge_noise = 0.1;       ///< σ of an intensity in an edge over the print's contrast.
   double corner_sigma_px = 0.05;
   std::vector<BeamTrait> traits{BeamTrait{}};
   bool round = false;          ///< The field of view is an ellipse instead of a rectangle.
@@ -40,14 +40,15 @@ SensorModel sensors_of(const MeasurementTable& table);
 bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& lidar_from_board);
 
 /// Appends the rows that the sensors would measure at a pose, without noise: ranges and intensities
-/// on a grid over the board, weighted as many points as there would be, the circles' edges and all
-/// corners. The table must have camera, target, levels and lines; `state` gets the pose.
+/// at places spread evenly over the board, weighted as the many points that there would be, and all
+/// corners. The table must have camera, target, print, levels and lines; `state` gets the pose and
+/// the table's levels, and the beam of the sensors.
 void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
                             MeasurementTable& table, ModelState& state);
 
 /// What each pose would say about the extrinsic and all columns, in the order of `poses`.
-/// `like` gives target, camera, levels and lines. In chunks, so that memory stays small; stops
-/// early (short list) when asked to.
+/// `like` gives target, camera, print, levels and lines. In chunks, so that memory stays small;
+/// stops early (short list) when asked to.
 std::vector<Eigen::MatrixXd> predicted_information(
     const std::vector<GridPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
     const Rigid3& camera_from_lidar, const EffectColumnsList& columns, const ColumnSubset& subset,

@@ -118,7 +118,6 @@ ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before,
   const MeasurementTable& table = step.table();
   const auto residuals_at = [&](const ModelStep& at) {
     ChannelResiduals r = residuals_of(table, at.state, at.predicted_with(), channel);
-    remove_levels(table, r);
     return r;
   };
   const ChannelResiduals now = residuals_at(step);
@@ -151,6 +150,7 @@ std::vector<Channel> channels_of(const Effect& effect, double shape, const Model
   const MeasurementTable& table = step.table();
   few.target = table.target;
   few.camera = table.camera;
+  few.print = table.print;
   few.scenes = table.scenes;
   few.lines = table.lines;
   few.has_time = table.has_time;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <boost/math/distributions/normal.hpp>
 
 namespace lvcalib {
 namespace {
@@ -138,6 +139,35 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   const Eigen::Matrix2d log_power_slope =
       contrast / power * print.hessian_per_m2 - log_power * log_power.transpose();
   out.range_by_pose = hit_range_by_pose + pull * log_power_slope * hit_by_pose;
+  return out;
+}
+
+PrintView view_print(const ReturnPrediction& p, const BoardLevels& levels, const BeamSpread& beam) {
+  // Print plainer than this is white or black: what is left of an edge adds a hundredth.
+  constexpr double kPlainPrint = 0.01;
+  // A spot sees one edge if the print's slope is that of one within a fifth: at a corner, half a
+  // width from it, it is a third less.
+  constexpr double kOneEdge = 0.2;
+  PrintView out;
+  if (p.white > 1.0 - kPlainPrint || p.white < kPlainPrint) return out;
+  const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
+  const double slope = p.intensity_by_shift.norm();
+  const double width = std::sqrt(by_angle.dot(by_angle * beam.blur_rad2)) / std::max(slope, 1e-12);
+  // Of one straight edge the slope follows from the share of white; where it does not, the spot
+  // sees several edges, and what widens dark print is not what moves them.
+  const boost::math::normal normal;
+  const double z = boost::math::quantile(normal, std::clamp(p.white, 1e-4, 1.0 - 1e-4));
+  const double one_edge =
+      std::abs(levels.white - levels.black) * boost::math::pdf(normal, z) / width;
+  out.kind = PrintView::Kind::kMixed;
+  if (!(std::abs(std::log(slope / one_edge)) <= kOneEdge)) return out;
+  out.kind = PrintView::Kind::kEdge;
+  out.slope = slope;
+  out.width_m = width;
+  out.distance_m = width * z;
+  // A print moved along its own growing whiteness gets darker.
+  const Eigen::RowVector2d outward = -p.intensity_by_shift;
+  out.psi_rad = std::atan2(outward.y(), outward.x());
   return out;
 }
 

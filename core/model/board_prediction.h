@@ -108,4 +108,17 @@ struct BeamAxes {
 };
 BeamAxes beam_axes(const Eigen::Vector3d& direction);
 
+/// What the spot of a return sees of the print: plain black or white, one straight edge, or several
+/// (near a corner, in a pattern finer than the spot).
+struct PrintView {
+  enum class Kind { kPlain, kEdge, kMixed };
+  Kind kind = Kind::kPlain;
+  // Of an edge:
+  double slope = 0.0;       ///< Of the intensity across it, 1/m.
+  double width_m = 0.0;     ///< σ of the spot across it.
+  double distance_m = 0.0;  ///< From it to the spot, on the white side positive.
+  double psi_rad = 0.0;     ///< Polar angle of the way from black to white, board frame.
+};
+PrintView view_print(const ReturnPrediction& p, const BoardLevels& levels, const BeamSpread& beam);
+
 }  // namespace lvcalib

@@ -24,13 +24,6 @@ Eigen::Vector2d lidar_angle_of(const BoundaryRow& row) {
   return length > 0.0 ? Eigen::Vector2d(angle / length) : Eigen::Vector2d::Zero().eval();
 }
 
-double edge_curvature(const BoundaryRow& row) {
-  const double slope = std::tan(row.beam.incidence_rad);
-  const double across = slope * std::cos(row.psi_rad - row.beam.slope_rad);
-  return -row.beam.range_m * row.beam.range_m * (1.0 + slope * slope) / (1.0 + across * across) /
-         (2.0 * row.radius_m);
-}
-
 std::vector<EffectParameter> one_per_line(const MeasurementTable& table,
                                           const EffectParameter& parameter) {
   std::vector<EffectParameter> out;
@@ -78,9 +71,9 @@ double edge_pull(const BeamPoint& beam, const MeasurementTable& table) {
   const double sigma = beam.edge->transition_m;
   const double z = beam.edge->distance_m / sigma;
   if (std::abs(z) > 4.0) return 0.0;
-  const double circle = table.level_of(Print::kCircle);
-  const double contrast = table.level_of(Print::kWhite) - circle;
-  const double level = circle + contrast * normal_cdf(z);
+  const double black = table.level_of(Print::kBlack);
+  const double contrast = table.level_of(Print::kWhite) - black;
+  const double level = black + contrast * normal_cdf(z);
   const double slope = contrast * normal_pdf(z) / sigma;
   // σ is the width in the board along ψ: it already holds the stretching by the incidence.
   return std::sin(beam.incidence_rad) * std::cos(beam.edge->psi_rad - beam.slope_rad) * sigma *

@@ -32,13 +32,8 @@ struct AngleAxes {
 AngleAxes angle_axes(const BeamPoint& beam);
 
 /// Change of (azimuth·cos elevation, elevation) by which a beam moves along the outward normal of
-/// the circle's edge, as a unit vector: the polar angle ψ′ against the LiDAR's axes.
+/// an edge, as a unit vector: the polar angle ψ′ against the LiDAR's axes.
 Eigen::Vector2d lidar_angle_of(const BoundaryRow& row);
-
-/// Mid-level shift (m) of a circle's edge for a round footprint of one rad²: −r²/2R facing the
-/// beam. A beam cut by the edge at its middle still spreads along it, by the variance of the
-/// footprint along the edge given none across, and there the circle curves away by t²/2R.
-double edge_curvature(const BoundaryRow& row);
 
 /// The same parameter once per laser line, named "a3" for line 3.
 std::vector<EffectParameter> one_per_line(const MeasurementTable& table,

@@ -79,6 +79,8 @@ class Effect {
   [[nodiscard]] virtual std::string shape_name() const { return {}; }
   /// False if the shape number is a choice of the search rather than a quantity of nature.
   [[nodiscard]] virtual bool has_smooth_shape() const { return !shape_name().empty(); }
+  /// True for what the base model measures already, so that it cannot be added.
+  [[nodiscard]] virtual bool is_in_base_model() const { return false; }
   /// True for what no data can tell from the extrinsic itself.
   [[nodiscard]] virtual bool is_gauge() const { return false; }
 
@@ -95,15 +97,14 @@ class Effect {
   virtual void camera(const CornerRow& /*row*/, const Eigen::Vector2d& /*normalized*/,
                       const Camera& /*camera*/, double /*shape*/,
                       std::span<Eigen::Vector2d> /*by_parameter*/) const {}
-  /// Outward shift (m) of the mid-level crossing.
+  /// Outward shift (m) of the edge of dark print.
   virtual void edge(const BoundaryRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
                     std::span<double> /*by_parameter*/) const {}
   /// Displacement (LiDAR frame, m) of the place whose light is measured from the place that the
-  /// reported direction meets. Seen where a print is predicted.
+  /// reported direction meets.
   virtual void spot(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
                     std::span<Eigen::Vector3d> /*by_parameter*/) const {}
-  /// Change (rad²) of the beam's blur: horizontal, mixed, vertical. Seen where a print is
-  /// predicted.
+  /// Change (rad²) of the beam's blur: horizontal, mixed, vertical.
   virtual void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
                     std::span<Eigen::Vector3d> /*by_parameter*/) const {}
   /// Change of the logarithm of the intensity.

@@ -27,26 +27,4 @@ std::optional<CornerPrediction> predict(const CornerRow& row, const Camera& came
   return out;
 }
 
-std::optional<EdgePrediction> predict(const BoundaryRow& row, const SceneGeometry& geometry,
-                                      const Eigen::Vector3d& displacement) {
-  const auto measured = geometry.range_m(row.beam.direction);
-  if (!measured) return std::nullopt;
-  const Eigen::Vector3d direction = (*measured * row.beam.direction - displacement).normalized();
-  const auto range = geometry.range_m(direction);
-  if (!range) return std::nullopt;
-  EdgePrediction out;
-  out.point_m = *range * direction;
-  const Eigen::Vector2d xy = geometry.board_m(out.point_m);
-  out.distance_m = (xy - row.center_m).norm() - row.radius_m;
-  const Eigen::Matrix3d rotation = geometry.lidar_from_board().rotation.toRotationMatrix();
-  out.row = geometry.edge_row(direction, outward_of(row, xy, rotation));
-  return out;
-}
-
-Eigen::Vector3d outward_of(const BoundaryRow& row, const Eigen::Vector2d& board_m,
-                           const Eigen::Matrix3d& lidar_from_board) {
-  const Eigen::Vector2d n = (board_m - row.center_m).normalized();
-  return lidar_from_board * Eigen::Vector3d(n.x(), n.y(), 0.0);
-}
-
 }  // namespace lvcalib

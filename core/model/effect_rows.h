@@ -82,40 +82,6 @@ class EffectRows {
     }
   }
 
-  template <class Sink>
-  void edge(const BoundaryRow& r, const Eigen::Vector3d& row,
-            const Eigen::Matrix3d& lidar_from_board, Sink&& sink) {
-    std::vector<double> outward;
-    for (const EffectColumns& c : columns_) {
-      if (c.print_contrast) continue;
-      const std::size_t n = c.parameters.size();
-      reset(n);
-      outward.assign(n, 0.0);
-      move_edge(c, r, n);
-      c.effect->edge(r, table_, c.shape, outward);
-      for (std::size_t k = 0; k < n; ++k) {
-        scalars_[k] = row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]) + outward[k];
-      }
-      sink(c, std::span(scalars_).first(n));
-    }
-  }
-
-  /// Displacement (LiDAR frame) of the measured edge point and of the print under it by effects
-  /// with values; value(c, k) gives that of parameter k of the columns c.
-  template <class Value>
-  Eigen::Vector3d displacement(const BoundaryRow& r, const Eigen::Matrix3d& lidar_from_board,
-                               Value&& value) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const EffectColumns& c : columns_) {
-      const std::size_t n = c.parameters.size();
-      reset(n);
-      move_edge(c, r, n);
-      for (std::size_t k = 0; k < n; ++k)
-        sum += value(c, k) * (moves_[k] + lidar_from_board * board_[k]);
-    }
-    return sum;
-  }
-
   /// Two rows at once: u and v.
   template <class Sink>
   void corner(const CornerRow& r, const Eigen::Vector2d& normalized,
@@ -170,40 +136,7 @@ class EffectRows {
     }
   }
 
-  template <class Sink>
-  void intensity(const IntensityRow& r, Sink&& sink) {
-    for (const EffectColumns& c : columns_) {
-      const std::size_t n = c.parameters.size();
-      std::fill_n(scalars_.begin(), n, 0.0);
-      c.effect->intensity(r, table_, c.shape, std::span(scalars_).first(n));
-      if (c.print_contrast && r.print != Print::kWhite) {
-        for (std::size_t k = 0; k < n; ++k) scalars_[k] = -scalars_[k];
-      }
-      sink(c, std::span(scalars_).first(n));
-    }
-  }
-
  private:
-  // What an effect does to the points that an edge was measured with, and to the board there.
-  void move_edge(const EffectColumns& c, const BoundaryRow& r, std::size_t n) {
-    const auto moves = std::span(moves_).first(n);
-    c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
-                    std::span(board_).first(n));
-    if (!c.effect->info().needs.line || r.lines.empty()) {
-      c.effect->lidar(r.beam, table_, c.shape, moves);
-      return;
-    }
-    // Several lines make one edge: it moves by their mean.
-    std::vector<Eigen::Vector3d> one(n);
-    BeamPoint beam = r.beam;
-    for (const LineShare& of : r.lines) {
-      std::fill(one.begin(), one.end(), Eigen::Vector3d::Zero());
-      beam.line = of.line;
-      c.effect->lidar(beam, table_, c.shape, one);
-      for (std::size_t k = 0; k < n; ++k) moves[k] += of.share * one[k];
-    }
-  }
-
   void reset(std::size_t n) {
     for (std::size_t k = 0; k < n; ++k) {
       moves_[k].setZero();
@@ -235,22 +168,6 @@ struct CornerPrediction {
 /// Measured minus predicted; nothing if the camera cannot image the corner.
 std::optional<CornerPrediction> predict(const CornerRow& row, const Camera& camera,
                                         const Rigid3& camera_from_board);
-
-/// Unit vector (LiDAR frame) from the node through a board point.
-Eigen::Vector3d outward_of(const BoundaryRow& row, const Eigen::Vector2d& board_m,
-                           const Eigen::Matrix3d& lidar_from_board);
-
-/// An edge point as it would be measured without the displacement that effects in use give it.
-/// Edges are curved: where a point lies millimetres beside its place, the displacement along the
-/// circle's normal there is not that at its place.
-struct EdgePrediction {
-  double distance_m = 0.0;  ///< From the printed edge, outward.
-  Eigen::Vector3d row;      ///< See SceneGeometry::edge_row.
-  Eigen::Vector3d point_m;  ///< Of the plane, LiDAR frame.
-};
-/// Nothing where the ray misses the board.
-std::optional<EdgePrediction> predict(const BoundaryRow& row, const SceneGeometry& geometry,
-                                      const Eigen::Vector3d& displacement);
 
 /// The columns of effects in use, in their order.
 EffectColumnsList columns_in_use(const std::vector<EffectInUse>& in_use,

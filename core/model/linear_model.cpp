@@ -68,18 +68,14 @@ class SceneAccumulator {
         in_use_(in_use),
         in_use_columns_(columns_in_use(in_use, table)),
         used_rows_(table, in_use_columns_.list()),
-        candidate_rows_(table, columns.list()) {
+        candidate_rows_(table, columns.list()),
+        print_(table, state, scene, in_use) {
     LocalLayout& layout = out_.layout;
-    layout.nodes = static_cast<int>(table.scenes[scene].nodes.size());
-    layout.tags =
-        table.target.has_tags() ? static_cast<int>(table.scenes[scene].features.size()) : 0;
-    if (table.print) {
-      layout.print = true;
-      layout.patches = BoardPatches(table.print->outline(), kPatch_m);
-      layout.lines = table.lines.size() > 1 ? static_cast<int>(table.lines.size()) : 0;
-      if (layout.tags == 0) layout.tags = layout.patches.count();
-      print_.emplace(table, state, scene, in_use);
-    }
+    layout.patches = BoardPatches(table.print->outline(), kPatch_m);
+    layout.lines = table.lines.size() > 1 ? static_cast<int>(table.lines.size()) : 0;
+    layout.corner_groups = table.target.has_tags()
+                               ? static_cast<int>(table.scenes[scene].features.size())
+                               : layout.patches.count();
     extrinsic_ = out_.layout.size();
     effects_ = extrinsic_ + 6;
     residual_ = effects_ + columns.columns();
@@ -88,22 +84,19 @@ class SceneAccumulator {
   }
 
   SceneProducts run() {
-    if (print_) {
-      run_print();
-      for (auto& m : out_.products) m.triangularView<Eigen::StrictlyLower>() = m.transpose();
-      return std::move(out_);
-    }
     for (const RangeRow& row : table_.range) {
       if (row.beam.scene == scene_) range(row);
     }
     for (const BoundaryRow& row : table_.boundary) {
-      if (row.beam.scene == scene_) boundary(row);
+      if (row.beam.scene != scene_) continue;
+      const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+      reading(Channel::kBoundary, {row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
     }
     for (const CornerRow& row : table_.corner) {
       if (row.scene == scene_) corner(row);
     }
     for (const IntensityRow& row : table_.intensity) {
-      if (row.beam.scene == scene_) intensity(row);
+      if (row.beam.scene == scene_) reading(Channel::kIntensity, row, nullptr);
     }
     for (auto& m : out_.products) m.triangularView<Eigen::StrictlyLower>() = m.transpose();
     return std::move(out_);
@@ -116,13 +109,6 @@ class SceneAccumulator {
   void set_extrinsic(const Vector6d& by_pose) {
     for (int k = 0; k < 6; ++k) row_.set(extrinsic_ + k, -by_pose(k));
   }
-  double used_sum(const EffectColumns& c, std::span<const double> by) const {
-    const auto& use = in_use_[static_cast<std::size_t>(&c - in_use_columns_.list().data())];
-    double sum = 0.0;
-    for (std::size_t k = 0; k < by.size(); ++k)
-      sum += by[k] * use.values(static_cast<Eigen::Index>(k));
-    return sum;
-  }
   void finish(Channel channel, double residual, double sigma) {
     row_.set(residual_, residual);
     const auto at = static_cast<std::size_t>(channel);
@@ -132,63 +118,27 @@ class SceneAccumulator {
     ++out_.rows[at];
   }
 
-  void range(const RangeRow& r) {
-    const auto predicted = geometry_.range_m(r.beam.direction);
-    if (!predicted) return;
-    const Eigen::Vector3d a = geometry_.range_row(r.beam.direction);
-    const Vector6d by_pose = geometry_.by_board_pose(a, *predicted * r.beam.direction);
-    double residual = r.measured_m - *predicted;
-    used_rows_.range(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
-      residual -= used_sum(c, by);
-    });
-    BoardPolynomials z{};
-    board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
-    row_.clear();
-    set_pose(by_pose);
-    for (int k = 0; k < 15; ++k) row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(k)]);
-    set_extrinsic(by_pose);
-    candidate_rows_.range(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
-      set_effect(c, by);
-    });
-    finish(Channel::kRange, residual, r.sigma_m);
-  }
-
   void set_effect(const EffectColumns& c, std::span<const double> by) {
     for (std::size_t k = 0; k < by.size(); ++k)
       row_.set(effects_ + c.first + static_cast<int>(k), by[k]);
   }
 
-  void run_print() {
-    for (const RangeRow& r : table_.range) {
-      if (r.beam.scene != scene_) continue;
-      const auto row = print_->range(r);
-      if (!row) continue;
-      begin(*row);
-      BoardPolynomials z{};
-      board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
-      const int high = LocalLayout::kFixed + LocalLayout::kLow;
-      for (int k = 0; k < LocalLayout::kHigh; ++k)
-        row_.set(high + k, z[static_cast<std::size_t>(3 + k)]);
-      set_board_motion(*row);
-      const int line = line_of(r.beam);
-      if (line >= 0) row_.set(out_.layout.line_column() + line, 1.0);
-      set_extrinsic(row->by_board_pose);
-      candidate_rows_.range(
-          r, geometry_.range_row(r.beam.direction), rotation_,
-          [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
-      finish(Channel::kRange, row->residual, r.sigma_m);
-    }
-    for (const BoundaryRow& r : table_.boundary) {
-      if (r.beam.scene != scene_) continue;
-      const Print side = r.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
-      reading(Channel::kBoundary, {r.beam, side, 0.0, r.sigma_m, r.reading}, &r);
-    }
-    for (const IntensityRow& r : table_.intensity) {
-      if (r.beam.scene == scene_) reading(Channel::kIntensity, r, nullptr);
-    }
-    for (const CornerRow& r : table_.corner) {
-      if (r.scene == scene_) corner(r);
-    }
+  void range(const RangeRow& r) {
+    const auto row = print_.range(r);
+    if (!row) return;
+    begin(*row);
+    BoardPolynomials z{};
+    board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
+    for (int k = 0; k < LocalLayout::kRangeTerms; ++k)
+      row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(3 + k)]);
+    set_board_motion(*row);
+    const int line = line_of(r.beam);
+    if (line >= 0) row_.set(out_.layout.line_column() + line, 1.0);
+    set_extrinsic(row->by_board_pose);
+    candidate_rows_.range(
+        r, geometry_.range_row(r.beam.direction), rotation_,
+        [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
+    finish(Channel::kRange, row->residual, r.sigma_m);
   }
 
   void begin(const PrintRow& row) {
@@ -208,7 +158,7 @@ class SceneAccumulator {
   }
 
   void reading(Channel channel, const IntensityRow& r, const BoundaryRow* edge) {
-    const auto row = edge != nullptr ? print_->edge(*edge) : print_->intensity(r);
+    const auto row = edge != nullptr ? print_.edge(*edge) : print_.intensity(r);
     if (!row) return;
     begin(*row);
     set_board_motion(*row);
@@ -228,35 +178,6 @@ class SceneAccumulator {
     finish(channel, row->residual, r.sigma);
   }
 
-  void boundary(const BoundaryRow& r) {
-    const Eigen::Vector3d moved =
-        used_rows_.displacement(r, rotation_, [&](const EffectColumns& c, std::size_t j) {
-          const auto at = static_cast<std::size_t>(&c - in_use_columns_.list().data());
-          return in_use_[at].values(static_cast<Eigen::Index>(j));
-        });
-    const auto edge = predict(r, geometry_, moved);
-    if (!edge) return;
-    const Eigen::Vector3d& a = edge->row;
-    const Vector6d by_pose = geometry_.by_board_pose(a, edge->point_m);
-    // The displacement is in the prediction already; what is left of the effects moves the edge.
-    double residual = edge->distance_m + a.dot(moved);
-    used_rows_.edge(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
-      residual -= used_sum(c, by);
-    });
-    const int node = index_in(table_.scenes[static_cast<std::size_t>(scene_)].nodes, r.node);
-    row_.clear();
-    set_pose(by_pose);
-    const int z = out_.layout.node_column() + 3 * node;
-    row_.set(z, std::cos(r.psi_rad));
-    row_.set(z + 1, std::sin(r.psi_rad));
-    row_.set(z + 2, 1.0);
-    set_extrinsic(by_pose);
-    candidate_rows_.edge(r, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
-      set_effect(c, by);
-    });
-    finish(Channel::kBoundary, residual, r.sigma_m);
-  }
-
   void corner(const CornerRow& r) {
     const auto p = predict(r, table_.camera, camera_from_board_);
     if (!p) return;
@@ -268,16 +189,15 @@ class SceneAccumulator {
                         for (std::size_t k = 0; k < by.size(); ++k)
                           residual -= by[k] * use.values(static_cast<Eigen::Index>(k));
                       });
-    // Corners of one tag err together; without tags those of one patch, where that is modelled.
-    const bool tags = table_.target.has_tags();
-    const int tag =
-        tags     ? index_in(table_.scenes[static_cast<std::size_t>(scene_)].features, r.feature)
-        : print_ ? patch_of(r.board_m)
-                 : 0;
+    // Corners of one tag err together; without tags those of one patch.
+    const int group =
+        table_.target.has_tags()
+            ? index_in(table_.scenes[static_cast<std::size_t>(scene_)].features, r.feature)
+            : patch_of(r.board_m);
     for (int axis = 0; axis < 2; ++axis) {
       row_.clear();
       set_pose(p->by_pose.row(axis).transpose());
-      if (tags || print_) row_.set(out_.layout.tag_column() + 2 * tag + axis, 1.0);
+      row_.set(out_.layout.corner_column() + 2 * group + axis, 1.0);
       candidate_rows_.corner(r, p->normalized, p->by_board_move,
                              [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
                                for (std::size_t k = 0; k < by.size(); ++k)
@@ -285,23 +205,6 @@ class SceneAccumulator {
                              });
       finish(Channel::kCorner, residual(axis), r.sigma_px);
     }
-  }
-
-  void intensity(const IntensityRow& r) {
-    double residual = r.log_intensity - std::log(table_.level_of(r.print));
-    used_rows_.intensity(r, [&](const EffectColumns& c, std::span<const double> by) {
-      residual -= used_sum(c, by);
-    });
-    BoardPolynomials z{};
-    board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
-    row_.clear();
-    row_.set(LocalLayout::kPose + static_cast<int>(r.print), 1.0);
-    const int first = LocalLayout::kFixed + LocalLayout::kLow + LocalLayout::kHigh;
-    for (int k = 0; k < LocalLayout::kIntensityTerms; ++k)
-      row_.set(first + k, z[static_cast<std::size_t>(k + 1)]);
-    candidate_rows_.intensity(
-        r, [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
-    finish(Channel::kIntensity, residual, r.sigma);
   }
 
   const MeasurementTable& table_;
@@ -313,7 +216,7 @@ class SceneAccumulator {
   EffectColumnsList in_use_columns_;
   EffectRows used_rows_;
   EffectRows candidate_rows_;
-  std::optional<PrintRows> print_;  // Of a table with a print.
+  PrintRows print_;
   SceneProducts out_;
   SparseRow row_;
   int extrinsic_ = 0;
@@ -362,32 +265,26 @@ void EffectColumnsList::add_print_contrast(const EffectPtr& effect, double shape
 
 std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
   switch (group) {
-    case VarianceGroup::kRangeLow:
-      return {kFixed, kLow};
-    case VarianceGroup::kRangeHigh:
-      return {kFixed + kLow, kHigh};
-    case VarianceGroup::kNode:
-      return {node_column(), 3 * nodes};
-    case VarianceGroup::kTag:
-      return {tag_column(), 2 * tags};
+    case VarianceGroup::kRangeShape:
+      return {kFixed, kRangeTerms};
+    case VarianceGroup::kCornerGroup:
+      return {corner_column(), 2 * corner_groups};
     case VarianceGroup::kBoardShift:
-      return {board_column(), print ? 2 : 0};
+      return {board_column(), 2};
     case VarianceGroup::kBoardNormal:
-      return {board_column() + 2, print ? 1 : 0};
+      return {board_column() + 2, 1};
     case VarianceGroup::kBoardTilt:
-      return {board_column() + 3, print ? 2 : 0};
+      return {board_column() + 3, 2};
     case VarianceGroup::kBoardSpin:
-      return {board_column() + 5, print ? 1 : 0};
+      return {board_column() + 5, 1};
     case VarianceGroup::kPrintPatch:
       return {patch_column(), 2 * patches.count()};
     case VarianceGroup::kLineRange:
       return {line_column(), lines};
     case VarianceGroup::kLineGain:
-      return {line_column() + lines, lines};
-    case VarianceGroup::kIntensity:
       break;
   }
-  return {kFixed + kLow + kHigh, kIntensityTerms};
+  return {line_column() + lines, lines};
 }
 
 Linearization linearize(const MeasurementTable& table, const ModelState& state,

@@ -65,44 +65,36 @@ struct EffectInUse {
 /// Groups of random effects: systematic structure that is not white noise and that no effect
 /// explains. Its size is estimated, so that it is not taken for evidence.
 enum class VarianceGroup {
-  kRangeLow = 0,   ///< Per scene: offset and slopes of the board in the ranges.
-  kRangeHigh = 1,  ///< Per scene: board polynomials of degree 2 to 4 in the ranges.
-  kNode = 2,       ///< Per node: shift in two directions and radius.
-  kTag = 3,        ///< Per tag: shift in the image.
-  kIntensity = 4,  ///< Per scene: polynomials of degree 1 and 2 in the log-intensity.
-  // Of tables with a print, instead of kRangeLow, kNode and kIntensity:
-  kBoardShift = 5,   ///< Per scene: the board between camera and LiDAR, in its plane (m),
-  kBoardNormal = 6,  ///< along its normal (m),
-  kBoardTilt = 7,    ///< tilted (rad),
-  kBoardSpin = 8,    ///< turned about its normal (rad).
-  kPrintPatch = 9,   ///< Per patch of 0.2 m: shift of the print (m).
-  kLineRange = 10,   ///< Per scene and line: offset of the ranges (m).
-  kLineGain = 11,    ///< Per scene and line: gain of the intensities (1).
+  kRangeShape = 0,   ///< Per scene: board polynomials of degree 2 to 4 in the ranges (m).
+  kCornerGroup = 1,  ///< Per tag, or per patch of a board without tags: shift in the image (px).
+  kBoardShift = 2,   ///< Per scene: the board between camera and LiDAR, in its plane (m),
+  kBoardNormal = 3,  ///< along its normal (m),
+  kBoardTilt = 4,    ///< tilted (rad),
+  kBoardSpin = 5,    ///< turned about its normal (rad).
+  kPrintPatch = 6,   ///< Per patch of 0.2 m: shift of the print (m).
+  kLineRange = 7,    ///< Per scene and line: offset of the ranges (m).
+  kLineGain = 8,     ///< Per scene and line: gain of the intensities (1).
 };
-constexpr std::size_t kVarianceGroups = 12;
+constexpr std::size_t kVarianceGroups = 9;
 /// Variances that are told from zero (µm, a hundredth of a milliradian, a ten-thousandth of a
 /// pixel): a group at its own is held there, as absent.
-constexpr std::array<double, kVarianceGroups> kAbsentVariance{
-    1e-12, 1e-12, 1e-12, 1e-8, 1e-8, 1e-12, 1e-12, 1e-12, 1e-12, 1e-12, 1e-12, 1e-9};
+constexpr std::array<double, kVarianceGroups> kAbsentVariance{1e-12, 1e-8,  1e-12, 1e-12, 1e-12,
+                                                              1e-12, 1e-12, 1e-12, 1e-9};
 
-/// Columns that belong to one scene: board pose (6, left perturbation), intensity levels (one per
-/// print; of tables with a print white, black and two slopes), then the random effects.
+/// Columns that belong to one scene: board pose (6, left perturbation), levels (white, black and
+/// two slopes), then the random effects.
 struct LocalLayout {
   static constexpr int kPose = 6;
   static constexpr int kLevels = kLevelParameters;
   static constexpr int kFixed = kPose + kLevels;
-  static constexpr int kLow = 3;
-  static constexpr int kHigh = 12;
-  static constexpr int kIntensityTerms = 5;
-  int nodes = 0;
-  int tags = 0;
+  static constexpr int kRangeTerms = 12;
+  static constexpr int kBoardMotions = 6;
+  int corner_groups = 0;
   BoardPatches patches;
   int lines = 0;
-  bool print = false;  ///< Of a table with a print.
-  [[nodiscard]] int node_column() const { return kFixed + kLow + kHigh + kIntensityTerms; }
-  [[nodiscard]] int tag_column() const { return node_column() + 3 * nodes; }
-  [[nodiscard]] int board_column() const { return tag_column() + 2 * tags; }
-  [[nodiscard]] int patch_column() const { return board_column() + (print ? 6 : 0); }
+  [[nodiscard]] int corner_column() const { return kFixed + kRangeTerms; }
+  [[nodiscard]] int board_column() const { return corner_column() + 2 * corner_groups; }
+  [[nodiscard]] int patch_column() const { return board_column() + kBoardMotions; }
   [[nodiscard]] int line_column() const { return patch_column() + 2 * patches.count(); }
   [[nodiscard]] int size() const { return line_column() + 2 * lines; }
   /// First column and number of columns of a group.

@@ -14,7 +14,6 @@
 #include "camera/camera.h"
 #include "model/board_prediction.h"
 #include "model/channel.h"
-#include "refinement/board_refinement.h"
 #include "target/target.h"
 
 namespace lvcalib {
@@ -26,9 +25,9 @@ struct NearEdge {
   double transition_m = 0.0;  ///< Width σ of the transition along ψ.
 };
 
-/// What a beam hits, by geometry. Circles and tags may be printed with different blacks.
-enum class Print { kWhite = 0, kBlack = 1, kCircle = 2 };
-constexpr std::size_t kPrints = 3;
+/// What a beam hits, by geometry.
+enum class Print { kWhite = 0, kBlack = 1 };
+constexpr std::size_t kPrints = 2;
 
 /// What is known about the place where one beam meets the board, whatever is measured there.
 /// Effects and plots read it; nothing in it comes from the noisy range or intensity of the point
@@ -59,7 +58,7 @@ struct RangeRow {
   double intensity = 0.0;  ///< Raw.
   Print print = Print::kWhite;
   double sigma_m = 0.0;
-  LocalPrint seen = {};  ///< Of tables with a print, where it was predicted last.
+  LocalPrint seen = {};  ///< The print where it was predicted last.
 };
 
 /// A return's intensity beside the print that the model predicts there. Its residual is measured
@@ -71,30 +70,17 @@ struct IntensityReading {
   LocalPrint seen = {};   ///< The print where it was predicted last.
 };
 
-/// How much of an edge a laser line saw.
-struct LineShare {
-  int line = 0;
-  double share = 0.0;
-};
-
-/// An edge of the print as the LiDAR sees it: of tables with a print a single return in the blur of
-/// an edge, told as the distance by which the edge lies off; else the mid-level crossing of one
-/// angular bin of one node.
+/// A single return in the blur of an edge of the print, told as the distance by which the edge lies
+/// off.
 struct BoundaryRow {
-  BeamPoint beam;                ///< Its line is the one that saw most of the edge.
-  std::vector<LineShare> lines;  ///< Shares add up to one; empty: the beam's line alone.
-  int node = 0;
-  Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  ///< The node, board frame.
-  double radius_m = 0.0;
-  double psi_rad = 0.0;       ///< Polar angle about the node, board frame.
+  BeamPoint beam;
+  int node = -1;              ///< The circle whose edge it is; −1: another edge's.
+  double psi_rad = 0.0;       ///< Polar angle of the way from black to white, board frame.
   double transition_m = 0.0;  ///< Width σ of the transition in the board, along ψ.
-  /// Where the mid-level lies off the printed edge because the footprint, as wide as the scene's
-  /// transitions are, meets a curve: −σ²/2R with σ the footprint's width along the edge.
-  double curvature_m = 0.0;
-  /// Gradient of the outward board coordinate by (azimuth·cos elevation, elevation), m/rad: how
+  /// Gradient of the board coordinate along ψ by (azimuth·cos elevation, elevation), m/rad: how
   /// the LiDAR's angles cross the edge.
   Eigen::Vector2d edge_normal_rad = Eigen::Vector2d::Zero();
-  double log_contrast = 0.0;  ///< ln(outer level / inner level).
+  double log_contrast = 0.0;  ///< ln(white / black).
   double sigma_m = 0.0;
   IntensityReading reading;
 };
@@ -124,12 +110,11 @@ struct IntensityRow {
 struct TableScene {
   std::string name;
   std::vector<int> features;  ///< Distinct corner features (tags), in order of appearance.
-  std::vector<int> nodes;     ///< Distinct nodes with boundary rows.
   double clock = 0.0;         ///< 0…1 over the scenes in their order.
 };
 
-/// State that the measurements are predicted from: extrinsic and a board pose per scene; of tables
-/// with a print also its levels per scene and the beam.
+/// State that the measurements are predicted from: the extrinsic, a board pose and levels per
+/// scene, and the beam.
 struct ModelState {
   Rigid3 camera_from_lidar;
   std::vector<Rigid3> camera_from_board;
@@ -137,7 +122,6 @@ struct ModelState {
   BeamSpread beam = {};
 };
 
-struct TableSource;
 struct EffectInUse;
 
 /// All measurements that a finished calibration keeps, thinned evenly over the boards, with every
@@ -154,7 +138,7 @@ struct MeasurementTable {
   bool has_time = false;
   bool has_intensity = false;
   /// Usual raw intensity of each print: medians of the scenes' levels; 1 where there is none.
-  std::array<double, kPrints> level{1.0, 1.0, 1.0};
+  std::array<double, kPrints> level{1.0, 1.0};
   [[nodiscard]] double level_of(Print print) const {
     return level[static_cast<std::size_t>(print)];
   }
@@ -162,18 +146,15 @@ struct MeasurementTable {
   double log_contrast = 0.0;
   /// The state by which points were told to lie on which print.
   ModelState placed_by;
-  /// The print that every return is predicted from. Null: of a table of circles' edges and plain
-  /// print.
+  /// The print that every return is predicted from.
   std::shared_ptr<const BlurredPrint> print;
-  /// Makes a table with a print again for another state and effects in use: which returns are in
+  /// Makes the table again for another state and effects in use: which returns are in
   /// the blur of an edge, and how far single ones are weighed down, follows what the model
   /// predicts.
   std::function<MeasurementTable(const ModelState&, const std::vector<EffectInUse>&)> again;
   /// Variances of structure that nothing explains, as the joint solve found them, in the order of
   /// VarianceGroup; empty: the fit starts from usual ones.
   std::vector<double> structure_variances;
-  /// What the table was made of, to make it again (see remeasured()); null if that is gone.
-  std::shared_ptr<const TableSource> source;
 
   [[nodiscard]] std::size_t size(Channel channel) const;
 };

@@ -15,9 +15,9 @@ namespace lvcalib {
 struct ModelVariances {
   /// Factor on the stated variance of each channel's rows.
   std::array<double, kChannels> channel{1.0, 1.0, 1.0, 1.0};
-  /// Variance of each group of random effects (m², m², m², px², 1).
-  std::array<double, kVarianceGroups> group{1e-7,  1e-7,  4e-8,  4e-4,  1e-3,  1e-12,
-                                            1e-12, 1e-12, 1e-12, 1e-12, 1e-12, 1e-9};
+  /// Variance of each group of random effects, in the order of VarianceGroup.
+  std::array<double, kVarianceGroups> group{1e-7,  4e-4,  1e-12, 1e-7, 1e-7,
+                                            1e-12, 1e-12, 1e-12, 1e-9};
 };
 
 /// What one scene says about the global unknowns (extrinsic and effect parameters) once its own

@@ -11,7 +11,7 @@ namespace lvcalib {
 /// What the numbers of a model refer to. Kept with them, so that the model can be applied to other
 /// clouds of the same LiDAR.
 struct ModelScales {
-  std::array<double, kPrints> level{1.0, 1.0, 1.0};  ///< Usual raw intensity of each print.
+  std::array<double, kPrints> level{1.0, 1.0};  ///< Usual raw intensity of each print.
   double log_contrast = 0.0;        ///< ln(white/black); 0 if the clouds had no intensity.
   double darkness_low = 0.0;        ///< Range of BeamPoint::darkness on the boards …
   double darkness_high = 1.0;       ///< … outside of which the model is not known.

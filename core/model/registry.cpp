@@ -3,7 +3,6 @@
 
 #include "model/effect.h"
 #include "model/effects/catalogue.h"
-#include "model/natural_footprint.h"
 
 namespace lvcalib {
 
@@ -31,10 +30,8 @@ std::string why_not_testable(const Effect& effect, const MeasurementTable& table
   if (needs.line && table.lines.size() < 2) return "no laser lines in these clouds";
   if (needs.intensity && !table.has_intensity)
     return "no intensity in these clouds (or the same on all points)";
-  if (table.print && describes_footprint(effect.info().id))
-    return "measured with the base model, as the beam's blur";
-  if (needs.circles && table.boundary.empty())
-    return table.print ? "no edges of the print in the returns" : "no circles on this board";
+  if (effect.is_in_base_model()) return "measured with the base model, as the beam's blur";
+  if (needs.circles && table.boundary.empty()) return "no edges of the print in the returns";
   if (needs.tags && !table.target.has_tags()) return "no tags on this board";
   if (effect.is_gauge())
     return "not defined: the same as a turn of the LiDAR frame, which is part of the extrinsic";

@@ -23,8 +23,4 @@ struct ChannelResiduals {
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
                               const std::vector<EffectInUse>& in_use, Channel channel);
 
-/// Takes each scene's own level of each print out of intensities: levels are unknowns that no state
-/// holds, but for tables with a print, whose state has them. Other channels stay as they are.
-void remove_levels(const MeasurementTable& table, ChannelResiduals& residuals);
-
 }  // namespace lvcalib

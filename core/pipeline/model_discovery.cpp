@@ -10,7 +10,6 @@
 #include "model/correction.h"
 #include "model/residuals.h"
 #include "model/scene_geometry.h"
-#include "model/table_builder.h"
 #include "pipeline/ablation.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
@@ -265,7 +264,6 @@ DiscoveryInput discovery_input(const CalibrationResult& result) {
   input.target = result.target;
   input.camera = result.camera;
   input.sigma_px = result.extrinsic.sigma_px;
-  input.refinement = result.options.refinement;
   input.state.camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
   for (const SceneResult& scene : result.scenes) {
     const SceneSolution* solution = solution_of(result, scene.name);
@@ -277,7 +275,6 @@ DiscoveryInput discovery_input(const CalibrationResult& result) {
       if (k < solution->corners.size() && solution->corners[k].used)
         m.corners.push_back(scene.view->corners[k]);
     }
-    m.refinement = &*scene.refinement;
     m.board_points = &scene.board_points;
     input.scenes.push_back(std::move(m));
     input.state.camera_from_board.push_back(solution->camera_from_board);

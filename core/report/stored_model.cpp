@@ -22,7 +22,6 @@ using nlohmann::ordered_json;
 ordered_json scales_json(const ModelScales& scales) {
   return {{"white_level", scales.level[static_cast<std::size_t>(Print::kWhite)]},
           {"black_level", scales.level[static_cast<std::size_t>(Print::kBlack)]},
-          {"circle_level", scales.level[static_cast<std::size_t>(Print::kCircle)]},
           {"log_contrast", scales.log_contrast},
           {"darkness", {scales.darkness_low, scales.darkness_high}},
           {"largest_incidence_rad", scales.incidence_high_rad},
@@ -62,9 +61,9 @@ class Reader {
     const auto scales = model_.find("scales");
     if (scales == model_.end() || !scales->is_object())
       return error("model.scales", "is missing: the file tells values but not what they refer to");
-    const char* const keys[] = {"white_level", "black_level", "circle_level", "log_contrast",
+    const char* const keys[] = {"white_level", "black_level", "log_contrast",
                                 "largest_incidence_rad"};
-    double* const values[] = {&out_.scales.level[0], &out_.scales.level[1], &out_.scales.level[2],
+    double* const values[] = {&out_.scales.level[0], &out_.scales.level[1],
                               &out_.scales.log_contrast, &out_.scales.incidence_high_rad};
     for (std::size_t k = 0; k < std::size(keys); ++k) {
       const auto value = number(*scales, keys[k]);

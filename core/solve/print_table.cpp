@@ -23,11 +23,6 @@ namespace lvcalib {
 namespace {
 
 constexpr int kCells = 16;  // Board cells along a side, for even thinning.
-// Print plainer than this is white or black: what is left of an edge adds a hundredth.
-constexpr double kPlainPrint = 0.01;
-// A spot sees one edge if the print's slope is that of one within a fifth: at a corner, half a
-// width from it, it is a third less.
-constexpr double kOneEdge = 0.2;
 // Black that returns next to nothing has no logarithm: a hundredth of white stands for it.
 constexpr double kLeastShare = 0.01;
 constexpr double kRobustThreshold = 3.0;  // Huber's threshold, as in the joint solve.
@@ -43,12 +38,12 @@ struct Return {
   double plain_level = 0.0;  // Predicted without what effects do to intensities.
   double white = 1.0;        // Share in the blurred spot.
   double slope = 0.0;        // Of the intensity across the edge, per metre.
-  double width_m = 0.0;      // Of the spot across the edge.
-  bool mixed = false;        // Several edges in the spot.
-  double jitter = 0.0;       // Standard deviation that the jitter gives the intensity.
+  PrintView::Kind print = PrintView::Kind::kPlain;
+  double jitter = 0.0;  // Standard deviation that the jitter gives the intensity.
   LocalPrint seen;
 
-  [[nodiscard]] bool is_plain() const { return white > 1.0 - kPlainPrint || white < kPlainPrint; }
+  [[nodiscard]] bool is_plain() const { return print == PrintView::Kind::kPlain; }
+  [[nodiscard]] bool is_edge() const { return print == PrintView::Kind::kEdge; }
   [[nodiscard]] std::size_t surface() const { return white > 0.5 ? 0 : 1; }
 };
 
@@ -120,6 +115,19 @@ class ReturnEffects {
   EffectRows rows_;
 };
 
+// Gradient of a board coordinate along ψ by the LiDAR's angles (see BoundaryRow).
+Eigen::Vector2d edge_normal(const SceneGeometry& geometry, const BeamPoint& beam, double psi_rad) {
+  const Eigen::Vector3d outward = geometry.lidar_from_board().rotation *
+                                  Eigen::Vector3d(std::cos(psi_rad), std::sin(psi_rad), 0);
+  const Eigen::Vector3d a = geometry.edge_row(beam.direction, outward);
+  const double ca = std::cos(beam.azimuth_rad);
+  const double sa = std::sin(beam.azimuth_rad);
+  const double ce = std::cos(beam.elevation_rad);
+  const double se = std::sin(beam.elevation_rad);
+  return beam.range_m * Eigen::Vector2d(a.dot(Eigen::Vector3d(-sa, ca, 0.0)),
+                                        a.dot(Eigen::Vector3d(-se * ca, -se * sa, ce)));
+}
+
 class SceneRows {
  public:
   // `known`: the print as all points of the scene saw it before, by their places in the cloud; may
@@ -153,10 +161,9 @@ class SceneRows {
     for (const std::size_t k : thinned([](const Return&) { return true; }, most))
       add_range(returns_[k], table);
     if (!has_intensity_) return;
-    for (const std::size_t k : thinned([](const Return& r) { return r.width_m > 0.0; }, most))
+    for (const std::size_t k : thinned([](const Return& r) { return r.is_edge(); }, most))
       add_edge(returns_[k], table);
-    for (const std::size_t k :
-         thinned([](const Return& r) { return !(r.width_m > 0.0) && !r.mixed; }, most))
+    for (const std::size_t k : thinned([](const Return& r) { return r.is_plain(); }, most))
       add_intensity(returns_[k], table);
   }
 
@@ -206,25 +213,11 @@ class SceneRows {
     r.predicted = gain * p.intensity;
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
     r.jitter = std::sqrt(std::max(0.0, by_angle.dot(by_angle * beam.jitter_rad2)));
-    if (r.is_plain()) return;
-    const double slope = p.intensity_by_shift.norm();
-    const double width =
-        std::sqrt(by_angle.dot(by_angle * beam.blur_rad2)) / std::max(slope, 1e-12);
-    // Of one straight edge the slope follows from the share of white; where it does not, the spot
-    // sees several edges, and what widens dark print is not what moves them.
-    const boost::math::normal normal;
-    const double z = boost::math::quantile(normal, std::clamp(r.white, 1e-4, 1.0 - 1e-4));
-    const double one_edge =
-        std::abs(levels_.white - levels_.black) * boost::math::pdf(normal, z) / width;
-    r.mixed = std::abs(std::log(slope / one_edge)) > kOneEdge;
-    if (r.mixed) return;
-    r.slope = slope;
-    r.width_m = width;
-    // A print moved along its own growing whiteness gets darker.
-    const Eigen::RowVector2d outward = -p.intensity_by_shift;
-    r.beam.edge = NearEdge{
-        width * boost::math::quantile(boost::math::normal(), std::clamp(r.white, 1e-4, 1.0 - 1e-4)),
-        std::atan2(outward.y(), outward.x()), width};
+    const PrintView view = view_print(p, levels_, beam);
+    r.print = view.kind;
+    if (view.kind != PrintView::Kind::kEdge) return;
+    r.slope = view.slope;
+    r.beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m};
   }
 
   void measure_noise(const SceneNoise& fallback) {
@@ -297,19 +290,17 @@ class SceneRows {
     BoundaryRow row;
     row.beam = r.beam;
     row.psi_rad = r.beam.edge->psi_rad;
-    row.transition_m = r.width_m;
+    row.transition_m = r.beam.edge->transition_m;
     const double white = std::max(levels_.white, 1e-12);
     row.log_contrast = std::log(white / std::max(levels_.black, kLeastShare * white));
     row.sigma_m = intensity_sigma(r) / r.slope;
     row.edge_normal_rad = edge_normal(geometry_, r.beam, row.psi_rad);
     row.reading = {r.intensity, -r.slope, r.seen};
-    row.node = -1;
     const double radius = print_.target().circle_radius_m;
     for (const TargetNode& node : print_.target().nodes()) {
-      if (std::abs((r.beam.board_m - node.center_m).norm() - radius) > 3.0 * r.width_m) continue;
+      if (std::abs((r.beam.board_m - node.center_m).norm() - radius) > 3.0 * row.transition_m)
+        continue;
       row.node = node.id;
-      row.center_m = node.center_m;
-      row.radius_m = radius;
     }
     table.boundary.push_back(row);
   }
@@ -344,8 +335,8 @@ std::vector<double> structure_variances(const ForwardNoise& noise) {
     if (noise.admitted[static_cast<std::size_t>(from)])
       out[static_cast<std::size_t>(to)] = noise.shared[static_cast<std::size_t>(from)];
   };
-  take(VarianceGroup::kRangeHigh, SharedError::kRangeShape);
-  take(VarianceGroup::kTag, SharedError::kCornerGroup);
+  take(VarianceGroup::kRangeShape, SharedError::kRangeShape);
+  take(VarianceGroup::kCornerGroup, SharedError::kCornerGroup);
   take(VarianceGroup::kBoardShift, SharedError::kBoardShift);
   take(VarianceGroup::kBoardNormal, SharedError::kBoardNormal);
   take(VarianceGroup::kBoardTilt, SharedError::kBoardTilt);
@@ -380,7 +371,7 @@ MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
   bool has_line = !scenes.empty();
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     const double last = std::max<double>(1.0, static_cast<double>(scenes.size()) - 1.0);
-    table.scenes.push_back({scenes[s].name, {}, {}, static_cast<double>(s) / last});
+    table.scenes.push_back({scenes[s].name, {}, static_cast<double>(s) / last});
     table.has_time = table.has_time && scenes[s].board_points->has_time();
     has_line = has_line && scenes[s].board_points->has_line();
   }
@@ -408,7 +399,7 @@ MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
       black.push_back(std::max(scene->levels().black, kLeastShare * scene->levels().white));
     }
     if (table.has_intensity) {
-      table.level = {median(white), median(black), median(black)};
+      table.level = {median(white), median(black)};
       table.log_contrast = std::log(table.level[0] / table.level[1]);
     }
   }
@@ -436,6 +427,30 @@ struct KeptScenes {
 
 }  // namespace
 
+void add_corners(const SceneMeasurements& input, int scene, const ModelState& state,
+                 double sigma_px, MeasurementTable& table) {
+  TableScene& out = table.scenes[static_cast<std::size_t>(scene)];
+  const Rigid3& camera_from_board = state.camera_from_board[static_cast<std::size_t>(scene)];
+  for (const CornerObservation& c : input.corners) {
+    CornerRow row;
+    row.scene = scene;
+    row.feature = c.feature_id;
+    row.corner = c.corner;
+    row.board_m = c.board_m;
+    row.pixel = c.pixel;
+    row.sigma_px = sigma_px;
+    if (const auto tag = table.target.tag(c.feature_id); table.target.has_tags() && tag) {
+      row.from_tag_m = c.board_m - tag->center_m;
+      const auto center = table.camera.project(
+          camera_from_board * Eigen::Vector3d(tag->center_m.x(), tag->center_m.y(), 0.0));
+      if (center) row.from_tag_px = c.pixel - *center;
+    }
+    if (std::find(out.features.begin(), out.features.end(), c.feature_id) == out.features.end())
+      out.features.push_back(c.feature_id);
+    table.corner.push_back(row);
+  }
+}
+
 MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
                              const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
                              const ModelState& state, const ForwardNoise& noise, double sigma_px,
@@ -445,7 +460,6 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
   for (const SceneMeasurements& scene : scenes) kept->clouds.push_back(*scene.board_points);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     kept->scenes[s].board_points = &kept->clouds[s];
-    kept->scenes[s].refinement = nullptr;
   }
   const auto first = std::make_shared<FirstTable>();
   MeasurementTable table = make_table(kept->scenes, print, camera, state, noise, sigma_px, options,

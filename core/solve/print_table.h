@@ -4,11 +4,28 @@
 #include <memory>
 #include <vector>
 
+#include "detection/board_view.h"
 #include "model/linear_model.h"
-#include "model/table_builder.h"
+#include "model/measurement_table.h"
 #include "solve/forward_problem.h"
 
 namespace lvcalib {
+
+/// What a finished calibration keeps of one scene.
+struct SceneMeasurements {
+  std::string name;
+  std::vector<CornerObservation> corners;
+  const Cloud* board_points = nullptr;
+};
+
+struct TableOptions {
+  int max_rows_per_scene = 20000;  ///< Of each kind, spread evenly over board cells and print.
+};
+
+/// Appends a scene's corners, each as noisy as `sigma_px`, and lists the features that they belong
+/// to.
+void add_corners(const SceneMeasurements& input, int scene, const ModelState& state,
+                 double sigma_px, MeasurementTable& table);
 
 /// Every measurement of a joint solve with every covariate: corners, and of the returns that the
 /// solve keeps (what it has refused stays out) the ranges, the intensities on plain print, and

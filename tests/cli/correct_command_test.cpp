@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 constexpr const char* kScales =
-    R"("scales": {"white_level": 100, "black_level": 10, "circle_level": 10, "log_contrast": 2.3,
+    R"("scales": {"white_level": 100, "black_level": 10, "log_contrast": 2.3,
        "darkness": [0, 1], "largest_incidence_rad": 1.0, "lines": [0, 1]})";
 
 std::string result_with(const std::string& effects) {

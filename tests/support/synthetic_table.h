@@ -2,10 +2,12 @@
 #pragma once
 
 // Measurement tables drawn straight from poses and noise, with disturbances planted by functions of
-// the test: nothing of the estimator's effects is used to make them.
+// the test: nothing of the estimator's effects, nor of its prediction, is used to make them.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -52,7 +54,74 @@ inline Rigid3 table_board(const Target& target, int scene) {
   return facing_board(target, center, tilt);
 }
 
-inline BeamPoint table_beam(const SceneGeometry& geometry, const Target& target, int scene,
+/// One σ of the beam.
+constexpr double kTableBeam_rad = 5e-4;
+
+/// The default board's print, made once.
+inline const std::shared_ptr<const BlurredPrint>& table_print() {
+  static const auto print = std::make_shared<const BlurredPrint>(Target{});
+  return print;
+}
+
+/// What a round beam sees of a black disc on white: a normal spot, drawn out by 1/cos θ in the
+/// direction in which the board recedes, integrated over the disc strip by strip.
+class DiscSpot {
+ public:
+  DiscSpot(const BeamPoint& beam, const Eigen::Vector2d& center_m)
+      : across_m_(beam.range_m * kTableBeam_rad),
+        along_m_(across_m_ / std::cos(beam.incidence_rad)) {
+    const Eigen::Vector2d from = beam.board_m - center_m;
+    const Eigen::Vector2d axis(std::cos(beam.slope_rad), std::sin(beam.slope_rad));
+    along_ = from.dot(axis);
+    across_ = -from.x() * axis.y() + from.y() * axis.x();
+  }
+  [[nodiscard]] double white_share(double radius_m) const {
+    // Strips along the spot's short axis, between the ends of the disc.
+    const double low = std::max(-6.0, (-radius_m - along_) / along_m_);
+    const double high = std::min(6.0, (radius_m - along_) / along_m_);
+    if (!(high > low)) return 1.0;
+    constexpr int kStrips = 160;
+    const double step = (high - low) / kStrips;
+    double black = 0.0;
+    for (int k = 0; k < kStrips; ++k) {
+      const double z = low + (k + 0.5) * step;
+      const double u = along_ + z * along_m_;
+      const double half = std::sqrt(std::max(0.0, radius_m * radius_m - u * u));
+      const auto below = [&](double v) {
+        return 0.5 * std::erfc((across_ - v) / (across_m_ * std::sqrt(2.0)));
+      };
+      black += std::exp(-0.5 * z * z) * (below(half) - below(-half));
+    }
+    return 1.0 - black * step / std::sqrt(2.0 * M_PI);
+  }
+  /// σ of the spot in a direction of the board.
+  [[nodiscard]] double width_m(double psi_rad, double slope_rad) const {
+    return std::hypot(along_m_ * std::cos(psi_rad - slope_rad),
+                      across_m_ * std::sin(psi_rad - slope_rad));
+  }
+
+ private:
+  double across_m_;
+  double along_m_;
+  double along_ = 0.0;
+  double across_ = 0.0;
+};
+
+/// Whether a spot about a place of the board sees one print only.
+inline bool is_plain_place(const Target& target, const Eigen::Vector2d& board_m, double reach_m) {
+  const auto black = [&](const Eigen::Vector2d& p) { return target.albedo(p).value_or(1.0) < 0.5; };
+  const bool here = black(board_m);
+  for (const double share : {0.35, 0.7, 1.0}) {
+    for (int k = 0; k < 12; ++k) {
+      const double a = 2.0 * M_PI * k / 12.0;
+      if (black(board_m + share * reach_m * Eigen::Vector2d(std::cos(a), std::sin(a))) != here)
+        return false;
+    }
+  }
+  return true;
+}
+
+inline BeamPoint table_beam(const SceneGeometry& geometry, int scene,
                             const Eigen::Vector2d& board_m, const TableRecipe& recipe,
                             Random& random) {
   BeamPoint beam;
@@ -60,8 +129,6 @@ inline BeamPoint table_beam(const SceneGeometry& geometry, const Target& target,
   const Eigen::Vector3d p =
       geometry.lidar_from_board() * Eigen::Vector3d(board_m.x(), board_m.y(), 0.0);
   (void)geometry.describe(p.normalized(), beam);
-  const bool black = target.albedo(board_m).value_or(1.0) < 0.5;
-  beam.darkness = black ? 1.0 : 0.0;
   if (recipe.time) {
     beam.time_s = random.uniform(0.0, 0.1);
     const double direction = random.uniform(-M_PI, M_PI);
@@ -71,65 +138,103 @@ inline BeamPoint table_beam(const SceneGeometry& geometry, const Target& target,
   return beam;
 }
 
+/// A range and an intensity at a random place of plain print.
+inline void add_table_return(SyntheticTable& out, int scene, const SceneGeometry& geometry,
+                             bool black, const TableRecipe& recipe, const Disturbance& wrong,
+                             Random& random) {
+  MeasurementTable& table = out.table;
+  const BoardOutline outline = table.target.outline();
+  RangeRow row;
+  double reach = 0.0;
+  do {
+    const Eigen::Vector2d at(random.uniform(outline.lower_left_m.x(), outline.upper_right_m.x()),
+                             random.uniform(outline.lower_left_m.y(), outline.upper_right_m.y()));
+    row.beam = table_beam(geometry, scene, at, recipe, random);
+    reach = 3.5 * row.beam.range_m * kTableBeam_rad / std::cos(row.beam.incidence_rad);
+  } while ((table.target.albedo(row.beam.board_m).value_or(1.0) < 0.5) != black ||
+           !is_plain_place(table.target, row.beam.board_m, reach));
+  row.print = black ? Print::kBlack : Print::kWhite;
+  row.beam.darkness = black ? 1.0 : 0.0;
+  row.sigma_m = recipe.range_sigma_m;
+  row.measured_m = row.beam.range_m + row.sigma_m * random.normal();
+  if (wrong.range_m) row.measured_m += wrong.range_m(row.beam);
+  const double level = table.level_of(row.print);
+  IntensityRow intensity{row.beam, row.print, 0.0, recipe.intensity_sigma, {0.0, level, {}}};
+  double measured = level * (1.0 + intensity.sigma * random.normal());
+  if (wrong.log_intensity) measured *= std::exp(wrong.log_intensity(intensity));
+  intensity.reading.measured = measured;
+  intensity.log_intensity = std::log(std::max(measured, 1e-3 * level));
+  row.intensity = measured;
+  table.range.push_back(row);
+  table.intensity.push_back(intensity);
+}
+
+/// A return in the blur of a circle's edge.
+inline void add_table_edge(SyntheticTable& out, int scene, const SceneGeometry& geometry,
+                           const TargetNode& node, double psi_rad, const TableRecipe& recipe,
+                           const Disturbance& wrong, Random& random) {
+  MeasurementTable& table = out.table;
+  const double radius = table.target.circle_radius_m;
+  BoundaryRow row;
+  row.node = node.id;
+  row.sigma_m = recipe.edge_sigma_m;
+  row.log_contrast = table.log_contrast;
+  row.psi_rad = psi_rad;
+  const Eigen::Vector2d outward(std::cos(psi_rad), std::sin(psi_rad));
+  row.beam = table_beam(geometry, scene, node.center_m + radius * outward, recipe, random);
+  row.transition_m = DiscSpot(row.beam, node.center_m).width_m(psi_rad, row.beam.slope_rad);
+  // Somewhere in the transition.
+  const double distance = row.transition_m * random.uniform(-0.8, 0.8);
+  const Eigen::Vector2d at = node.center_m + (radius + distance) * outward;
+  const Eigen::Vector3d p = geometry.lidar_from_board() * Eigen::Vector3d(at.x(), at.y(), 0.0);
+  (void)geometry.describe(p.normalized(), row.beam);
+  row.beam.edge = NearEdge{distance, psi_rad, row.transition_m};
+  // The LiDAR's angles across the edge, by finite differences of the ray's board point.
+  const double step = 1e-6;
+  const auto board_at = [&](double daz, double del) {
+    const double az = row.beam.azimuth_rad + daz / std::cos(row.beam.elevation_rad);
+    const double el = row.beam.elevation_rad + del;
+    BeamPoint moved;
+    (void)geometry.describe(
+        {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)}, moved);
+    return moved.board_m.dot(outward);
+  };
+  row.edge_normal_rad << (board_at(step, 0) - board_at(-step, 0)) / (2 * step),
+      (board_at(0, step) - board_at(0, -step)) / (2 * step);
+  const DiscSpot spot(row.beam, node.center_m);
+  const double white = table.level_of(Print::kWhite);
+  const double black = table.level_of(Print::kBlack);
+  const auto seen = [&](double r) { return black + (white - black) * spot.white_share(r); };
+  const double nudge = 0.02 * row.transition_m;
+  const double slope = (seen(radius - nudge) - seen(radius + nudge)) / (2.0 * nudge);
+  row.beam.darkness = std::log(white / seen(radius)) / table.log_contrast;
+  // An edge that lies farther outward makes the return darker.
+  const double outward_m = wrong.edge_m ? wrong.edge_m(row) : 0.0;
+  double measured = seen(radius + outward_m) + row.sigma_m * slope * random.normal();
+  if (wrong.log_intensity) {
+    const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+    measured *= std::exp(wrong.log_intensity({row.beam, side, 0.0, row.sigma_m, {}}));
+  }
+  row.reading = {measured, -slope, {}};
+  table.boundary.push_back(row);
+}
+
 inline void add_table_scene(SyntheticTable& out, int scene, const TableRecipe& recipe,
                             const Disturbance& wrong, Random& random) {
   MeasurementTable& table = out.table;
   const Target& target = table.target;
   const Rigid3 camera_from_board = table_board(target, recipe.alike ? 0 : scene);
   out.truth.camera_from_board.push_back(camera_from_board);
+  out.truth.levels.push_back(
+      {table.level_of(Print::kWhite), table.level_of(Print::kBlack), Eigen::Vector2d::Zero()});
   const SceneGeometry geometry(out.truth.camera_from_lidar, camera_from_board);
-  TableScene info{std::string(1, static_cast<char>('A' + scene)), {}, {}, 0.0};
+  TableScene info{std::string(1, static_cast<char>('A' + scene)), {}, 0.0};
   info.clock = recipe.scenes > 1 ? scene / (recipe.scenes - 1.0) : 0.0;
-  const BoardOutline outline = target.outline();
-  for (int k = 0; k < recipe.range_rows; ++k) {
-    const Eigen::Vector2d at(random.uniform(outline.lower_left_m.x(), outline.upper_right_m.x()),
-                             random.uniform(outline.lower_left_m.y(), outline.upper_right_m.y()));
-    RangeRow row;
-    row.beam = table_beam(geometry, target, scene, at, recipe, random);
-    row.print = row.beam.darkness > 0.5 ? Print::kBlack : Print::kWhite;
-    row.sigma_m = recipe.range_sigma_m;
-    row.measured_m = row.beam.range_m + row.sigma_m * random.normal();
-    if (wrong.range_m) row.measured_m += wrong.range_m(row.beam);
-    table.range.push_back(row);
-    IntensityRow intensity{row.beam, row.print, 0.0, recipe.intensity_sigma};
-    intensity.log_intensity =
-        std::log(table.level_of(row.print)) + intensity.sigma * random.normal();
-    if (wrong.log_intensity) intensity.log_intensity += wrong.log_intensity(intensity);
-    table.intensity.push_back(intensity);
-  }
+  for (int k = 0; k < recipe.range_rows; ++k)
+    add_table_return(out, scene, geometry, 2 * k < recipe.range_rows, recipe, wrong, random);
   for (const TargetNode& node : target.nodes()) {
-    info.nodes.push_back(node.id);
-    for (int bin = 0; bin < 24; ++bin) {
-      BoundaryRow row;
-      row.node = node.id;
-      row.center_m = node.center_m;
-      row.radius_m = target.circle_radius_m;
-      row.psi_rad = 2.0 * M_PI * bin / 24.0;
-      row.sigma_m = recipe.edge_sigma_m;
-      row.transition_m = 0.01;
-      row.log_contrast = 2.0;
-      const Eigen::Vector2d outward(std::cos(row.psi_rad), std::sin(row.psi_rad));
-      row.beam = table_beam(geometry, target, scene, node.center_m + row.radius_m * outward, recipe,
-                            random);
-      double d = row.sigma_m * random.normal();
-      if (wrong.edge_m) d += wrong.edge_m(row);
-      const Eigen::Vector2d at = node.center_m + (row.radius_m + d) * outward;
-      const Eigen::Vector3d p = geometry.lidar_from_board() * Eigen::Vector3d(at.x(), at.y(), 0.0);
-      (void)geometry.describe(p.normalized(), row.beam);
-      // The LiDAR's angles across the edge, by finite differences of the ray's board point.
-      const double step = 1e-6;
-      const auto board_at = [&](double daz, double del) {
-        const double az = row.beam.azimuth_rad + daz / std::cos(row.beam.elevation_rad);
-        const double el = row.beam.elevation_rad + del;
-        BeamPoint moved;
-        (void)geometry.describe(
-            {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)}, moved);
-        return moved.board_m.dot(outward);
-      };
-      row.edge_normal_rad << (board_at(step, 0) - board_at(-step, 0)) / (2 * step),
-          (board_at(0, step) - board_at(0, -step)) / (2 * step);
-      table.boundary.push_back(row);
-    }
+    for (int bin = 0; bin < 24; ++bin)
+      add_table_edge(out, scene, geometry, node, 2.0 * M_PI * bin / 24.0, recipe, wrong, random);
   }
   for (const TargetTag& tag : target.tags()) {
     const auto corners = target.tag_corners_m(tag);
@@ -162,10 +267,12 @@ inline SyntheticTable synthetic_table(const TableRecipe& recipe, const Disturban
   out.table.camera = test_camera();
   out.table.has_time = recipe.time;
   out.table.has_intensity = true;
-  out.table.level = {100.0, 10.0, 10.0};
+  out.table.print = table_print();
+  out.table.level = {100.0, 10.0};
   out.table.log_contrast = std::log(10.0);
   if (recipe.lines) out.table.lines = {0, 1, 2, 3, 4, 5};
   out.truth.camera_from_lidar = test_extrinsic();
+  out.truth.beam.blur_rad2 = kTableBeam_rad * kTableBeam_rad * Eigen::Matrix2d::Identity();
   Random random(recipe.seed);
   for (int s = 0; s < recipe.scenes; ++s) add_table_scene(out, s, recipe, wrong, random);
   return out;

@@ -80,7 +80,8 @@ inline constexpr const char* kModelPatterns[] = {
     QT_TRANSLATE_NOOP("Core", "no time in these clouds"),
     QT_TRANSLATE_NOOP("Core", "no laser lines in these clouds"),
     QT_TRANSLATE_NOOP("Core", "no intensity in these clouds (or the same on all points)"),
-    QT_TRANSLATE_NOOP("Core", "no circles on this board"),
+    QT_TRANSLATE_NOOP("Core", "no edges of the print in the returns"),
+    QT_TRANSLATE_NOOP("Core", "measured with the base model, as the beam's blur"),
     QT_TRANSLATE_NOOP("Core", "no tags on this board"),
     QT_TRANSLATE_NOOP(
         "Core",
@@ -92,6 +93,9 @@ inline constexpr const char* kModelPatterns[] = {
     QT_TRANSLATE_NOOP(
         "Core",
         "not enough scenes to look for effects: %1, three or more are needed to hold one out"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the joint solve over every return failed: nothing to look for effects with"),
+    QT_TRANSLATE_NOOP("Core", "see the warnings of the calibration"),
     QT_TRANSLATE_NOOP("Core",
                       "take scenes at other distances and with the board turned differently"),
     // Formulas and curves.

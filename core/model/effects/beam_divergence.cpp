@@ -20,10 +20,11 @@ class BeamDivergence final : public CatalogueEffect {
                          .needs = {.circles = true, .intensity = true}},
                         {{"γ²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}}) {}
 
-  void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
-            std::span<double> by) const override {
-    by[0] = edge_curvature(row);
+  void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<Eigen::Vector3d> by) const override {
+    by[0] << 1.0, 0.0, 1.0;
   }
+  [[nodiscard]] bool is_in_base_model() const override { return true; }
 };
 
 }  // namespace

@@ -20,15 +20,12 @@ class FootprintAnisotropy final : public CatalogueEffect {
              .needs = {.circles = true, .intensity = true}},
             {{"γh²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}, {"γv²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}}) {}
 
-  void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
-            std::span<double> by) const override {
-    const Eigen::Vector2d n = lidar_angle_of(row);
-    const double scale = edge_curvature(row);
-    // It is the spread along the edge that meets the curve: where the edge runs upright, the
-    // vertical one.
-    by[0] = scale * n.y() * n.y();
-    by[1] = scale * n.x() * n.x();
+  void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
+            std::span<Eigen::Vector3d> by) const override {
+    by[0] << 1.0, 0.0, 0.0;
+    by[1] << 0.0, 0.0, 1.0;
   }
+  [[nodiscard]] bool is_in_base_model() const override { return true; }
 };
 
 }  // namespace

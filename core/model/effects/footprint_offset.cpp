@@ -20,12 +20,6 @@ class FootprintOffset final : public CatalogueEffect {
              .needs = {.circles = true, .intensity = true}},
             {{"βh", "mrad", 1e-3, 0.3e-3, 0.02}, {"βv", "mrad", 1e-3, 0.3e-3, 0.02}}) {}
 
-  void edge(const BoundaryRow& row, const MeasurementTable& table, double /*shape*/,
-            std::span<double> by) const override {
-    if (table.print) return;  // See spot().
-    by[0] = row.edge_normal_rad.x();
-    by[1] = row.edge_normal_rad.y();
-  }
   void spot(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<Eigen::Vector3d> by) const override {
     const AngleAxes axes = angle_axes(beam);

@@ -31,22 +31,12 @@ class IntensityNonlinearity final : public CatalogueEffect {
   // too. The middle between two transformed levels is not the transformed middle. With the dark
   // level as unit: I = m where m = (1+c)/2, dI/dg = (c ln c)/2 - m ln m, and dd = dI (σ √2π)/(c-1).
   // Where every return is predicted the whole transition tells instead, see intensity().
-  void edge(const BoundaryRow& row, const MeasurementTable& table, double /*shape*/,
-            std::span<double> by) const override {
-    if (table.print) return;
-    const double contrast = std::exp(row.log_contrast);
-    if (!(contrast > 1.0)) return;
-    const double middle = 0.5 * (1.0 + contrast);
-    const double level = 0.5 * contrast * row.log_contrast - middle * std::log(middle);
-    by[0] = row.transition_m * std::sqrt(2.0 * std::numbers::pi) * level / (contrast - 1.0);
-  }
-
   // With white as unit: dI/dg = I ln I, less the straight line between the levels, which the levels
   // take up. I = e^(-Dc), D the darkness and c the logarithm of the contrast.
   void intensity(const IntensityRow& row, const MeasurementTable& table, double /*shape*/,
                  std::span<double> by) const override {
     const double log_contrast = table.log_contrast;
-    if (!table.print || !(log_contrast > 0.0)) return;
+    if (!(log_contrast > 0.0)) return;
     const double level = std::exp(-row.beam.darkness * log_contrast);
     const double black = std::exp(-log_contrast);
     const double share = (1.0 - level) / (1.0 - black);  // of black

@@ -140,10 +140,10 @@ TEST_F(Findings, AliasesOfACandidateAreThoseWithItsPattern) {
   const auto aliases = aliases_of(search, *best, options_);
   const std::string id =
       search.linear().columns.list()[search.candidates()[*best].columns].effect->info().id;
-  // Every circle of this table has one size, contrast and width: nothing tells these apart.
+  // Every circle of this table has one size and contrast: nothing tells these apart.
   std::vector<std::string> group = aliases;
   group.push_back(id);
-  EXPECT_THAT(group, ::testing::IsSupersetOf({"boundary_bias", "ink_gain", "blooming"}));
+  EXPECT_THAT(group, ::testing::IsSupersetOf({"boundary_bias", "ink_gain"}));
   EXPECT_THAT(group, ::testing::Not(::testing::Contains("range_walk")));
 }
 

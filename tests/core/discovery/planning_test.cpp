@@ -19,7 +19,7 @@ LidarDescription test_lidar() {
   lidar.sensors.elevation_rad << -0.6, 0.6;
   lidar.sensors.points_per_sr = 1.5e5;
   lidar.sensors.range_sigma_m = 0.008;
-  lidar.sensors.edge_factor = 0.4;
+  lidar.sensors.edge_noise = 0.1;
   lidar.lines = {0};
   return lidar;
 }

@@ -101,10 +101,10 @@ TEST(Proposals, AliasesStandBehindTheOneThatTheyCannotBeToldFrom) {
 }
 
 TEST(Proposals, StructureThatNoEffectExplainsIsUnknown) {
-  // A wave over the board's diagonal that no effect of the catalogue has.
+  // A wave along the board that no effect of the catalogue has.
   test::Disturbance wrong;
   wrong.range_m = [](const BeamPoint& beam) {
-    return 0.008 * std::copysign(1.0, std::sin(14.0 * beam.board_m.x()));
+    return 0.008 * std::copysign(1.0, std::sin(40.0 * beam.board_m.x()));
   };
   const ModelRanking r = ranking(wrong);
   EXPECT_FALSE(r.nothing_missing());

@@ -77,23 +77,9 @@ TEST(PeriodGrid, NeighboursDifferByAQuarterTurnAtMost) {
   }
 }
 
-TEST(EdgeCurvature, GrowsAlongTheEdgeThatTheTiltStretches) {
-  BoundaryRow row;
-  row.radius_m = 0.05;
-  row.beam.range_m = 4.0;
-  EXPECT_NEAR(edge_curvature(row), -160.0, 1e-9);
-  // At 60° the footprint is twice as long down the slope: along the edge at the sides, across it
-  // above and below.
-  row.beam.incidence_rad = M_PI / 3.0;
-  row.psi_rad = M_PI / 2.0;
-  EXPECT_NEAR(edge_curvature(row), -640.0, 1e-9);
-  row.psi_rad = 0.0;
-  EXPECT_NEAR(edge_curvature(row), -160.0, 1e-9);
-}
-
 TEST(EdgePull, ActsNearEdgesOnlyAndTurnsItsSignAcrossTheTilt) {
   MeasurementTable table;
-  table.level = {100.0, 20.0, 20.0};
+  table.level = {100.0, 20.0};
   BeamPoint beam;
   beam.incidence_rad = 0.7;
   EXPECT_EQ(edge_pull(beam, table), 0.0);

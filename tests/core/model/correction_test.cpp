@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 // Scales as a calibration on these simulated boards would find them.
 ModelScales usual_scales() {
   ModelScales scales;
-  scales.level = {127.5, 12.0, 12.0};
+  scales.level = {127.5, 12.0};
   scales.log_contrast = std::log(127.5 / 12.0);
   scales.incidence_high_rad = 1.0;
   scales.lines = {0, 1, 2, 3, 4, 5};

@@ -83,7 +83,9 @@ TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
   }
 }
 
-TEST_P(EveryEffect, BoundaryRowsAreTheMovementOfTheEdgeSeen) {
+// In the blur of an edge: how far the print moves under the beam, and how the beam and its power
+// change.
+TEST_P(EveryEffect, ReadingsSeeThePrintMoveUnderTheBeam) {
   const MeasurementTable& table = made_.table;
   EffectRows rows(table, columns_.list());
   for (std::size_t r = 0; r < table.boundary.size(); r += 7) {
@@ -92,30 +94,40 @@ TEST_P(EveryEffect, BoundaryRowsAreTheMovementOfTheEdgeSeen) {
     const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
     const auto n = columns().parameters.size();
     std::vector<Eigen::Vector3d> point(n, Eigen::Vector3d::Zero());
+    std::vector<Eigen::Vector3d> light(n, Eigen::Vector3d::Zero());
     std::vector<Eigen::Vector3d> board(n, Eigen::Vector3d::Zero());
+    std::vector<Eigen::Vector3d> blur(n, Eigen::Vector3d::Zero());
     std::vector<double> outward(n, 0.0);
+    std::vector<double> log_intensity(n, 0.0);
     effect_->lidar(row.beam, table, columns().shape, point);
+    effect_->spot(row.beam, table, columns().shape, light);
     effect_->board({row.beam.board_m, Eigen::Vector2d::Zero()}, table.target, columns().shape,
                    board);
+    effect_->blur(row.beam, table, columns().shape, blur);
     effect_->edge(row, table, columns().shape, outward);
-    // Distance from the node of the place where the ray of a displaced point meets the plane.
+    const IntensityRow reading{row.beam, Print::kWhite, 0.0, 1.0, row.reading};
+    effect_->intensity(reading, table, columns().shape, log_intensity);
+    // Where the ray of a displaced point meets the plane.
     const auto seen = [&](const Eigen::Vector3d& displacement) {
       const Eigen::Vector3d p = row.beam.range_m * row.beam.direction + displacement;
       const Eigen::Vector3d direction = p.normalized();
-      return (g.board_m(*g.range_m(direction) * direction) - row.center_m).norm();
+      return g.board_m(*g.range_m(direction) * direction);
     };
-    const Eigen::Vector2d xy = g.board_m(row.beam.range_m * row.beam.direction);
-    rows.edge(row, g.edge_row(row.beam.direction, outward_of(row, xy, rotation)), rotation,
-              [&](const EffectColumns&, std::span<const double> by) {
-                for (std::size_t k = 0; k < n; ++k) {
-                  const Eigen::Vector3d move = point[k] + rotation * board[k];
-                  const double size = std::max(1.0, move.norm());
-                  const double step = kStep / size;
-                  const double numeric =
-                      (seen(step * move) - seen(-step * move)) / (2.0 * step) + outward[k];
-                  EXPECT_NEAR(by[k], numeric, 1e-4 * (size + std::abs(numeric)));
-                }
-              });
+    const PrintSensitivity::Moves moves(g, rotation, row.beam.direction, &row);
+    rows.reading(reading, &row, moves,
+                 [&](const EffectColumns&, const PrintSensitivity::Change& by) {
+                   for (std::size_t k = 0; k < n; ++k) {
+                     const Eigen::Vector3d move = point[k] + light[k] + rotation * board[k];
+                     const double size = std::max(1.0, move.norm());
+                     const double step = kStep / size;
+                     const Eigen::Vector2d numeric =
+                         (seen(step * move) - seen(-step * move)) / (2.0 * step) +
+                         outward[k] * Eigen::Vector2d(std::cos(row.psi_rad), std::sin(row.psi_rad));
+                     EXPECT_LT((by.shift_m[k] - numeric).norm(), 1e-4 * (size + numeric.norm()));
+                     EXPECT_EQ(by.blur_rad2[k], blur[k]);
+                     EXPECT_EQ(by.log_intensity[k], log_intensity[k]);
+                   }
+                 });
   }
 }
 
@@ -173,44 +185,6 @@ TEST(ColumnsInUse, KeepOrderAndShape) {
   EXPECT_EQ(list.list()[0].shape, 1.2);
   EXPECT_EQ(list.list()[1].first, 1);
   EXPECT_EQ(list.columns(), 4);
-}
-
-// An edge is seen by several lines at once: it moves by the mean of what each of them does.
-TEST(EdgeRows, AnEdgeOfSeveralLinesMovesByTheirMean) {
-  auto made = exact_table();
-  const EffectPtr effect = find_effect("channel_angle_offset");
-  EffectColumnsList columns;
-  columns.add(effect, 0.0, made.table);
-  EffectRows rows(made.table, columns.list());
-  BoundaryRow& row = made.table.boundary.front();
-  const SceneGeometry g(made.truth.camera_from_lidar, made.truth.camera_from_board[0]);
-  const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
-  const Eigen::Vector3d outward = outward_of(row, row.beam.board_m, rotation);
-  const Eigen::Vector3d by_move = g.edge_row(row.beam.direction, outward);
-  const auto columns_at = [&] {
-    std::vector<double> out;
-    rows.edge(row, by_move, rotation, [&](const EffectColumns&, std::span<const double> by) {
-      out.assign(by.begin(), by.end());
-    });
-    return out;
-  };
-  row.lines.clear();
-  row.beam.line = made.table.lines[1];
-  const std::vector<double> alone = columns_at();
-  row.beam.line = made.table.lines[4];
-  const std::vector<double> other = columns_at();
-  row.lines = {{made.table.lines[1], 0.75}, {made.table.lines[4], 0.25}};
-  const std::vector<double> both = columns_at();
-  ASSERT_EQ(both.size(), alone.size());
-  double largest = 0.0;
-  for (std::size_t k = 0; k < both.size(); ++k) {
-    EXPECT_NEAR(both[k], 0.75 * alone[k] + 0.25 * other[k], 1e-12);
-    largest = std::max(largest, std::abs(both[k]));
-  }
-  EXPECT_GT(largest, 0.1);
-  const auto moved =
-      rows.displacement(row, rotation, [](const EffectColumns&, std::size_t) { return 1e-3; });
-  EXPECT_GT(moved.norm(), 1e-4);
 }
 
 }  // namespace

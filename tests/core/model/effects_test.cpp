@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// 4 m straight ahead, board turned by 60°; white 30, black and circles 10.
+// 4 m straight ahead, board turned by 60°; white 30, black 10.
 struct Place {
   MeasurementTable table;
   BeamPoint beam;
@@ -29,10 +29,10 @@ struct Place {
   Place() {
     table.camera = test::test_camera();
     table.camera.fx = table.camera.fy = 1000.0;
-    table.scenes.push_back({"A", {}, {}, 0.4});
+    table.scenes.push_back({"A", {}, 0.4});
     table.lines = {0, 2, 5};
     table.has_time = table.has_intensity = true;
-    table.level = {30.0, 10.0, 10.0};
+    table.level = {30.0, 10.0};
     table.log_contrast = std::log(16.0);
     beam.range_m = 4.0;
     beam.incidence_rad = M_PI / 3.0;
@@ -42,7 +42,6 @@ struct Place {
     beam.scan_rad_s = {30.0, -10.0};
     edge.beam = beam;
     edge.beam.incidence_rad = M_PI / 4.0;
-    edge.radius_m = 0.05;
     edge.transition_m = 0.01;
     edge.edge_normal_rad = {2.4, 3.2};
     edge.log_contrast = 2.0;
@@ -63,7 +62,7 @@ struct Place {
   }
 };
 
-enum class Hook { kLidar, kEdge, kBoard, kCamera, kIntensity };
+enum class Hook { kLidar, kSpot, kBlur, kEdge, kBoard, kCamera, kIntensity };
 
 struct HandCase {
   std::string name;
@@ -85,6 +84,12 @@ std::vector<Vector3d> moved_by(const Effect& effect, const HandCase& c, const Pl
   switch (c.hook) {
     case Hook::kLidar:
       effect.lidar(p.beam, p.table, c.shape, moves);
+      return moves;
+    case Hook::kSpot:
+      effect.spot(p.beam, p.table, c.shape, moves);
+      return moves;
+    case Hook::kBlur:
+      effect.blur(p.beam, p.table, c.shape, moves);
       return moves;
     case Hook::kBoard:
       effect.board(p.print, p.table.target, c.shape, moves);
@@ -200,24 +205,10 @@ std::vector<HandCase> edge_cases() {
   return {
       {"Bias", "boundary_bias", Hook::kEdge, {along_x(1.0)}},
       {"InkGain", "ink_gain", Hook::kEdge, {along_x(1.0)}},
-      // 16 m² / (2 · 0.05 m), inwards; the edge runs across the slope of 45°, where the footprint
-      // is as wide as facing the board.
-      {"Divergence", "beam_divergence", Hook::kEdge, {along_x(-160.0)}},
-      {"Anisotropy", "footprint_anisotropy", Hook::kEdge, {along_x(-102.4), along_x(-57.6)}},
-      {"FootprintOffset", "footprint_offset", Hook::kEdge, {along_x(2.4), along_x(3.2)}},
-      // On a slanted board an angle reaches farther.
-      {"FootprintOffsetOnASlant",
-       "footprint_offset",
-       Hook::kEdge,
-       {along_x(4.8), along_x(6.4)},
-       0.0,
-       [](Place& p) { p.edge.edge_normal_rad *= 2.0; }},
+      {"Divergence", "beam_divergence", Hook::kBlur, {{1, 0, 1}}},
+      {"Anisotropy", "footprint_anisotropy", Hook::kBlur, {{1, 0, 0}, {0, 0, 1}}},
+      {"FootprintOffset", "footprint_offset", Hook::kSpot, {{0, 4, 0}, {0, 0, 4}}},
       {"Blooming", "blooming", Hook::kEdge, {along_x(-0.02)}},
-      // Contrast 7.389: (7.389 - 4.1945 ln 4.1945) 0.01 m √2π / 6.389; toward white for g > 0.
-      {"Nonlinearity",
-       "intensity_nonlinearity",
-       Hook::kEdge,
-       {along_x(0.01 * 2.5066283 * (7.3890561 - 4.1945280 * 1.4337804) / 6.3890561)}},
       {"DetectorLag", "detector_lag", Hook::kEdge, {along_x(40.0)}},
   };
 }
@@ -225,6 +216,11 @@ std::vector<HandCase> edge_cases() {
 std::vector<HandCase> intensity_cases() {
   const auto white = [](Place& p) { p.intensity.print = Print::kWhite; };
   return {
+      // A quarter of white, four fifths of the way to black: ln ¼ + 0.8 · (1/16) · ln 16 / ¼.
+      {"Nonlinearity",
+       "intensity_nonlinearity",
+       Hook::kIntensity,
+       {along_x(std::log(0.25) + 0.2 * std::log(16.0))}},
       // Gains of the second and third line relative to the first; the point is of the second.
       {"Geometry",
        "intensity_geometry",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/linear_model.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -34,6 +36,14 @@ TEST_P(EffectDerivative, ResidualsFallByTheColumnTimesTheValue) {
     // Edges are curved: their prediction is linear in small displacements only.
     const double step = 0.01 * parameters[p].material;
     use.values(static_cast<Eigen::Index>(p)) = step;
+    std::array<double, kChannels> expected{};
+    for (const SceneProducts& scene : linear.scenes) {
+      const auto at = scene.layout.size() + 6 + static_cast<int>(p);
+      for (std::size_t c = 0; c < kChannels; ++c)
+        expected[c] += step * step * scene.products[c](at, at);
+    }
+    // Plain print has the far tails of edges, which are not linear; they do not count.
+    const double most = *std::max_element(expected.begin(), expected.end());
     for (const Channel channel : kAllChannels) {
       const auto before = residuals_of(made.table, made.truth, {}, channel);
       const auto after = residuals_of(made.table, made.truth, {use}, channel);
@@ -41,12 +51,8 @@ TEST_P(EffectDerivative, ResidualsFallByTheColumnTimesTheValue) {
       double squares = 0.0;
       for (std::size_t k = 0; k < before.values.size(); ++k)
         squares += std::pow((before.values[k] - after.values[k]) / before.sigma[k], 2);
-      double expected = 0.0;
-      for (const SceneProducts& scene : linear.scenes) {
-        const auto at = scene.layout.size() + 6 + static_cast<int>(p);
-        expected += step * step * scene.products[static_cast<std::size_t>(channel)](at, at);
-      }
-      EXPECT_NEAR(squares, expected, 5e-3 * expected + 1e-12) << name_of(channel);
+      const double wanted = expected[static_cast<std::size_t>(channel)];
+      EXPECT_NEAR(squares, wanted, 5e-3 * wanted + 1e-4 * most + 1e-12) << name_of(channel);
     }
   }
 }

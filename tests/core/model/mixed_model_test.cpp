@@ -71,15 +71,18 @@ TEST(MixedModel, StructurePerTagIsMeasured) {
     return test::random_2d(random, 0.3);
   };
   const ModelFit f = fit(test::synthetic_table({}, wrong), {});
-  const double sigma = std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kTag)]);
+  const double sigma =
+      std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kCornerGroup)]);
   EXPECT_NEAR(sigma, 0.3, 0.05);
   EXPECT_NEAR(f.variances.channel[static_cast<std::size_t>(Channel::kCorner)], 1.0, 0.3);
 }
 
 TEST(MixedModel, WithoutStructureTheGroupsVanish) {
   const ModelFit f = fit(test::synthetic_table({}), {});
-  EXPECT_LT(std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kTag)]), 0.02);
-  EXPECT_LT(std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kRangeLow)]), 5e-4);
+  EXPECT_LT(std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kCornerGroup)]),
+            0.02);
+  EXPECT_LT(std::sqrt(f.variances.group[static_cast<std::size_t>(VarianceGroup::kRangeShape)]),
+            5e-4);
 }
 
 TEST(MixedModel, ATrueEffectRaisesThePredictionOfHeldOutScenes) {
@@ -106,7 +109,7 @@ TEST(MixedModel, SolutionWithoutASceneIgnoresIt) {
   auto made = test::synthetic_table({});
   const ModelFit before = fit(made, {}, {.rounds = 0});
   for (BoundaryRow& row : made.table.boundary) {
-    if (row.beam.scene == 2) row.center_m.x() += 0.01;
+    if (row.beam.scene == 2) row.reading.measured += 20.0;
   }
   const ModelFit after = fit(made, {}, {.rounds = 0});
   EXPECT_LT((solution_without(before, 2) - solution_without(after, 2)).norm(), 1e-9);

@@ -14,7 +14,7 @@ namespace {
 
 TEST(ModelScales, DarknessIsZeroForWhiteAndOneForBlack) {
   ModelScales scales;
-  scales.level = {100.0, 10.0, 5.0};
+  scales.level = {100.0, 10.0};
   scales.log_contrast = std::log(10.0);
   scales.darkness_low = -0.2;
   scales.darkness_high = 1.3;

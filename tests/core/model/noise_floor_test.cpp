@@ -34,6 +34,7 @@ TEST(ReplicateSigma, IsZeroWithoutEnoughPairs) {
 TEST(CornerNoise, IsThatOfSingleCornersWhateverMovesTagsAsAWhole) {
   test::TableRecipe recipe;
   recipe.corner_sigma_px = 0.08;
+  recipe.seed = 2;
   test::Disturbance wrong;
   wrong.corner_px = [](const CornerRow& row) -> Eigen::Vector2d {
     // Every tag its own shift, and corners pushed away from their tag's centre.

@@ -44,7 +44,6 @@ TEST(DiscoveryInput, HoldsTheScenesInUseWithTheirPoses) {
   ASSERT_EQ(input.scenes.size(), 3U);
   ASSERT_EQ(input.state.camera_from_board.size(), 3U);
   EXPECT_EQ(input.scenes[2].name, result.scenes[3].name);
-  EXPECT_EQ(input.scenes[2].refinement, &*result.scenes[3].refinement);
   EXPECT_EQ(input.scenes[2].board_points, &result.scenes[3].board_points);
   EXPECT_THAT(input.state.camera_from_lidar,
               test::IsNearPose(result.extrinsic.camera_from_lidar.transform, 1e-9, 1e-9));

@@ -20,7 +20,7 @@ CalibrationResult with_two_effects() {
   result.model.push_back({"channel_range_offset",
                           {{"a2", "mm", 1e-3, 0.004, 0.001}, {"a7", "mm", 1e-3, -0.004, 0.001}},
                           0.0});
-  result.model_scales.level = {120.0, 11.0, 12.0};
+  result.model_scales.level = {120.0, 11.0};
   result.model_scales.log_contrast = 2.39;
   result.model_scales.darkness_low = -0.1;
   result.model_scales.darkness_high = 1.2;

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "forward_rig.h"
+#include "model/beam_blur.h"
 #include "model/mixed_model.h"
-#include "model/natural_footprint.h"
 #include "model/residuals.h"
 
 namespace lvcalib {
@@ -32,7 +32,7 @@ class PrintTable : public testing::Test {
     solution_ = *solved;
     std::vector<SceneMeasurements> scenes;
     for (const ForwardScene& scene : rig_.scenes)
-      scenes.push_back({scene.name, scene.corners, nullptr, scene.board_points});
+      scenes.push_back({scene.name, scene.corners, scene.board_points});
     state_ = {solution_.state.camera_from_lidar, solution_.state.camera_from_board,
               solution_.state.levels, solution_.state.beam};
     TableOptions how;
