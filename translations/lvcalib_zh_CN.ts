@@ -946,8 +946,8 @@ were saved. Take them up again?</source>
         <translation>黑 %1，白 %2，噪声 %3</translation>
     </message>
     <message>
-        <source>A wide footprint on a small circle moves the mid-level inwards, the more the farther.</source>
-        <translation>光斑宽而圆小，使中间强度线向内移动，距离越远越明显。</translation>
+        <source>A wide beam blurs every edge of the print, the more the farther.</source>
+        <translation>较宽的光束使印刷图案的每条边缘变模糊，距离越远越明显。</translation>
     </message>
     <message>
         <source>Azimuth or elevation is read with a wrong scale.</source>

@@ -100,7 +100,19 @@ class EffectSearch {
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;
   bool move_shape(std::size_t k);
-  [[nodiscard]] double profile(std::size_t k, double shape) const;
+  // Restricted log-likelihood over the shape number of effect k, all other values as they are. Only
+  // the channels on which the effect acts change with it.
+  class ShapeProfile {
+   public:
+    ShapeProfile(const EffectSearch& search, std::size_t k);
+    [[nodiscard]] double operator()(double shape) const;
+
+   private:
+    const EffectSearch& search_;
+    std::size_t k_;
+    Linearization all_;
+    ChannelMask acts_{};
+  };
   void estimate_joint_covariance();
   // Effects in use and the beam's blur, which only intensities tell.
   [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (sees_print() ? 1 : 0); }

@@ -52,24 +52,47 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
                                          gain.begin())];
 }
 
-double EffectSearch::profile(std::size_t k, double shape) const {
-  std::vector<EffectInUse> in_use = model();
-  in_use[k].shape = shape;
+EffectSearch::ShapeProfile::ShapeProfile(const EffectSearch& search, std::size_t k)
+    : search_(search), k_(k) {
+  const EffectColumnsList columns = search.own_columns();
+  all_ = linearize(search.table(), search.state_, search.model(), columns, search.context_);
+  if (search.context_.stopped()) return;
+  const EffectColumns& mine = columns.list()[k];
+  for (const Channel channel : kAllChannels) {
+    for (int p = 0; p < mine.count(); ++p)
+      acts_[static_cast<std::size_t>(channel)] |= all_.squares(channel, mine.first + p) > 0.0;
+  }
+}
+
+double EffectSearch::ShapeProfile::operator()(double shape) const {
+  std::vector<EffectInUse> in_use = search_.model();
+  in_use[k_].shape = shape;
   EffectColumnsList columns;
-  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, table());
-  const Linearization linear = linearize(table(), state_, in_use, columns, context_);
-  if (context_.stopped()) return 0.0;
-  return fit_model(linear, own_subset(columns), variances_, {.rounds = 0}).log_likelihood;
+  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, search_.table());
+  Linearization linear =
+      linearize(search_.table(), search_.state_, in_use, columns, search_.context_, acts_);
+  if (search_.context_.stopped()) return 0.0;
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      if (acts_[c]) continue;
+      linear.scenes[s].products[c] = all_.scenes[s].products[c];
+      linear.scenes[s].rows[c] = all_.scenes[s].rows[c];
+    }
+  }
+  return fit_model(linear, search_.own_subset(columns), search_.variances_, {.rounds = 0})
+      .log_likelihood;
 }
 
 bool EffectSearch::move_shape(std::size_t k) {
   const std::vector<double> shapes = in_use_[k].effect->shapes(table());
   if (in_use_[k].held || !in_use_[k].effect->has_smooth_shape() || shapes.size() < 2) return false;
   const auto [low, high] = bracket(shapes, in_use_[k].shape);
+  const ShapeProfile profile(*this, k);
+  if (context_.stopped()) return false;
   std::uintmax_t most = kMostEvaluations;
   const auto [shape, value] = boost::math::tools::brent_find_minima(
-      [&](double s) { return context_.stopped() ? 0.0 : -profile(k, s); }, low, high, kBits, most);
-  if (context_.stopped() || -value < profile(k, in_use_[k].shape)) return false;
+      [&](double s) { return context_.stopped() ? 0.0 : -profile(s); }, low, high, kBits, most);
+  if (context_.stopped() || -value < profile(in_use_[k].shape)) return false;
   in_use_[k].shape = shape;
   return true;
 }

@@ -83,22 +83,36 @@ class SceneAccumulator {
     for (auto& v : out_.fourth_powers) v.setZero(columns.columns());
   }
 
-  SceneProducts run() {
-    for (const RangeRow& row : table_.range) {
-      if (row.beam.scene == scene_) range(row);
+  SceneProducts run(const ChannelMask& channels) {
+    const auto wanted = [&](Channel channel) {
+      return channels[static_cast<std::size_t>(channel)];
+    };
+    if (wanted(Channel::kRange)) {
+      for (const RangeRow& row : table_.range) {
+        if (row.beam.scene == scene_) range(row);
+      }
     }
-    for (const BoundaryRow& row : table_.boundary) {
-      if (row.beam.scene != scene_) continue;
-      const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
-      reading(Channel::kBoundary, {row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
+    if (wanted(Channel::kBoundary)) {
+      for (const BoundaryRow& row : table_.boundary) {
+        if (row.beam.scene != scene_) continue;
+        const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+        reading(Channel::kBoundary, {row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
+      }
     }
-    for (const CornerRow& row : table_.corner) {
-      if (row.scene == scene_) corner(row);
+    if (wanted(Channel::kCorner)) {
+      for (const CornerRow& row : table_.corner) {
+        if (row.scene == scene_) corner(row);
+      }
     }
-    for (const IntensityRow& row : table_.intensity) {
-      if (row.beam.scene == scene_) reading(Channel::kIntensity, row, nullptr);
+    if (wanted(Channel::kIntensity)) {
+      for (const IntensityRow& row : table_.intensity) {
+        if (row.beam.scene == scene_) reading(Channel::kIntensity, row, nullptr);
+      }
     }
     for (auto& m : out_.products) m.triangularView<Eigen::StrictlyLower>() = m.transpose();
+    for (const Channel channel : {Channel::kRange, Channel::kBoundary, Channel::kIntensity}) {
+      if (wanted(channel)) fill_what_follows_from_the_pose(channel);
+    }
     return std::move(out_);
   }
 
@@ -106,8 +120,17 @@ class SceneAccumulator {
   void set_pose(const Vector6d& by_pose) {
     for (int k = 0; k < 6; ++k) row_.set(k, by_pose(k));
   }
-  void set_extrinsic(const Vector6d& by_pose) {
-    for (int k = 0; k < 6; ++k) row_.set(extrinsic_ + k, -by_pose(k));
+  // What the LiDAR measures depends on the extrinsic and on the board's motion through the board's
+  // pose in its frame alone: these columns are the pose's, transformed, and need no sums of their
+  // own.
+  void fill_what_follows_from_the_pose(Channel channel) {
+    Eigen::MatrixXd& m = out_.products[static_cast<std::size_t>(channel)];
+    const int board = out_.layout.board_column();
+    const Matrix6d motion = print_.board_motion_by_pose();
+    m.middleRows<6>(extrinsic_) = -m.topRows<6>();
+    m.middleRows<6>(board) = motion * m.topRows<6>();
+    m.middleCols<6>(extrinsic_) = -m.leftCols<6>();
+    m.middleCols<6>(board) = m.leftCols<6>() * motion.transpose();
   }
   void finish(Channel channel, double residual, double sigma) {
     row_.set(residual_, residual);
@@ -131,10 +154,8 @@ class SceneAccumulator {
     board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
     for (int k = 0; k < LocalLayout::kRangeTerms; ++k)
       row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(3 + k)]);
-    set_board_motion(*row);
     const int line = line_of(r.beam);
     if (line >= 0) row_.set(out_.layout.line_column() + line, 1.0);
-    set_extrinsic(row->by_board_pose);
     candidate_rows_.range(
         r, geometry_.range_row(r.beam.direction), rotation_,
         [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
@@ -147,9 +168,6 @@ class SceneAccumulator {
     for (int k = 0; k < LocalLayout::kLevels; ++k)
       row_.set(LocalLayout::kPose + k, row.by_levels(k));
   }
-  void set_board_motion(const PrintRow& row) {
-    for (int k = 0; k < 6; ++k) row_.set(out_.layout.board_column() + k, row.by_board_motion(k));
-  }
   [[nodiscard]] int line_of(const BeamPoint& beam) const {
     return out_.layout.lines > 0 ? index_in(table_.lines, beam.line) : -1;
   }
@@ -161,14 +179,12 @@ class SceneAccumulator {
     const auto row = edge != nullptr ? print_.edge(*edge) : print_.intensity(r);
     if (!row) return;
     begin(*row);
-    set_board_motion(*row);
     const int patch = out_.layout.patch_column() + 2 * patch_of(r.beam.board_m);
     row_.set(patch, row->print.by_shift(0));
     row_.set(patch + 1, row->print.by_shift(1));
     const int line = line_of(r.beam);
     if (line >= 0)
       row_.set(out_.layout.line_column() + out_.layout.lines + line, row->print.by_log_intensity);
-    set_extrinsic(row->by_board_pose);
     const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction, edge);
     candidate_rows_.reading(
         r, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
@@ -289,13 +305,13 @@ std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
 
 Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                        const RunContext& context) {
+                        const RunContext& context, const ChannelMask& channels) {
   Linearization out;
   out.columns = columns;
   out.scenes.resize(table.scenes.size());
   parallel_for(table.scenes.size(), context.thread_count(), [&](std::size_t s) {
     if (!context.stopped())
-      out.scenes[s] = SceneAccumulator(table, state, in_use, columns, s).run();
+      out.scenes[s] = SceneAccumulator(table, state, in_use, columns, s).run(channels);
   });
   return out;
 }

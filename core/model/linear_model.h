@@ -125,11 +125,16 @@ struct Linearization {
   [[nodiscard]] double squares(Channel channel, int effect_column) const;
 };
 
+/// Which channels' rows to take.
+using ChannelMask = std::array<bool, kChannels>;
+inline constexpr ChannelMask kEveryChannel{true, true, true, true};
+
 /// Computes the cross products; scenes in parallel. Cost is linear in rows and in the number of
-/// effects that act on a row. Stops early (empty scenes) when asked to.
+/// effects that act on a row. Channels left out stay zero. Stops early (empty scenes) when asked
+/// to.
 Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                        const RunContext& context);
+                        const RunContext& context, const ChannelMask& channels = kEveryChannel);
 
 /// The state moved by left perturbations.
 ModelState moved(const ModelState& state, const Vector6d& extrinsic,

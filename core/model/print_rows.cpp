@@ -16,7 +16,13 @@ PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std
 
 void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
   out.by_board_pose = geometry_.by_camera_pose(by_lidar_pose);
-  out.by_board_motion = motion_.transpose() * by_lidar_pose;
+}
+
+Matrix6d PrintRows::board_motion_by_pose() const {
+  Matrix6d by_camera;
+  for (int k = 0; k < 6; ++k)
+    by_camera.col(k) = geometry_.by_camera_pose(Vector6d::Unit(static_cast<Eigen::Index>(k)));
+  return motion_.transpose() * by_camera.inverse();
 }
 
 std::optional<PrintRow> PrintRows::range(const RangeRow& row) {

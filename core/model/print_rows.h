@@ -17,9 +17,6 @@ struct PrintRow {
   double residual = 0.0;                      ///< Measured − predicted, effects in use taken out.
   Vector6d by_board_pose = Vector6d::Zero();  ///< Left perturbation of T_camera_board; that by the
                                               ///< extrinsic is its negative.
-  /// By the board's motion between camera and LiDAR about its middle, board axes: shift (2), along
-  /// the normal, tilt (2), spin.
-  Vector6d by_board_motion = Vector6d::Zero();
   Eigen::Matrix<double, kLevelParameters, 1> by_levels =
       Eigen::Matrix<double, kLevelParameters, 1>::Zero();
   PrintSensitivity print;
@@ -44,6 +41,9 @@ class PrintRows {
   /// Rotation of T_lidar_board.
   [[nodiscard]] const Eigen::Matrix3d& lidar_from_board() const { return rotation_; }
   [[nodiscard]] const SceneGeometry& geometry() const { return geometry_; }
+  /// Turns a derivative by the board's pose into that by the board's motion between camera and
+  /// LiDAR about its middle, board axes: shift (2), along the normal, tilt (2), spin.
+  [[nodiscard]] Matrix6d board_motion_by_pose() const;
 
  private:
   std::optional<PrintRow> reading(const IntensityRow& row, const BoundaryRow* edge);

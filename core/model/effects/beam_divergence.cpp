@@ -12,9 +12,9 @@ class BeamDivergence final : public CatalogueEffect {
       : CatalogueEffect({.id = "beam_divergence",
                          .group = "beam",
                          .title = "Beam divergence",
-                         .physics = "A wide footprint on a small circle moves the mid-level "
-                                    "inwards, the more the farther.",
-                         .formula = "dd = -σ²/2R, σ² = (γr)² (1 + tan²θ) / (1 + tan²θ cos²(ψ-α))",
+                         .physics = "A wide beam blurs every edge of the print, the more the "
+                                    "farther.",
+                         .formula = "A = print * N(0, S), S += γ² I",
                          .source = "Livox Avia manual; Laconte 2019",
                          .breaker = "circles at near and far distance",
                          .needs = {.circles = true, .intensity = true}},

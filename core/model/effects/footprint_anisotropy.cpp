@@ -14,7 +14,7 @@ class FootprintAnisotropy final : public CatalogueEffect {
              .group = "beam",
              .title = "Elliptic footprint",
              .physics = "The footprint is wider along one axis of the LiDAR.",
-             .formula = "dd = -r² (γh² sin²ψ' + γv² cos²ψ') / 2R",
+             .formula = "A = print * N(0, S), S += diag(γh², γv²)",
              .source = "Livox Avia manual",
              .breaker = "circles far away",
              .needs = {.circles = true, .intensity = true}},
