@@ -66,9 +66,10 @@ class Builder {
       scene_->notice = CloudSceneText::tr("Only the board's points are loaded.");
     }
     if (!scene_->cloud) {
-      scene_->notice = board_only
-                           ? CloudSceneText::tr("No board was found in this scene's cloud yet.")
-                           : CloudSceneText::tr("The cloud is not loaded yet.");
+      scene_->notice =
+          !in_.problem.isEmpty() ? CloudSceneText::tr("There is no cloud: %1").arg(in_.problem)
+          : board_only ? CloudSceneText::tr("No board was found in this scene's cloud yet.")
+                       : CloudSceneText::tr("The cloud is not loaded yet.");
     }
   }
 

@@ -44,6 +44,7 @@ struct CloudSceneInput {
   Camera camera;
   std::optional<Rigid3> camera_from_lidar;  ///< For pixels and camera colours.
   QImage image;
+  QString problem;  ///< Why there is no full cloud and will be none; empty: it may still come.
 };
 
 /// A cloud made ready to be drawn: points in an order of which every beginning is a fair thinning,

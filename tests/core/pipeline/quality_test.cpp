@@ -67,7 +67,7 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
       {"weak as weak", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.weak_directions = {"weak as weak"}; }},
       {"only one usable scene", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 1; }},
-      {"two scenes", Quality::kGood, [](auto& r) { r.extrinsic.used_scenes = 2; }},
+      {"two scenes", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 2; }},
       {"miss their model by 3.00 px", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.sigma_px = 3.0; }},
       {"2.5 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 2.5; }},
