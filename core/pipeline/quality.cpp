@@ -223,11 +223,12 @@ std::string worst_scene(const ExtrinsicSolution& x) {
 void judge_splits(const CalibrationResult& result, Verdict& verdict) {
   for (const SplitHalf& split : result.uncertainty.splits) {
     if (split.agrees()) continue;
-    verdict.note("the halves of the scenes (" + split.name + ") differ by " +
-                 formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
-                 formatted("more than noise explains (χ² %.0f, at most %.0f): an effect is missing "
-                           "in the model, or one scene is off",
-                           split.chi_square, split.gate));
+    verdict.doubtful(
+        "the halves of the scenes (" + split.name + ") differ by " +
+        formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
+        formatted("more than noise explains (χ² %.0f, at most %.0f): an effect is missing "
+                  "in the model, or one scene is off",
+                  split.chi_square, split.gate));
   }
 }
 

@@ -96,7 +96,8 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
          r.scenes[1].used = false;
          r.scenes[1].reason = "no tags";
        }},
-      {"(near/far) differ by 9.0 mm and 2.0 mrad, more than noise explains (χ² 90", Quality::kGood,
+      {"(near/far) differ by 9.0 mm and 2.0 mrad, more than noise explains (χ² 90",
+       Quality::kDoubtful,
        [](auto& r) {
          SplitHalf split;
          split.name = "near/far";
