@@ -7,8 +7,10 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QScreen>
 #include <QShortcut>
 #include <QToolBar>
+#include <algorithm>
 #include <utility>
 
 #include "dialogs/about_dialog.h"
@@ -52,6 +54,8 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   addDockWidget(Qt::LeftDockWidgetArea, scenes_);
   addDockWidget(Qt::LeftDockWidgetArea, parameters_);
   addDockWidget(Qt::BottomDockWidgetArea, log_);
+  // Both are there when asked for; the pages need the room more.
+  parameters_->hide();
   log_->hide();
   actions_->add_view_toggles({scenes_->toggleViewAction(), parameters_->toggleViewAction(),
                               log_->toggleViewAction(), actions_->tool_bar->toggleViewAction()});
@@ -78,8 +82,11 @@ MainWindow::~MainWindow() {
 }
 
 void MainWindow::restore_window() {
-  resize(1500, 940);
-  resizeDocks({scenes_, parameters_}, {500, 500}, Qt::Horizontal);
+  QSize size(1500, 940);
+  if (screen() != nullptr) size = size.boundedTo(screen()->availableSize());
+  resize(size);
+  const int dock = std::max(410, size.width() * 3 / 10);
+  resizeDocks({scenes_, parameters_}, {dock, dock}, Qt::Horizontal);
   resizeDocks({log_}, {140}, Qt::Vertical);
   restoreGeometry(settings_.geometry());
   restoreState(settings_.window_state());

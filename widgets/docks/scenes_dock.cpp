@@ -50,11 +50,12 @@ void ScenesDock::make_view(SceneModel& model) {
   view_->setIconSize(QSize(48, 30));
   view_->setContextMenuPolicy(Qt::ActionsContextMenu);
   QHeaderView* header = view_->header();
-  header->setStretchLastSection(true);
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header->setSectionResizeMode(SceneModel::kState, QHeaderView::Interactive);
+  // The state stands beside the name and takes what room is left: its sign is always in sight.
+  header->setStretchLastSection(false);
   header->setMinimumSectionSize(28);
-  header->resizeSection(SceneModel::kState, 60);
+  header->setSectionResizeMode(SceneModel::kState, QHeaderView::Stretch);
+  header->moveSection(SceneModel::kState, 1);
   connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
           &ScenesDock::update_actions);
   connect(&model, &QAbstractItemModel::modelReset, this, &ScenesDock::update_actions);

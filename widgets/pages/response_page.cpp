@@ -32,7 +32,7 @@ ResponsePage::ResponsePage(QWidget* parent) : QWidget(parent) {
   splitter->addWidget(createTables());
   splitter->setStretchFactor(0, 1);
   splitter->setStretchFactor(1, 0);
-  splitter->setSizes({560, 190});
+  splitter->setSizes({500, 250});
   layout->addWidget(message_);
   layout->addWidget(splitter, 1);
   follow_language(this, [this] { retranslate(); });

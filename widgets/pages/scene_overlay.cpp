@@ -170,6 +170,26 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
   return lines;
 }
 
+std::vector<CloudLine> axes_and_grid(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {
+  const Eigen::Vector3d o = Eigen::Vector3d::Zero();
+  std::vector<CloudLine> lines = {{{o, Eigen::Vector3d::UnitX()}, {0.9, 0.15, 0.15}, false},
+                                  {{o, Eigen::Vector3d::UnitY()}, {0.1, 0.65, 0.1}, false},
+                                  {{o, Eigen::Vector3d::UnitZ()}, {0.2, 0.35, 1.0}, false}};
+  constexpr double kMostLines = 40.0;
+  const double reach = std::max(high_m.x() - low_m.x(), high_m.y() - low_m.y());
+  if (!(reach > 0.0) || !std::isfinite(reach)) return lines;
+  double step = 1.0;
+  while (reach / step > kMostLines) step *= 10.0;
+  const Eigen::Vector2d low = step * (low_m.head<2>() / step).array().floor();
+  const Eigen::Vector2d high = step * (high_m.head<2>() / step).array().ceil();
+  const std::array<double, 3> gray{0.5, 0.5, 0.5};
+  for (double x = low.x(); x <= high.x() + 0.5 * step; x += step)
+    lines.push_back({{{x, low.y(), low_m.z()}, {x, high.y(), low_m.z()}}, gray, false});
+  for (double y = low.y(); y <= high.y() + 0.5 * step; y += step)
+    lines.push_back({{{low.x(), y, low_m.z()}, {high.x(), y, low_m.z()}}, gray, false});
+  return lines;
+}
+
 CropBox box_about_board(const CalibrationResult* result, const SceneResult* scene,
                         const Eigen::Vector3d& fallback_m) {
   CropBox box;

@@ -207,8 +207,21 @@ void ScenePage::selectPoint(std::uint32_t point) {
   sample_pixels_.clear();
   const auto& scene = cloud_->view()->scene();
   if (!scene || !scene->cloud || point >= scene->cloud->size()) return;
-  cloud_->view()->setHighlights({point});
-  selection_->setText(describePoint(*scene->cloud, point));
+  QString text = describePoint(*scene->cloud, point);
+  std::vector<std::uint32_t> points{point};
+  if (picked_ && *picked_ < scene->cloud->size() && *picked_ != point) {
+    points.push_back(*picked_);
+    const Eigen::Vector3f d = scene->cloud->points_m[point] - scene->cloud->points_m[*picked_];
+    text += QLatin1Char('\n') + tr("%1 m from point %2, picked before: Δx %3, Δy %4, Δz %5 m")
+                                    .arg(d.norm(), 0, 'f', 4)
+                                    .arg(*picked_)
+                                    .arg(d.x(), 0, 'f', 4)
+                                    .arg(d.y(), 0, 'f', 4)
+                                    .arg(d.z(), 0, 'f', 4);
+  }
+  picked_ = point;
+  cloud_->view()->setHighlights(points);
+  selection_->setText(text);
   std::vector<QPointF> places;
   if (point < scene->pixels.size() && std::isfinite(scene->pixels[point].x())) {
     const Eigen::Vector2d pixel = scene->pixels[point].cast<double>();
@@ -359,6 +372,7 @@ void ScenePage::showSamples() {
 }
 
 void ScenePage::clearSelection() {
+  picked_.reset();
   sample_points_m_.clear();
   sample_pixels_.clear();
   cloud_->view()->setHighlights({});

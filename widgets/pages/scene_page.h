@@ -81,6 +81,7 @@ class ScenePage : public QWidget {
   int scene_ = -1;
   CloudPane* cloud_ = nullptr;
   ImagePane* image_ = nullptr;
+  std::optional<std::uint32_t> picked_;  // In the cloud shown; the one before is measured from.
   QLabel* refusal_ = nullptr;
   QLabel* selection_ = nullptr;
 };

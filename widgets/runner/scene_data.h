@@ -34,8 +34,8 @@ class SceneLoader : public QObject {
 
  public:
   /// Size that thumbnails fit into, px.
-  static constexpr int kThumbnailWidth = 64;
-  static constexpr int kThumbnailHeight = 40;
+  static constexpr int kThumbnailWidth = 48;
+  static constexpr int kThumbnailHeight = 30;
 
   explicit SceneLoader(QObject* parent = nullptr);
 

@@ -57,7 +57,7 @@ TEST_F(SceneData, TheLoaderGivesDataThumbnailsAndMessages) {
   ASSERT_EQ(thumbnails.count(), 2);
   ASSERT_EQ(failed.count(), 1) << "the broken one is named at once";
   EXPECT_EQ(thumbnails.last().first().toString(), "B");
-  EXPECT_EQ(qvariant_cast<QImage>(thumbnails.last().at(1)).size(), QSize(60, 40));
+  EXPECT_EQ(qvariant_cast<QImage>(thumbnails.last().at(1)).size(), QSize(45, 30));
   loader.load(broken);
   ASSERT_TRUE(failed.wait(5000));
   EXPECT_TRUE(failed.last().at(1).toString().contains("nowhere.png"));
