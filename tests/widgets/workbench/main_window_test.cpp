@@ -24,6 +24,7 @@
 
 #include "base/file_io.h"
 #include "docks/parameters_dock.h"
+#include "docks/scenes_dock.h"
 #include "pages/scene_page.h"
 #include "report/result_file.h"
 #include "support/pose_matchers.h"
@@ -339,17 +340,18 @@ TEST_F(MainWindowTest, OneBadFileCostsOneScene) {
   // Before anything runs.
   ASSERT_TRUE(wait_until([&] { return state("C").contains("image.png"); }, 10'000));
   ASSERT_TRUE(wait_until([&] { return state("D").contains("no cloud"); }, 10'000));
-  test::click_scene(*window_, "B", false);
+  auto* scenes = window_->findChild<widgets::ScenesDock*>();
+  scenes->select("B");
   ASSERT_TRUE(wait_until([&] { return state("B").contains("truncated"); }, 10'000));
   auto* cloud_notice = find<QLabel>(*window_->findChild<widgets::ScenePage*>(), "cloud-notice");
   ASSERT_TRUE(wait_until([&] { return cloud_notice->text().contains("truncated"); }, 10'000));
   auto* image = window_->findChild<widgets::ScenePage*>()->findChild<widgets::ImageView*>();
   EXPECT_FALSE(image->image().isNull()) << "the image of B is sound";
-  test::click_scene(*window_, "C", false);
+  scenes->select("C");
   ASSERT_TRUE(wait_until([&] { return image->message().contains("image.png"); }, 10'000));
   QTest::keyClick(window_.get(), Qt::Key_F5);
   ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
-  EXPECT_TRUE(state("B").contains("truncated"));
+  EXPECT_TRUE(state("B").contains("truncated")) << state("B").toStdString();
   EXPECT_TRUE(state("C").contains("image.png"));
   EXPECT_TRUE(state("D").contains("no cloud"));
   ASSERT_TRUE(workspace().result());
