@@ -173,6 +173,8 @@ void ScenePage::refresh() {
   cloud_->setSuggestedBox(box_about_board(result_.get(), scene, middle));
   cloud_->setInput(std::move(input), std::move(lines));
   image_->view()->setMessage(scene_ < 0 ? tr("Choose a scene in the list.")
+                             : !image_problem_.isEmpty() && image_problem_ == cloud_problem_
+                                 ? core_text(image_problem_)  // The scene as such is incomplete.
                              : image_problem_.isEmpty()
                                  ? tr("The image is being loaded …")
                                  : tr("There is no image: %1").arg(core_text(image_problem_)));
