@@ -122,6 +122,26 @@ were saved. Take them up again?</source>
         <source>intensity</source>
         <translation>强度</translation>
     </message>
+    <message>
+        <source>There is no cloud: %1</source>
+        <translation>没有点云：%1</translation>
+    </message>
+    <message>
+        <source>This cloud has no line numbers; range is shown.</source>
+        <translation>此点云没有线号；改为显示距离。</translation>
+    </message>
+    <message>
+        <source>This cloud has no times; range is shown.</source>
+        <translation>此点云没有时间；改为显示距离。</translation>
+    </message>
+    <message>
+        <source>scan line</source>
+        <translation>扫描线</translation>
+    </message>
+    <message>
+        <source>time (ms)</source>
+        <translation>时间 (ms)</translation>
+    </message>
 </context>
 <context>
     <name>Core</name>
@@ -944,10 +964,6 @@ were saved. Take them up again?</source>
     <message>
         <source>black %1, white %2, noise %3</source>
         <translation>黑 %1，白 %2，噪声 %3</translation>
-    </message>
-    <message>
-        <source>A wide beam blurs every edge of the print, the more the farther.</source>
-        <translation>较宽的光束使印刷图案的每条边缘变模糊，距离越远越明显。</translation>
     </message>
     <message>
         <source>Azimuth or elevation is read with a wrong scale.</source>
@@ -1854,6 +1870,74 @@ were saved. Take them up again?</source>
         <translation>宽度 s（rad）</translation>
     </message>
     <message>
+        <source>scene %1 is used all the same, as you decided, though %2</source>
+        <translation>场景 %1 按您的决定仍被采用，尽管：%2</translation>
+    </message>
+    <message>
+        <source>scenes held out speak for an effect that the model lacks: %1</source>
+        <translation>留出场景表明模型缺少一种效应：%1</translation>
+    </message>
+    <message>
+        <source>structure is left that no known effect explains</source>
+        <translation>残余结构无法由任何已知效应解释</translation>
+    </message>
+    <message>
+        <source>misses the board&apos;s pose by %1 mm, more than the gate</source>
+        <translation>偏离标定板位姿 %1 mm，超出门限</translation>
+    </message>
+    <message>
+        <source>misses the board&apos;s pose by more than the gate</source>
+        <translation>偏离标定板位姿，超出门限</translation>
+    </message>
+    <message>
+        <source>off the board&apos;s plane, or beside what stands before it</source>
+        <translation>偏离标定板平面，或紧邻其前方的遮挡物</translation>
+    </message>
+    <message>
+        <source>%1: the image file is empty</source>
+        <translation>%1：图像文件为空</translation>
+    </message>
+    <message>
+        <source>%1: the image cannot be decoded: its data are damaged (%2)</source>
+        <translation>%1：图像无法解码：数据已损坏（%2）</translation>
+    </message>
+    <message>
+        <source>%1: is truncated: its header says %2 points, found %3 (copy or export the file again)</source>
+        <translation>%1：文件被截断：文件头声明 %2 个点，实际 %3 个（请重新复制或导出该文件）</translation>
+    </message>
+    <message>
+        <source>%1: file not found</source>
+        <translation>%1：找不到文件</translation>
+    </message>
+    <message>
+        <source>no scene can be used; scene %1: %2</source>
+        <translation>没有可用的场景；场景 %1：%2</translation>
+    </message>
+    <message>
+        <source>this folder is no dataset; a dataset holds target.yaml (the board), camera.yaml (the intrinsics) and scenes/NAME/ with image.png and cloud.pcd for every scene</source>
+        <translation>此文件夹不是数据集；数据集包含 target.yaml（标定板）、camera.yaml（内参），以及每个场景的 scenes/NAME/，其中有 image.png 和 cloud.pcd</translation>
+    </message>
+    <message>
+        <source>choose the folder that holds these, or make one from a recording</source>
+        <translation>请选择包含这些内容的文件夹，或由录制数据生成一个</translation>
+    </message>
+    <message>
+        <source>%1: no image in this scene; expected image.png, .jpg, .bmp or .tiff</source>
+        <translation>%1：此场景没有图像；应有 image.png、.jpg、.bmp 或 .tiff</translation>
+    </message>
+    <message>
+        <source>%1: no cloud in this scene; expected cloud.pcd or cloud.ply</source>
+        <translation>%1：此场景没有点云；应有 cloud.pcd 或 cloud.ply</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is no name of a frame; expected letters, digits and _ - . /, not beginning with - and without --</source>
+        <translation>“%1”不是坐标系名称；只能用字母、数字和 _ - . /，不能以 - 开头，也不能含 --</translation>
+    </message>
+    <message>
+        <source>as the robot&apos;s description calls it: velodyne, camera_left</source>
+        <translation>按机器人描述文件中的名称：velodyne、camera_left</translation>
+    </message>
+    <message>
         <source>no edges of the print in the returns</source>
         <translation>回波中没有印刷图案的边缘</translation>
     </message>
@@ -1868,6 +1952,10 @@ were saved. Take them up again?</source>
     <message>
         <source>see the warnings of the calibration</source>
         <translation>请参阅标定的警告</translation>
+    </message>
+    <message>
+        <source>A wide beam blurs every edge of the print, the more the farther.</source>
+        <translation>较宽的光束使印刷图案的每条边缘变模糊，距离越远越明显。</translation>
     </message>
 </context>
 <context>
@@ -1907,6 +1995,14 @@ were saved. Take them up again?</source>
     <message>
         <source>add %1</source>
         <translation>添加 %1</translation>
+    </message>
+    <message>
+        <source>use %1 all the same</source>
+        <translation>仍然采用 %1</translation>
+    </message>
+    <message>
+        <source>no longer use %1 all the same</source>
+        <translation>不再强制采用 %1</translation>
     </message>
 </context>
 <context>
@@ -2665,10 +2761,6 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <translation>相机颜色</translation>
     </message>
     <message>
-        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), or the camera&apos;s own colours</source>
-        <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、超出标定板平面的距离 (mm) 或相机自身的颜色</translation>
-    </message>
-    <message>
         <source>Colour of the points</source>
         <translation>点的颜色</translation>
     </message>
@@ -2711,6 +2803,34 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>%1 points</source>
         <translation>%1 个点</translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation>扫描线</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>时间</translation>
+    </message>
+    <message>
+        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), the camera&apos;s own colours, the scan line&apos;s number, or the time since the scan began (ms)</source>
+        <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、超出标定板平面的距离 (mm)、相机颜色、扫描线号，或扫描开始后的时间 (ms)</translation>
+    </message>
+    <message>
+        <source>Axes</source>
+        <translation>坐标轴</translation>
+    </message>
+    <message>
+        <source>Show the LiDAR&apos;s axes (x red, y green, z blue) and a grid under the points</source>
+        <translation>显示激光雷达坐标轴（x 红、y 绿、z 蓝）和点云下方的网格</translation>
+    </message>
+    <message>
+        <source>Size of the points on the screen, px</source>
+        <translation>点在屏幕上的大小，px</translation>
+    </message>
+    <message>
+        <source>Size of the points</source>
+        <translation>点的大小</translation>
     </message>
 </context>
 <context>
@@ -2760,6 +2880,14 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <source>Look from the LiDAR&apos;s origin</source>
         <translation>从激光雷达原点看</translation>
     </message>
+    <message>
+        <source>Board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>Look at the board, once it is found</source>
+        <translation>找到标定板后对准它观看</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::CoachMarks</name>
@@ -2774,6 +2902,13 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>End the tour</source>
         <translation>结束导览</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ColorBar</name>
+    <message>
+        <source>Drag the ends of the colours; a double click takes them back</source>
+        <translation>拖动颜色范围的两端；双击恢复</translation>
     </message>
 </context>
 <context>
@@ -2853,24 +2988,24 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>这些场景刚刚模拟生成，所用激光雷达有一个标定并不知道的误差。请按&lt;b&gt;全部运行&lt;/b&gt;。</translation>
     </message>
     <message>
-        <source>The calibration is done, and its figures look fine. Open the &lt;b&gt;Model&lt;/b&gt; page to ask what it misses.</source>
-        <translation>标定已完成，数值看起来不错。打开&lt;b&gt;模型&lt;/b&gt;页，看看它遗漏了什么。</translation>
-    </message>
-    <message>
         <source>The effects that may be missing are being tried; scenes held out decide. The best one comes first, with a sentence on what was seen and how sure that is.</source>
         <translation>正在逐一尝试可能遗漏的效应，由留出的场景决定。最好的排在最前，并用一句话说明看到了什么、有多大把握。</translation>
-    </message>
-    <message>
-        <source>&lt;b&gt;Range walk&lt;/b&gt;: dark print reads too far. The orange curve is its pattern at the size found; the marks are what is measured.</source>
-        <translation>&lt;b&gt;Range walk&lt;/b&gt;（距离随强度漂移）：深色印刷读数偏远。橙色曲线是按所得大小绘出的图样，标记是测量值。</translation>
     </message>
     <message>
         <source>&lt;b&gt;Add&lt;/b&gt; it to the model.</source>
         <translation>把它&lt;b&gt;添加&lt;/b&gt;到模型中。</translation>
     </message>
     <message>
-        <source>The red, unexplained share is gone, in scenes held out as well (diamonds), and the extrinsic has moved. Click an earlier step or undo to compare.</source>
-        <translation>红色的未解释部分消失了，留出的场景（菱形）也一样，外参随之移动。单击较早的步骤或撤销以作比较。</translation>
+        <source>The calibration is done. Below on the right stands how far it can be trusted, and the mouse over it says why. Open the &lt;b&gt;Model&lt;/b&gt; page to ask what the model misses.</source>
+        <translation>标定完成。右下角说明结果的可信程度，鼠标悬停可看原因。打开&lt;b&gt;模型&lt;/b&gt;页，看看模型缺少什么。</translation>
+    </message>
+    <message>
+        <source>The effect at the top of the list is the one that scenes held out speak for most. The orange curve is its pattern at the size found; the marks are what is measured.</source>
+        <translation>列表最上方的效应最受留出场景支持。橙色曲线是它按所求大小的形态；标记是测量值。</translation>
+    </message>
+    <message>
+        <source>Red is what no effect explains, green what the model explains now; diamonds are scenes held out. The list on the left says by how much the extrinsic has moved. Click an earlier step or undo to compare.</source>
+        <translation>红色是没有效应能解释的部分，绿色是模型现在解释的部分；菱形是留出场景。左侧列表说明外参移动了多少。点击先前的步骤或撤销以作比较。</translation>
     </message>
 </context>
 <context>
@@ -2926,6 +3061,26 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <source>%1 (*.%2);;All files (*)</source>
         <translation>%1 (*.%2);;所有文件 (*)</translation>
     </message>
+    <message>
+        <source>Frames:</source>
+        <translation>坐标系：</translation>
+    </message>
+    <message>
+        <source>What the LiDAR&apos;s frame is called in exports</source>
+        <translation>导出时激光雷达坐标系的名称</translation>
+    </message>
+    <message>
+        <source>LiDAR frame</source>
+        <translation>激光雷达坐标系</translation>
+    </message>
+    <message>
+        <source>What the camera&apos;s frame is called in exports</source>
+        <translation>导出时相机坐标系的名称</translation>
+    </message>
+    <message>
+        <source>Camera frame</source>
+        <translation>相机坐标系</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ExtrinsicPage</name>
@@ -2938,7 +3093,7 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>残差与影响</translation>
     </message>
     <message>
-        <source>Cloud in camera colours</source>
+        <source>Coloured cloud</source>
         <translation>相机着色的点云</translation>
     </message>
     <message>
@@ -3385,6 +3540,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>LV-Calib Workbench</source>
         <translation>LV-Calib 工作台</translation>
+    </message>
+    <message>
+        <source>Scene %1: %2</source>
+        <translation>场景 %1：%2</translation>
     </message>
 </context>
 <context>
@@ -3947,6 +4106,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>; not usable: %1</source>
         <translation>；不可用：%1</translation>
     </message>
+    <message>
+        <source>%1: %2 mm</source>
+        <translation>%1：%2 mm</translation>
+    </message>
+    <message>
+        <source>%1: not usable</source>
+        <translation>%1：不可用</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResidualMapPlot</name>
@@ -4013,10 +4180,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>按距离和入射角</translation>
     </message>
     <message>
-        <source>Circles left out</source>
-        <translation>未采用的圆</translation>
-    </message>
-    <message>
         <source>Run the calibration to see how returns scatter at the circles&apos; edges.</source>
         <translation>运行标定后可查看回波在圆边缘处的散布。</translation>
     </message>
@@ -4041,8 +4204,34 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>场景 %1，圆 %2：</translation>
     </message>
     <message>
-        <source>None.</source>
-        <translation>无。</translation>
+        <source>Left out</source>
+        <translation>未采用</translation>
+    </message>
+    <message>
+        <source>Scene %1, corners of tag %2:</source>
+        <translation>场景 %1，标签 %2 的角点：</translation>
+    </message>
+    <message numerus="yes">
+        <source>Scene %1, %n points on the board:</source>
+        <translation>
+            <numerusform>场景 %1，板上 %n 个点：</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Scene %1, for the boundary response alone:</source>
+        <translation>场景 %1，仅就边界响应而言：</translation>
+    </message>
+    <message>
+        <source>Scene %1, circle %2, for the boundary response alone:</source>
+        <translation>场景 %1，圆 %2，仅就边界响应而言：</translation>
+    </message>
+    <message>
+        <source>Use it all the same</source>
+        <translation>仍然采用</translation>
+    </message>
+    <message>
+        <source>Nothing: everything found is used.</source>
+        <translation>无：找到的全部采用。</translation>
     </message>
 </context>
 <context>
@@ -4276,6 +4465,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>Whether the scene is used, and why not.</source>
         <translation>场景是否被使用及原因。</translation>
     </message>
+    <message>
+        <source>used all the same: %1</source>
+        <translation>仍被采用：%1</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ScenePage</name>
@@ -4353,6 +4546,34 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
             <numerusform>模型页上选中了 %n 个测量值</numerusform>
         </translation>
     </message>
+    <message>
+        <source>There is no image: %1</source>
+        <translation>没有图像：%1</translation>
+    </message>
+    <message>
+        <source>This scene is left out:</source>
+        <translation>此场景未被采用：</translation>
+    </message>
+    <message>
+        <source>Use it all the same</source>
+        <translation>仍然采用</translation>
+    </message>
+    <message>
+        <source>%1 m from point %2, picked before: Δx %3, Δy %4, Δz %5 m</source>
+        <translation>距先前所选点 %2 为 %1 m：Δx %3，Δy %4，Δz %5 m</translation>
+    </message>
+    <message>
+        <source>Circle %1</source>
+        <translation>圆 %1</translation>
+    </message>
+    <message>
+        <source>, its centre known to %1 mm</source>
+        <translation>，圆心精度 %1 mm</translation>
+    </message>
+    <message>
+        <source>, left out: %1</source>
+        <translation>，未采用：%1</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ScenesDock</name>
@@ -4399,6 +4620,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Add scene folders from elsewhere</source>
         <translation>从其他位置添加场景文件夹</translation>
+    </message>
+    <message>
+        <source>Use it all the same</source>
+        <translation>仍然采用</translation>
+    </message>
+    <message>
+        <source>Use the selected scenes although the program refused them</source>
+        <translation>采用所选场景，尽管程序拒绝了它们</translation>
     </message>
 </context>
 <context>

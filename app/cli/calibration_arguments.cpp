@@ -29,11 +29,22 @@ Status read_tolerance(const std::string& text, QualityOptions& quality) {
   return Done{};
 }
 
+UnusableScenes unusable_scenes(const CalibrationArguments& options) {
+  return options.skip_unreadable ? UnusableScenes::kLeaveOut : UnusableScenes::kRefuse;
+}
+
 Result<CalibrationRequest> make_request(const CalibrationArguments& options, const Dataset& dataset,
                                         Session& session) {
   CalibrationRequest request;
   request.use_crops = options.crops;
   request.rejected = options.rejected;
+  for (const std::string& name : options.insisted) {
+    if (std::none_of(dataset.scenes.begin(), dataset.scenes.end(),
+                     [&](const SceneFiles& files) { return files.name == name; }))
+      return Error::usage("there is no scene '" + name + "' to insist on", options.dataset);
+  }
+  request.insisted = options.insisted;
+  request.unusable = unusable_scenes(options);
   request.guess = dataset.rough_camera_from_lidar;
   if (!options.config.empty()) {
     auto file = read_options(options.config);
@@ -81,11 +92,17 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
                      "MM,MRAD: by how much the extrinsic may be off before it matters to you "
                      "(default: 0.5,0.2, or half a standard deviation if that is more)");
   command.add_option("--reject", arguments.rejected, "leave out this scene (repeatable)");
+  command.add_option("--insist", arguments.insisted,
+                     "use this scene though it contradicts the others or shows too few circles "
+                     "(repeatable)");
+  command.add_flag("--skip-unreadable", arguments.skip_unreadable,
+                   "leave out scenes whose files are missing or cannot be read, with a warning; "
+                   "otherwise they are an error");
 }
 
 Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments, Session& session) {
   if (Status s = check_folder_usable(arguments.output); !s) return s.error();
-  auto dataset = open_dataset(arguments.dataset);
+  auto dataset = open_dataset(arguments.dataset, unusable_scenes(arguments));
   if (!dataset) return dataset.error();
   // Said before anything else: what follows may be their consequence.
   for (const std::string& warning : dataset->warnings) session.warn(warning);

@@ -19,8 +19,10 @@ struct CalibrationArguments {
   std::string tolerance;   ///< MM,MRAD; empty: as the options say.
   bool crops = false;
   bool no_intensity = false;
-  bool ablation = false;  ///< See CalibrationOptions::ablation; of calibrate alone.
+  bool ablation = false;         ///< See CalibrationOptions::ablation; of calibrate alone.
+  bool skip_unreadable = false;  ///< Leave out scenes whose files are missing or unreadable.
   std::vector<std::string> rejected;
+  std::vector<std::string> insisted;
 };
 
 void add_calibration_arguments(CLI::App& command, CalibrationArguments& arguments,

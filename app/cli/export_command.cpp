@@ -13,6 +13,8 @@ struct ExportArguments {
   std::string format;
   std::string output;
   std::string imu;
+  std::string lidar_frame;
+  std::string camera_frame;
 };
 
 Result<std::string> run(const ExportArguments& options) {
@@ -26,6 +28,8 @@ Result<std::string> run(const ExportArguments& options) {
     if (!imu) return imu.error();
     input->imu_from_lidar = *imu;
   }
+  if (!options.lidar_frame.empty()) input->lidar_frame = options.lidar_frame;
+  if (!options.camera_frame.empty()) input->camera_frame = options.camera_frame;
   auto text = export_result(*input, options.format);
   if (!text) return text.error();
   if (Status s = write_file_atomically(options.output, *text); !s) return s.error();
@@ -49,6 +53,10 @@ Command add_export_command(CLI::App& app) {
   command->add_option("-o,--output", options->output, "file to write")->required();
   command->add_option("--imu", options->imu,
                       "YAML file with T_imu_lidar (takes a LiDAR point to the IMU frame)");
+  command->add_option("--lidar-frame", options->lidar_frame,
+                      "what the LiDAR's frame is called (default: lidar)");
+  command->add_option("--camera-frame", options->camera_frame,
+                      "what the camera's frame is called (default: camera)");
   return {command, [options](Session&) { return run(*options); }};
 }
 

@@ -53,21 +53,21 @@ void DemoTour::start() {
           "does "
           "not know. Press <b>Run all</b>."),
        run_button, [this] { return workspace_.result() && !workspace_.busy(); }},
-      {tr("The calibration is done, and its figures look fine. Open the <b>Model</b> page to ask "
-          "what it misses."),
+      {tr("The calibration is done. Below on the right stands how far it can be trusted, and the "
+          "mouse over it says why. Open the <b>Model</b> page to ask what the model misses."),
        tab_bar, on_model_page},
       {tr("The effects that may be missing are being tried; scenes held out decide. The best one "
           "comes first, with a sentence on what was seen and how sure that is."),
-       widget(window_, "proposals"), [this] { return work_.ranking() != nullptr; }},
-      {tr("<b>Range walk</b>: dark print reads too far. The orange curve is its pattern at the "
-          "size "
-          "found; the marks are what is measured."),
+       widget(window_, "proposals"), [this] { return work_.ranking() != nullptr; }, true},
+      {tr("The effect at the top of the list is the one that scenes held out speak for most. The "
+          "orange curve is its pattern at the size found; the marks are what is measured."),
        widget(window_, "residual_plot"),
        {}},
       {tr("<b>Add</b> it to the model."), widget(window_, "add_proposal"),
        [this] { return work_.current() > 0; }},
-      {tr("The red, unexplained share is gone, in scenes held out as well (diamonds), and the "
-          "extrinsic has moved. Click an earlier step or undo to compare."),
+      {tr("Red is what no effect explains, green what the model explains now; diamonds are scenes "
+          "held out. The list on the left says by how much the extrinsic has moved. Click an "
+          "earlier step or undo to compare."),
        widget(window_, "budget_plot"),
        {}},
   });

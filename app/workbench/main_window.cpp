@@ -7,8 +7,10 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QScreen>
 #include <QShortcut>
 #include <QToolBar>
+#include <algorithm>
 #include <utility>
 
 #include "dialogs/about_dialog.h"
@@ -52,6 +54,8 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   addDockWidget(Qt::LeftDockWidgetArea, scenes_);
   addDockWidget(Qt::LeftDockWidgetArea, parameters_);
   addDockWidget(Qt::BottomDockWidgetArea, log_);
+  // Both are there when asked for; the pages need the room more.
+  parameters_->hide();
   log_->hide();
   actions_->add_view_toggles({scenes_->toggleViewAction(), parameters_->toggleViewAction(),
                               log_->toggleViewAction(), actions_->tool_bar->toggleViewAction()});
@@ -78,8 +82,11 @@ MainWindow::~MainWindow() {
 }
 
 void MainWindow::restore_window() {
-  resize(1500, 940);
-  resizeDocks({scenes_, parameters_}, {500, 500}, Qt::Horizontal);
+  QSize size(1500, 940);
+  if (screen() != nullptr) size = size.boundedTo(screen()->availableSize());
+  resize(size);
+  const int dock = std::max(410, size.width() * 3 / 10);
+  resizeDocks({scenes_, parameters_}, {dock, dock}, Qt::Horizontal);
   resizeDocks({log_}, {140}, Qt::Vertical);
   restoreGeometry(settings_.geometry());
   restoreState(settings_.window_state());
@@ -136,6 +143,7 @@ void MainWindow::connect_actions() {
 void MainWindow::connect_docks() {
   connect(scenes_, &ScenesDock::scene_activated, this, &MainWindow::look_at);
   connect(scenes_, &ScenesDock::use_wanted, workspace_.get(), &Workspace::set_use);
+  connect(scenes_, &ScenesDock::insist_wanted, workspace_.get(), &Workspace::set_insist);
   connect(scenes_, &ScenesDock::run_again_wanted, workspace_.get(), &Workspace::run_again);
   connect(scenes_, &ScenesDock::uncrop_wanted, this, [this](const QStringList& scenes) {
     for (const QString& scene : scenes) workspace_->set_crop(scene, std::nullopt);
@@ -189,17 +197,22 @@ void MainWindow::connect_workspace() {
 void MainWindow::connect_pages() {
   connect(&loader_, &SceneLoader::thumbnail, &model_, &SceneModel::set_thumbnail);
   connect(&loader_, &SceneLoader::loaded, this,
-          [this](const QString& scene, const auto& cloud, const QImage& image) {
-            if (scene == scene_) pages_->set_scene_data(cloud, image);
+          [this](const QString& scene, const SceneData& data) {
+            if (data.image_problem.isEmpty() && data.cloud_problem.isEmpty())
+              model_.set_problem(scene, {});
+            if (scene == scene_) pages_->set_scene_data(data);
           });
-  connect(&loader_, &SceneLoader::failed, this, [this](const QString&, const QString& message) {
-    log_->append(message);
-    status_->show_idle(message);
-  });
+  connect(&loader_, &SceneLoader::failed, this,
+          [this](const QString& scene, const QString& message) {
+            model_.set_problem(scene, message);
+            log_->append(tr("Scene %1: %2").arg(scene, core_text(message)));
+          });
   connect(pages_, &PageStack::crop_wanted, this,
           [this](int scene, const std::optional<CropBox>& box) {
             workspace_->set_crop(scene_name(scene), box);
           });
+  connect(pages_, &PageStack::insist_wanted, this,
+          [this](int scene) { workspace_->set_insist({scene_name(scene)}, true); });
   connect(pages_, &PageStack::scene_wanted, this,
           [this](int scene) { scenes_->select(scene_name(scene)); });
   connect(pages_, &PageStack::failed, this,
@@ -252,6 +265,11 @@ void MainWindow::take_opened() {
 void MainWindow::take_result() {
   pages_->model_page()->setReason({});
   show_result();
+  // Files that could not be read when the scenes were loaded may have been mended since.
+  const int shown = scene_index(scene_);
+  if (!workspace_->result() || !model_.has_problems() || shown < 0) return;
+  loader_.load(workspace_->dataset().scenes[static_cast<std::size_t>(shown)]);
+  loader_.load_thumbnails(workspace_->dataset().scenes);
 }
 
 // Every page shows the result of the model in force.

@@ -38,6 +38,12 @@ PageStack::PageStack(QWidget* parent)
           [this](int scene, const CropBox& box) { Q_EMIT crop_wanted(scene, box); });
   connect(scene_, &ScenePage::cropCleared, this,
           [this](int scene) { Q_EMIT crop_wanted(scene, std::nullopt); });
+  connect(scene_, &ScenePage::insistWanted, this, &PageStack::insist_wanted);
+  connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {
+    for (std::size_t s = 0; result_ && s < result_->scenes.size(); ++s) {
+      if (result_->scenes[s].name == name.toStdString()) Q_EMIT insist_wanted(static_cast<int>(s));
+    }
+  });
   connect(scene_, &ScenePage::failed, this, &PageStack::failed);
   connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
@@ -121,9 +127,10 @@ void PageStack::set_crop_box(const std::optional<CropBox>& box) {
   scene_->setCropBox(box);
 }
 
-void PageStack::set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image) {
-  scene_->setSceneData(cloud, image);
-  extrinsic_->setSceneData(current_, cloud, image);
+void PageStack::set_scene_data(const SceneData& data) {
+  scene_->setSceneData(data.cloud, data.image);
+  scene_->setProblems(data.cloud_problem, data.image_problem);
+  extrinsic_->setSceneData(current_, data.cloud, data.image);
   show_samples();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/calibration.h"
+#include "runner/scene_data.h"
 
 class QTabWidget;
 
@@ -46,12 +47,14 @@ class PageStack : public QStackedWidget {
   /// The box in force; a box that is being edited stays unless this one is another than before.
   void set_crop_box(const std::optional<CropBox>& box);
   /// Of the scene last set.
-  void set_scene_data(const std::shared_ptr<const Cloud>& cloud, const QImage& image);
+  void set_scene_data(const SceneData& data);
   void show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points);
   /// Shown a few times a second, and only while the page is seen.
   void show_iteration(int scene, const std::shared_ptr<const BoardRefinement>& partial);
 
  Q_SIGNALS:
+  /// A scene that the program refused is to be used all the same.
+  void insist_wanted(int scene);
   void crop_wanted(int scene, const std::optional<lvcalib::CropBox>& box);
   void scene_wanted(int scene);
   void failed(const QString& message);

@@ -33,6 +33,11 @@ ResultActions::ResultActions(Choices& choices, AppSettings& settings, QWidget& w
 void ResultActions::show(const std::shared_ptr<const CalibrationResult>& result) {
   if (!result) return;
   auto* dialog = new ResultsDialog(result, choices_, settings_.last_folder(), &window_);
+  dialog->set_frame_names(settings_.lidar_frame(), settings_.camera_frame());
+  connect(dialog, &ResultsDialog::frame_names_changed, this,
+          [this](const QString& lidar, const QString& camera) {
+            settings_.set_frame_names(lidar, camera);
+          });
   connect(dialog, &ResultsDialog::failed, this, &ResultActions::failed);
   connect(dialog, &ResultsDialog::exported, this, [this](const QString& path) {
     remember(path);

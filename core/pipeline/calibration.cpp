@@ -74,7 +74,12 @@ class Calibration {
       if (std::find(request_.rejected.begin(), request_.rejected.end(), files.name) !=
           request_.rejected.end()) {
         scene.reason = kRejectedByUser;
+      } else if (files.problem) {
+        scene.reason = files.problem->text();
+        scene.unreadable = true;
       }
+      scene.insisted = std::find(request_.insisted.begin(), request_.insisted.end(), files.name) !=
+                       request_.insisted.end();
       result_.scenes.push_back(std::move(scene));
     }
     const auto same = same_files(dataset_, request_.use_crops, context_);
@@ -93,11 +98,16 @@ class Calibration {
     return Done{};
   }
 
-  // The board must be seen in at least one image.
+  // The board must be seen in at least one image that has a cloud.
   Status some_view() const {
+    const SceneResult* unreadable = nullptr;
     for (const SceneResult& scene : result_.scenes) {
-      if (scene.view) return Done{};
+      if (scene.view && !scene.unreadable) return Done{};
+      if (scene.unreadable && unreadable == nullptr) unreadable = &scene;
     }
+    if (unreadable != nullptr)
+      return Error::input("no scene can be used; scene " + unreadable->name + ": " +
+                          unreadable->reason);
     for (const SceneResult& scene : result_.scenes) {
       if (!scene.reason.empty() && scene.reason != kRejectedByUser) {
         return Error::input("the board is not found in any image; scene " + scene.name + ": " +
@@ -150,6 +160,14 @@ class Calibration {
       scene.chosen = result_.consensus.chosen[s];
       if (!scene.reason.empty() || scene.chosen) continue;
       const bool elsewhere = scene.search && !scene.search->candidates.empty();
+      if (elsewhere && scene.insisted) {
+        const auto& all = scene.search->candidates;
+        const auto best = std::max_element(
+            all.begin(), all.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
+        scene.chosen = static_cast<std::size_t>(best - all.begin());
+        scene.objection = "the board found in the cloud does not agree with the other scenes";
+        continue;
+      }
       scene.contradicts = elsewhere || scene.place != BoardPlace::kOpen;
       scene.reason = elsewhere ? "the board found in the cloud does not agree with the other scenes"
                                : missing_board(scene);
@@ -385,14 +403,20 @@ class Calibration {
     bool any = false;
     for (SceneResult& scene : result_.scenes) {
       if (!scene.chosen || !scene.refinement) continue;
-      scene.refinement->warnings.push_back("its circles cannot be measured: " + scene.reason);
-      scene.refinement->nodes.clear();
-      scene.paper_nodes.clear();
-      scene.refinement->scale_sigma = 0.0;
-      scene.reason.clear();
-      scene.used = any = true;
+      do_without_circles(scene);
+      any = true;
     }
     return any;
+  }
+
+  // The print as a whole and the plane are used instead.
+  static void do_without_circles(SceneResult& scene) {
+    scene.refinement->warnings.push_back("its circles cannot be measured: " + scene.reason);
+    scene.refinement->nodes.clear();
+    scene.paper_nodes.clear();
+    scene.refinement->scale_sigma = 0.0;
+    scene.reason.clear();
+    scene.used = true;
   }
 
   Result<BoardRefinement> refine_scene(std::size_t s) {
@@ -445,6 +469,10 @@ class Calibration {
       }
       scene.reason = "only " + std::to_string(scene.refinement->valid_nodes()) + " of " +
                      std::to_string(scene.refinement->nodes.size()) + " circles usable" + detail;
+      if (scene.insisted) {
+        scene.objection = scene.reason;
+        do_without_circles(scene);
+      }
       return;
     }
     scene.used = true;

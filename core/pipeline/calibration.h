@@ -34,7 +34,11 @@ struct StageTimes {
 struct SceneResult {
   std::string name;
   bool used = false;
-  std::string reason;                    ///< Why it is not used, in words.
+  std::string reason;       ///< Why it is not used, in words.
+  bool unreadable = false;  ///< Left out because of its files, not of what they show.
+  bool insisted = false;    ///< The user wants it used, whatever speaks against it.
+  /// Insisted on: what spoke against it.
+  std::string objection;
   bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
   BoardPlace place = BoardPlace::kOpen;  ///< What is where the other scenes put its board.
   /// The LiDAR sees the board but not its print: `search` goes by the outline, and the intensity of
@@ -120,6 +124,10 @@ struct CalibrationRequest {
   std::optional<Rigid3> guess;  ///< Rough T_camera_lidar; narrows the search.
   bool use_crops = false;       ///< Take scenes/NAME/board.pcd instead of cloud.pcd where present.
   std::vector<std::string> rejected;  ///< Scenes to leave out.
+  /// Scenes to use though they contradict the others or show too few circles. What has no board in
+  /// image or cloud cannot be used all the same.
+  std::vector<std::string> insisted;
+  UnusableScenes unusable = UnusableScenes::kRefuse;
   /// By scene: only the cloud's points inside the box are looked at.
   std::map<std::string, CropBox> crop_boxes;
 };

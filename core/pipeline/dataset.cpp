@@ -52,7 +52,7 @@ bool is_image_name(const fs::path& path) {
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
-Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
+Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder, UnusableScenes unusable) {
   const auto folders = list_scene_folders(folder);
   if (!folders) return folders.error();
   if (folders->empty()) {
@@ -62,8 +62,15 @@ Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder) {
   std::vector<SceneFiles> scenes;
   for (const fs::path& path : *folders) {
     auto scene = open_scene(path);
-    if (!scene) return scene.error();
-    scenes.push_back(std::move(*scene));
+    if (!scene && unusable == UnusableScenes::kRefuse) return scene.error();
+    if (scene) {
+      scenes.push_back(std::move(*scene));
+    } else {
+      SceneFiles broken;
+      broken.name = path.filename().string();
+      broken.problem = scene.error();
+      scenes.push_back(std::move(broken));
+    }
   }
   return scenes;
 }
@@ -179,12 +186,20 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
   return read_transform(path, "T_camera_lidar");
 }
 
-Result<Dataset> open_dataset(const fs::path& path) {
+Result<Dataset> open_dataset(const fs::path& path, UnusableScenes unusable) {
   std::error_code code;
   if (!fs::is_directory(path, code)) {
     return Error::input(
         "dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it",
         path.string());
+  }
+  // Who opens some other folder learns what a dataset is, not which of its files came first.
+  if (!fs::exists(path / "target.yaml", code) && !fs::exists(path / "camera.yaml", code) &&
+      !fs::exists(path / "scenes", code)) {
+    return Error::input(
+        "this folder is no dataset; a dataset holds target.yaml (the board), camera.yaml (the "
+        "intrinsics) and scenes/NAME/ with image.png and cloud.pcd for every scene",
+        path.string(), "choose the folder that holds these, or make one from a recording");
   }
   Dataset dataset;
   dataset.path = path;
@@ -204,7 +219,7 @@ Result<Dataset> open_dataset(const fs::path& path) {
     if (!rough) return rough.error();
     dataset.rough_camera_from_lidar = *rough;
   }
-  auto scenes = list_scenes(path / "scenes");
+  auto scenes = list_scenes(path / "scenes", unusable);
   if (!scenes) return scenes.error();
   dataset.scenes = std::move(*scenes);
   if (fs::is_directory(path / "intrinsics", code)) {

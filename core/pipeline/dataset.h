@@ -20,6 +20,15 @@ struct SceneFiles {
   std::filesystem::path image;
   std::filesystem::path cloud;
   std::filesystem::path crop;  ///< board.pcd; empty if there is none.
+  /// What is missing in the scene's folder (`where`); its paths are then empty. See
+  /// UnusableScenes.
+  std::optional<Error> problem = {};
+};
+
+/// What becomes of a scene whose files are missing or cannot be read.
+enum class UnusableScenes {
+  kRefuse,    ///< The whole dataset is refused: nothing is left out unasked.
+  kLeaveOut,  ///< The scene is left out with its reason, and the others go on.
 };
 
 /// A dataset folder: target.yaml, camera.yaml, optional rig.yaml, scenes/NAME/…, optional
@@ -41,8 +50,9 @@ struct Dataset {
 Result<SceneFiles> open_scene(const std::filesystem::path& folder);
 
 /// Reads the descriptions and lists the scenes; images and clouds are not opened.
-/// Errors name what is missing and what was expected.
-Result<Dataset> open_dataset(const std::filesystem::path& path);
+/// Errors name what is missing and what was expected; of a scene only with kRefuse.
+Result<Dataset> open_dataset(const std::filesystem::path& path,
+                             UnusableScenes unusable = UnusableScenes::kRefuse);
 
 /// The png, jpg, bmp and tiff files of a folder, by their names; sorted. Errors (kInput): no such
 /// folder, or it cannot be listed.

@@ -42,7 +42,7 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
       {"in inches", Eigen::Vector3f::Constant(0.0254F)},
       {"mirrored (its axes make a left-handed frame)", Eigen::Vector3f(1.0F, -1.0F, 1.0F)}};
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
-    if (!result.scenes[s].view) continue;
+    if (!result.scenes[s].view || result.scenes[s].unreadable) continue;
     const auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
     if (!cloud) return std::nullopt;
     const Eigen::Vector2d c = dataset.target.outline().center_m();

@@ -44,6 +44,7 @@ std::vector<InputFile> hash_inputs(const Dataset& dataset, bool use_crops,
   std::vector<fs::path> paths = {dataset.path / "target.yaml", dataset.path / "camera.yaml"};
   if (dataset.rough_camera_from_lidar) paths.push_back(dataset.path / "rig.yaml");
   for (const SceneFiles& scene : dataset.scenes) {
+    if (scene.problem) continue;
     paths.push_back(scene.image);
     paths.push_back(use_crops && !scene.crop.empty() ? scene.crop : scene.cloud);
   }

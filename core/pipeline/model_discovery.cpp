@@ -338,4 +338,19 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   return result;
 }
 
+void judge_missing(CalibrationResult& result, const ModelRanking& ranking) {
+  if (ranking.nothing_missing()) return;
+  std::string text = "structure is left that no known effect explains";
+  for (const EffectProposal& proposal : ranking.proposals) {
+    if (!proposal.suggested) continue;
+    text = "scenes held out speak for an effect that the model lacks: " + proposal.finding.id;
+    break;
+  }
+  result.quality_reasons.push_back(text);
+  result.warnings.push_back("result: " + text);
+  if (result.quality != Quality::kGood) return;
+  result.quality = Quality::kDoubtful;
+  result.quality_reason = text;
+}
+
 }  // namespace lvcalib

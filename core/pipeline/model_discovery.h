@@ -2,6 +2,7 @@
 #pragma once
 
 #include "discovery/discovery.h"
+#include "discovery/proposals.h"
 #include "pipeline/calibration.h"
 
 namespace lvcalib {
@@ -21,5 +22,8 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
 /// The calibration with the effects found in its model: extrinsic, covariance, board poses,
 /// residuals.
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery);
+
+/// A result whose model lacks what scenes held out speak for is doubtful, and says so.
+void judge_missing(CalibrationResult& result, const ModelRanking& ranking);
 
 }  // namespace lvcalib

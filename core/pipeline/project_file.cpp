@@ -48,6 +48,7 @@ void emit_scenes(YAML::Emitter& out, const Decisions& decisions) {
   for (const auto& [name, scene] : decisions.scenes) {
     out << YAML::Key << name << YAML::Value << YAML::BeginMap;
     out << YAML::Key << "use" << YAML::Value << (scene.use ? "true" : "false");
+    if (scene.insist) out << YAML::Key << "insist" << YAML::Value << "true";
     if (scene.crop) {
       out << YAML::Key << "crop" << YAML::Value << YAML::BeginMap;
       emit_list(out, "center_m", scene.crop->center_m);
@@ -215,7 +216,9 @@ class Reader {
       if (!section) return section.error();
       auto use = flag(*section, "use", true);
       if (!use) return use.error();
-      SceneDecision decision{*use, {}};
+      auto insist = flag(*section, "insist", false);
+      if (!insist) return insist.error();
+      SceneDecision decision{*use, *insist, {}};
       if (section->has("crop")) {
         auto inner = section->section("crop");
         if (!inner) return inner.error();
@@ -223,7 +226,7 @@ class Reader {
         if (!box) return box.error();
         decision.crop = *box;
       }
-      const auto unknown = section->unknown_keys({"use", "crop"});
+      const auto unknown = section->unknown_keys({"use", "insist", "crop"});
       out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
       decisions().scenes[entry.first] = decision;
     }
@@ -324,7 +327,7 @@ Result<OpenedProject> open_project_dataset(const Project& project) {
     opened.dataset_moved = true;
     return opened;
   }
-  auto dataset = open_dataset(project.dataset);
+  auto dataset = open_dataset(project.dataset, UnusableScenes::kLeaveOut);
   if (!dataset) return dataset.error();
   opened.dataset = std::move(*dataset);
   for (const fs::path& folder : project.decisions.added_scenes) {

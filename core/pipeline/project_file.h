@@ -50,7 +50,8 @@ struct OpenedProject {
   std::vector<std::string> warnings;
 };
 
-/// Opens the project's dataset. Errors: as open_dataset(), if the folder is there.
+/// Opens the project's dataset. Errors: as open_dataset(), if the folder is there;
+/// scenes that cannot be used are left out with their reasons.
 Result<OpenedProject> open_project_dataset(const Project& project);
 
 }  // namespace lvcalib

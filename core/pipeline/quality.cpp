@@ -223,11 +223,12 @@ std::string worst_scene(const ExtrinsicSolution& x) {
 void judge_splits(const CalibrationResult& result, Verdict& verdict) {
   for (const SplitHalf& split : result.uncertainty.splits) {
     if (split.agrees()) continue;
-    verdict.note("the halves of the scenes (" + split.name + ") differ by " +
-                 formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
-                 formatted("more than noise explains (χ² %.0f, at most %.0f): an effect is missing "
-                           "in the model, or one scene is off",
-                           split.chi_square, split.gate));
+    verdict.doubtful(
+        "the halves of the scenes (" + split.name + ") differ by " +
+        formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
+        formatted("more than noise explains (χ² %.0f, at most %.0f): an effect is missing "
+                  "in the model, or one scene is off",
+                  split.chi_square, split.gate));
   }
 }
 
@@ -461,7 +462,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_leverage(result, verdict);
   if (!result.unverified.empty()) verdict.note(result.unverified);
   if (x.used_scenes == 2)
-    verdict.note("two scenes: a mistake in one of them could not be told from one in the other");
+    verdict.doubtful(
+        "two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
     verdict.doubtful(formatted(
         "tag corners miss their model by %.2f px: check the intrinsics and that the board is flat",
@@ -496,6 +498,9 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
         verdict.note(text);
       }
     }
+    if (scene.used && !scene.objection.empty())
+      verdict.doubtful("scene " + scene.name + " is used all the same, as you decided, though " +
+                       scene.objection);
     if (!scene.refinement || !scene.used) continue;
     for (const std::string& w : scene.refinement->warnings)
       verdict.note("scene " + scene.name + ": " + w);
@@ -536,7 +541,7 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
   quiet.threads = 1;
   std::optional<double> measured;
   for (std::size_t k = 0; k < result.scenes.size() && !context.stopped(); ++k) {
-    if (!result.scenes[k].view) continue;
+    if (!result.scenes[k].view || result.scenes[k].unreadable) continue;
     const SceneFiles& files = dataset.scenes[k];
     const auto cloud = read_scene_cloud(files, request, context.stop);
     if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;

@@ -35,7 +35,7 @@ Status respond(CalibrationResult& result, const Target& target, const Calibratio
 Status solve_forward_model(CalibrationResult& result, const Target& target,
                            const std::vector<SceneObservations>& observations,
                            const std::vector<std::size_t>& index, ExtrinsicSolution& nodes,
-                           const RunContext& context) {
+                           const ExtrinsicOptions& extrinsic, const RunContext& context) {
   if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
   ForwardOptions how = result.options.forward;
   how.intrinsics_sigma = solve_prior(result.intrinsics);
@@ -47,7 +47,7 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
     // come back, and nodes and planes are judged by it.
     result.camera = forward->state.camera;
     how.first_camera = result.camera;
-    auto again = solve_extrinsic(observations, result.camera, target, result.options.extrinsic);
+    auto again = solve_extrinsic(observations, result.camera, target, extrinsic);
     if (again) {
       if (again->used_scenes != nodes.used_scenes)
         forward = solve_every_return(result, observations, index, *again, how, context);
@@ -72,7 +72,7 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
                                 .cwiseSqrt();
   result.extrinsic =
       report_forward(pose_of(*result.forward), forward_subsets(*result.forward, nodes), nodes,
-                     observations, result.camera, target, result.options.extrinsic);
+                     observations, result.camera, target, extrinsic);
   LeftOutSizes sizes;
   if (result.intrinsics.mode == IntrinsicsMode::kFixed)
     sizes.intrinsics = result.intrinsics.prior_sigma;
@@ -82,6 +82,35 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
       total_covariance(forward_scenes(result, observations, index, nodes), *result.print,
                        *result.forward, sizes, how, context.thread_count());
   return Done{};
+}
+
+// The extrinsic by nodes and planes. Scenes that the user insists on stay in, whatever it says
+// against them; then those that it refused otherwise are out for good, and nothing more is refused:
+// `observations` and `options` become what was solved.
+Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const Target& target,
+                                              const std::vector<std::size_t>& index,
+                                              std::vector<SceneObservations>& observations,
+                                              ExtrinsicOptions& options) {
+  auto solution = solve_extrinsic(observations, result.camera, target, options);
+  if (!solution) return solution;
+  bool any = false;
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    SceneResult& scene = result.scenes[index[k]];
+    if (!observations[k].use || solution->scenes[k].used || !scene.insisted) continue;
+    scene.objection = solution->scenes[k].reason;
+    any = true;
+  }
+  if (!any) return solution;
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    SceneResult& scene = result.scenes[index[k]];
+    if (!observations[k].use || solution->scenes[k].used || scene.insisted) continue;
+    observations[k].use = false;
+    scene.used = false;
+    scene.reason = solution->scenes[k].reason;
+    scene.contradicts = true;
+  }
+  options.reject_bad_scenes = false;
+  return solve_extrinsic(observations, result.camera, target, options);
 }
 
 }  // namespace
@@ -104,9 +133,10 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   result.modelled_range_misfit = 0.0;
   result.unexplained.clear();
   std::vector<std::size_t> index;
-  const auto observations = observations_of(result, use, index);
+  auto observations = observations_of(result, use, index);
   const Target target = target_in_use(result, observations);
-  auto solution = solve_extrinsic(observations, result.camera, target, options.extrinsic);
+  ExtrinsicOptions extrinsic = options.extrinsic;
+  auto solution = solve_with_insisted(result, target, index, observations, extrinsic);
   if (!solution) {
     Error error = solution.error();
     error.where = result.dataset;
@@ -119,7 +149,8 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     return error;
   }
   ExtrinsicSolution nodes = std::move(*solution);
-  if (Status status = solve_forward_model(result, target, observations, index, nodes, context);
+  if (Status status =
+          solve_forward_model(result, target, observations, index, nodes, extrinsic, context);
       !status)
     return status.error();
   if (Status s = check_intrinsics(result, observations, index, nodes, context); !s)
@@ -141,9 +172,8 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     methods.other = {"forward_model", result.extrinsic.camera_from_lidar.transform, subsets};
   }
   methods.paper = JointVariant{"joint_paper", with_paper_nodes(observations, result, index),
-                               paper_objective(options.extrinsic)};
-  result.methods =
-      compare_methods(observations, result.camera, target, nodes, options.extrinsic, methods);
+                               paper_objective(extrinsic)};
+  result.methods = compare_methods(observations, result.camera, target, nodes, extrinsic, methods);
   if (context.stopped()) return Error::cancelled();
   result.ablation.clear();
   if (options.ablation) {
@@ -152,7 +182,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     result.ablation = std::move(*steps);
   }
   result.uncertainty = assess_uncertainty(observations, result.camera, target, result.extrinsic,
-                                          options.extrinsic, {}, subsets);
+                                          extrinsic, {}, subsets);
   if (Status status = respond(result, target, options, context); !status) return status.error();
   judge_quality(result, options.quality);
   return result;

@@ -73,7 +73,7 @@ class SceneLoader {
     auto start = Clock::now();
     auto image = read_image(files.image);
     const double load = ms_since(start);
-    if (!image) return fail(image.error());
+    if (!image) return fail(s, image.error());
     start = Clock::now();
     RunContext quiet = context_;
     quiet.progress = {};
@@ -96,7 +96,8 @@ class SceneLoader {
     result_.scenes[s].reason = error.text();
     // A size that contradicts the intrinsics spoils every scene alike.
     if (size_differs(*image)) {
-      failure_ = error;
+      if (request_.unusable == UnusableScenes::kRefuse) failure_ = error;
+      result_.scenes[s].unreadable = true;
     } else if (cache_) {
       cache_->scene(files.name).seen.keep(key, {{}, error.text()});
     }
@@ -119,7 +120,7 @@ class SceneLoader {
     auto start = Clock::now();
     auto cloud = read_scene_cloud(files, request_, context_.stop);
     const double load = ms_since(start);
-    if (!cloud) return fail(cloud.error());
+    if (!cloud) return fail(s, cloud.error());
     if (cloud->size() == 0 && request_.crop_boxes.contains(files.name)) {
       const std::lock_guard lock(mutex_);
       result_.scenes[s].reason = "the crop box holds no points";
@@ -153,9 +154,14 @@ class SceneLoader {
     return {guess.inverse() * center, 0.6 * outline.size_m().norm() + slack};
   }
 
-  void fail(Error error) {
+  void fail(std::size_t s, Error error) {
     if (error.kind == ErrorKind::kCancelled) return;
     const std::lock_guard lock(mutex_);
+    if (request_.unusable == UnusableScenes::kLeaveOut) {
+      result_.scenes[s].reason = error.text();
+      result_.scenes[s].unreadable = true;
+      return;
+    }
     if (!failure_) failure_ = std::move(error);
   }
 

@@ -31,7 +31,8 @@ bool solving_is_enough(const Dataset& dataset, const CalibrationRequest& request
   }
   const CalibrationRequest& last = state.request;
   if (!same_options(last.options, request.options) || !same_guess(last.guess, request.guess) ||
-      last.use_crops != request.use_crops || last.crop_boxes != request.crop_boxes) {
+      last.use_crops != request.use_crops || last.crop_boxes != request.crop_boxes ||
+      last.insisted != request.insisted) {
     return false;
   }
   return std::all_of(last.rejected.begin(), last.rejected.end(),
@@ -90,10 +91,12 @@ CalibrationRequest request_of(const Dataset& dataset, const Decisions& decisions
   CalibrationRequest request;
   request.options = decisions.options;
   request.use_crops = decisions.use_crops;
+  request.unusable = UnusableScenes::kLeaveOut;
   request.guess = decisions.guess ? decisions.guess : dataset.rough_camera_from_lidar;
   for (const SceneFiles& files : dataset.scenes) {
     const SceneDecision decision = decision_of(decisions, files.name);
     if (!decision.use) request.rejected.push_back(files.name);
+    if (decision.use && decision.insist) request.insisted.push_back(files.name);
     if (decision.crop) request.crop_boxes[files.name] = *decision.crop;
   }
   return request;

@@ -15,6 +15,7 @@ namespace lvcalib {
 /// What the user decided about one scene.
 struct SceneDecision {
   bool use = true;
+  bool insist = false;  ///< Used though it contradicts the others or shows too few circles.
   std::optional<CropBox> crop;
   bool operator==(const SceneDecision&) const = default;
 };

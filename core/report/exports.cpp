@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/exports.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -104,6 +106,11 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
+bool has_own_names(const ExportInput& input) {
+  const ExportInput usual;
+  return input.lidar_frame != usual.lidar_frame || input.camera_frame != usual.camera_frame;
+}
+
 // The comment common to all formats; `lines` say what is particular.
 std::string comment(const ExportInput& input, std::initializer_list<std::string> lines,
                     const std::string& prefix = "# ") {
@@ -113,6 +120,10 @@ std::string comment(const ExportInput& input, std::initializer_list<std::string>
   if (!input.quality.empty() && input.quality != "good")
     out += prefix + "quality: " + on_one_line(input.quality) + ": see the result's warnings\n";
   for (const std::string& line : lines) out += prefix + line + "\n";
+  if (has_own_names(input)) {
+    out += prefix + "names of the frames: LiDAR " + input.lidar_frame + ", camera " +
+           input.camera_frame + "\n";
+  }
   out += prefix +
          "camera: x right, y down, z forward; pixel (0, 0) is the centre of the top-left "
          "pixel; metres, radians\n";
@@ -161,8 +172,8 @@ Result<std::string> write_ros1(const ExportInput& input) {
                          "positional order of ROS 1: x y z yaw pitch roll parent child; R = "
                          "Rz(yaw)*Ry(pitch)*Rx(roll)"}) +
          "rosrun tf2_ros static_transform_publisher " +
-         list(std::vector<double>{t.x(), t.y(), t.z(), a.yaw, a.pitch, a.roll}, " ") +
-         " lidar camera\n";
+         list(std::vector<double>{t.x(), t.y(), t.z(), a.yaw, a.pitch, a.roll}, " ") + " " +
+         input.lidar_frame + " " + input.camera_frame + "\n";
 }
 
 Result<std::string> write_ros2(const ExportInput& input) {
@@ -175,7 +186,8 @@ Result<std::string> write_ros2(const ExportInput& input) {
          "ros2 run tf2_ros static_transform_publisher --x " + yaml_number(t.x()) + " --y " +
          yaml_number(t.y()) + " --z " + yaml_number(t.z()) + " --qx " + yaml_number(q(0)) +
          " --qy " + yaml_number(q(1)) + " --qz " + yaml_number(q(2)) + " --qw " +
-         yaml_number(q(3)) + " --frame-id lidar --child-frame-id camera\n";
+         yaml_number(q(3)) + " --frame-id " + input.lidar_frame + " --child-frame-id " +
+         input.camera_frame + "\n";
 }
 
 Result<std::string> write_urdf(const ExportInput& input) {
@@ -187,9 +199,9 @@ Result<std::string> write_urdf(const ExportInput& input) {
                   "= T * p_camera",
                   "R = Rz(yaw)*Ry(pitch)*Rx(roll), rpy = roll pitch yaw"},
                  "  ") +
-         "-->\n<joint name=\"lidar_to_camera\" type=\"fixed\">\n  <parent link=\"lidar\"/>\n"
-         "  <child link=\"camera\"/>\n  <origin xyz=\"" +
-         list(T.translation, " ") + "\" rpy=\"" +
+         "-->\n<joint name=\"" + input.lidar_frame + "_to_" + input.camera_frame +
+         "\" type=\"fixed\">\n  <parent link=\"" + input.lidar_frame + "\"/>\n  <child link=\"" +
+         input.camera_frame + "\"/>\n  <origin xyz=\"" + list(T.translation, " ") + "\" rpy=\"" +
          list(std::vector<double>{a.roll, a.pitch, a.yaw}, " ") + "\"/>\n</joint>\n";
 }
 
@@ -223,13 +235,19 @@ Result<std::string> write_autoware(const ExportInput& input) {
   const auto line = [](const char* key, double value) {
     return std::string("    ") + key + ": " + yaml_number(value) + "\n";
   };
+  // Autoware's own names where the user has not given others.
+  const ExportInput usual;
+  const std::string parent =
+      input.lidar_frame == usual.lidar_frame ? "sensor_kit_base_link" : input.lidar_frame;
+  const std::string child =
+      input.camera_frame == usual.camera_frame ? "camera0/camera_link" : input.camera_frame;
   return comment(input, {"pose of camera_link (child) in sensor_kit_base_link (parent), here the "
                          "LiDAR frame itself:",
                          "where the LiDAR is elsewhere, put T_base_lidar before it. camera_link: x "
                          "forward, y left, z up;",
                          "p_lidar = T * p_camera_link, R = Rz(yaw)*Ry(pitch)*Rx(roll); p_camera = "
                          "(-y, -z, x) of p_camera_link"}) +
-         "sensor_kit_base_link:\n  camera0/camera_link:\n" + line("x", T.translation.x()) +
+         parent + ":\n  " + child + ":\n" + line("x", T.translation.x()) +
          line("y", T.translation.y()) + line("z", T.translation.z()) + line("roll", a.roll) +
          line("pitch", a.pitch) + line("yaw", a.yaw);
 }
@@ -325,7 +343,23 @@ const std::vector<ExportFormat>& export_formats() {
   return formats;
 }
 
+Status check_frame_name(const std::string& name) {
+  const auto allowed = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+  };
+  if (!name.empty() && name.front() != '-' && name.size() <= 100 &&
+      std::all_of(name.begin(), name.end(), allowed) && name.find("--") == std::string::npos)
+    return Done{};
+  return Error::usage("'" + name.substr(0, 100) +
+                          "' is no name of a frame; expected letters, digits and _ - . /, not "
+                          "beginning with - and without --",
+                      {}, "as the robot's description calls it: velodyne, camera_left");
+}
+
 Result<std::string> export_result(const ExportInput& input, const std::string& format) {
+  for (const std::string& name : {input.lidar_frame, input.camera_frame}) {
+    if (Status s = check_frame_name(name); !s) return s.error();
+  }
   std::vector<std::string> names;
   for (const ExportFormat& f : export_formats()) {
     names.push_back(f.name);

@@ -22,7 +22,14 @@ struct ExportInput {
   std::string quality;                   ///< Said in the comment when it is not "good".
   std::optional<Rigid3> imu_from_lidar;  ///< Needed by formats that speak of the IMU.
   std::string result_json;               ///< The whole result, for the boundary response.
+  /// What the user calls the frames: letters, digits and _ - . / (see check_frame_name()).
+  std::string lidar_frame = "lidar";
+  std::string camera_frame = "camera";
 };
+
+/// Frame names go into shell commands, XML and YAML: errors (kUsage) for an empty one, or one with
+/// other characters.
+Status check_frame_name(const std::string& name);
 
 /// A format other tools read. Every text says, in the format's own comments, which frames it
 /// connects, in which direction and in what units, and works one point through: a LiDAR point, its

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
+#include "pipeline/refusals.h"
 #include "report/evidence_json.h"
 #include "report/json_values.h"
 
@@ -107,40 +108,23 @@ ordered_json footprint_json(const ForwardSolution& forward) {
           {"sigma_mrad2", {sigma(0), sigma(1), sigma(2)}}};
 }
 
-// What the solve left out of scenes that take part.
+// What the solve left out of scenes that take part; the others say why in "scenes".
 ordered_json refused_json(const CalibrationResult& result) {
+  using What = Refusal::What;
   ordered_json list = ordered_json::array();
-  std::size_t next = 0;
-  for (const SceneSolution& scene : result.extrinsic.scenes) {
-    if (!scene.used) continue;
-    if (result.forward && next < result.forward->scenes.size()) {
-      const ForwardSceneResult& forward = result.forward->scenes[next++];
-      if (forward.refused > 0) {
-        list.push_back({{"scene", scene.name},
-                        {"what", "points"},
-                        {"where", "on the board"},
-                        {"points", forward.refused},
-                        {"reason", "off the board's plane, or beside what stands before it"}});
-      }
-    }
-    for (const NodeResidual& node : scene.nodes) {
-      if (node.used) continue;
-      list.push_back({{"scene", scene.name},
-                      {"what", "node"},
-                      {"where", "circle " + std::to_string(node.id)},
-                      {"points", 0},
-                      {"reason", "not found well, or contradicts the others"}});
-    }
-    int last = -1;
-    for (const CornerResidual& corner : scene.corners) {
-      if (corner.used || corner.feature_id == last) continue;
-      last = corner.feature_id;
-      list.push_back({{"scene", scene.name},
-                      {"what", "tag"},
-                      {"where", "corners of " + std::to_string(corner.feature_id)},
-                      {"points", 0},
-                      {"reason", "misses the board's pose by more than the gate"}});
-    }
+  for (const Refusal& refusal : refusals(result)) {
+    if (refusal.what == What::kScene || refusal.what == What::kResponse) continue;
+    const bool points = refusal.what == What::kPoints;
+    const bool node = refusal.what == What::kCircle;
+    list.push_back(
+        {{"scene", refusal.scene},
+         {"what", points ? "points"
+                  : node ? "node"
+                         : "tag"},
+         {"where", points ? "on the board"
+                          : (node ? "circle " : "corners of ") + std::to_string(refusal.id)},
+         {"points", refusal.points},
+         {"reason", refusal.reason}});
   }
   return list;
 }

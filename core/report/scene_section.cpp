@@ -93,7 +93,8 @@ class Overlay {
 };
 
 std::optional<std::filesystem::path> image_of(const json& result, const std::string& scene) {
-  const auto dataset = open_dataset(result.at("dataset").get<std::string>());
+  const auto dataset =
+      open_dataset(result.at("dataset").get<std::string>(), UnusableScenes::kLeaveOut);
   if (!dataset) return std::nullopt;
   for (const SceneFiles& files : dataset->scenes) {
     if (files.name == scene) return files.image;

@@ -215,6 +215,19 @@ std::vector<BadInput> costing_a_scene() {
   };
 }
 
+BadInput skipping(BadInput input) {
+  input.arguments = {"--skip-unreadable"};
+  return input;
+}
+
+TEST(SkipUnreadable, LeavesTheSceneOutWithAWarning) {
+  const SpoiledRun run(skipping({"Truncated", change(kSceneCloud, first_half)}));
+  EXPECT_EQ(run.outcome().status, 0) << run.outcome().err;
+  EXPECT_THAT(lines_with(run.outcome().err, "lvcalib: warning: "),
+              ::testing::Contains(::testing::AllOf(::testing::HasSubstr("scene B is not used"),
+                                                   ::testing::HasSubstr("truncated"))));
+}
+
 class UselessScene : public ::testing::TestWithParam<BadInput> {};
 
 TEST_P(UselessScene, IsLeftOutWithAWarning) {

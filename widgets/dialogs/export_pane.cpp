@@ -7,6 +7,7 @@
 #include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QPushButton>
@@ -46,6 +47,11 @@ void ExportPane::retranslate() {
   imu_->setToolTip(
       tr("A YAML file with T_imu_lidar, which takes a LiDAR point to the IMU frame: a matrix, or "
          "translation_m and quaternion_xyzw"));
+  frames_->setText(tr("Frames:"));
+  lidar_->setToolTip(tr("What the LiDAR's frame is called in exports"));
+  lidar_->setAccessibleName(tr("LiDAR frame"));
+  camera_->setToolTip(tr("What the camera's frame is called in exports"));
+  camera_->setAccessibleName(tr("Camera frame"));
   copy_->setText(tr("Copy"));
   save_->setText(tr("Save…"));
   preview();
@@ -85,9 +91,23 @@ QWidget* ExportPane::createPreview() {
   buttons->addStretch(1);
   buttons->addWidget(copy_);
   buttons->addWidget(save_);
+  frames_ = new QLabel(page);
+  lidar_ = new QLineEdit(page);
+  lidar_->setObjectName(QStringLiteral("lidar_frame"));
+  camera_ = new QLineEdit(page);
+  camera_->setObjectName(QStringLiteral("camera_frame"));
+  lidar_->setText(QString::fromStdString(input_.lidar_frame));
+  camera_->setText(QString::fromStdString(input_.camera_frame));
+  auto* names = new QHBoxLayout;
+  names->addWidget(frames_);
+  for (QLineEdit* field : {lidar_, camera_}) {
+    names->addWidget(field, 1);
+    connect(field, &QLineEdit::textEdited, this, &ExportPane::takeFrameNames);
+  }
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(about_);
+  layout->addLayout(names);
   layout->addWidget(text_, 1);
   layout->addLayout(buttons);
   return page;
@@ -109,7 +129,7 @@ void ExportPane::preview() {
   if (lacks_imu) {
     about += QLatin1Char('\n') + tr("Needs T_imu_lidar: choose the YAML file that holds it.");
   } else if (!text) {
-    about += QLatin1Char('\n') + QString::fromStdString(text.error().text());
+    about += QLatin1Char('\n') + core_text(text.error());
   }
   const bool usable = text.ok() && !lacks_imu;
   about_->setText(about);
@@ -117,6 +137,20 @@ void ExportPane::preview() {
   imu_->setVisible(format.needs_imu);
   copy_->setEnabled(usable);
   save_->setEnabled(usable);
+}
+
+void ExportPane::setFrameNames(const QString& lidar, const QString& camera) {
+  lidar_->setText(lidar);
+  camera_->setText(camera);
+  takeFrameNames();
+}
+
+void ExportPane::takeFrameNames() {
+  input_.lidar_frame = lidar_->text().toStdString();
+  input_.camera_frame = camera_->text().toStdString();
+  preview();
+  if (check_frame_name(input_.lidar_frame) && check_frame_name(input_.camera_frame))
+    Q_EMIT frameNamesChanged(lidar_->text(), camera_->text());
 }
 
 void ExportPane::readImu() {

@@ -8,6 +8,7 @@
 #include "report/exports.h"
 
 class QLabel;
+class QLineEdit;
 class QListWidget;
 class QPlainTextEdit;
 class QPushButton;
@@ -23,10 +24,14 @@ class ExportPane : public QWidget {
   /// `folder`: where files are suggested. `choices` must outlive the pane.
   ExportPane(ExportInput input, Choices& choices, QString folder, QWidget* parent);
 
+  /// What the frames are called.
+  void setFrameNames(const QString& lidar, const QString& camera);
   /// Chooses a format by its name; unknown names change nothing.
   void chooseFormat(const QString& name);
 
  Q_SIGNALS:
+  /// The user calls the frames so; said only of names that exports can hold.
+  void frameNamesChanged(const QString& lidar, const QString& camera);
   void exported(const QString& path);
   void failed(const lvcalib::Error& error);
 
@@ -36,6 +41,7 @@ class ExportPane : public QWidget {
   void retranslate();
   void preview();
   void readImu();
+  void takeFrameNames();
   void save();
 
   ExportInput input_;
@@ -44,6 +50,9 @@ class ExportPane : public QWidget {
   QListWidget* formats_ = nullptr;
   QLabel* about_ = nullptr;
   QPlainTextEdit* text_ = nullptr;
+  QLabel* frames_ = nullptr;
+  QLineEdit* lidar_ = nullptr;
+  QLineEdit* camera_ = nullptr;
   QPushButton* imu_ = nullptr;
   QPushButton* copy_ = nullptr;
   QPushButton* save_ = nullptr;

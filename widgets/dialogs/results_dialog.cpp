@@ -122,6 +122,10 @@ QString results_html(const CalibrationResult& result) {
   return out;
 }
 
+void ResultsDialog::set_frame_names(const QString& lidar, const QString& camera) {
+  exports_->setFrameNames(lidar, camera);
+}
+
 ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Choices& choices,
                              QString folder, QWidget* parent)
     : QDialog(parent), result_(std::move(result)), choices_(choices), folder_(std::move(folder)) {
@@ -132,10 +136,11 @@ ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Ch
   tabs->setObjectName(QStringLiteral("results_tabs"));
   tabs->setDocumentMode(true);
   tabs->addTab(create_pose(), {});
-  auto* exports = new ExportPane(export_input_of(*result_), choices_, folder_, tabs);
-  connect(exports, &ExportPane::exported, this, &ResultsDialog::exported);
-  connect(exports, &ExportPane::failed, this, &ResultsDialog::failed);
-  tabs->addTab(exports, {});
+  exports_ = new ExportPane(export_input_of(*result_), choices_, folder_, tabs);
+  connect(exports_, &ExportPane::exported, this, &ResultsDialog::exported);
+  connect(exports_, &ExportPane::failed, this, &ResultsDialog::failed);
+  connect(exports_, &ExportPane::frameNamesChanged, this, &ResultsDialog::frame_names_changed);
+  tabs->addTab(exports_, {});
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   const auto add = [&](const char* name) {
     QPushButton* button = buttons->addButton(QString(), QDialogButtonBox::ActionRole);

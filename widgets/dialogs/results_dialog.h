@@ -14,6 +14,8 @@ QString matrix_text(const CalibrationResult& result);
 /// Translation, quaternion, roll–pitch–yaw, each with its standard deviations, quality, warnings.
 QString results_html(const CalibrationResult& result);
 
+class ExportPane;
+
 /// The result in all usual forms and in the formats of other tools, with export and copy.
 class ResultsDialog : public QDialog {
   Q_OBJECT
@@ -23,7 +25,11 @@ class ResultsDialog : public QDialog {
   ResultsDialog(std::shared_ptr<const CalibrationResult> result, Choices& choices, QString folder,
                 QWidget* parent);
 
+  /// What exports call the frames.
+  void set_frame_names(const QString& lidar, const QString& camera);
+
  Q_SIGNALS:
+  void frame_names_changed(const QString& lidar, const QString& camera);
   void exported(const QString& path);
   void failed(const lvcalib::Error& error);
 
@@ -34,6 +40,7 @@ class ResultsDialog : public QDialog {
   std::shared_ptr<const CalibrationResult> result_;
   Choices& choices_;
   QString folder_;
+  ExportPane* exports_ = nullptr;
 };
 
 }  // namespace lvcalib::widgets

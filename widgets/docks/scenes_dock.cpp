@@ -50,14 +50,16 @@ void ScenesDock::make_view(SceneModel& model) {
   view_->setIconSize(QSize(48, 30));
   view_->setContextMenuPolicy(Qt::ActionsContextMenu);
   QHeaderView* header = view_->header();
-  header->setStretchLastSection(true);
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header->setSectionResizeMode(SceneModel::kState, QHeaderView::Interactive);
+  // The state stands beside the name and takes what room is left: its sign is always in sight.
+  header->setStretchLastSection(false);
   header->setMinimumSectionSize(28);
-  header->resizeSection(SceneModel::kState, 60);
+  header->setSectionResizeMode(SceneModel::kState, QHeaderView::Stretch);
+  header->moveSection(SceneModel::kState, 1);
   connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
           &ScenesDock::update_actions);
   connect(&model, &QAbstractItemModel::modelReset, this, &ScenesDock::update_actions);
+  connect(&model, &QAbstractItemModel::dataChanged, this, &ScenesDock::update_actions);
   connect(view_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             const int row = sorted_->mapToSource(current).row();
@@ -77,12 +79,16 @@ void ScenesDock::make_actions() {
   };
   accept_ = add_action("accept", QKeySequence(Qt::CTRL | Qt::Key_U));
   reject_ = add_action("reject", QKeySequence(Qt::CTRL | Qt::Key_J));
+  insist_ = add_action("use_all_the_same", {});
+  insist_->setCheckable(true);
   run_again_ = add_action("run_again", QKeySequence(Qt::SHIFT | Qt::Key_F5));
   uncrop_ = add_action("uncrop", {});
   add_ = add_action("add_scenes", QKeySequence(Qt::CTRL | Qt::Key_I));
   bar_->removeAction(uncrop_);
   connect(accept_, &QAction::triggered, this, [this] { Q_EMIT use_wanted(selected(), true); });
   connect(reject_, &QAction::triggered, this, [this] { Q_EMIT use_wanted(selected(), false); });
+  connect(insist_, &QAction::triggered, this,
+          [this](bool on) { Q_EMIT insist_wanted(selected(), on); });
   connect(run_again_, &QAction::triggered, this, [this] { Q_EMIT run_again_wanted(selected()); });
   connect(uncrop_, &QAction::triggered, this, [this] { Q_EMIT uncrop_wanted(selected()); });
   connect(add_, &QAction::triggered, this, &ScenesDock::add_wanted);
@@ -111,6 +117,16 @@ void ScenesDock::update_actions() {
   const bool any = !selected().isEmpty();
   for (QAction* action : {accept_, reject_, run_again_, uncrop_}) action->setEnabled(any);
   add_->setEnabled(model_.rowCount() > 0);
+  // Only beside what the program refused is there something to overrule.
+  bool refused = false;
+  bool insisted = false;
+  for (const QString& scene : selected()) {
+    const int row = model_.row_of(scene);
+    refused |= model_.can_be_insisted_on(row);
+    insisted |= model_.is_insisted_on(row);
+  }
+  insist_->setVisible(refused || insisted);
+  insist_->setChecked(insisted);
 }
 
 void ScenesDock::changeEvent(QEvent* event) {
@@ -129,6 +145,8 @@ void ScenesDock::retranslate() {
   };
   describe(accept_, tr("Accept"), tr("Use the selected scenes"));
   describe(reject_, tr("Reject"), tr("Leave the selected scenes out"));
+  describe(insist_, tr("Use it all the same"),
+           tr("Use the selected scenes although the program refused them"));
   describe(run_again_, tr("Run again"), tr("Run all stages of the selected scenes again"));
   describe(uncrop_, tr("Remove crop box"), tr("Search the whole clouds of the selected scenes"));
   describe(add_, tr("Add scenes…"), tr("Add scene folders from elsewhere"));

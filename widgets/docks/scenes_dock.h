@@ -28,6 +28,8 @@ class ScenesDock : public QDockWidget {
  Q_SIGNALS:
   void scene_activated(const QString& scene);
   void use_wanted(const QStringList& scenes, bool use);
+  /// Scenes that the program refused are to be used all the same, or no longer.
+  void insist_wanted(const QStringList& scenes, bool insist);
   void run_again_wanted(const QStringList& scenes);
   void uncrop_wanted(const QStringList& scenes);
   void add_wanted();
@@ -46,6 +48,7 @@ class ScenesDock : public QDockWidget {
   QTreeView* view_;
   QToolBar* bar_;
   QAction* accept_;
+  QAction* insist_ = nullptr;
   QAction* reject_;
   QAction* run_again_;
   QAction* uncrop_;

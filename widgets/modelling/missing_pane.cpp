@@ -13,6 +13,7 @@
 #include <QStyledItemDelegate>
 #include <QTabWidget>
 #include <QTextBrowser>
+#include <QTimer>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -107,8 +108,14 @@ MissingPane::MissingPane(QWidget* parent)
   verdict_->setWordWrap(true);
   list_->setObjectName(QStringLiteral("proposals"));
   list_->setColumnCount(kColumns);
-  list_->setUniformRowHeights(true);
+  // Names in full, on two lines where one is not enough.
+  list_->setWordWrap(true);
+  list_->setTextElideMode(Qt::ElideNone);
   list_->setIndentation(14);
+  connect(list_->header(), &QHeaderView::sectionResized, list_, [this] {
+    // Not within the layout that has moved the section.
+    QTimer::singleShot(0, list_, [this] { fitRows(); });
+  });
   list_->setItemDelegateForColumn(kFall, new FallDelegate(list_));
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kEffect, QHeaderView::Stretch);
@@ -139,7 +146,7 @@ MissingPane::MissingPane(QWidget* parent)
   details->setStretchFactor(0, 3);
   details->setStretchFactor(1, 2);
   details->setStretchFactor(2, 2);
-  details->setSizes({270, 130, 200});
+  details->setSizes({260, 190, 150});
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(add_, 1);
   buttons->addWidget(all_, 1);
@@ -186,6 +193,24 @@ void MissingPane::setPattern(const std::shared_ptr<const ResidualFigure>& figure
   pattern_->setFigure(figure, tr("its pattern cannot be seen"));
 }
 
+// A tree's rows do not grow with their words by themselves.
+void MissingPane::fitRows() {
+  const int width = list_->header()->sectionSize(kEffect);
+  const auto fit = [&](QTreeWidgetItem* item, int depth) {
+    const int room = std::max(40, width - list_->indentation() * (depth + 1) - 8);
+    const QRect text =
+        QFontMetrics(item->font(kEffect).resolve(list_->font()))
+            .boundingRect(QRect(0, 0, room, 1000), Qt::TextWordWrap, item->text(kEffect));
+    const QSize size(room, text.height() + 4);
+    if (item->sizeHint(kEffect) != size) item->setSizeHint(kEffect, size);
+  };
+  for (int k = 0; k < list_->topLevelItemCount(); ++k) {
+    QTreeWidgetItem* top = list_->topLevelItem(k);
+    fit(top, 0);
+    for (int c = 0; c < top->childCount(); ++c) fit(top->child(c), 1);
+  }
+}
+
 const EffectProposal* MissingPane::current() const {
   const QTreeWidgetItem* item = list_->currentItem();
   if (!ranking_ || item == nullptr || !item->data(kEffect, kProposal).isValid()) return nullptr;
@@ -214,6 +239,7 @@ void MissingPane::fill() {
   for (std::size_t k = 0; k < ranking_->proposals.size(); ++k)
     addProposal(ranking_->proposals[k], static_cast<int>(k));
   list_->expandAll();
+  fitRows();
   if (list_->topLevelItemCount() > 0) list_->setCurrentItem(list_->topLevelItem(0));
 }
 
@@ -233,7 +259,8 @@ void MissingPane::addProposal(const EffectProposal& p, int index) {
   item->setData(kEffect, kProposal, index);
   item->setText(kVerdict, verdict_name(p.finding.verdict));
   item->setForeground(kVerdict, verdict_color(p, palette()));
-  item->setToolTip(kEffect, QString::fromStdString(p.finding.id));
+  item->setToolTip(kEffect, QStringLiteral("%1 (%2)").arg(effect_title(p.finding.id),
+                                                          QString::fromStdString(p.finding.id)));
   if (p.suggested) {
     QFont font = item->font(kEffect);
     font.setBold(true);
@@ -309,14 +336,15 @@ void MissingPane::describe() {
   if (shown == described_ && shown != nullptr) return;
   described_ = shown;
   if (p != nullptr) {
-    QString html =
-        QStringLiteral("<p>%1</p>").arg(core_text(p->finding.explanation).toHtmlEscaped());
+    // The values first: what follows may need to be scrolled to.
+    QString html;
     if (!p->finding.parameters.empty()) {
       html += QStringLiteral("<p><b>%1</b><br>%2</p>")
                   .arg(values_text(p->finding.parameters, false).toHtmlEscaped(),
                        tr("Adding it moves the extrinsic by %1.")
                            .arg(move_text(p->gained_mm, p->gained_mrad)));
     }
+    html += QStringLiteral("<p>%1</p>").arg(core_text(p->finding.explanation).toHtmlEscaped());
     html += criteria_html(*p);
     text_->setHtml(html);
     pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));

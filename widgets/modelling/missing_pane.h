@@ -51,6 +51,7 @@ class MissingPane : public QWidget {
  private:
   void retranslate();
   void fill();
+  void fitRows();
   void fillBudget();
   void addProposal(const EffectProposal& proposal, int index);
   void addUnknown(int index);

@@ -39,6 +39,7 @@ ModelPage::~ModelPage() = default;
 
 void ModelPage::createLayout() {
   auto* left = new QWidget(this);
+  left->setMinimumWidth(210);  // Room for names and values.
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(terms_, 1);
@@ -51,7 +52,7 @@ void ModelPage::createLayout() {
   columns->setStretchFactor(0, 0);
   columns->setStretchFactor(1, 1);
   columns->setStretchFactor(2, 0);
-  columns->setSizes({290, 400, 370});
+  columns->setSizes({250, 400, 410});
   auto* rows = new QSplitter(Qt::Vertical, this);
   rows->setChildrenCollapsible(false);
   budget_->setMinimumHeight(90);

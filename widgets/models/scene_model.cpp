@@ -5,7 +5,9 @@
 #include <QPalette>
 #include <algorithm>
 
+#include "pipeline/refusals.h"
 #include "style/texts.h"
+#include "style/theme.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -26,6 +28,10 @@ SceneModel::SceneModel(QObject* parent) : QAbstractTableModel(parent) {}
 void SceneModel::set_scenes(const Dataset& dataset, const QStringList& missing) {
   beginResetModel();
   rows_.clear();
+  // Scenes of every rig are called A, B, C.
+  if (dataset.path != dataset_) thumbnails_.clear();
+  dataset_ = dataset.path;
+  problems_.clear();
   for (const SceneFiles& files : dataset.scenes) {
     Row row;
     row.name = QString::fromStdString(files.name);
@@ -60,6 +66,7 @@ void SceneModel::refill() {
     const SceneDecision decision = decision_of(decisions_, row.name.toStdString());
     row.use = decision.use;
     row.cropped = decision.crop.has_value();
+    row.insisted = decision.insist;
     if (result_) fill_result(row, *result_);
     old = row;
   }
@@ -74,6 +81,8 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     if (scene.name != name) continue;
     row.ran = scene.view || !scene.reason.empty();
     row.used = scene.used;
+    row.can_be_insisted_on = lvcalib::can_be_insisted_on(scene);
+    row.objection = QString::fromStdString(scene.objection);
     row.reason = QString::fromStdString(scene.reason);
     if (scene.view && result.target.has_tags()) row.tags = scene.view->tag_count;
     if (scene.refinement) row.points = static_cast<int>(scene.refinement->board_points);
@@ -101,6 +110,17 @@ void SceneModel::set_thumbnail(const QString& scene, const QImage& image) {
   if (row >= 0) Q_EMIT dataChanged(index(row, kName), index(row, kName), {Qt::DecorationRole});
 }
 
+void SceneModel::set_problem(const QString& scene, const QString& problem) {
+  if (problems_.value(scene) == problem) return;
+  if (problem.isEmpty()) {
+    problems_.remove(scene);
+  } else {
+    problems_[scene] = problem;
+  }
+  const int row = row_of(scene);
+  if (row >= 0) Q_EMIT dataChanged(index(row, 0), index(row, kColumns - 1));
+}
+
 int SceneModel::row_of(const QString& scene) const {
   const auto found =
       std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row.name == scene; });
@@ -113,6 +133,15 @@ QString SceneModel::scene_at(int row) const {
 
 bool SceneModel::is_missing(int row) const {
   return row >= 0 && row < rowCount() && rows_[static_cast<std::size_t>(row)].missing;
+}
+
+bool SceneModel::can_be_insisted_on(int row) const {
+  return row >= 0 && row < rowCount() && rows_[static_cast<std::size_t>(row)].use &&
+         rows_[static_cast<std::size_t>(row)].can_be_insisted_on;
+}
+
+bool SceneModel::is_insisted_on(int row) const {
+  return row >= 0 && row < rowCount() && rows_[static_cast<std::size_t>(row)].insisted;
 }
 
 int SceneModel::rowCount(const QModelIndex& parent) const {
@@ -143,6 +172,10 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
             .pixmap(QSize(16, 16), qApp->devicePixelRatio());
       }
       if (index.column() == kName) return thumbnails_.value(row.name);
+      return {};
+    case Qt::ForegroundRole:
+      if (index.column() == kState && mark_of(row) == Mark::kBad)
+        return state_colors(QGuiApplication::palette()).bad;
       return {};
     case Qt::TextAlignmentRole:
       if (index.column() != kName && index.column() != kState)
@@ -194,8 +227,12 @@ QVariant SceneModel::number(const Row& row, int column) const {
 QString SceneModel::state_words(const Row& row) const {
   if (row.missing) return tr("missing on disk");
   if (!row.use) return tr("rejected");
+  // What a run says counts; before it, and for a scene that it has not seen, what loading says.
+  if (!row.ran && problems_.contains(row.name)) return core_text(problems_.value(row.name));
   if (!row.ran) return tr("not run yet");
   const QString crop = row.cropped ? tr(" (cropped)") : QString();
+  if (row.used && !row.objection.isEmpty())
+    return tr("used all the same: %1").arg(core_text(row.objection)) + crop;
   if (row.used) return tr("used") + crop;
   // A scene just taken back in still has the reason of the last run.
   if (row.reason.isEmpty() || row.reason == QLatin1String(kRejectedByUser))
@@ -203,10 +240,12 @@ QString SceneModel::state_words(const Row& row) const {
   return core_text(row.reason) + crop;
 }
 
-Mark SceneModel::mark_of(const Row& row) {
+Mark SceneModel::mark_of(const Row& row) const {
   if (row.missing) return Mark::kMissing;
   if (!row.use) return Mark::kLeftOut;
+  if (!row.ran && problems_.contains(row.name)) return Mark::kBad;
   if (!row.ran || row.reason == QLatin1String(kRejectedByUser)) return Mark::kIdle;
+  if (row.used && !row.objection.isEmpty()) return Mark::kDoubtful;
   return row.used ? Mark::kGood : Mark::kBad;
 }
 

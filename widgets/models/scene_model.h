@@ -5,6 +5,7 @@
 #include <QHash>
 #include <QPixmap>
 #include <QStringList>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,7 @@ class SceneModel : public QAbstractTableModel {
 
   explicit SceneModel(QObject* parent = nullptr);
 
-  /// Other scenes; thumbnails of scenes with the same name stay.
+  /// Other scenes; thumbnails stay while the dataset is the same.
   void set_scenes(const Dataset& dataset, const QStringList& missing);
   void set_decisions(const Decisions& decisions);
   /// Null: nothing has run yet.
@@ -33,11 +34,19 @@ class SceneModel : public QAbstractTableModel {
   /// Tells views that titles and words are in another language.
   void retranslate();
   void set_thumbnail(const QString& scene, const QImage& image);
+  /// A file of the scene is missing or cannot be read, in words; empty: no longer.
+  void set_problem(const QString& scene, const QString& problem);
 
   /// Row 0…; −1 if there is no such scene.
   [[nodiscard]] int row_of(const QString& scene) const;
   [[nodiscard]] QString scene_at(int row) const;
   [[nodiscard]] bool is_missing(int row) const;
+  /// The program refused the scene, and it has what it takes to be used all the same.
+  [[nodiscard]] bool can_be_insisted_on(int row) const;
+  /// The user wants it used all the same.
+  [[nodiscard]] bool is_insisted_on(int row) const;
+  /// True if a file of some scene could not be read.
+  [[nodiscard]] bool has_problems() const { return !problems_.isEmpty(); }
 
   [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
@@ -65,7 +74,10 @@ class SceneModel : public QAbstractTableModel {
     std::optional<double> influence_mrad;
     bool ran = false;
     bool used = false;
+    bool insisted = false;
+    bool can_be_insisted_on = false;
     QString reason;
+    QString objection;  // What speaks against a scene that the user insists on.
   };
   void fill_result(Row& row, const CalibrationResult& result) const;
   void refill();
@@ -73,12 +85,14 @@ class SceneModel : public QAbstractTableModel {
   [[nodiscard]] QVariant number(const Row& row, int column) const;
   [[nodiscard]] QString tool_tip(const Row& row, int column) const;
   [[nodiscard]] QString state_words(const Row& row) const;
-  [[nodiscard]] static Mark mark_of(const Row& row);
+  [[nodiscard]] Mark mark_of(const Row& row) const;
 
   std::vector<Row> rows_;
   Decisions decisions_;
   std::shared_ptr<const CalibrationResult> result_;
+  std::filesystem::path dataset_;  // Whose scenes these are.
   QHash<QString, QPixmap> thumbnails_;
+  QHash<QString, QString> problems_;
 };
 
 }  // namespace lvcalib::widgets

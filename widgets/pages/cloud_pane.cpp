@@ -3,14 +3,17 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
-#include <QToolBar>
 #include <QVBoxLayout>
 
+#include "pages/scene_overlay.h"
 #include "style/texts.h"
 #include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
+#include "views/color_bar.h"
 #include "views/crop_form.h"
+#include "views/tool_row.h"
 
 namespace lvcalib::widgets {
 
@@ -30,11 +33,12 @@ CloudPane::CloudPane(QWidget* parent) : QWidget(parent) {
 }
 
 void CloudPane::createToolBar() {
-  bar_ = new QToolBar(this);
+  bar_ = new ToolRow(this);
   color_ = new QComboBox(bar_);
   color_->setObjectName("cloud-color");
-  for (const CloudColor color : {CloudColor::kIntensity, CloudColor::kHeight, CloudColor::kRange,
-                                 CloudColor::kPlaneResidual, CloudColor::kCameraColor})
+  for (const CloudColor color :
+       {CloudColor::kIntensity, CloudColor::kHeight, CloudColor::kRange, CloudColor::kPlaneResidual,
+        CloudColor::kCameraColor, CloudColor::kLine, CloudColor::kTime})
     color_->addItem({}, static_cast<int>(color));
   filter_ = new QComboBox(bar_);
   filter_->setObjectName("cloud-filter");
@@ -44,30 +48,57 @@ void CloudPane::createToolBar() {
   bar_->addWidget(color_);
   bar_->addWidget(filter_);
   bar_->addSeparator();
-  for (QAction* action : view_->viewActions()) bar_->addAction(action);
-  crop_action_ = bar_->addAction(QString());
+  for (QAction* action : view_->viewActions()) bar_->addTool(action);
+  crop_action_ = bar_->newTool();
   crop_action_->setObjectName("crop-action");
   crop_action_->setCheckable(true);
   crop_action_->setShortcut(QKeySequence(Qt::Key_C));
   crop_action_->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-  addAction(crop_action_);
+  // The key is the view's: in a list beside it the same letter chooses an entry.
+  view_->addAction(crop_action_);
+  axes_action_ = bar_->newTool();
+  axes_action_->setObjectName("cloud-axes");
+  axes_action_->setCheckable(true);
+  size_ = new QDoubleSpinBox(bar_);
+  size_->setObjectName("cloud-point-size");
+  size_->setRange(0.5, 12.0);
+  size_->setSingleStep(0.5);
+  size_->setDecimals(1);
+  size_->setValue(CloudView::kPointSize_px);
+  size_->setSuffix(QStringLiteral(" px"));
+  bar_->addWidget(size_);
   count_ = new QLabel(bar_);
   count_->setObjectName("cloud-count");
   count_->setContentsMargins(8, 0, 0, 0);
   bar_->addWidget(count_);
-  connect(color_, &QComboBox::currentIndexChanged, this, &CloudPane::rebuild);
+  connect(size_, &QDoubleSpinBox::valueChanged, view_, &CloudView::setPointSize);
+  connect(axes_action_, &QAction::toggled, this, &CloudPane::showLines);
+  // Another quantity has another range.
+  connect(color_, &QComboBox::currentIndexChanged, this, [this] {
+    range_.reset();
+    rebuild();
+  });
+  connect(view_->legend(), &ColorBar::rangeChosen, this, [this](double low, double high) {
+    range_ = {low, high};
+    rebuild();
+  });
+  connect(view_->legend(), &ColorBar::rangeCleared, this, [this] {
+    range_.reset();
+    rebuild();
+  });
   connect(filter_, &QComboBox::currentIndexChanged, this, &CloudPane::rebuild);
   connect(crop_action_, &QAction::toggled, this, &CloudPane::toggleCrop);
 }
 
 void CloudPane::retranslate() {
-  bar_->setWindowTitle(tr("Cloud"));
-  const QStringList colors = {tr("Intensity"), tr("Height"), tr("Range"), tr("Plane residual"),
-                              tr("Camera colour")};
+  bar_->setAccessibleName(tr("Cloud"));
+  const QStringList colors = {tr("Intensity"),     tr("Height"), tr("Range"), tr("Plane residual"),
+                              tr("Camera colour"), tr("Line"),   tr("Time")};
   for (int k = 0; k < colors.size(); ++k) color_->setItemText(k, colors[k]);
   color_->setToolTip(
       tr("What the colours tell: intensity as recorded, height z (m), range (m), "
-         "range beyond the board's plane (mm), or the camera's own colours"));
+         "range beyond the board's plane (mm), the camera's own colours, the scan line's number, "
+         "or the time since the scan began (ms)"));
   color_->setAccessibleName(tr("Colour of the points"));
   const QStringList filters = {tr("All points"), tr("Crop"), tr("Board"), tr("Boundary samples")};
   for (int k = 0; k < filters.size(); ++k) filter_->setItemText(k, filters[k]);
@@ -77,6 +108,11 @@ void CloudPane::retranslate() {
   filter_->setAccessibleName(tr("Points shown"));
   crop_action_->setText(tr("Crop…"));
   crop_action_->setToolTip(tr("Show a box with handles: the board is searched inside it only (C)"));
+  axes_action_->setText(tr("Axes"));
+  axes_action_->setToolTip(
+      tr("Show the LiDAR's axes (x red, y green, z blue) and a grid under the points"));
+  size_->setToolTip(tr("Size of the points on the screen, px"));
+  size_->setAccessibleName(tr("Size of the points"));
   count_->setToolTip(tr("Number of points shown"));
   updateCount();
 }
@@ -102,6 +138,8 @@ void CloudPane::createCrop() {
 }
 
 void CloudPane::setInput(CloudSceneInput input, std::vector<CloudLine> lines) {
+  // A range chosen for one cloud says nothing of another.
+  if (input.full != input_.full) range_.reset();
   input_ = std::move(input);
   lines_ = std::move(lines);
   rebuild();
@@ -137,14 +175,25 @@ void CloudPane::rebuild() {
   input.color = static_cast<CloudColor>(color_->currentData().toInt());
   input.filter = static_cast<CloudFilter>(filter_->currentData().toInt());
   input.crop = edited_ ? edited_ : crop_;
+  input.range = range_;
   builder_->request(std::move(input));
 }
 
 void CloudPane::display(const std::shared_ptr<const CloudScene>& scene) {
   view_->setScene(scene);
-  view_->setLines(lines_);
+  showLines();
   updateCount();
   Q_EMIT sceneShown();
+}
+
+void CloudPane::showLines() {
+  std::vector<CloudLine> lines = lines_;
+  const auto& scene = view_->scene();
+  if (axes_action_->isChecked() && scene && scene->size() > 0) {
+    for (CloudLine& line : axes_and_grid(scene->low_m, scene->high_m))
+      lines.push_back(std::move(line));
+  }
+  view_->setLines(lines);
 }
 
 void CloudPane::editCrop(const CropBox& box) {

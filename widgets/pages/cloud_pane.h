@@ -11,14 +11,15 @@
 
 class QAction;
 class QComboBox;
+class QDoubleSpinBox;
 class QLabel;
-class QToolBar;
 
 namespace lvcalib::widgets {
 
 class CloudSceneBuilder;
 class CloudView;
 class CropForm;
+class ToolRow;
 
 /// A cloud view with its tool bar (colour, points shown, viewpoint, crop) and the crop box's
 /// numbers. Pictures are built in the background.
@@ -57,19 +58,23 @@ class CloudPane : public QWidget {
   void editCrop(const CropBox& box);
   void toggleCrop(bool shown);
   void updateCount();
+  void showLines();
 
   CloudSceneInput input_;
   std::vector<CloudLine> lines_;
   std::optional<CropBox> crop_;    ///< In force.
   std::optional<CropBox> edited_;  ///< Shown with handles.
   CropBox suggested_;
+  std::optional<std::pair<double, double>> range_;  ///< Of the colours, if the user chose one.
   CloudView* view_ = nullptr;
   CloudSceneBuilder* builder_ = nullptr;
   CropForm* crop_form_ = nullptr;
-  QToolBar* bar_ = nullptr;
+  ToolRow* bar_ = nullptr;
   QComboBox* color_ = nullptr;
   QComboBox* filter_ = nullptr;
   QAction* crop_action_ = nullptr;
+  QAction* axes_action_ = nullptr;
+  QDoubleSpinBox* size_ = nullptr;
   QLabel* count_ = nullptr;
 };
 

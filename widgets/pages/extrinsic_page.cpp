@@ -92,7 +92,7 @@ QWidget* ExtrinsicPage::createPlots() {
 void ExtrinsicPage::retranslate() {
   pose_->setAccessibleName(tr("Pose and quality"));
   const QStringList titles = {tr("Residuals and influence"), tr("Methods"), tr("Uncertainty"),
-                              tr("Cloud in camera colours")};
+                              tr("Coloured cloud")};
   for (int k = 0; k < titles.size(); ++k) tabs_->setTabText(k, titles[k]);
   bars_px_->setValueLabel(tr("corner RMS (px)"), "rms_px");
   bars_mm_->setValueLabel(tr("LiDAR RMS (mm)"), "rms_mm");

@@ -5,13 +5,13 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QSlider>
-#include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "style/texts.h"
 #include "views/image_view.h"
+#include "views/tool_row.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -35,7 +35,7 @@ ImagePane::ImagePane(QWidget* parent) : QWidget(parent) {
 }
 
 QAction* ImagePane::addToggle(const char* name, bool on) {
-  QAction* action = bar_->addAction(QString());
+  QAction* action = bar_->newTool();
   action->setObjectName(name);
   action->setCheckable(true);
   action->setChecked(on);
@@ -44,7 +44,7 @@ QAction* ImagePane::addToggle(const char* name, bool on) {
 }
 
 void ImagePane::createToolBar() {
-  bar_ = new QToolBar(this);
+  bar_ = new ToolRow(this);
   tags_ = addToggle("show-tags", true);
   residuals_ = addToggle("show-residuals", true);
   factor_ = new QDoubleSpinBox(bar_);
@@ -57,14 +57,17 @@ void ImagePane::createToolBar() {
   circles_ = addToggle("show-circles", true);
   points_ = addToggle("show-points", false);
   bar_->addSeparator();
-  fit_ = bar_->addAction(QString(), view_, &ImageView::fit);
-  one_to_one_ = bar_->addAction(QStringLiteral("1:1"), view_, &ImageView::oneToOne);
+  fit_ = bar_->newTool();
+  connect(fit_, &QAction::triggered, view_, &ImageView::fit);
+  one_to_one_ = bar_->newTool();
+  one_to_one_->setText(QStringLiteral("1:1"));
+  connect(one_to_one_, &QAction::triggered, view_, &ImageView::oneToOne);
   connect(factor_, &QDoubleSpinBox::valueChanged, this,
           [this](double factor) { view_->overlay().setResidualFactor(factor); });
 }
 
 void ImagePane::createLevels() {
-  level_bar_ = new QToolBar(this);
+  level_bar_ = new ToolRow(this);
   const auto slider = [this](QLabel*& label, int value) {
     label = new QLabel(level_bar_);
     label->setContentsMargins(4, 0, 4, 0);
@@ -72,7 +75,7 @@ void ImagePane::createLevels() {
     s->setRange(0, kLevelSteps);
     s->setValue(value);
     s->setMinimumWidth(60);
-    s->setMaximumWidth(140);
+    s->setFixedWidth(110);
     label->setBuddy(s);
     level_bar_->addWidget(label);
     level_bar_->addWidget(s);
@@ -83,8 +86,11 @@ void ImagePane::createLevels() {
   black_->setObjectName("level-black");
   white_ = slider(white_label_, kLevelSteps);
   white_->setObjectName("level-white");
-  automatic_ = level_bar_->addAction(QString(), this, &ImagePane::automaticLevels);
+  automatic_ = level_bar_->newTool();
+  connect(automatic_, &QAction::triggered, this, &ImagePane::automaticLevels);
   place_ = new QLabel(level_bar_);
+  // Room for the numbers, so that tools do not jump while the cursor moves.
+  place_->setMinimumWidth(place_->fontMetrics().horizontalAdvance("(8888.8, 8888.8): 88888") + 12);
   place_->setContentsMargins(10, 0, 0, 0);
   level_bar_->addWidget(place_);
   connect(view_, &ImageView::hovered, this, [this](const QPointF& pixel, int value) {
@@ -101,7 +107,7 @@ void ImagePane::retranslate() {
     action->setText(text);
     action->setToolTip(tip);
   };
-  bar_->setWindowTitle(tr("Image"));
+  bar_->setAccessibleName(tr("Image"));
   describe(tags_, tr("Tags"), tr("Outlines and ids of the detected tags (green)"));
   describe(residuals_, tr("Residuals"),
            tr("Detected minus predicted corner (px), enlarged (magenta arrows)"));
@@ -113,7 +119,7 @@ void ImagePane::retranslate() {
   describe(points_, tr("Points"), tr("The points of the cloud view, projected with the extrinsic"));
   describe(fit_, tr("Fit"), tr("Show the whole image (F)"));
   one_to_one_->setToolTip(tr("One image pixel per screen pixel (1)"));
-  level_bar_->setWindowTitle(tr("Levels"));
+  level_bar_->setAccessibleName(tr("Levels"));
   black_label_->setText(tr("Black"));
   black_->setAccessibleName(tr("Black"));
   black_->setToolTip(tr("Grey value shown as black (0 … 255 of full scale)"));

@@ -9,11 +9,11 @@ class QAction;
 class QDoubleSpinBox;
 class QLabel;
 class QSlider;
-class QToolBar;
 
 namespace lvcalib::widgets {
 
 class ImageView;
+class ToolRow;
 
 /// An image view with its tool bar: what is drawn over the image, how much residuals are enlarged,
 /// zoom and grey levels.
@@ -36,8 +36,8 @@ class ImagePane : public QWidget {
   void automaticLevels();
 
   ImageView* view_ = nullptr;
-  QToolBar* bar_ = nullptr;
-  QToolBar* level_bar_ = nullptr;
+  ToolRow* bar_ = nullptr;
+  ToolRow* level_bar_ = nullptr;
   QAction* tags_ = nullptr;
   QAction* residuals_ = nullptr;
   QAction* circles_ = nullptr;

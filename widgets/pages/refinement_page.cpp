@@ -85,7 +85,8 @@ QWidget* RefinementPage::createDetail() {
   bins_ = new QTableWidget(0, 5, top);
   bins_->setObjectName("bins");
   bins_->horizontalHeader()->setStretchLastSection(true);
-  bins_->horizontalHeader()->setDefaultSectionSize(92);
+  bins_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  bins_->horizontalHeader()->setSectionResizeMode(4, QHeaderView::Stretch);
   bins_->verticalHeader()->hide();
   bins_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   bins_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -280,9 +281,15 @@ const NodeRecord* RefinementPage::record(int id) const {
   return nullptr;
 }
 
-QString RefinementPage::nodeTitle(int id) const {
+QString RefinementPage::nodeTitle(int id, bool narrow) const {
   const NodeRecord* node = record(id);
   if (node == nullptr) return tr("node %1").arg(id);
+  // Nine plots side by side have no room for more.
+  if (narrow) {
+    return node->valid
+               ? tr("%1: %2 mm").arg(id).arg(kMmPerM * node->wave_m.head<2>().norm(), 0, 'f', 2)
+               : tr("%1: not usable").arg(id);
+  }
   if (!node->valid) return tr("node %1: not usable").arg(id);
   return tr("node %1: |Δc| %2 mm").arg(id).arg(kMmPerM * node->wave_m.head<2>().norm(), 0, 'f', 2);
 }
@@ -290,7 +297,7 @@ QString RefinementPage::nodeTitle(int id) const {
 void RefinementPage::updatePlots() {
   const std::vector<TargetNode> nodes = target_.nodes();
   for (std::size_t k = 0; k < plots_.size() && k < nodes.size(); ++k) {
-    plots_[k]->setTitle(nodeTitle(nodes[k].id));
+    plots_[k]->setTitle(nodeTitle(nodes[k].id, true));
     if (const NodeRecord* node = record(nodes[k].id)) {
       plots_[k]->setData({*node, sampler_.around(node->center_uv_m), intensity_, reach_m_});
     } else {

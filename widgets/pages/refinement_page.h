@@ -66,7 +66,7 @@ class RefinementPage : public QWidget {
   void updateReplay();
   void advance();
   [[nodiscard]] const NodeRecord* record(int id) const;
-  [[nodiscard]] QString nodeTitle(int id) const;
+  [[nodiscard]] QString nodeTitle(int id, bool narrow = false) const;
 
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const BoardRefinement> refinement_;

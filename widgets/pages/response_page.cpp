@@ -9,6 +9,7 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTextBrowser>
+#include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
@@ -31,7 +32,7 @@ ResponsePage::ResponsePage(QWidget* parent) : QWidget(parent) {
   splitter->addWidget(createTables());
   splitter->setStretchFactor(0, 1);
   splitter->setStretchFactor(1, 0);
-  splitter->setSizes({560, 190});
+  splitter->setSizes({500, 250});
   layout->addWidget(message_);
   layout->addWidget(splitter, 1);
   follow_language(this, [this] { retranslate(); });
@@ -43,7 +44,7 @@ void ResponsePage::retranslate() {
   scenes_->setAccessibleName(tr("Boundary response per scene"));
   tabs_->setTabText(0, tr("Scenes"));
   tabs_->setTabText(1, tr("By range and incidence"));
-  tabs_->setTabText(2, tr("Circles left out"));
+  tabs_->setTabText(2, tr("Left out"));
   refresh();
 }
 
@@ -74,6 +75,10 @@ QWidget* ResponsePage::createTables() {
   classes_->setSelectionMode(QAbstractItemView::NoSelection);
   reasons_ = new QTextBrowser(tabs_);
   reasons_->setObjectName("response-reasons");
+  reasons_->setOpenLinks(false);
+  connect(reasons_, &QTextBrowser::anchorClicked, this, [this](const QUrl& scene) {
+    Q_EMIT insistWanted(QUrl::fromPercentEncoding(scene.path().toUtf8()));
+  });
   for (QWidget* page : std::initializer_list<QWidget*>{scenes_, classes_, reasons_})
     tabs_->addTab(page, {});
   connect(scenes_, &QTableWidget::currentCellChanged, this, [this](int row) { activate(row); });
@@ -142,23 +147,43 @@ void ResponsePage::fillTables() {
   classes_->resizeColumnsToContents();
 }
 
+QString ResponsePage::describe(const Refusal& refusal) {
+  using What = Refusal::What;
+  const QString scene = QString::fromStdString(refusal.scene);
+  switch (refusal.what) {
+    case What::kScene:
+      return tr("Scene %1:").arg(scene);
+    case What::kCircle:
+      return tr("Scene %1, circle %2:").arg(scene).arg(refusal.id);
+    case What::kTag:
+      return tr("Scene %1, corners of tag %2:").arg(scene).arg(refusal.id);
+    case What::kPoints:
+      return tr("Scene %1, %n points on the board:", nullptr, static_cast<int>(refusal.points))
+          .arg(scene);
+    case What::kResponse:
+      break;
+  }
+  if (refusal.id < 0) return tr("Scene %1, for the boundary response alone:").arg(scene);
+  return tr("Scene %1, circle %2, for the boundary response alone:").arg(scene).arg(refusal.id);
+}
+
 void ResponsePage::fillReasons() {
   QString html;
   if (result_) {
-    for (const SceneResponse& scene : result_->response.scenes) {
-      const QString name = QString::fromStdString(scene.name).toHtmlEscaped();
-      if (!scene.reason.empty()) {
-        html += "<li>" + tr("Scene %1:").arg(name) + " " + core_text(scene.reason).toHtmlEscaped() +
-                "</li>";
+    for (const Refusal& refusal : refusals(*result_)) {
+      html += "<li>" + describe(refusal).toHtmlEscaped() + " " +
+              core_text(refusal.reason).toHtmlEscaped();
+      if (refusal.can_be_used) {
+        const QString scene = QString::fromStdString(refusal.scene);
+        html +=
+            QStringLiteral(" <a href=\"scene:%1\">%2</a>")
+                .arg(QString::fromUtf8(QUrl::toPercentEncoding(scene)), tr("Use it all the same"));
       }
-      for (const NodeResponse& node : scene.nodes) {
-        if (node.state == NodeResponseState::kUsed) continue;
-        html += "<li>" + tr("Scene %1, circle %2:").arg(name).arg(node.id) + " " +
-                core_text(node.reason).toHtmlEscaped() + "</li>";
-      }
+      html += "</li>";
     }
   }
-  reasons_->setHtml(html.isEmpty() ? "<p>" + tr("None.") + "</p>" : "<ul>" + html + "</ul>");
+  reasons_->setHtml(html.isEmpty() ? "<p>" + tr("Nothing: everything found is used.") + "</p>"
+                                   : "<ul>" + html + "</ul>");
 }
 
 ResponseScope ResponsePage::scopeOf(int row) const {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pipeline/calibration.h"
+#include "pipeline/refusals.h"
 #include "views/response_plots.h"
 
 class QLabel;
@@ -32,6 +33,8 @@ class ResponsePage : public QWidget {
   /// A scene was chosen in the table; index into the result's scenes.
   void sceneActivated(int scene);
   void failed(const QString& message);
+  /// A scene that the program refused is to be used all the same.
+  void insistWanted(const QString& scene);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -43,6 +46,7 @@ class ResponsePage : public QWidget {
   void refresh();
   void fillTables();
   void fillReasons();
+  [[nodiscard]] static QString describe(const Refusal& refusal);
   void showScope(const ResponseScope& scope);
   void activate(int row);
   [[nodiscard]] ResponseScope scopeOf(int row) const;

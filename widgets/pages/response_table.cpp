@@ -46,7 +46,18 @@ void put_statistics(QTableWidget& table, int row, const ResponseStatistics& s) {
 QTableWidget* new_response_table(QWidget* parent) {
   auto* table = new QTableWidget(0, kResponseColumns, parent);
   table->verticalHeader()->hide();
-  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
+  // Numbers that do not fit beside their ± take two lines; nothing needs to be scrolled to.
+  table->setWordWrap(true);
+  table->setTextElideMode(Qt::ElideNone);
+  table->verticalHeader()->setMinimumSectionSize(table->fontMetrics().height() + 8);
+  table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setMinimumSectionSize(30);
+  table->horizontalHeader()->setFixedHeight(2 * table->fontMetrics().height() + 8);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  for (const int column : {0, 1})
+    table->horizontalHeader()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setDefaultAlignment(Qt::AlignCenter |
+                                                 static_cast<Qt::Alignment>(Qt::TextWordWrap));
   table->horizontalHeader()->setHighlightSections(false);
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table->setSelectionBehavior(QAbstractItemView::SelectRows);

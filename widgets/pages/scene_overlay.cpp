@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "target/wireframe.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::array<double, 3> kLidarColor{1.0, 0.6, 0.0};
 constexpr std::array<double, 3> kCameraColor{0.15, 0.55, 1.0};
+constexpr std::array<double, 3> kRefusedColor{1.0, 0.2, 0.2};
 
 QPointF as_point(const Eigen::Vector2d& p) {
   return {p.x(), p.y()};
@@ -70,10 +72,27 @@ void add_tags(ImageOverlay& overlay, const CalibrationResult& result) {
   for (auto& [id, tag] : tags) overlay.tags.push_back(std::move(tag));
 }
 
+// Circles of a scene that the refinement or the solve does not use.
+std::set<int> refused_circles(const CalibrationResult& result, const SceneResult& scene) {
+  std::set<int> out;
+  if (scene.refinement) {
+    for (const RefinedNode& node : scene.refinement->nodes) {
+      if (!node.valid) out.insert(node.id);
+    }
+  }
+  if (const SceneSolution* solution = solution_of(result, scene)) {
+    for (const NodeResidual& node : solution->nodes) {
+      if (solution->used && !node.used) out.insert(node.id);
+    }
+  }
+  return out;
+}
+
 void add_circles(ImageOverlay& overlay, const CalibrationResult& result, const SceneResult& scene) {
   const BoardRefinement& refinement = *scene.refinement;
   const Rigid3& camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
   const BoardWireframe wire = board_wireframe(result.target, refinement.lidar_from_board, 36);
+  const std::set<int> refused = refused_circles(result, scene);
   overlay.outline = projected(wire.outline_m, result.camera, camera_from_lidar);
   for (const BoardWireframe::Shape& shape : wire.circles) {
     const auto node = std::find_if(refinement.nodes.begin(), refinement.nodes.end(),
@@ -84,16 +103,16 @@ void add_circles(ImageOverlay& overlay, const CalibrationResult& result, const S
     if (!center) continue;
     overlay.circles.push_back({shape.id,
                                projected(shape.points_m, result.camera, camera_from_lidar),
-                               as_point(*center), node->valid});
+                               as_point(*center), !refused.contains(shape.id)});
   }
 }
 
 void add_board(std::vector<CloudLine>& lines, const Target& target, const Rigid3& lidar_from_board,
-               const std::array<double, 3>& color) {
+               const std::array<double, 3>& color, const std::set<int>& refused = {}) {
   const BoardWireframe wire = board_wireframe(target, lidar_from_board);
   lines.push_back({wire.outline_m, color, true});
   for (const BoardWireframe::Shape& circle : wire.circles) {
-    lines.push_back({circle.points_m, color, true});
+    lines.push_back({circle.points_m, refused.contains(circle.id) ? kRefusedColor : color, true});
   }
 }
 
@@ -145,8 +164,29 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
     add_board(lines, result.target, lidar_from_board, kCameraColor);
   }
   if (scene.refinement) {
-    add_board(lines, result.target, scene.refinement->lidar_from_board, kLidarColor);
+    add_board(lines, result.target, scene.refinement->lidar_from_board, kLidarColor,
+              refused_circles(result, scene));
   }
+  return lines;
+}
+
+std::vector<CloudLine> axes_and_grid(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {
+  const Eigen::Vector3d o = Eigen::Vector3d::Zero();
+  std::vector<CloudLine> lines = {{{o, Eigen::Vector3d::UnitX()}, {0.9, 0.15, 0.15}, false},
+                                  {{o, Eigen::Vector3d::UnitY()}, {0.1, 0.65, 0.1}, false},
+                                  {{o, Eigen::Vector3d::UnitZ()}, {0.2, 0.35, 1.0}, false}};
+  constexpr double kMostLines = 40.0;
+  const double reach = std::max(high_m.x() - low_m.x(), high_m.y() - low_m.y());
+  if (!(reach > 0.0) || !std::isfinite(reach)) return lines;
+  double step = 1.0;
+  while (reach / step > kMostLines) step *= 10.0;
+  const Eigen::Vector2d low = step * (low_m.head<2>() / step).array().floor();
+  const Eigen::Vector2d high = step * (high_m.head<2>() / step).array().ceil();
+  const std::array<double, 3> gray{0.5, 0.5, 0.5};
+  for (double x = low.x(); x <= high.x() + 0.5 * step; x += step)
+    lines.push_back({{{x, low.y(), low_m.z()}, {x, high.y(), low_m.z()}}, gray, false});
+  for (double y = low.y(); y <= high.y() + 0.5 * step; y += step)
+    lines.push_back({{{low.x(), y, low_m.z()}, {high.x(), y, low_m.z()}}, gray, false});
   return lines;
 }
 

@@ -29,6 +29,10 @@ void add_points(ImageOverlay& overlay, const CloudScene& cloud);
 /// predict it (blue).
 std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene);
 
+/// The LiDAR's axes, a metre each (x red, y green, z blue), and a grid of round spacing under a
+/// box.
+std::vector<CloudLine> axes_and_grid(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);
+
 /// A box about the board of a scene, along its axes; a metre and a half about `fallback_m` if there
 /// is no board yet.
 CropBox box_about_board(const CalibrationResult* result, const SceneResult* scene,

@@ -56,6 +56,15 @@ std::shared_ptr<const Cloud> board_points(const std::shared_ptr<const Calibratio
 ScenePage::ScenePage(QWidget* parent) : QWidget(parent) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
+  refusal_ = new QLabel(this);
+  refusal_->setObjectName("scene-refusal");
+  refusal_->setWordWrap(true);
+  refusal_->setTextFormat(Qt::RichText);
+  refusal_->hide();
+  connect(refusal_, &QLabel::linkActivated, this, [this] {
+    if (scene_ >= 0) Q_EMIT insistWanted(scene_);
+  });
+  layout->addWidget(refusal_);
   auto* splitter = new QSplitter(Qt::Horizontal, this);
   splitter->setChildrenCollapsible(false);
   cloud_ = new CloudPane(splitter);
@@ -95,6 +104,7 @@ void ScenePage::connectPanes() {
   });
   connect(image_->view(), &ImageView::pixelClicked, this, &ScenePage::selectPixel);
   connect(image_->view(), &ImageView::tagClicked, this, &ScenePage::selectTag);
+  connect(image_->view(), &ImageView::circleClicked, this, &ScenePage::selectCircle);
   connect(cloud_->view()->figureActions(), &FigureActions::failed, this, &ScenePage::failed);
   connect(image_->view()->figureActions(), &FigureActions::failed, this, &ScenePage::failed);
 }
@@ -115,6 +125,8 @@ void ScenePage::setScene(int index) {
   scene_ = index;
   full_cloud_.reset();
   picture_ = {};
+  cloud_problem_.clear();
+  image_problem_.clear();
   cloud_->setCrop(std::nullopt);
   image_->view()->setImage({});
   clearSelection();
@@ -129,6 +141,12 @@ void ScenePage::setSceneData(std::shared_ptr<const Cloud> full_cloud, QImage ima
   refresh();
 }
 
+void ScenePage::setProblems(const QString& cloud, const QString& image) {
+  cloud_problem_ = cloud;
+  image_problem_ = image;
+  refresh();
+}
+
 void ScenePage::setCropBox(const std::optional<CropBox>& box) {
   cloud_->setCrop(box);
 }
@@ -139,6 +157,7 @@ void ScenePage::refresh() {
   input.full = full_cloud_;
   input.board = board_points(result_, scene);
   input.image = picture_;
+  input.problem = cloud_problem_.isEmpty() ? QString() : core_text(cloud_problem_);
   std::vector<CloudLine> lines;
   if (scene != nullptr) {
     input.target = result_->target;
@@ -154,8 +173,28 @@ void ScenePage::refresh() {
   cloud_->setSuggestedBox(box_about_board(result_.get(), scene, middle));
   cloud_->setInput(std::move(input), std::move(lines));
   image_->view()->setMessage(scene_ < 0 ? tr("Choose a scene in the list.")
-                                        : tr("The image is being loaded …"));
+                             : !image_problem_.isEmpty() && image_problem_ == cloud_problem_
+                                 ? core_text(image_problem_)  // The scene as such is incomplete.
+                             : image_problem_.isEmpty()
+                                 ? tr("The image is being loaded …")
+                                 : tr("There is no image: %1").arg(core_text(image_problem_)));
   refreshOverlay();
+  showRefusal();
+}
+
+// What the program refused says so where it is looked at, and how to overrule it.
+void ScenePage::showRefusal() {
+  const SceneResult* scene = current();
+  const bool refused = scene != nullptr && !scene->used && !scene->reason.empty() &&
+                       scene->reason != kRejectedByUser;
+  refusal_->setVisible(refused);
+  if (!refused) return;
+  QString text = QStringLiteral("<b>%1</b> %2")
+                     .arg(tr("This scene is left out:").toHtmlEscaped(),
+                          core_text(scene->reason).toHtmlEscaped());
+  if (can_be_insisted_on(*scene))
+    text += QStringLiteral(" <a href=\"insist\">%1</a>").arg(tr("Use it all the same"));
+  refusal_->setText(text);
 }
 
 void ScenePage::refreshOverlay() {
@@ -170,8 +209,21 @@ void ScenePage::selectPoint(std::uint32_t point) {
   sample_pixels_.clear();
   const auto& scene = cloud_->view()->scene();
   if (!scene || !scene->cloud || point >= scene->cloud->size()) return;
-  cloud_->view()->setHighlights({point});
-  selection_->setText(describePoint(*scene->cloud, point));
+  QString text = describePoint(*scene->cloud, point);
+  std::vector<std::uint32_t> points{point};
+  if (picked_ && *picked_ < scene->cloud->size() && *picked_ != point) {
+    points.push_back(*picked_);
+    const Eigen::Vector3f d = scene->cloud->points_m[point] - scene->cloud->points_m[*picked_];
+    text += QLatin1Char('\n') + tr("%1 m from point %2, picked before: Δx %3, Δy %4, Δz %5 m")
+                                    .arg(d.norm(), 0, 'f', 4)
+                                    .arg(*picked_)
+                                    .arg(d.x(), 0, 'f', 4)
+                                    .arg(d.y(), 0, 'f', 4)
+                                    .arg(d.z(), 0, 'f', 4);
+  }
+  picked_ = point;
+  cloud_->view()->setHighlights(points);
+  selection_->setText(text);
   std::vector<QPointF> places;
   if (point < scene->pixels.size() && std::isfinite(scene->pixels[point].x())) {
     const Eigen::Vector2d pixel = scene->pixels[point].cast<double>();
@@ -256,10 +308,37 @@ void ScenePage::selectTag(int id) {
   }
   cloud_->view()->setHighlights(inside);
   image_->view()->overlay().setHighlights({}, id);
-  QString text = tr("Tag %1").arg(id);
+  QString text = tr("Tag %1").arg(id) + refusalOf(Refusal::What::kTag, id);
   if (!residuals.isEmpty()) text += tr(": corner residuals %1 px").arg(residuals.join(", "));
   if (!inside.empty()) text += tr("; LiDAR points on it: %1").arg(inside.size());
   selection_->setText(text);
+}
+
+void ScenePage::selectCircle(int id) {
+  const SceneResult* scene = current();
+  if (scene == nullptr || !scene->refinement) return;
+  QString text = tr("Circle %1").arg(id) + refusalOf(Refusal::What::kCircle, id);
+  for (const RefinedNode& node : scene->refinement->nodes) {
+    if (node.id == id && node.valid)
+      text += tr(", its centre known to %1 mm").arg(1e3 * node.sigma_m(), 0, 'f', 2);
+  }
+  QPointF center;
+  for (const ImageOverlay::Circle& circle : image_->view()->overlay().overlay().circles) {
+    if (circle.id == id) center = circle.center;
+  }
+  image_->view()->overlay().setHighlights({center}, -1);
+  selection_->setText(text);
+}
+
+// ", left out: …" of a feature of the current scene; empty if it is used.
+QString ScenePage::refusalOf(Refusal::What what, int id) const {
+  const SceneResult* scene = current();
+  if (scene == nullptr) return {};
+  for (const Refusal& refusal : refusals(*result_)) {
+    if (refusal.scene == scene->name && refusal.what == what && refusal.id == id)
+      return tr(", left out: %1").arg(core_text(refusal.reason));
+  }
+  return {};
 }
 
 void ScenePage::selectSamples(const std::vector<Eigen::Vector3d>& points_in_lidar_m,
@@ -295,6 +374,7 @@ void ScenePage::showSamples() {
 }
 
 void ScenePage::clearSelection() {
+  picked_.reset();
   sample_points_m_.clear();
   sample_pixels_.clear();
   cloud_->view()->setHighlights({});

@@ -8,6 +8,7 @@
 
 #include "pipeline/calibration.h"
 #include "pipeline/crop_box.h"
+#include "pipeline/refusals.h"
 #include "views/cloud_scene.h"
 #include "views/image_overlay.h"
 
@@ -34,6 +35,8 @@ class ScenePage : public QWidget {
   [[nodiscard]] int scene() const { return scene_; }
   /// Cloud and image of the current scene, once they are loaded; either may be missing.
   void setSceneData(std::shared_ptr<const Cloud> full_cloud, QImage image);
+  /// Why the cloud or the image of the current scene is missing: shown in its place.
+  void setProblems(const QString& cloud, const QString& image);
   /// The crop box in force for the current scene, or none.
   void setCropBox(const std::optional<CropBox>& box);
 
@@ -48,6 +51,8 @@ class ScenePage : public QWidget {
   /// The user wants this scene cropped (box in the LiDAR frame), or no longer.
   void cropChanged(int scene, const lvcalib::CropBox& box);
   void cropCleared(int scene);
+  /// The program refused this scene; the user wants it used all the same.
+  void insistWanted(int scene);
   /// A figure could not be saved, in words.
   void failed(const QString& message);
 
@@ -58,6 +63,9 @@ class ScenePage : public QWidget {
   void selectPoint(std::uint32_t point);
   void selectPixel(const QPointF& pixel);
   void selectTag(int id);
+  void selectCircle(int id);
+  void showRefusal();
+  [[nodiscard]] QString refusalOf(Refusal::What what, int id) const;
   void clearSelection();
   void showSamples();
   [[nodiscard]] const SceneResult* current() const;
@@ -66,11 +74,15 @@ class ScenePage : public QWidget {
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const Cloud> full_cloud_;
   QImage picture_;
+  QString cloud_problem_;
+  QString image_problem_;
   std::vector<Eigen::Vector3d> sample_points_m_;  // Selected elsewhere; LiDAR frame.
   std::vector<Eigen::Vector2d> sample_pixels_;
   int scene_ = -1;
   CloudPane* cloud_ = nullptr;
   ImagePane* image_ = nullptr;
+  std::optional<std::uint32_t> picked_;  // In the cloud shown; the one before is measured from.
+  QLabel* refusal_ = nullptr;
   QLabel* selection_ = nullptr;
 };
 

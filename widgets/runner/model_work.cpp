@@ -120,6 +120,12 @@ void ModelWork::keep(const std::vector<ModelDecision>& decisions, const ModelSte
 void ModelWork::keep_ranking(const Key& key, ModelRanking ranking) {
   rankings_[key] = std::make_shared<const ModelRanking>(std::move(ranking));
   Q_EMIT ranking_changed();
+  // "good" does not stand beside "something is missing".
+  const auto shown = result_ ? result_ : source_;
+  const auto missing = this->ranking();
+  if (missing && !missing->nothing_missing() &&
+      (results_.running() || (shown && shown->quality == Quality::kGood)))
+    build_result();
 }
 
 void ModelWork::update_steps() {
@@ -285,20 +291,25 @@ void ModelWork::cancel() {
 // Copies the calibration with its clouds: not on the interface thread.
 void ModelWork::build_result() {
   const auto found = discovery();
-  if (!found || found->model.empty() || !source_) {
+  const auto missing = ranking();
+  const bool lacks = missing && !missing->nothing_missing();
+  const bool base = !found || found->model.empty();
+  if (!source_ || (base && !(lacks && source_->quality == Quality::kGood))) {
     results_.cancel();
     result_ = nullptr;
     Q_EMIT result_changed();
     return;
   }
-  results_.start(
-      [this, source = source_, found](const RunContext&, const Runner::Post&) -> Runner::Deliver {
-        auto made = std::make_shared<const CalibrationResult>(with_model(*source, *found));
-        return [this, made] {
-          result_ = made;
-          Q_EMIT result_changed();
-        };
-      });
+  results_.start([this, source = source_, found, missing, base, lacks](
+                     const RunContext&, const Runner::Post&) -> Runner::Deliver {
+    CalibrationResult judged = base ? *source : with_model(*source, *found);
+    if (lacks) judge_missing(judged, *missing);
+    auto made = std::make_shared<const CalibrationResult>(std::move(judged));
+    return [this, made] {
+      result_ = made;
+      Q_EMIT result_changed();
+    };
+  });
 }
 
 }  // namespace lvcalib::widgets

@@ -17,11 +17,27 @@ Result<QImage> read_scene_image(const std::filesystem::path& path) {
 }
 
 Result<SceneData> read_scene_data(const SceneFiles& files, std::stop_token stop) {
+  SceneData data;
+  if (files.problem) {
+    data.cloud_problem = data.image_problem = QString::fromStdString(files.problem->text());
+    return data;
+  }
+  // One without the other still shows what the scene is.
   auto image = read_scene_image(files.image);
-  if (!image) return image.error();
+  if (image) {
+    data.image = std::move(*image);
+  } else {
+    data.image_problem = QString::fromStdString(image.error().text());
+  }
   auto cloud = read_cloud(files.cloud, std::move(stop));
-  if (!cloud) return cloud.error();
-  return SceneData{std::make_shared<const Cloud>(std::move(*cloud)), std::move(*image)};
+  if (cloud) {
+    data.cloud = std::make_shared<const Cloud>(std::move(*cloud));
+  } else if (cloud.error().kind == ErrorKind::kCancelled) {
+    return cloud.error();
+  } else {
+    data.cloud_problem = QString::fromStdString(cloud.error().text());
+  }
+  return data;
 }
 
 SceneLoader::SceneLoader(QObject* parent)
@@ -31,11 +47,15 @@ void SceneLoader::load(const SceneFiles& files) {
   data_->start([this, files](const RunContext& context, const Runner::Post&) -> Runner::Deliver {
     auto data = read_scene_data(files, context.stop);
     const QString name = QString::fromStdString(files.name);
-    if (data)
-      return [this, name, data = std::move(*data)] { Q_EMIT loaded(name, data.cloud, data.image); };
-    if (data.error().kind == ErrorKind::kCancelled) return {};
-    const QString message = QString::fromStdString(data.error().text());
-    return [this, name, message] { Q_EMIT failed(name, message); };
+    if (!data) return {};  // Cancelled.
+    return [this, name, data = std::move(*data)] {
+      Q_EMIT loaded(name, data);
+      for (const QString& problem : {data.image_problem, data.cloud_problem}) {
+        if (problem.isEmpty()) continue;
+        Q_EMIT failed(name, problem);
+        break;
+      }
+    };
   });
 }
 
@@ -44,8 +64,14 @@ void SceneLoader::load_thumbnails(const std::vector<SceneFiles>& scenes) {
       [this, scenes](const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
         for (const SceneFiles& files : scenes) {
           if (context.stopped()) break;
-          const auto image = read_scene_image(files.image);
-          if (!image) continue;  // Said when the scene is opened or run.
+          const auto image =
+              files.problem ? Result<QImage>(*files.problem) : read_scene_image(files.image);
+          if (!image) {
+            const QString name = QString::fromStdString(files.name);
+            const QString message = QString::fromStdString(image.error().text());
+            post([this, name, message] { Q_EMIT failed(name, message); });
+            continue;
+          }
           const QImage small = image->scaled(kThumbnailWidth, kThumbnailHeight, Qt::KeepAspectRatio,
                                              Qt::SmoothTransformation);
           const QString name = QString::fromStdString(files.name);

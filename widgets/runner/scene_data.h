@@ -18,9 +18,11 @@ namespace lvcalib::widgets {
 struct SceneData {
   std::shared_ptr<const Cloud> cloud;  ///< All points, in the LiDAR frame.
   QImage image;                        ///< Colour, 8 bit.
+  QString cloud_problem;               ///< Why there is no cloud; empty if there is one.
+  QString image_problem;               ///< Why there is no image; empty if there is one.
 };
 
-/// Reads cloud and image of a scene. Errors as read_cloud() and read_image().
+/// Reads cloud and image of a scene; either may be missing, with its reason. Error: kCancelled.
 Result<SceneData> read_scene_data(const SceneFiles& files, std::stop_token stop);
 
 /// Reads an image (8 or 16 bit, grey or colour) with its colours.
@@ -32,8 +34,8 @@ class SceneLoader : public QObject {
 
  public:
   /// Size that thumbnails fit into, px.
-  static constexpr int kThumbnailWidth = 64;
-  static constexpr int kThumbnailHeight = 40;
+  static constexpr int kThumbnailWidth = 48;
+  static constexpr int kThumbnailHeight = 30;
 
   explicit SceneLoader(QObject* parent = nullptr);
 
@@ -45,8 +47,9 @@ class SceneLoader : public QObject {
   void clear();
 
  Q_SIGNALS:
-  void loaded(const QString& scene, const std::shared_ptr<const lvcalib::Cloud>& cloud,
-              const QImage& image);
+  void loaded(const QString& scene, const lvcalib::widgets::SceneData& data);
+  /// A file of the scene is missing or cannot be read; said of every such scene once thumbnails
+  /// are asked for, and again when its data are.
   void failed(const QString& scene, const QString& message);
   void thumbnail(const QString& scene, const QImage& image);
 

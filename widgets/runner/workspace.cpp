@@ -28,7 +28,7 @@ struct Workspace::Opening {
 Workspace::Workspace(const QString& data_folder, QObject* parent)
     : QObject(parent), data_folder_(data_folder), autosave_(data_folder) {
   settle_.setSingleShot(true);
-  connect(&settle_, &QTimer::timeout, this, &Workspace::run);
+  connect(&settle_, &QTimer::timeout, this, &Workspace::bring_up_to_date);
   connect(&runner_, &Runner::progressed, this,
           [this](quint64, const QString& stage, double fraction, const QString& text) {
             Q_EMIT progressed(stage, fraction, text);
@@ -80,7 +80,7 @@ void Workspace::open_in_background(const Runner::Work& work) {
 
 void Workspace::open_dataset(const QString& path) {
   open_in_background([this, folder = absolute_path(path)](const RunContext&, const Runner::Post&) {
-    auto dataset = lvcalib::open_dataset(folder);
+    auto dataset = lvcalib::open_dataset(folder, UnusableScenes::kLeaveOut);
     return Runner::Deliver([this, dataset = std::move(dataset)] {
       Q_EMIT run_ended(QString());
       if (!dataset) {
@@ -228,6 +228,21 @@ void Workspace::set_use(const QStringList& scenes, bool use) {
          std::move(after));
 }
 
+void Workspace::set_insist(const QStringList& scenes, bool insist) {
+  Decisions after = decisions_;
+  bool any = false;
+  for (const QString& scene : scenes) {
+    if (decision_of(decisions_, scene.toStdString()).insist == insist) continue;
+    after.scenes[scene.toStdString()].insist = insist;
+    any = true;
+  }
+  if (!any) return;
+  decide({insist ? QT_TRANSLATE_NOOP("Decisions", "use %1 all the same")
+                 : QT_TRANSLATE_NOOP("Decisions", "no longer use %1 all the same"),
+          scenes.join(QStringLiteral(", "))},
+         std::move(after));
+}
+
 void Workspace::set_crop(const QString& scene, const std::optional<CropBox>& box) {
   if (box) {
     if (Status s = check(*box); !s) {
@@ -311,6 +326,21 @@ void Workspace::schedule(int delay_ms) {
 }
 
 void Workspace::run() {
+  // Files that could not be read may have been mended since.
+  bool unreadable = false;
+  for (SceneFiles& files : dataset_.scenes) {
+    if (!files.problem) continue;
+    unreadable = true;
+    if (auto again = open_scene(files.problem->where)) files = std::move(*again);
+  }
+  if (state_.whole) {
+    for (const SceneResult& scene : state_.whole->scenes) unreadable |= scene.unreadable;
+  }
+  if (unreadable) state_.whole = nullptr;
+  bring_up_to_date();
+}
+
+void Workspace::bring_up_to_date() {
   settle_.stop();
   if (!is_open()) return;
   start([this, dataset = dataset_, decisions = decisions_, state = state_](

@@ -67,6 +67,8 @@ class Workspace : public QObject {
 
   /// Undoable decisions.
   void set_use(const QStringList& scenes, bool use);
+  /// Uses scenes that the program refused all the same, or no longer.
+  void set_insist(const QStringList& scenes, bool insist);
   void set_crop(const QString& scene, const std::optional<CropBox>& box);
   /// The value must lie in the option's range.
   void set_option(const OptionDeclaration& option, double value);
@@ -109,6 +111,7 @@ class Workspace : public QObject {
   void decide(DecisionCommand::Words words, Decisions after, const QString& merge_key = {});
   void apply(const Decisions& decisions);
   void schedule(int delay_ms);
+  void bring_up_to_date();
   void set_dirty(bool dirty);
   void keep_or_clear_autosave();
 

@@ -59,6 +59,19 @@ void AppSettings::set_window(const QByteArray& geometry, const QByteArray& state
   settings_.setValue(QStringLiteral("window/state"), state);
 }
 
+QString AppSettings::lidar_frame() const {
+  return settings_.value(QStringLiteral("frames/lidar"), QStringLiteral("lidar")).toString();
+}
+
+QString AppSettings::camera_frame() const {
+  return settings_.value(QStringLiteral("frames/camera"), QStringLiteral("camera")).toString();
+}
+
+void AppSettings::set_frame_names(const QString& lidar, const QString& camera) {
+  settings_.setValue(QStringLiteral("frames/lidar"), lidar);
+  settings_.setValue(QStringLiteral("frames/camera"), camera);
+}
+
 QString AppSettings::last_folder() const {
   return settings_.value(QStringLiteral("last_folder"), QDir::homePath()).toString();
 }

@@ -38,6 +38,11 @@ class AppSettings {
   [[nodiscard]] QByteArray window_state() const;
   void set_window(const QByteArray& geometry, const QByteArray& state);
 
+  /// What the user calls the frames in exports; "lidar" and "camera" at first.
+  [[nodiscard]] QString lidar_frame() const;
+  [[nodiscard]] QString camera_frame() const;
+  void set_frame_names(const QString& lidar, const QString& camera);
+
   /// Folder in which the last file was chosen.
   [[nodiscard]] QString last_folder() const;
   void set_last_folder(const QString& folder);

@@ -100,7 +100,8 @@ void CoachMarks::show_mark(int index) {
   const bool last = index + 1 == static_cast<int>(marks_.size());
   text_->setText(mark.text);
   count_->setText(QStringLiteral("%1/%2").arg(index + 1).arg(marks_.size()));
-  next_->setVisible(!mark.done);
+  next_->setVisible(!mark.done || mark.reader_goes_on);
+  next_->setEnabled(!mark.done || mark.done());
   next_->setText(last ? tr("Done") : tr("Next"));
   close_->setVisible(!last);
   place();
@@ -109,11 +110,13 @@ void CoachMarks::show_mark(int index) {
 void CoachMarks::look() {
   if (current_ < 0) return;
   const CoachMark& mark = marks_[static_cast<std::size_t>(current_)];
-  if (mark.done && mark.done()) {
+  const bool done = mark.done && mark.done();
+  if (done && !mark.reader_goes_on) {
     show_mark(current_ + 1);
-  } else {
-    place();
+    return;
   }
+  next_->setEnabled(done || !mark.done);
+  place();
 }
 
 // Beside the target, where there is room in the window.
@@ -128,14 +131,21 @@ void CoachMarks::place() {
   adjustSize();
   const QSize size(kWidth, std::max(sizeHint().height(), heightForWidth(kWidth)));
   resize(size);
-  QPoint corner(at.left(), at.bottom() + kGap);
-  if (corner.y() + size.height() > window->height()) {
-    corner.setY(at.top() - kGap - size.height());
-    if (corner.y() < 0) {  // As tall as the window: beside it.
-      const bool left = at.left() - kGap - size.width() >= 0;
-      corner = {left ? at.left() - kGap - size.width() : at.right() + kGap,
-                at.center().y() - size.height() / 2};
-    }
+  // Below, above, right or left of it, wherever it fits; what is as large as the window has the
+  // bubble in a corner of its own.
+  const QPoint places[] = {{at.left(), at.bottom() + kGap},
+                           {at.left(), at.top() - kGap - size.height()},
+                           {at.right() + kGap, at.top()},
+                           {at.left() - kGap - size.width(), at.top()}};
+  QPoint corner(at.right() - size.width() - kGap, at.top() + kGap);
+  const QRect room = window->rect();
+  for (const QPoint& place : places) {
+    const bool below_or_above = place.x() == at.left();
+    const bool fits = below_or_above ? place.y() >= 0 && place.y() + size.height() <= room.height()
+                                     : place.x() >= 0 && place.x() + size.width() <= room.width();
+    if (!fits) continue;
+    corner = place;
+    break;
   }
   corner.setX(std::clamp(corner.x(), 0, std::max(0, window->width() - size.width())));
   corner.setY(std::clamp(corner.y(), 0, std::max(0, window->height() - size.height())));

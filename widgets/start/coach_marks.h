@@ -20,6 +20,9 @@ struct CoachMark {
   std::function<QWidget*()> target;
   /// True once the user has done what the text says; empty: "Next" is what goes on.
   std::function<bool()> done;
+  /// `done` is not the user's doing (something is computed): then "Next" becomes possible, and the
+  /// reader goes on when they have read.
+  bool reader_goes_on = false;
 };
 
 /// A small speech bubble that leads through a window: it frames a widget, says what to do there,

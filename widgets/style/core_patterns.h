@@ -242,6 +242,33 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core", "other sizes of the board"),
     QT_TRANSLATE_NOOP("Core", "done"),
     QT_TRANSLATE_NOOP("Core", "scene %1"),
+    // What is left out, and files that cannot be used.
+    QT_TRANSLATE_NOOP("Core", "scene %1 is used all the same, as you decided, though %2"),
+    QT_TRANSLATE_NOOP("Core", "scenes held out speak for an effect that the model lacks: %1"),
+    QT_TRANSLATE_NOOP("Core", "structure is left that no known effect explains"),
+    QT_TRANSLATE_NOOP("Core", "misses the board's pose by %1 mm, more than the gate"),
+    QT_TRANSLATE_NOOP("Core", "misses the board's pose by more than the gate"),
+    QT_TRANSLATE_NOOP("Core", "off the board's plane, or beside what stands before it"),
+    QT_TRANSLATE_NOOP("Core", "%1: the image file is empty"),
+    QT_TRANSLATE_NOOP("Core", "%1: the image cannot be decoded: its data are damaged (%2)"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "%1: is truncated: its header says %2 points, found %3 (copy or export the file again)"),
+    QT_TRANSLATE_NOOP("Core", "%1: file not found"),
+    QT_TRANSLATE_NOOP("Core", "no scene can be used; scene %1: %2"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "this folder is no dataset; a dataset holds target.yaml (the board), camera.yaml (the "
+        "intrinsics) and scenes/NAME/ with image.png and cloud.pcd for every scene"),
+    QT_TRANSLATE_NOOP("Core", "choose the folder that holds these, or make one from a recording"),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1: no image in this scene; expected image.png, .jpg, .bmp or .tiff"),
+    QT_TRANSLATE_NOOP("Core", "%1: no cloud in this scene; expected cloud.pcd or cloud.ply"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "'%1' is no name of a frame; expected letters, digits and _ - . /, not beginning with - "
+        "and without --"),
+    QT_TRANSLATE_NOOP("Core", "as the robot's description calls it: velodyne, camera_left"),
     // Scenes named before anything else that is said of them.
     QT_TRANSLATE_NOOP("Core", "scene %1: %2"),
 };

@@ -20,6 +20,11 @@ ViewerPose viewer_pose(CloudViewpoint viewpoint, const Eigen::Vector3d& focus_m)
       pose.eye_m = focus_m + Eigen::Vector3d::UnitZ();
       pose.up = Eigen::Vector3d::UnitX();
       break;
+    case CloudViewpoint::kBoard:
+      // Along the rays, where the print is seen as it was scanned.
+      pose.up = focus_m.head<2>().norm() < 0.01 * std::abs(focus_m.z()) ? Eigen::Vector3d::UnitX()
+                                                                        : Eigen::Vector3d::UnitZ();
+      break;
     case CloudViewpoint::kWhole: {
       // Straight above or below the sensor any direction along the floor is as good.
       Eigen::Vector3d ahead = focus_m.normalized();

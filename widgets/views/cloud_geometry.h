@@ -11,6 +11,7 @@ namespace lvcalib::widgets {
 enum class CloudViewpoint {
   kWhole,   ///< Obliquely from behind the sensor, everything in sight.
   kTop,     ///< From above, x up.
+  kBoard,   ///< From the LiDAR's side onto the board, which fills the view.
   kSensor,  ///< From the LiDAR's origin towards the middle of the points.
 };
 

@@ -92,6 +92,8 @@ struct CloudPipeline::Vtk {
   std::shared_ptr<const CloudScene> scene;
   std::size_t drawn = 0;  // Portions.
   std::array<double, 6> bounds{-1, 1, -1, 1, -1, 1};
+  double point_size_px = 1.6;
+  double device_pixel_ratio = 1.0;
   bool ready = false;
   bool editing = false;
   bool box_shown = false;
@@ -269,18 +271,31 @@ void CloudPipeline::setBox(const std::optional<CropBox>& box, bool editable) {
 
 void CloudPipeline::look(CloudViewpoint viewpoint) {
   vtkCamera* camera = vtk_->renderer->GetActiveCamera();
-  const Eigen::Vector3d focus = vtk_->scene ? vtk_->scene->center_m : Eigen::Vector3d::UnitX();
+  const bool board = viewpoint == CloudViewpoint::kBoard;
+  if (board && (!vtk_->scene || !(vtk_->scene->board_radius_m > 0.0))) return;
+  const Eigen::Vector3d focus = board         ? vtk_->scene->board_center_m
+                                : vtk_->scene ? vtk_->scene->center_m
+                                              : Eigen::Vector3d::UnitX();
   const ViewerPose pose = viewer_pose(viewpoint, focus);
   camera->SetFocalPoint(focus.x(), focus.y(), focus.z());
   camera->SetPosition(pose.eye_m.x(), pose.eye_m.y(), pose.eye_m.z());
   camera->SetViewUp(pose.up.x(), pose.up.y(), pose.up.z());
   camera->SetViewAngle(pose.angle_deg);
-  if (pose.fits_bounds) {
+  // ResetCamera() fits the sphere about the points into the height; the width may be smaller.
+  const int* size = vtk_->interactor->GetSize();
+  const double aspect = size[1] > 0 ? static_cast<double>(size[0]) / size[1] : 1.0;
+  if (board) {
+    const double r = 1.25 * vtk_->scene->board_radius_m;
+    double around[6];
+    for (int k = 0; k < 3; ++k) {
+      around[2 * k] = focus(k) - r / std::sqrt(3.0);
+      around[2 * k + 1] = focus(k) + r / std::sqrt(3.0);
+    }
+    vtk_->renderer->ResetCamera(around);
+    camera->Dolly(std::clamp(aspect, 0.3, 1.0));
+  } else if (pose.fits_bounds) {
     vtk_->renderer->ResetCamera(vtk_->bounds.data());
-    // ResetCamera() fits the sphere about the points into the height; they fill less of it, but
-    // the width may be the smaller side.
-    const int* size = vtk_->interactor->GetSize();
-    const double aspect = size[1] > 0 ? static_cast<double>(size[0]) / size[1] : 1.0;
+    // The points fill less than that sphere.
     camera->Dolly(1.05 * std::clamp(aspect, 0.3, 1.0));
   }
   vtk_->looked = true;
@@ -297,6 +312,11 @@ void CloudPipeline::zoom(double factor) {
   vtk_->renderer->GetActiveCamera()->Dolly(factor);
 }
 
+void CloudPipeline::setPointSize(double size_px) {
+  vtk_->point_size_px = size_px;
+  vtk_->point_property->SetPointSize(static_cast<float>(size_px * vtk_->device_pixel_ratio));
+}
+
 void CloudPipeline::resize(int width_px, int height_px, double device_pixel_ratio) {
   vtk_->interactor->SetSize(width_px, height_px);
   vtk_->interactor->UpdateSize(width_px, height_px);
@@ -304,7 +324,8 @@ void CloudPipeline::resize(int width_px, int height_px, double device_pixel_rati
     vtk_->window->SetSize(width_px, height_px);
     vtk_->window->SetDPI(static_cast<int>(std::lround(72 * device_pixel_ratio)));
   }
-  vtk_->point_property->SetPointSize(static_cast<float>(1.6 * device_pixel_ratio));
+  vtk_->device_pixel_ratio = device_pixel_ratio;
+  setPointSize(vtk_->point_size_px);
 }
 
 void CloudPipeline::handle(const CanvasMouse& mouse) {

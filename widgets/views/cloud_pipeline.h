@@ -66,6 +66,8 @@ class CloudPipeline {
   /// Turns the viewer about the focus, in degrees.
   void turn(double azimuth_deg, double elevation_deg);
   void zoom(double factor);
+  /// Of the cloud's points, in logical pixels.
+  void setPointSize(double size_px);
 
   void resize(int width_px, int height_px, double device_pixel_ratio);
   void handle(const CanvasMouse& mouse);

@@ -44,6 +44,7 @@ class Builder {
 
   std::shared_ptr<const CloudScene> run() {
     chooseCloud();
+    placeBoard();
     if (!scene_->cloud) return scene_;
     choosePoints();
     thinning_order(scene_->order);
@@ -57,6 +58,28 @@ class Builder {
   }
 
  private:
+  void placeBoard() {
+    if (!in_.refinement) return;
+    const BoardOutline outline = in_.target.outline();
+    const Eigen::Vector2d middle = outline.center_m();
+    scene_->board_center_m =
+        in_.refinement->lidar_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0);
+    scene_->board_radius_m = 0.5 * outline.size_m().norm();
+  }
+
+  // How often values occur, beside the colours that they get.
+  void count(const std::vector<float>& values) {
+    constexpr int kBins = 48;
+    scene_->histogram.assign(kBins, 0);
+    const double width = scene_->whole.high - scene_->whole.low;
+    for (const float value : values) {
+      if (!std::isfinite(value) || !(width > 0.0)) continue;
+      const double share = (static_cast<double>(value) - scene_->whole.low) / width;
+      const int bin = std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
+      ++scene_->histogram[static_cast<std::size_t>(bin)];
+    }
+  }
+
   void chooseCloud() {
     const bool board_only =
         in_.filter == CloudFilter::kBoard || in_.filter == CloudFilter::kBoundary;
@@ -66,9 +89,10 @@ class Builder {
       scene_->notice = CloudSceneText::tr("Only the board's points are loaded.");
     }
     if (!scene_->cloud) {
-      scene_->notice = board_only
-                           ? CloudSceneText::tr("No board was found in this scene's cloud yet.")
-                           : CloudSceneText::tr("The cloud is not loaded yet.");
+      scene_->notice =
+          !in_.problem.isEmpty() ? CloudSceneText::tr("There is no cloud: %1").arg(in_.problem)
+          : board_only ? CloudSceneText::tr("No board was found in this scene's cloud yet.")
+                       : CloudSceneText::tr("The cloud is not loaded yet.");
     }
   }
 
@@ -130,9 +154,15 @@ class Builder {
   void paint() {
     if (in_.color == CloudColor::kCameraColor && paintFromImage()) return;
     const std::vector<float> values = quantities();
-    scene_->scale =
+    scene_->whole =
         scale_for(values, in_.color == CloudColor::kPlaneResidual ? ColorMap::kDiverging
                                                                   : ColorMap::kSequential);
+    count(values);
+    scene_->scale = scene_->whole;
+    if (in_.range) {
+      scene_->scale.low = in_.range->first;
+      scene_->scale.high = in_.range->second;
+    }
     scene_->rgb.reserve(3 * values.size());
     for (const float value : values) push(scene_->scale.color(static_cast<double>(value)));
   }
@@ -171,6 +201,14 @@ class Builder {
           CloudSceneText::tr("The board's plane is not known in this scene; range is shown.");
       color = CloudColor::kRange;
     }
+    if (color == CloudColor::kLine && !cloud.has_line()) {
+      scene_->notice = CloudSceneText::tr("This cloud has no line numbers; range is shown.");
+      color = CloudColor::kRange;
+    }
+    if (color == CloudColor::kTime && !cloud.has_time()) {
+      scene_->notice = CloudSceneText::tr("This cloud has no times; range is shown.");
+      color = CloudColor::kRange;
+    }
     for (const std::uint32_t i : scene_->order) out.push_back(quantity(cloud, i, color));
     switch (color) {
       case CloudColor::kHeight:
@@ -181,6 +219,12 @@ class Builder {
         break;
       case CloudColor::kPlaneResidual:
         scene_->quantity = CloudSceneText::tr("range beyond the board's plane (mm)");
+        break;
+      case CloudColor::kLine:
+        scene_->quantity = CloudSceneText::tr("scan line");
+        break;
+      case CloudColor::kTime:
+        scene_->quantity = CloudSceneText::tr("time (ms)");
         break;
       default:
         scene_->quantity = CloudSceneText::tr("intensity");
@@ -202,6 +246,10 @@ class Builder {
         return residual && std::abs(*residual) < kReach_m ? static_cast<float>(1e3 * *residual)
                                                           : kNan;
       }
+      case CloudColor::kLine:
+        return static_cast<float>(cloud.line[i]);
+      case CloudColor::kTime:
+        return static_cast<float>(1e3 * static_cast<double>(cloud.time_s[i]));
       default:
         return cloud.intensity[i];
     }

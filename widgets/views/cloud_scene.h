@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,7 +23,7 @@
 namespace lvcalib::widgets {
 
 /// What the colour of a point tells.
-enum class CloudColor { kIntensity, kHeight, kRange, kPlaneResidual, kCameraColor };
+enum class CloudColor { kIntensity, kHeight, kRange, kPlaneResidual, kCameraColor, kLine, kTime };
 
 /// Which points are shown.
 enum class CloudFilter {
@@ -44,6 +45,8 @@ struct CloudSceneInput {
   Camera camera;
   std::optional<Rigid3> camera_from_lidar;  ///< For pixels and camera colours.
   QImage image;
+  std::optional<std::pair<double, double>> range;  ///< Of the colours; none: by the values.
+  QString problem;  ///< Why there is no full cloud and will be none; empty: it may still come.
 };
 
 /// A cloud made ready to be drawn: points in an order of which every beginning is a fair thinning,
@@ -55,12 +58,18 @@ struct CloudScene {
   std::vector<std::uint8_t> rgb;        ///< Three per drawn point.
   std::vector<Eigen::Vector2f> pixels;  ///< Per point of the cloud; empty without an extrinsic.
   ColorScale scale;
-  bool has_scale = true;  ///< False if colours are the camera's.
-  QString quantity;       ///< "intensity", "height (m)", …
-  QString notice;         ///< Why the picture is not what was asked for; empty if it is.
+  ColorScale whole;            ///< The scale by the values, whatever range was asked for.
+  std::vector<int> histogram;  ///< Of the values, in equal bins over `whole`; beyond: the ends.
+  bool has_scale = true;       ///< False if colours are the camera's.
+  QString quantity;            ///< "intensity", "height (m)", …
+  QString notice;              ///< Why the picture is not what was asked for; empty if it is.
   Eigen::Vector3d low_m = Eigen::Vector3d::Zero();  ///< Bounding box of the drawn points.
   Eigen::Vector3d high_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< Median of the drawn points.
+
+  /// Where the board is, and half its diagonal; radius 0 if it is not known.
+  Eigen::Vector3d board_center_m = Eigen::Vector3d::Zero();
+  double board_radius_m = 0.0;
 
   [[nodiscard]] std::size_t size() const { return order.size(); }
 };

@@ -74,6 +74,7 @@ CloudView::CloudView(QWidget* parent) : QWidget(parent) {
   layout->setRowStretch(0, 1);
   layout->setColumnStretch(0, 1);
   createActions();
+  if (canvas_ != nullptr) canvas_->pipeline().setPointSize(kPointSize_px);
   figure_actions_ = new FigureActions(this, {"cloud",
                                              [this] { return grab().toImage(); },
                                              [this] { return image_as_pdf(grab().toImage()); },
@@ -111,6 +112,7 @@ void CloudView::createActions() {
   add(Qt::Key_R, CloudViewpoint::kWhole);
   add(Qt::Key_T, CloudViewpoint::kTop);
   add(Qt::Key_S, CloudViewpoint::kSensor);
+  add(Qt::Key_B, CloudViewpoint::kBoard);
   follow_language(this, [this] {
     const auto describe = [this](std::size_t k, const QString& text, const QString& tip) {
       QAction* action = view_actions_[k];
@@ -121,17 +123,22 @@ void CloudView::createActions() {
     describe(0, tr("Reset"), tr("Show all points obliquely"));
     describe(1, tr("Top"), tr("Look from above"));
     describe(2, tr("Sensor"), tr("Look from the LiDAR's origin"));
+    describe(3, tr("Board"), tr("Look at the board, once it is found"));
   });
 }
 
 void CloudView::setScene(std::shared_ptr<const CloudScene> scene) {
   // A recoloured cloud is looked at from the same place.
   const bool other = !scene_ || !scene || scene_->cloud != scene->cloud;
+  const bool has_board = scene && scene->board_radius_m > 0.0;
+  // What everything is about comes into sight when a cloud is opened, or once it is found.
+  const bool found = has_board && scene_ && !(scene_->board_radius_m > 0.0);
   scene_ = std::move(scene);
   if (canvas_ != nullptr) {
     canvas_->pipeline().setScene(scene_);
     canvas_->pipeline().setHighlights({});
-    if (other) canvas_->pipeline().look(CloudViewpoint::kWhole);
+    if (other || found)
+      canvas_->pipeline().look(has_board ? CloudViewpoint::kBoard : CloudViewpoint::kWhole);
     canvas_->redraw();
   }
   updateLegend();
@@ -156,6 +163,12 @@ void CloudView::setHighlights(const std::vector<std::uint32_t>& points) {
 void CloudView::setBox(const std::optional<CropBox>& box, bool editable) {
   if (canvas_ == nullptr) return;
   canvas_->pipeline().setBox(box, editable);
+  canvas_->redraw();
+}
+
+void CloudView::setPointSize(double size_px) {
+  if (canvas_ == nullptr) return;
+  canvas_->pipeline().setPointSize(size_px);
   canvas_->redraw();
 }
 
@@ -244,7 +257,8 @@ void CloudView::pickAt(const QPointF& place) {
 void CloudView::updateLegend() {
   const bool shown = scene_ && scene_->size() > 0;
   legend_->setVisible(shown);
-  if (shown && scene_->has_scale) legend_->setScale(scene_->scale, scene_->quantity);
+  if (shown && scene_->has_scale)
+    legend_->setScale(scene_->scale, scene_->quantity, scene_->whole, scene_->histogram);
   if (shown && !scene_->has_scale) legend_->setNameOnly(scene_->quantity);
   notice_->setText(scene_ ? scene_->notice : QString());
   notice_->setVisible(!notice_->text().isEmpty());

@@ -19,13 +19,15 @@ namespace lvcalib::widgets {
 class ColorBar;
 
 /// A LiDAR cloud in space: drag turns, Shift-drag or the middle button moves, wheel or the right
-/// button zooms, a click picks a point; R, T and S reset, look from the top, from the sensor; arrow
-/// keys turn, + and − zoom. Passive: shows the scene it is given. Without OpenGL it shows a message
-/// instead and keeps working otherwise.
+/// button zooms, a click picks a point; R, T, S and B reset, look from the top, from the sensor, at
+/// the board; arrow keys turn, + and − zoom. Passive: shows the scene it is given. Without OpenGL
+/// it shows a message instead and keeps working otherwise.
 class CloudView : public QWidget {
   Q_OBJECT
 
  public:
+  static constexpr double kPointSize_px = 1.5;
+
   explicit CloudView(QWidget* parent = nullptr);
   ~CloudView() override;
 
@@ -36,6 +38,10 @@ class CloudView : public QWidget {
   void setHighlights(const std::vector<std::uint32_t>& points);
   /// Shows a crop box, with handles if `editable`.
   void setBox(const std::optional<CropBox>& box, bool editable);
+  /// Of the points, in logical pixels.
+  void setPointSize(double size_px);
+  /// The legend, at which the range of the colours is chosen.
+  [[nodiscard]] ColorBar* legend() const { return legend_; }
   /// Points the viewer there.
   void look(CloudViewpoint viewpoint);
 
@@ -43,7 +49,7 @@ class CloudView : public QWidget {
   /// Null without OpenGL.
   [[nodiscard]] CloudCanvas* canvas() const { return canvas_; }
   [[nodiscard]] FigureActions* figureActions() const { return figure_actions_; }
-  /// Reset, top, sensor: for tool bars and menus.
+  /// Reset, top, sensor, board: for tool bars and menus.
   [[nodiscard]] const std::vector<QAction*>& viewActions() const { return view_actions_; }
 
  Q_SIGNALS:

@@ -2,6 +2,7 @@
 #include "views/color_bar.h"
 
 #include <QLocale>
+#include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,7 @@ namespace {
 constexpr int kBarWidth = 14;
 constexpr int kMargin = 6;
 constexpr int kTick = 4;
+constexpr int kHistogramWidth = 26;
 
 // A step of 1, 2 or 5 times a power of ten that divides the range into four or more.
 double round_step(double range) {
@@ -30,10 +32,22 @@ ColorBar::ColorBar(QWidget* parent) : QWidget(parent) {
 }
 
 void ColorBar::setScale(const ColorScale& scale, const QString& quantity) {
-  scale_ = scale;
+  setScale(scale, quantity, scale, {});
+}
+
+void ColorBar::setScale(const ColorScale& scale, const QString& quantity, const ColorScale& whole,
+                        const std::vector<int>& histogram) {
+  whole_ = whole;
+  histogram_ = histogram;
+  // While an end is dragged, what was built for an earlier place of it arrives.
+  if (dragged_ == End::kNone) scale_ = scale;
   quantity_ = quantity;
   has_scale_ = true;
+  setCursor(histogram.empty() ? Qt::ArrowCursor : Qt::SplitVCursor);
   setAccessibleName(quantity);
+  setToolTip(histogram.empty()
+                 ? QString()
+                 : tr("Drag the ends of the colours; a double click takes them back"));
   updateGeometry();
   update();
 }
@@ -41,6 +55,9 @@ void ColorBar::setScale(const ColorScale& scale, const QString& quantity) {
 void ColorBar::setNameOnly(const QString& quantity) {
   quantity_ = quantity;
   has_scale_ = false;
+  histogram_.clear();
+  setToolTip({});
+  setCursor(Qt::ArrowCursor);
   setAccessibleName(quantity);
   updateGeometry();
   update();
@@ -50,11 +67,62 @@ QSize ColorBar::sizeHint() const {
   const QFontMetrics metrics(font());
   const int name = metrics.height() + kMargin;
   const int numbers = metrics.horizontalAdvance("-8888.8");
-  return {2 * kMargin + name + (has_scale_ ? kBarWidth + kTick + numbers : 0), 160};
+  return {2 * kMargin + name + (has_scale_ ? kBarWidth + kTick + numbers : 0) +
+              (histogram_.empty() ? 0 : kHistogramWidth),
+          160};
 }
 
 QSize ColorBar::minimumSizeHint() const {
   return {sizeHint().width(), 60};
+}
+
+QRect ColorBar::bar() const {
+  const int half = QFontMetrics(font()).height() / 2;
+  return {kMargin + (histogram_.empty() ? 0 : kHistogramWidth), kMargin + half, kBarWidth,
+          std::max(1, height() - 2 * (kMargin + half))};
+}
+
+double ColorBar::valueAt(int y) const {
+  const QRect b = bar();
+  const double share = 1.0 - static_cast<double>(y - b.top()) / std::max(1, b.height() - 1);
+  return whole_.low + std::clamp(share, 0.0, 1.0) * (whole_.high - whole_.low);
+}
+
+int ColorBar::yOf(double value) const {
+  const QRect b = bar();
+  const double range = whole_.high - whole_.low;
+  const double share = range > 0.0 ? std::clamp((value - whole_.low) / range, 0.0, 1.0) : 0.0;
+  return b.bottom() - static_cast<int>(share * (b.height() - 1));
+}
+
+void ColorBar::mousePressEvent(QMouseEvent* event) {
+  if (histogram_.empty() || event->button() != Qt::LeftButton) return;
+  const int y = event->position().toPoint().y();
+  dragged_ =
+      std::abs(y - yOf(scale_.low)) < std::abs(y - yOf(scale_.high)) ? End::kLow : End::kHigh;
+}
+
+void ColorBar::mouseMoveEvent(QMouseEvent* event) {
+  if (dragged_ == End::kNone) return;
+  // The ends never meet: a hundredth of the range stays between them.
+  const double gap = 0.01 * (whole_.high - whole_.low);
+  const double value = valueAt(event->position().toPoint().y());
+  if (dragged_ == End::kLow) {
+    scale_.low = std::min(value, scale_.high - gap);
+  } else {
+    scale_.high = std::max(value, scale_.low + gap);
+  }
+  update();
+  Q_EMIT rangeChosen(scale_.low, scale_.high);
+}
+
+void ColorBar::mouseReleaseEvent(QMouseEvent* /*event*/) {
+  dragged_ = End::kNone;
+}
+
+void ColorBar::mouseDoubleClickEvent(QMouseEvent* /*event*/) {
+  dragged_ = End::kNone;
+  if (!histogram_.empty()) Q_EMIT rangeCleared();
 }
 
 void ColorBar::paintEvent(QPaintEvent* /*event*/) {
@@ -69,20 +137,36 @@ void ColorBar::paintEvent(QPaintEvent* /*event*/) {
   painter.restore();
   if (!has_scale_) return;
 
-  const int half = metrics.height() / 2;
-  const QRect bar(kMargin, kMargin + half, kBarWidth, std::max(1, height() - 2 * (kMargin + half)));
-  for (int y = 0; y < bar.height(); ++y) {
-    const double share = 1.0 - (y + 0.5) / bar.height();
-    painter.fillRect(bar.left(), bar.top() + y, bar.width(), 1,
-                     QColor::fromRgb(map_color(scale_.map, share)));
+  const QRect bar = this->bar();
+  const double width = scale_.high - scale_.low;
+  for (int y = bar.top(); y <= bar.bottom(); ++y) {
+    const double share = width > 0.0 ? (valueAt(y) - scale_.low) / width
+                                     : 1.0 - (y - bar.top() + 0.5) / bar.height();
+    painter.fillRect(bar.left(), y, bar.width(), 1, QColor::fromRgb(map_color(scale_.map, share)));
   }
-  const double range = scale_.high - scale_.low;
+  if (!histogram_.empty()) {
+    const int most = std::max(1, *std::max_element(histogram_.begin(), histogram_.end()));
+    QColor color = palette().color(QPalette::WindowText);
+    color.setAlpha(120);
+    const auto bins = static_cast<double>(histogram_.size());
+    for (std::size_t k = 0; k < histogram_.size(); ++k) {
+      const double top = bar.bottom() + 1 - static_cast<double>(k + 1) / bins * bar.height();
+      // The root, so that rare values are seen beside common ones.
+      const double length = kHistogramWidth * std::sqrt(static_cast<double>(histogram_[k]) / most);
+      painter.fillRect(QRectF(bar.left() - length, top, length, bar.height() / bins), color);
+    }
+    painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
+    for (const double end : {scale_.low, scale_.high})
+      painter.drawLine(bar.left() - kHistogramWidth, yOf(end), bar.right() + kTick, yOf(end));
+    painter.setPen(palette().color(QPalette::WindowText));
+  }
+  const double range = whole_.high - whole_.low;
   if (!(range > 0)) return;
   const double step = round_step(range);
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
-  for (double v = std::ceil(scale_.low / step - 1e-9) * step; v <= scale_.high + 1e-9 * step;
+  for (double v = std::ceil(whole_.low / step - 1e-9) * step; v <= whole_.high + 1e-9 * step;
        v += step) {
-    const int y = bar.bottom() - static_cast<int>((v - scale_.low) / range * (bar.height() - 1));
+    const int y = yOf(v);
     painter.drawLine(bar.right() + 1, y, bar.right() + kTick, y);
     const double shown = std::abs(v) < 1e-6 * step ? 0.0 : v;
     painter.drawText(bar.right() + kTick + 3, y + metrics.ascent() / 2 - 1,

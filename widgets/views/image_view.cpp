@@ -173,6 +173,12 @@ void ImageView::mouseReleaseEvent(QMouseEvent* event) {
       return;
     }
   }
+  for (const ImageOverlay::Circle& circle : overlay_->overlay().circles) {
+    if (overlay_->parts().circles && circle.edge.containsPoint(pixel, Qt::OddEvenFill)) {
+      Q_EMIT circleClicked(circle.id);
+      return;
+    }
+  }
   if (sceneRect().contains(pixel)) Q_EMIT pixelClicked(pixel);
 }
 

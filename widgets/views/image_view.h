@@ -26,6 +26,7 @@ class ImageView : public QGraphicsView {
   [[nodiscard]] const ImageLevels& levels() const { return levels_; }
   /// Text in the middle while there is no image.
   void setMessage(const QString& message);
+  [[nodiscard]] const QString& message() const { return message_; }
 
   [[nodiscard]] OverlayItem& overlay() { return *overlay_; }
   [[nodiscard]] FigureActions* figureActions() const { return actions_; }
@@ -44,6 +45,7 @@ class ImageView : public QGraphicsView {
  Q_SIGNALS:
   void pixelClicked(const QPointF& pixel);
   void tagClicked(int id);
+  void circleClicked(int id);
   /// The cursor moved over the image; value is the grey value at the pixel (0…255 or 0…65535).
   void hovered(const QPointF& pixel, int value);
   void left();

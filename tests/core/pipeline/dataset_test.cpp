@@ -109,6 +109,24 @@ TEST_F(DatasetTest, NoScenesAndNoFolder) {
   EXPECT_FALSE(open_dataset(folder_.write("file", "")).ok());
 }
 
+TEST_F(DatasetTest, SaysWhatADatasetIsOfAnyOtherFolder) {
+  const Error error = open_dataset(folder_.write("holiday/beach.jpg", "").parent_path()).error();
+  EXPECT_EQ(error.kind, ErrorKind::kInput);
+  for (const char* part : {"no dataset", "target.yaml", "camera.yaml", "scenes/NAME/"})
+    EXPECT_THAT(error.message, HasSubstr(part));
+}
+
+TEST_F(DatasetTest, AnIncompleteSceneIsLeftOutIfWanted) {
+  fs::remove(path() / "scenes/B/cloud.pcd");
+  EXPECT_FALSE(open_dataset(path()).ok());
+  const auto dataset = open_dataset(path(), UnusableScenes::kLeaveOut);
+  ASSERT_TRUE(dataset.ok());
+  ASSERT_EQ(dataset->scenes.size(), 2U);
+  EXPECT_FALSE(dataset->scenes[0].problem);
+  ASSERT_TRUE(dataset->scenes[1].problem);
+  EXPECT_THAT(dataset->scenes[1].problem->text(), HasSubstr("no cloud"));
+}
+
 TEST_F(DatasetTest, HiddenFoldersAndLooseFilesAreNoScenes) {
   folder_.write("d/scenes/.cache/x", "");
   folder_.write("d/scenes/notes.txt", "");

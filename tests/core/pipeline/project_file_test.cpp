@@ -26,7 +26,7 @@ Project example(const fs::path& dataset) {
   CropBox box;
   box.center_m = {1.1, 2.2, 3.3};
   box.half_size_m = {0.7, 0.8, 1e-3};
-  project.decisions.scenes["a: \"strange\" name"] = {true, box};
+  project.decisions.scenes["a: \"strange\" name"] = {true, true, box};
   project.decisions.added_scenes = {dataset.parent_path() / "more" / "X"};
   project.model = {{ModelChange::kAdd, "range_walk", {}},
                    {ModelChange::kAdd, "formula:range:a*sin(2*\"x\")", {}},

@@ -67,7 +67,7 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
       {"weak as weak", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.weak_directions = {"weak as weak"}; }},
       {"only one usable scene", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 1; }},
-      {"two scenes", Quality::kGood, [](auto& r) { r.extrinsic.used_scenes = 2; }},
+      {"two scenes", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 2; }},
       {"miss their model by 3.00 px", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.sigma_px = 3.0; }},
       {"2.5 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 2.5; }},
@@ -96,7 +96,8 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
          r.scenes[1].used = false;
          r.scenes[1].reason = "no tags";
        }},
-      {"(near/far) differ by 9.0 mm and 2.0 mrad, more than noise explains (χ² 90", Quality::kGood,
+      {"(near/far) differ by 9.0 mm and 2.0 mrad, more than noise explains (χ² 90",
+       Quality::kDoubtful,
        [](auto& r) {
          SplitHalf split;
          split.name = "near/far";

@@ -10,6 +10,7 @@
 
 #include "support/pose_matchers.h"
 #include "support/simulated_dataset.h"
+#include "support/temporary_folder.h"
 
 namespace lvcalib {
 namespace {
@@ -176,6 +177,60 @@ TEST_F(Session, AddedScenesMustBeWholeAndHaveNamesOfTheirOwn) {
   ASSERT_FALSE(empty.ok());
   EXPECT_EQ(empty.error().kind, ErrorKind::kInput);
   EXPECT_EQ(dataset.scenes.size(), 4U);
+}
+
+TEST_F(Session, OneBadFileCostsOneScene) {
+  const test::TemporaryFolder folder;
+  Dataset dataset = dataset_;
+  SceneFiles cut = dataset.scenes[0];
+  cut.name = "cut";
+  cut.cloud = folder.write("cut.pcd",
+                           "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
+                           "WIDTH 100\nHEIGHT 1\nPOINTS 100\nDATA binary\n1234");
+  SceneFiles empty = dataset.scenes[1];
+  empty.name = "empty";
+  empty.image = folder.write("empty.png", "");
+  SceneFiles gone;
+  gone.name = "gone";
+  gone.problem = Error::input("no cloud in this scene", "scenes/gone");
+  dataset.scenes.insert(dataset.scenes.end(), {cut, empty, gone});
+  const SessionRun run = run_session(dataset, {}, {}, {});
+  ASSERT_FALSE(run.error) << run.error->text();
+  const CalibrationResult& result = *run.state.latest;
+  EXPECT_EQ(result.extrinsic.used_scenes, 3);
+  EXPECT_EQ(pose(run), pose(first_));
+  const char* const reasons[] = {"cut.pcd", "empty.png", "no cloud"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_TRUE(result.scenes[3 + k].unreadable);
+    EXPECT_THAT(result.scenes[3 + k].reason, HasSubstr(reasons[k]));
+    EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr(reasons[k])));
+  }
+  // Asked directly, nothing is left out unasked; and with no scene left there is no result.
+  EXPECT_EQ(calibrate(dataset, {}, {}).error().kind, ErrorKind::kInput);
+  dataset.scenes.erase(dataset.scenes.begin(), dataset.scenes.begin() + 3);
+  const SessionRun none = run_session(dataset, {}, {}, {});
+  ASSERT_TRUE(none.error);
+  EXPECT_EQ(none.error->kind, ErrorKind::kInput);
+}
+
+TEST_F(Session, ARefusedSceneIsUsedAllTheSameIfTheUserInsists) {
+  Dataset dataset = dataset_;
+  dataset.scenes[2].image = dataset.scenes[0].image;
+  const SessionRun refused = run_session(dataset, {}, {}, {});
+  ASSERT_FALSE(refused.error) << refused.error->text();
+  ASSERT_FALSE(refused.state.latest->scenes[2].used);
+  Decisions decisions;
+  decisions.scenes["C"].insist = true;
+  const SessionRun run = run_session(dataset, decisions, refused.state, {});
+  ASSERT_FALSE(run.error) << run.error->text();
+  const SceneResult& scene = run.state.latest->scenes[2];
+  EXPECT_TRUE(scene.used) << scene.reason;
+  EXPECT_THAT(scene.objection, HasSubstr("contradicts the other scenes"));
+  EXPECT_NE(run.state.latest->quality, Quality::kGood);
+  EXPECT_THAT(run.state.latest->quality_reasons,
+              ::testing::Contains(HasSubstr("used all the same")));
+  const SessionRun back = run_session(dataset, {}, run.state, {});
+  EXPECT_EQ(pose(back), pose(refused));
 }
 
 }  // namespace

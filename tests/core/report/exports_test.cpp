@@ -226,6 +226,26 @@ TEST(ExportResult, LookingStraightDownIsNoSpecialCase) {
   }
 }
 
+TEST(ExportResult, NamesOfFramesAreTheUsersInEveryFormat) {
+  ExportInput input = input_of(DistortionModel::kPlumbBob);
+  input.lidar_frame = "velodyne";
+  input.camera_frame = "rig/camera_left";
+  for (const ExportFormat& format : export_formats()) {
+    if (format.name == "boundary-response") continue;  // It names no camera.
+    const auto text = export_result(input, format.name);
+    ASSERT_TRUE(text.ok()) << format.name;
+    EXPECT_THAT(*text, HasSubstr("velodyne")) << format.name;
+    EXPECT_THAT(*text, HasSubstr("rig/camera_left")) << format.name;
+  }
+  EXPECT_THAT(*export_result(input, "ros2-tf"),
+              HasSubstr("--frame-id velodyne --child-frame-id rig/camera_left"));
+  EXPECT_THAT(*export_result(input, "urdf"), HasSubstr("<parent link=\"velodyne\"/>"));
+  for (const char* bad : {"", "two words", "-x", "a--b", "$(id)", "a\"b"}) {
+    input.lidar_frame = bad;
+    EXPECT_EQ(export_result(input, "ros2-tf").error().kind, ErrorKind::kUsage) << bad;
+  }
+}
+
 TEST(ExportResult, UnknownFormatsAndAMissingImuAreRefused) {
   ExportInput input = input_of(DistortionModel::kPlumbBob);
   const auto unknown = export_result(input, "fast-livo");

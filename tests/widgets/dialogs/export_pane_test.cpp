@@ -5,11 +5,13 @@
 #include <QFile>
 #include <QGuiApplication>
 #include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QTest>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +119,22 @@ TEST_F(ExportPaneTest, AResultWithoutBoundaryResponseSaysWhy) {
   EXPECT_TRUE(
       part<QLabel>("format_about")->text().contains(QString::fromStdString(text.error().text())));
   EXPECT_FALSE(part<QPushButton>("copy_export")->isEnabled());
+}
+
+TEST_F(ExportPaneTest, FramesAreCalledWhatTheUserCallsThem) {
+  QSignalSpy names(&pane_, &ExportPane::frameNamesChanged);
+  pane_.chooseFormat("ros2-tf");
+  EXPECT_TRUE(preview().contains("--frame-id lidar"));
+  auto* lidar = part<QLineEdit>("lidar_frame");
+  lidar->clear();
+  EXPECT_EQ(names.count(), 0);
+  QTest::keyClicks(lidar, "velodyne");
+  EXPECT_TRUE(preview().contains("--frame-id velodyne"));
+  ASSERT_GE(names.count(), 1);
+  EXPECT_EQ(names.last().first().toString(), "velodyne");
+  QTest::keyClicks(lidar, " 2");
+  EXPECT_TRUE(preview().isEmpty());
+  EXPECT_TRUE(part<QLabel>("format_about")->text().contains("velodyne 2"));
 }
 
 }  // namespace

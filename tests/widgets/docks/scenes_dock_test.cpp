@@ -2,6 +2,7 @@
 #include "docks/scenes_dock.h"
 
 #include <QAction>
+#include <QHeaderView>
 #include <QSignalSpy>
 #include <QTest>
 #include <QTreeView>
@@ -58,6 +59,45 @@ TEST_F(ScenesDockTest, SpaceTicksAndArrowsChangeTheSceneLookedAt) {
   // A missing scene is not looked at.
   QTest::keyClick(view_, Qt::Key_End);
   EXPECT_NE(activated.last().first().toString(), "Z");
+}
+
+// The state stands beside the name, and a click anywhere in a row looks at its scene.
+TEST_F(ScenesDockTest, AClickLooksAtAScene) {
+  dock_.resize(420, 300);
+  dock_.select("A");
+  QCoreApplication::processEvents();
+  EXPECT_EQ(view_->header()->visualIndex(SceneModel::kState), 1);
+  QSignalSpy activated(&dock_, &ScenesDock::scene_activated);
+  for (const int column : {SceneModel::kName, SceneModel::kState, SceneModel::kInfluence}) {
+    dock_.select("A");
+    const QRect cell = view_->visualRect(view_->model()->index(1, column));
+    EXPECT_LE(cell.right(), view_->viewport()->width()) << column;
+    QTest::mouseClick(view_->viewport(), Qt::LeftButton, {},
+                      QPoint(cell.right() - 4, cell.center().y()));
+    EXPECT_EQ(activated.last().first().toString(), "B") << column;
+  }
+}
+
+TEST_F(ScenesDockTest, ARefusedSceneCanBeInsistedOn) {
+  auto result = std::make_shared<CalibrationResult>();
+  result->scenes.resize(3);
+  for (int s = 0; s < 3; ++s) {
+    result->scenes[s].name = std::string(1, static_cast<char>('A' + s));
+    result->scenes[s].view.emplace();
+    result->scenes[s].refinement.emplace();
+    result->scenes[s].used = s != 1;
+  }
+  result->scenes[1].reason = "contradicts the others";
+  model_.set_result(result);
+  dock_.select("A");
+  EXPECT_FALSE(action("use_all_the_same")->isVisible());
+  dock_.select("B");
+  ASSERT_TRUE(action("use_all_the_same")->isVisible());
+  QSignalSpy insist(&dock_, &ScenesDock::insist_wanted);
+  action("use_all_the_same")->trigger();
+  ASSERT_EQ(insist.count(), 1);
+  EXPECT_EQ(insist.first().first().toStringList(), QStringList{"B"});
+  EXPECT_TRUE(insist.first().last().toBool());
 }
 
 // The menu of the list belongs to the row under the pointer.

@@ -90,6 +90,12 @@ TEST_F(SceneModelTest, ThumbnailsStayWithTheirScenes) {
   ASSERT_EQ(changed.count(), 1);
   EXPECT_FALSE(model_.index(1, 0).data(Qt::DecorationRole).value<QPixmap>().isNull());
   EXPECT_TRUE(model_.index(0, 0).data(Qt::DecorationRole).value<QPixmap>().isNull());
+  // Scenes of another dataset by the same names have pictures of their own.
+  Dataset other;
+  other.path = "/elsewhere";
+  other.scenes = {{"A", {}, {}, {}}, {"B", {}, {}, {}}};
+  model_.set_scenes(other, {});
+  EXPECT_TRUE(model_.index(1, 0).data(Qt::DecorationRole).value<QPixmap>().isNull());
   EXPECT_EQ(model_.row_of("B"), 1);
   EXPECT_EQ(model_.row_of("nobody"), -1);
   EXPECT_EQ(model_.scene_at(9), "");

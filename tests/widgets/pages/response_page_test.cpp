@@ -104,6 +104,19 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
   const QString reasons = page_.findChild<QTextBrowser*>("response-reasons")->toPlainText();
   EXPECT_TRUE(reasons.contains("3 circles in use"));
   EXPECT_TRUE(reasons.contains("at the end of the scale"));
+  // What the solve refused stands there too, and a refused scene can be taken back.
+  changed = std::make_shared<CalibrationResult>(*changed);
+  changed->extrinsic.scenes[1].nodes[2].used = false;
+  changed->scenes[2].used = false;
+  changed->scenes[2].reason = "contradicts the others";
+  page_.setResult(changed);
+  auto* list = page_.findChild<QTextBrowser*>("response-reasons");
+  EXPECT_TRUE(list->toPlainText().contains("Scene B, circle 2: misses"));
+  EXPECT_TRUE(list->toPlainText().contains("contradicts the others Use it all the same"));
+  QSignalSpy insist(&page_, &ResponsePage::insistWanted);
+  Q_EMIT list->anchorClicked(QUrl(list->toHtml().section("href=\"", 1).section('"', 0, 0)));
+  ASSERT_EQ(insist.count(), 1);
+  EXPECT_EQ(insist.first().first().toString(), "C");
   page_.setResult(nullptr);
   EXPECT_EQ(table()->rowCount(), 0);
   EXPECT_TRUE(csv<SampleMapPlot>().isEmpty());

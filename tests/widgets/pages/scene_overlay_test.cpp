@@ -68,6 +68,20 @@ TEST_F(SceneOverlayTest, LinesOfBothSensorsAgree) {
   EXPECT_TRUE(image_overlay(result_, nothing).corners.empty());
 }
 
+TEST_F(SceneOverlayTest, WhatTheSolveRefusedIsDrawnAsRefused) {
+  CalibrationResult result = result_;
+  for (SceneSolution& solution : result.extrinsic.scenes) {
+    if (solution.name == scene_.name) solution.nodes[4].used = false;
+  }
+  for (const ImageOverlay::Circle& circle : image_overlay(result, scene_).circles)
+    EXPECT_EQ(circle.valid, circle.id != 4);
+  const auto before = cloud_lines(result_, scene_);
+  const auto lines = cloud_lines(result, scene_);
+  int changed = 0;
+  for (std::size_t k = 0; k < lines.size(); ++k) changed += lines[k].color != before[k].color;
+  EXPECT_EQ(changed, 1);
+}
+
 TEST_F(SceneOverlayTest, TheSuggestedBoxHoldsTheBoard) {
   const CropBox box = box_about_board(&result_, &scene_, {});
   for (const CloudLine& line : cloud_lines(result_, scene_)) {

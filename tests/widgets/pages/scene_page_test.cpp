@@ -138,6 +138,61 @@ TEST_F(ScenePageTest, APointInTheCloudFindsItsPixel) {
   EXPECT_TRUE(selection().contains(QString("pixel (%1").arg(pixel.x(), 0, 'f', 1)));
 }
 
+// The letter that looks at the cloud from elsewhere chooses an entry where a list has the focus.
+TEST_F(ScenePageTest, LettersInAListAreTheLists) {
+  load();
+  auto* crop = page_.findChild<QAction*>("crop-action");
+  auto* colors = page_.findChild<QComboBox*>("cloud-color");
+  colors->setFocus();
+  QTest::keyClick(colors, Qt::Key_C);
+  EXPECT_FALSE(crop->isChecked());
+  EXPECT_EQ(colors->currentText(), "Camera colour");
+}
+
+TEST_F(ScenePageTest, TheBoardIsKnownToTheViewAndDistancesAreMeasured) {
+  load();
+  EXPECT_GT(cloud().board_radius_m, 0.3);
+  const CloudView* view = page_.cloudPane()->view();
+  Q_EMIT page_.cloudPane()->view()->pointPicked(10);
+  EXPECT_FALSE(selection().contains("picked before"));
+  Q_EMIT page_.cloudPane()->view()->pointPicked(500);
+  const auto& points = view->scene()->cloud->points_m;
+  const double distance = (points[500] - points[10]).norm();
+  EXPECT_TRUE(selection().contains(QString("%1 m from point 10").arg(distance, 0, 'f', 4)))
+      << selection().toStdString();
+}
+
+TEST_F(ScenePageTest, ARefusedSceneSaysSoAndCanBeUsedAllTheSame) {
+  load();
+  auto* label = page_.findChild<QLabel*>("scene-refusal");
+  EXPECT_FALSE(label->isVisible());
+  auto refused = std::make_shared<CalibrationResult>(*demo_.result);
+  refused->scenes[1].used = false;
+  refused->scenes[1].reason = "contradicts the others";
+  page_.setResult(refused);
+  EXPECT_TRUE(label->isVisible());
+  EXPECT_TRUE(label->text().contains("contradicts the others"));
+  QSignalSpy insist(&page_, &ScenePage::insistWanted);
+  Q_EMIT label->linkActivated("insist");
+  ASSERT_EQ(insist.count(), 1);
+  EXPECT_EQ(insist.first().first().toInt(), 1);
+}
+
+// In a narrow window tools take more lines; none goes away.
+TEST_F(ScenePageTest, ToolsWrapWhereThereIsNoRoom) {
+  page_.resize(520, 700);
+  load();
+  for (const char* name : {"cloud-color", "cloud-point-size", "show-points", "residual-factor"}) {
+    for (const QObject* tool : page_.findChildren<QObject*>(QString::fromLatin1(name))) {
+      const auto* widget = qobject_cast<const QWidget*>(tool);
+      if (widget == nullptr) continue;
+      const QWidget* row = widget->parentWidget();
+      EXPECT_TRUE(row->rect().contains(widget->geometry())) << name;
+      EXPECT_FALSE(widget->visibleRegion().isEmpty()) << name;
+    }
+  }
+}
+
 TEST_F(ScenePageTest, CropIsMadeUsedAndCleared) {
   load();
   QSignalSpy changed(&page_, &ScenePage::cropChanged);

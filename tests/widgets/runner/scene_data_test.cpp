@@ -55,11 +55,18 @@ TEST_F(SceneData, TheLoaderGivesDataThumbnailsAndMessages) {
   while (thumbnails.count() < 2 && thumbnails.wait(5000)) {
   }
   ASSERT_EQ(thumbnails.count(), 2);
+  ASSERT_EQ(failed.count(), 1) << "the broken one is named at once";
   EXPECT_EQ(thumbnails.last().first().toString(), "B");
-  EXPECT_EQ(qvariant_cast<QImage>(thumbnails.last().at(1)).size(), QSize(60, 40));
+  EXPECT_EQ(qvariant_cast<QImage>(thumbnails.last().at(1)).size(), QSize(45, 30));
   loader.load(broken);
   ASSERT_TRUE(failed.wait(5000));
-  EXPECT_TRUE(failed.first().at(1).toString().contains("nowhere.png"));
+  EXPECT_TRUE(failed.last().at(1).toString().contains("nowhere.png"));
+  // The cloud is shown without its image.
+  const auto data = qvariant_cast<widgets::SceneData>(loaded.last().at(1));
+  EXPECT_TRUE(data.image.isNull());
+  EXPECT_TRUE(data.image_problem.contains("nowhere.png"));
+  ASSERT_TRUE(data.cloud);
+  EXPECT_EQ(data.cloud->size(), 2U);
 }
 
 }  // namespace

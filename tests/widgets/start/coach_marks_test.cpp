@@ -51,6 +51,19 @@ TEST_F(Coach, GoesOnWhenTheUserHasDoneIt) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return marks_.current() == 1; }, 5000));
 }
 
+TEST_F(Coach, WaitsForTheReaderWhereSomethingIsComputed) {
+  bool done = false;
+  marks_.start({{"Wait", [&] { return &target_; }, [&] { return done; }, true},
+                {"Well done", [&] { return &target_; }, {}}});
+  EXPECT_TRUE(button("coach_next")->isVisible());
+  EXPECT_FALSE(button("coach_next")->isEnabled());
+  done = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return button("coach_next")->isEnabled(); }, 5000));
+  EXPECT_EQ(marks_.current(), 0);
+  button("coach_next")->click();
+  EXPECT_EQ(marks_.current(), 1);
+}
+
 TEST_F(Coach, HidesWhileItsTargetIsNotThereAndEndsWhenAsked) {
   QWidget* there = nullptr;
   marks_.start({{"Wait", [&] { return there; }, {}}, {"More", [&] { return there; }, {}}});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -41,6 +42,30 @@ TEST(CloudScene, EveryPointOnceAndEveryBeginningIsFair) {
   for (std::size_t k = 0; k < n; ++k) {
     EXPECT_EQ(scene->xyz_m[3 * k], cloud->points_m[scene->order[k]].x());
   }
+}
+
+TEST(CloudScene, LineTimeAndAChosenRange) {
+  CloudSceneInput input;
+  auto cloud = make_cloud(1000);
+  input.full = cloud;
+  input.color = CloudColor::kLine;
+  EXPECT_TRUE(build_cloud_scene(input, {})->notice.contains("no line numbers"));
+  input.color = CloudColor::kTime;
+  EXPECT_TRUE(build_cloud_scene(input, {})->notice.contains("no times"));
+  for (std::size_t i = 0; i < 1000; ++i) {
+    cloud->line.push_back(static_cast<decltype(cloud->line)::value_type>(i % 16));
+    cloud->time_s.push_back(1e-4F * static_cast<float>(i));
+  }
+  auto scene = build_cloud_scene(input, {});
+  EXPECT_TRUE(scene->notice.isEmpty());
+  EXPECT_NEAR(scene->scale.high, 98.0, 1.5) << "milliseconds";
+  input.color = CloudColor::kLine;
+  input.range = {3.0, 5.0};
+  scene = build_cloud_scene(input, {});
+  EXPECT_EQ(scene->scale.low, 3.0);
+  EXPECT_EQ(scene->scale.high, 5.0);
+  EXPECT_NEAR(scene->whole.high, 15.0, 0.5);
+  EXPECT_EQ(std::accumulate(scene->histogram.begin(), scene->histogram.end(), 0), 1000);
 }
 
 TEST(CloudScene, ColoursFollowTheQuantity) {

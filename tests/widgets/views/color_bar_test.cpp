@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "views/color_bar.h"
 
+#include <QSignalSpy>
+#include <QTest>
+
 #include <gtest/gtest.h>
 
 #include "widgets/views/plots_test.h"
@@ -41,6 +44,32 @@ TEST(ColorBar, OddScalesAreDrawn) {
     bar.setScale(scale, "odd");
     EXPECT_FALSE(bar.grab().isNull());
   }
+}
+
+TEST(ColorBar, EndsOfTheColoursAreDraggedOverTheHistogram) {
+  ColorBar bar;
+  bar.resize(120, 300);
+  bar.show();
+  ColorScale whole;
+  whole.low = 0.0;
+  whole.high = 100.0;
+  bar.setScale(whole, "range (m)", whole, std::vector<int>(48, 5));
+  QSignalSpy chosen(&bar, &ColorBar::rangeChosen);
+  QSignalSpy cleared(&bar, &ColorBar::rangeCleared);
+  QTest::mousePress(&bar, Qt::LeftButton, {}, QPoint(40, 285));
+  QTest::mouseMove(&bar, QPoint(40, 150));
+  QTest::mouseRelease(&bar, Qt::LeftButton, {}, QPoint(40, 150));
+  ASSERT_GE(chosen.count(), 1);
+  EXPECT_NEAR(chosen.last().at(0).toDouble(), 50.0, 5.0);
+  EXPECT_EQ(chosen.last().at(1).toDouble(), 100.0);
+  QTest::mouseDClick(&bar, Qt::LeftButton, {}, QPoint(40, 150));
+  EXPECT_EQ(cleared.count(), 1);
+  // Without values there is nothing to choose from.
+  bar.setScale(whole, "range (m)");
+  QTest::mousePress(&bar, Qt::LeftButton, {}, QPoint(40, 285));
+  QTest::mouseMove(&bar, QPoint(40, 100));
+  EXPECT_EQ(chosen.last().at(1).toDouble(), 100.0);
+  EXPECT_FALSE(bar.grab().isNull());
 }
 
 }  // namespace

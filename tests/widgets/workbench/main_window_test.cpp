@@ -24,8 +24,12 @@
 
 #include "base/file_io.h"
 #include "docks/parameters_dock.h"
+#include "docks/scenes_dock.h"
+#include "pages/scene_page.h"
 #include "report/result_file.h"
 #include "support/pose_matchers.h"
+#include "views/cloud_view.h"
+#include "views/image_view.h"
 #include "widgets/workbench/main_window_fixture.h"
 
 namespace lvcalib::main_window_test {
@@ -319,6 +323,55 @@ TEST_F(MainWindowTest, ThemesAndLanguagesSwitchWhileOpen) {
   }
   QTest::qWait(20);
   EXPECT_EQ(find<QAction>(*window_, "run")->text(), "&Run all");
+}
+
+// Each bad scene is red with its reason, the others are solved, and mended files are taken up.
+TEST_F(MainWindowTest, OneBadFileCostsOneScene) {
+  namespace fs = std::filesystem;
+  const fs::path bad = folder_.filePath("bad").toStdString();
+  fs::copy(dataset().toStdString(), bad, fs::copy_options::recursive);
+  fs::copy(bad / "scenes/A", bad / "scenes/D", fs::copy_options::recursive);
+  fs::remove(bad / "scenes/D/cloud.pcd");
+  fs::resize_file(bad / "scenes/B/cloud.pcd", fs::file_size(bad / "scenes/B/cloud.pcd") / 2);
+  fs::resize_file(bad / "scenes/C/image.png", 0);
+  window_->open(QString::fromStdString(bad.string()));
+  ASSERT_TRUE(wait_until([&] { return workspace().is_open() && !workspace().busy(); }));
+  const auto state = [&](const char* scene) { return cell(*window_, scene, SceneModel::kState); };
+  // Before anything runs.
+  ASSERT_TRUE(wait_until([&] { return state("C").contains("image.png"); }, 10'000));
+  ASSERT_TRUE(wait_until([&] { return state("D").contains("no cloud"); }, 10'000));
+  auto* scenes = window_->findChild<widgets::ScenesDock*>();
+  scenes->select("B");
+  ASSERT_TRUE(wait_until([&] { return state("B").contains("truncated"); }, 10'000));
+  auto* cloud_notice = find<QLabel>(*window_->findChild<widgets::ScenePage*>(), "cloud-notice");
+  ASSERT_TRUE(wait_until([&] { return cloud_notice->text().contains("truncated"); }, 10'000));
+  auto* image = window_->findChild<widgets::ScenePage*>()->findChild<widgets::ImageView*>();
+  EXPECT_FALSE(image->image().isNull()) << "the image of B is sound";
+  scenes->select("C");
+  ASSERT_TRUE(wait_until([&] { return image->message().contains("image.png"); }, 10'000));
+  QTest::keyClick(window_.get(), Qt::Key_F5);
+  ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
+  EXPECT_TRUE(state("B").contains("truncated")) << state("B").toStdString();
+  EXPECT_TRUE(state("C").contains("image.png"));
+  EXPECT_TRUE(state("D").contains("no cloud"));
+  ASSERT_TRUE(workspace().result());
+  EXPECT_EQ(workspace().result()->extrinsic.used_scenes, 1);
+  // Mended, and run again.
+  for (const char* file : {"scenes/B/cloud.pcd", "scenes/C/image.png"})
+    fs::copy_file(dataset().toStdString() / fs::path(file), bad / file,
+                  fs::copy_options::overwrite_existing);
+  QTest::keyClick(window_.get(), Qt::Key_F5);
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_EQ(workspace().result()->extrinsic.used_scenes, 3);
+  EXPECT_EQ(state("C"), "used");
+  ASSERT_TRUE(wait_until([&] { return !image->image().isNull(); }, 10'000));
+  // Another dataset brings its own pictures.
+  window_->open(folder_.path());
+  ASSERT_TRUE(wait_until([&] { return find<QDialog>(*window_, "error_dialog") != nullptr; }));
+  const auto labels = find<QDialog>(*window_, "error_dialog")->findChildren<QLabel*>();
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+    return label->text().contains("scenes/NAME/");
+  })) << "what a dataset is";
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(PageStack, LiveRefinementsOfAnyKindAreTakenWithoutHarm) {
     stack.show_iteration(scene, std::make_shared<const BoardRefinement>());
   QTest::qWait(250);
   stack.set_scene(2, std::nullopt);
-  stack.set_scene_data(nullptr, {});
+  stack.set_scene_data({});
   stack.set_result(std::make_shared<const CalibrationResult>());
   QTest::qWait(50);
   EXPECT_TRUE(stack.isVisible());

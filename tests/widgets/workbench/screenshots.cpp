@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE]. Opens a dataset (without one: the
-// demo), runs it and writes a picture of every page and dialog to the folder, in light and dark.
+// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick]. Opens a
+// dataset (without one: the demo), runs it and writes a picture of every page and dialog to the
+// folder, in light and dark; quick: of every page, in light. The size is the window's.
 
 #include <QApplication>
 #include <QComboBox>
@@ -170,7 +171,8 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
   if (wait_for_model(window)) camera.take(name("all"));
 }
 
-int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset) {
+int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset,
+               bool quick) {
   Photographer camera(window, folder);
   window.move(0, 0);
   window.show();
@@ -195,6 +197,10 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   wait_for_model(window);
   camera.take(QStringLiteral("model-tour"));
   if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
+  if (quick) {
+    photograph_pages(window, camera, QStringLiteral("light"));
+    return 0;
+  }
   for (const char* theme : {"light", "dark"}) {
     choose(window, "theme", QString::fromLatin1(theme));
     photograph_pages(window, camera, QString::fromLatin1(theme));
@@ -217,7 +223,9 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   const QStringList arguments = QApplication::arguments();
   if (arguments.size() < 2) {
-    std::fprintf(stderr, "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE]\n");
+    std::fprintf(stderr,
+                 "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] "
+                 "[quick]\n");
     return 2;
   }
   QDir().mkpath(arguments.at(1));
@@ -230,8 +238,11 @@ int main(int argc, char** argv) {
     widgets::MainWindow window(settings, answers);
     choose(window, "language", arguments.value(3, QStringLiteral("en")));
     const QString dataset = arguments.value(2);
+    const QStringList size = arguments.value(4).split(QLatin1Char('x'));
+    if (size.size() == 2) window.resize(size[0].toInt(), size[1].toInt());
     status =
-        photograph(window, arguments.at(1), dataset == QLatin1String("demo") ? QString() : dataset);
+        photograph(window, arguments.at(1), dataset == QLatin1String("demo") ? QString() : dataset,
+                   arguments.contains(QLatin1String("quick")));
   }
   widgets::Runner::wait_for_workers(10'000);
   return status;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/refusals.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+
+namespace lvcalib {
+namespace {
+
+using What = Refusal::What;
+
+// What the solve left out of one scene that takes part.
+void refuse_features(const SceneSolution& solved, const SceneResult* found,
+                     std::vector<Refusal>& out) {
+  for (const NodeResidual& node : solved.nodes) {
+    if (node.used) continue;
+    std::string reason = formatted("misses the board's pose by %.1f mm, more than the gate",
+                                   1e3 * node.residual_m.norm());
+    if (found != nullptr && found->refinement) {
+      for (const RefinedNode& refined : found->refinement->nodes) {
+        if (refined.id == node.id && !refined.valid && !refined.reason.empty())
+          reason = refined.reason;
+      }
+    }
+    out.push_back({solved.name, What::kCircle, node.id, 0, reason});
+  }
+  int last = -1;
+  for (const CornerResidual& corner : solved.corners) {
+    if (corner.used || corner.feature_id == last) continue;
+    last = corner.feature_id;
+    out.push_back({solved.name, What::kTag, corner.feature_id, 0,
+                   "misses the board's pose by more than the gate"});
+  }
+}
+
+bool contains_circle(const std::vector<Refusal>& all, const std::string& scene, int id) {
+  return std::any_of(all.begin(), all.end(), [&](const Refusal& r) {
+    return r.scene == scene && r.what == What::kCircle && r.id == id;
+  });
+}
+
+}  // namespace
+
+bool can_be_insisted_on(const SceneResult& scene) {
+  const bool board = scene.refinement || (scene.search && !scene.search->candidates.empty());
+  return !scene.used && scene.view && board && !scene.unreadable && !scene.reason.empty() &&
+         scene.reason != kRejectedByUser;
+}
+
+std::vector<Refusal> refusals(const CalibrationResult& result) {
+  std::vector<Refusal> out;
+  std::size_t forward = 0;
+  for (const SceneSolution& solved : result.extrinsic.scenes) {
+    if (!solved.used) continue;
+    if (result.forward && forward < result.forward->scenes.size()) {
+      const ForwardSceneResult& returns = result.forward->scenes[forward++];
+      if (returns.refused > 0) {
+        out.push_back({solved.name, What::kPoints, -1, returns.refused,
+                       "off the board's plane, or beside what stands before it"});
+      }
+    }
+    const auto found = std::find_if(result.scenes.begin(), result.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == solved.name; });
+    refuse_features(solved, found == result.scenes.end() ? nullptr : &*found, out);
+  }
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.used || scene.reason.empty() || scene.reason == kRejectedByUser) continue;
+    out.push_back({scene.name, What::kScene, -1, 0, scene.reason, can_be_insisted_on(scene)});
+  }
+  const auto refused_whole = [&](const std::string& name) {
+    return std::any_of(out.begin(), out.end(),
+                       [&](const Refusal& r) { return r.scene == name && r.what == What::kScene; });
+  };
+  for (const SceneResponse& scene : result.response.scenes) {
+    if (refused_whole(scene.name)) continue;
+    if (!scene.reason.empty()) out.push_back({scene.name, What::kResponse, -1, 0, scene.reason});
+    for (const NodeResponse& node : scene.nodes) {
+      if (node.state == NodeResponseState::kUsed || contains_circle(out, scene.name, node.id))
+        continue;
+      out.push_back({scene.name, What::kResponse, node.id, 0, node.reason});
+    }
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Refusal& a, const Refusal& b) { return a.scene < b.scene; });
+  return out;
+}
+
+}  // namespace lvcalib

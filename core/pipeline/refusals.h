@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "pipeline/calibration.h"
+
+namespace lvcalib {
+
+/// Something measured that the program does not use.
+struct Refusal {
+  enum class What {
+    kScene,     ///< All of it; id is −1.
+    kCircle,    ///< One circle, by its id: in the solve of nodes and planes.
+    kTag,       ///< The corners of one tag or square, by its id.
+    kPoints,    ///< LiDAR points on the board; id is −1.
+    kResponse,  ///< One circle, by its id, or the scene (−1): in the boundary response alone.
+  };
+  std::string scene;
+  What what = What::kScene;
+  int id = -1;
+  std::size_t points = 0;  ///< How many, of kPoints.
+  std::string reason;      ///< In words.
+  /// The user can insist on it (CalibrationRequest::insisted).
+  bool can_be_used = false;
+};
+
+/// The scene was refused by the program, and has what it takes to be used all the same.
+bool can_be_insisted_on(const SceneResult& scene);
+
+/// Everything that the program refused, by scene. What the user left out is not in it, and of a
+/// scene that is refused as a whole nothing else is listed.
+std::vector<Refusal> refusals(const CalibrationResult& result);
+
+}  // namespace lvcalib
