@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaxResultBytes = std::size_t{256} << 20;
 /// The library's version, as in result files.
 std::string version();
 
-/// The calibration as the text of result.json (keys: see docs of the file formats in README).
+/// The calibration as the text of result.json (keys: see resources/guide/files.md).
 std::string result_as_json(const CalibrationResult& result);
 
 /// The short form for people and YAML readers: pose, uncertainty, quality, scenes.
