@@ -386,27 +386,26 @@ class Calibration {
           scene.name);
     });
     if (context_.stopped()) return Error::cancelled();
+    use_without_circles();
     const bool any = std::any_of(result_.scenes.begin(), result_.scenes.end(),
                                  [](const SceneResult& scene) { return scene.used; });
-    if (any || use_without_circles()) return Done{};
+    if (any) return Done{};
     // What was taken for the board was not: on the board some circles would be found.
     return not_found();
   }
 
-  // Where most scenes, three at least, agree on the print's place and no circle can be measured
-  // (numbers in coarse steps, few lines), the print as a whole still tells. True if so.
-  bool use_without_circles() {
+  // Where most scenes, three at least, agree on the print's place and too few circles can be
+  // measured in some of them (numbers in coarse steps, few lines or points), the print as a whole
+  // still tells.
+  void use_without_circles() {
     int views = 0;
     for (const SceneResult& scene : result_.scenes) views += scene.view ? 1 : 0;
     const int agreeing = result_.consensus.agreeing;
-    if (agreeing < 3 || 2 * agreeing < views) return false;
-    bool any = false;
+    if (agreeing < 3 || 2 * agreeing < views) return;
     for (SceneResult& scene : result_.scenes) {
-      if (!scene.chosen || !scene.refinement) continue;
-      do_without_circles(scene);
-      any = true;
+      if (scene.chosen && scene.refinement && !scene.used && !scene.reason.empty())
+        do_without_circles(scene);
     }
-    return any;
   }
 
   // The print as a whole and the plane are used instead.
