@@ -32,29 +32,6 @@ MeanAndError mean_of(const std::vector<double>& values) {
   return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : HUGE_VAL};
 }
 
-// First each parameter by itself: its upper limit over its size that matters. Then all together,
-// since parameters that act alike are each undetermined although what they do is known: in units of
-// its standard deviation the effect of the estimate on the measurements is |w|, w = Lᵀθ with LLᵀ
-// the information, and the smallest that matters is that of one parameter alone at its material
-// size. Noise adds p − 1 to w² besides the direction of the effect itself; with one parameter both
-// are alike. The smaller counts.
-double size_of(const EffectColumns& columns, const ModelFit& fit) {
-  const Eigen::Index p = columns.count();
-  const Eigen::VectorXd theta = fit.solution.tail(p);
-  const Eigen::VectorXd sigma = fit.covariance.diagonal().tail(p).cwiseSqrt();
-  const Eigen::MatrixXd s = information_of_last(fit, p);
-  double alone = 0.0;
-  double smallest = HUGE_VAL;
-  for (Eigen::Index k = 0; k < p; ++k) {
-    const double material = columns.parameters[static_cast<std::size_t>(k)].material;
-    alone = std::max(alone, (std::abs(theta(k)) + kUpper95 * sigma(k)) / material);
-    smallest = std::min(smallest, material * std::sqrt(std::max(0.0, s(k, k))));
-  }
-  const double together =
-      std::sqrt(std::max(0.0, theta.dot(s * theta) - static_cast<double>(p - 1)));
-  return std::min(alone, (together + kUpper95) / smallest);
-}
-
 // Squared distance of the estimate to the nearest parameters at or above their lowest values, in
 // standard deviations, by coordinate descent (the problem is convex and has few parameters).
 double beyond_possible(const EffectColumns& columns, const ModelFit& fit) {
@@ -275,7 +252,6 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   out.p_value = f_test(out.fit, c.count());
   out.tolerance = tolerated(tolerance, reference.fit);
   out.limit = move_limit(out.fit, c.count());
-  out.size = std::max(size_of(c, out.fit), out.limit.over(out.tolerance));
   out.beyond_possible = beyond_possible(c, out.fit);
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};
@@ -405,7 +381,6 @@ bool Candidate::possible() const {
 std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried,
                                    std::size_t scenes, const DiscoveryOptions& options) {
   std::vector<Criterion> out = existence(candidate, tried, options);
-  out.push_back({"size", candidate.size, 1.0});
   out.push_back({"possible", candidate.beyond_possible, kImpossible, true});
   // Where much is wrong, what explains a little of it stands in for something else.
   out.push_back({"explained", candidate.explained_share, options.min_explained});

@@ -13,7 +13,6 @@ namespace lvcalib {
 enum class Contradiction {
   kNone,
   kPrints,  ///< White and black print tell different stories about it (see print_contrast.h).
-  kSmall,   ///< Something sure, too small to matter, explains more and leaves it nothing.
   kScenes,  ///< With the shape number that fits best, scenes held out are predicted worse.
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
 };
@@ -44,10 +43,6 @@ struct Candidate {
   std::array<double, kChannels> acting_share{1.0, 1.0, 1.0, 1.0};
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
-  /// How large it may be (95 %), over what matters: what its parameters do to the measurements (see
-  /// size_of in the source), or the extrinsic's limit over the tolerance.
-  double size = HUGE_VAL;
-  [[nodiscard]] bool material() const { return size >= 1.0; }
   ExtrinsicMove limit;      ///< Of the extrinsic, at most (95 %), if the effect is left out.
   ExtrinsicMove tolerance;  ///< What such a move has to exceed to matter.
   /// The channel that has to show it: of an effect that changes intensities these. Edges alone
@@ -107,12 +102,12 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
 ///   total_gain        of the same, against what the best of so many gains by chance
 ///   scenes_improved   share of the scenes that say anything which are predicted better
 ///   two_scenes        how many those are
-///   size              how large it may be, over what matters
 ///   possible          distance from values that a device can have, σ²
 ///   explained         share of what its channel misses by
 ///   held_out          fall of held-out squares over the least that counts, or of the extrinsic's
 ///                     move
-///   not_contradicted  1 unless prints, levels, single scenes or something small speak against it
+///   not_contradicted  1 unless prints, levels or single scenes speak against it
+/// How large it is, and what it does to the extrinsic, are no rules: what is there is there.
 std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried,
                                    std::size_t scenes, const DiscoveryOptions& options);
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "discovery/print_contrast.h"
 #include "model/beam_blur.h"
 #include "model/residuals.h"
@@ -251,41 +252,6 @@ void EffectSearch::rank() {
   }
   refit_promising();
   ask_both_prints();
-  ask_what_is_small();
-}
-
-// Of two effects that act alike the smaller one may be there, too small to matter, and the other
-// accepted in its place.
-void EffectSearch::ask_what_is_small() {
-  const std::size_t tried = candidates_.size();
-  while (!context_.stopped()) {
-    const auto chosen = best();
-    if (!chosen) return;
-    const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(*chosen);
-    const auto small = std::find_if(candidates_.begin(), end, [&](const Candidate& c) {
-      return !c.material() && c.possible() && c.contradiction == Contradiction::kNone &&
-             is_sure(c, tried, options_);
-    });
-    if (small == end) return;
-    const auto& list = linear_.columns.list();
-    EffectSearch with_it(*this);
-    with_it.add(list[small->columns].effect, list[small->columns].shape);
-    const EffectColumns& asked = list[candidates_[*chosen].columns];
-    if (context_.stopped() || with_it.accepts(asked.effect, asked.shape, tried)) return;
-    contradict(candidates_[*chosen], Contradiction::kSmall);
-  }
-}
-
-bool EffectSearch::accepts(const EffectPtr& effect, double shape, std::size_t tried) const {
-  EffectColumnsList columns = own_columns();
-  const ColumnSubset subset = own_subset(columns);
-  columns.add(effect, shape, table());
-  const Linearization linear = linearize(table(), state_, model(), columns, context_);
-  if (context_.stopped()) return false;
-  const Reference reference = make_reference(linear, subset, variances_, {});
-  const Candidate candidate =
-      evaluate_candidate(linear, reference, own_count(), options_.tolerance, {});
-  return is_accepted(candidate, tried, table().scenes.size(), options_);
 }
 
 void EffectSearch::ask_both_prints() {
@@ -344,9 +310,7 @@ void EffectSearch::refit_promising() {
   for (std::size_t k = 0; k < std::min(kRefitted, tried) && !context_.stopped(); ++k) {
     Candidate& c = candidates_[k];
     if (is_accepted(c, tried, table().scenes.size(), options_)) return;
-    const bool promising =
-        c.material() && c.p_value * static_cast<double>(tried) <= options_.false_alarm;
-    if (!promising) continue;
+    if (c.p_value * static_cast<double>(tried) > options_.false_alarm) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
     const Reference& without_it = reference_;
     EffectSearch trial(*this);
@@ -366,18 +330,41 @@ void EffectSearch::refit_promising() {
   }
 }
 
+// Where a simpler one predicts as well, the simpler: as many parameters as it has less might gain
+// what it falls behind by chance (likelihood ratio, 5 %).
 std::optional<std::size_t> EffectSearch::best() const {
+  constexpr double kByChance = 0.05;
+  const auto unknowns = [&](const Candidate& c) {
+    const EffectColumns& columns = linear_.columns.list()[c.columns];
+    return columns.count() + (columns.effect->shape_name().empty() ? 0 : 1);
+  };
+  std::optional<std::size_t> chosen;
+  double most = 0.0;
+  int first = 0;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    if (is_accepted(candidates_[k], candidates_.size(), table().scenes.size(), options_)) return k;
+    const Candidate& c = candidates_[k];
+    if (!is_accepted(c, candidates_.size(), table().scenes.size(), options_)) continue;
+    if (!chosen) {
+      chosen = k;
+      most = c.total_density();
+      first = unknowns(c);
+      continue;
+    }
+    // What shows in another channel may be there as well.
+    const Candidate& now = candidates_[*chosen];
+    if (c.main_channel() != now.main_channel() || unknowns(c) >= unknowns(now)) continue;
+    const int fewer = first - unknowns(c);
+    if (2.0 * (most - c.total_density()) < chi_square_gate(fewer, kByChance)) chosen = k;
   }
-  return std::nullopt;
+  return chosen;
 }
 
-EffectSearch EffectSearch::with_immaterial() const {
+EffectSearch EffectSearch::with_faint() const {
   EffectSearch out(*this);
   std::set<Channel> done;
   for (const Candidate& c : candidates_) {
-    if (c.material() || !is_sure(c, candidates_.size(), options_)) continue;
+    if (c.contradiction != Contradiction::kNone || !is_sure(c, candidates_.size(), options_))
+      continue;
     if (!done.insert(c.main_channel()).second) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
     out.add(columns.effect, columns.shape);

@@ -58,11 +58,12 @@ class EffectSearch {
   void rank();
   /// From the next rank() on an effect is not accepted: scenes held out contradict it.
   void refuse(const std::string& id) { refused_.insert(id); }
-  /// After rank(): index of the best accepted candidate.
+  /// After rank(): index of the best accepted candidate, or of the simplest that predicts as well.
   [[nodiscard]] std::optional<std::size_t> best() const;
-  /// After rank(): the model with effects that are sure but too small to matter, of each channel
-  /// the one that gains most. What it leaves is what no effect of the catalogue explains.
-  [[nodiscard]] EffectSearch with_immaterial() const;
+  /// After rank(): the model with effects that are sure but explain too little to be let in, of
+  /// each channel the one that gains most. What it leaves is what no effect of the catalogue
+  /// explains.
+  [[nodiscard]] EffectSearch with_faint() const;
   /// What leaving an effect out does to the extrinsic, at what the data say of it beside the model;
   /// nothing if they say nothing.
   [[nodiscard]] std::optional<ExtrinsicMove> move_without(const EffectPtr& effect) const;
@@ -92,10 +93,6 @@ class EffectSearch {
   void ask_both_prints();
   void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
   void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
-  // Takes accepted candidates off the list that something too small to matter leaves nothing.
-  void ask_what_is_small();
-  // Whether it would be accepted in addition to this model.
-  [[nodiscard]] bool accepts(const EffectPtr& effect, double shape, std::size_t tried) const;
   [[nodiscard]] EffectColumnsList own_columns() const;
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
   void append_candidates(EffectColumnsList& columns) const;

@@ -257,11 +257,6 @@ class Judge {
           "change, which no effect explains; edges are found in these intensities and "
           "cannot tell: " +
           values_text(f) + ".";
-    } else if (c.contradiction == Contradiction::kSmall) {
-      f.explanation =
-          "Something that is there, but too small to matter, explains more and leaves "
-          "nothing to it: " +
-          values_text(f) + ".";
     } else if (c.contradiction == Contradiction::kScenes) {
       f.explanation = "Where it fits best it predicts scenes held out worse: " + values_text(f) +
                       "; too few of them show it. To decide: " + columns.effect->info().breaker +
@@ -273,7 +268,7 @@ class Judge {
       f.explanation = "What fits best is impossible: " + values_text(f) +
                       ", while no device has less than " + lowest_text(columns) +
                       "; something else is at work.";
-    } else if (c.explained_share < options_.min_explained && c.material() &&
+    } else if (c.explained_share < options_.min_explained &&
                is_sure(c, search_.candidates().size(), options_)) {
       f.explanation = formatted("It explains %.0f %% of what is wrong in the ",
                                 100.0 * std::max(0.0, c.explained_share)) +

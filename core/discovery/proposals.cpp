@@ -161,7 +161,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   const bool any = std::any_of(out.proposals.begin(), out.proposals.end(),
                                [](const EffectProposal& p) { return p.suggested; });
   if (!any) {
-    const EffectSearch explained = search.with_immaterial();
+    const EffectSearch explained = search.with_faint();
     if (context.stopped()) return Error::cancelled();
     out.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
                                     options, context);

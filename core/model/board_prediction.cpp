@@ -94,6 +94,7 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
 
   ReturnPrediction out;
   out.board_m = met->board_m;
+  out.spot_m2 = spot;
   out.cos_incidence = -along;
   const PrintSample print = look(met->board_m - print_shift_m, spot, known, seen);
   out.white = print.white;

@@ -38,7 +38,9 @@ struct PrintSensitivity {
       const Eigen::Matrix3d along =
           Eigen::Matrix3d::Identity() - direction * n.transpose() / n.dot(direction);
       shift_by_move = lidar_from_board.leftCols<2>().transpose() * along;
-      if (edge != nullptr) outward << std::cos(edge->psi_rad), std::sin(edge->psi_rad);
+      if (edge == nullptr) return;
+      const double growth = edge->beam.edge ? edge->beam.edge->growth : 1.0;
+      outward = growth * Eigen::Vector2d(std::cos(edge->psi_rad), std::sin(edge->psi_rad));
     }
     const Eigen::Matrix3d& rotation;
     Eigen::Matrix<double, 2, 3> shift_by_move;

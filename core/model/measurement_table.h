@@ -23,6 +23,9 @@ struct NearEdge {
   double distance_m = 0.0;    ///< Outside positive.
   double psi_rad = 0.0;       ///< Polar angle about the node, board frame.
   double transition_m = 0.0;  ///< Width σ of the transition along ψ.
+  /// What black that grows all around does to the spot, over what this edge alone does: more than
+  /// one where the spot sees another edge beside it.
+  double growth = 1.0;
 };
 
 /// What a beam hits, by geometry.

@@ -218,6 +218,10 @@ class SceneRows {
     if (view.kind != PrintView::Kind::kEdge) return;
     r.slope = view.slope;
     r.beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m};
+    const double contrast = levels_.white - levels_.black;
+    const double light = p.intensity / (levels_.black + contrast * p.white);
+    r.beam.edge->growth =
+        print_.edges().growth_per_m(p.board_m, p.spot_m2) * std::abs(light * contrast) / view.slope;
   }
 
   void measure_noise(const SceneNoise& fallback) {

@@ -400,7 +400,8 @@ struct BlurredPrint::Level {
   }
 };
 
-BlurredPrint::BlurredPrint(const Target& target) : target_(target), outline_(target.outline()) {
+BlurredPrint::BlurredPrint(const Target& target)
+    : target_(target), outline_(target.outline()), edges_(target) {
   first_sigma_m_ = outline_.size_m().maxCoeff() / (kSpacing * kLargestRaster);
   for (int k = 0; k < kLevels; ++k)
     variance_m2_[static_cast<std::size_t>(k)] = std::pow(sigma_m(k), 2);

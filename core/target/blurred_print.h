@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "target/print_edges.h"
 #include "target/target.h"
 
 namespace lvcalib {
@@ -90,6 +91,7 @@ class BlurredPrint {
   [[nodiscard]] double smallest_sigma_m() const;
   [[nodiscard]] double largest_sigma_m() const;
   [[nodiscard]] const Target& target() const { return target_; }
+  [[nodiscard]] const PrintEdges& edges() const { return edges_; }
   [[nodiscard]] const BoardOutline& outline() const { return outline_; }
   /// Distance of a point to the outline; negative outside.
   [[nodiscard]] double inside_m(const Eigen::Vector2d& board_m) const {
@@ -107,6 +109,7 @@ class BlurredPrint {
 
   Target target_;
   BoardOutline outline_;
+  PrintEdges edges_;
   double first_sigma_m_ = 0.0;
   std::array<double, kLevels> variance_m2_{};
   // Each level has its own lock: two threads may make two levels.

@@ -3,9 +3,10 @@
 //
 //   effect_study run RECORDS.jsonl [MINUTES] [FIRST_SEED] [FIRST_TASK] [FOLDER]
 //   effect_study table RECORDS.jsonl…
+//   effect_study write FIRST_SEED TASK DATASET
 //
 // `run` appends one JSON object per rig until the time is over; `table` prints markdown tables of
-// all records on standard output.
+// all records on standard output; `write` writes one rig's dataset to look at it.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -20,6 +21,7 @@
 #include "evidence_rigs.h"
 #include "pipeline/model_discovery.h"
 #include "report/result_file.h"
+#include "simulation/dataset_writer.h"
 #include "support/effect_rigs.h"
 
 namespace lvcalib::study {
@@ -131,6 +133,14 @@ int run(const std::string& path, double minutes, std::uint64_t first_seed, std::
   return 1;
 }
 
+int write(std::uint64_t first_seed, std::size_t task, const std::filesystem::path& dataset) {
+  const auto rig = simulation::simulate(effect_rig_options(effect_task(task, first_seed)), {});
+  Status done = rig ? simulation::write_dataset(*rig, dataset, true) : Status(rig.error());
+  if (done) return 0;
+  std::fprintf(stderr, "%s\n", done.error().text().c_str());
+  return 1;
+}
+
 int table(int count, char** paths) {
   std::vector<EffectRecord> records;
   for (int k = 0; k < count; ++k) {
@@ -157,6 +167,8 @@ int main(int argc, char** argv) {
   using namespace lvcalib::study;
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "table" && argc > 2) return table(argc - 2, argv + 2);
+  if (what == "write" && argc > 4)
+    return write(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10), argv[4]);
   if (what == "run" && argc > 2) {
     const double minutes = argc > 3 ? std::atof(argv[3]) : 60.0;
     const std::uint64_t seed = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;
@@ -166,6 +178,7 @@ int main(int argc, char** argv) {
   }
   std::fprintf(stderr,
                "usage: effect_study run RECORDS.jsonl [MINUTES] [FIRST_SEED] [FIRST_TASK] "
-               "[FOLDER]\n       effect_study table RECORDS.jsonl...\n");
+               "[FOLDER]\n       effect_study table RECORDS.jsonl...\n"
+               "       effect_study write FIRST_SEED TASK DATASET\n");
   return 2;
 }

@@ -61,7 +61,6 @@ const char* criterion_name(const std::string& name) {
       {"total_gain", QT_TRANSLATE_NOOP("ModelText", "gain, against what chance finds in a search")},
       {"scenes_improved", QT_TRANSLATE_NOOP("ModelText", "share of scenes predicted better")},
       {"two_scenes", QT_TRANSLATE_NOOP("ModelText", "scenes predicted better")},
-      {"size", QT_TRANSLATE_NOOP("ModelText", "largest size it may have, over what matters")},
       {"possible", QT_TRANSLATE_NOOP("ModelText", "distance from what devices have, σ²")},
       {"explained", QT_TRANSLATE_NOOP("ModelText", "share of what its channel misses by")},
       {"held_out",

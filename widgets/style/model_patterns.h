@@ -57,9 +57,6 @@ inline constexpr const char* kModelPatterns[] = {
                       "change, which no effect explains; edges are found in these intensities and "
                       "cannot tell: %1."),
     QT_TRANSLATE_NOOP("Core",
-                      "Something that is there, but too small to matter, explains more and leaves "
-                      "nothing to it: %1."),
-    QT_TRANSLATE_NOOP("Core",
                       "It explains %1 % of what is wrong in the %2 channel: %3; something else is "
                       "at work there."),
     QT_TRANSLATE_NOOP("Core",

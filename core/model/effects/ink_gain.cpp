@@ -19,7 +19,7 @@ class InkGain final : public CatalogueEffect {
                          .needs = {.circles = true, .intensity = true}},
                         {{"g", "mm", 1e-3, 0.3e-3, 0.01}}) {}
 
-  // Circles alone show it: the fit of a tag's corners has a coefficient of its own for ink that
+  // The LiDAR alone shows it: the fit of a tag's corners has a coefficient of its own for ink that
   // moves all edges to one side.
   void edge(const BoundaryRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {

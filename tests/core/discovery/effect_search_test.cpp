@@ -202,7 +202,7 @@ TEST_F(SearchState, AConstantDifferenceBetweenPrintsIsNoContradiction) {
     EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
 }
 
-TEST_F(SearchState, WhatIsSureButTooSmallExplainsStructure) {
+TEST_F(SearchState, WhatIsSureButFaintExplainsStructure) {
   test::Disturbance wrong;
   wrong.log_intensity = [](const IntensityRow& row) {
     return 0.22 * std::log(std::cos(row.beam.incidence_rad));
@@ -214,7 +214,7 @@ TEST_F(SearchState, WhatIsSureButTooSmallExplainsStructure) {
   EffectSearch search(made.table, made.truth, options_, context_);
   search.rank();
   EXPECT_FALSE(search.best().has_value());
-  const EffectSearch explained = search.with_immaterial();
+  const EffectSearch explained = search.with_faint();
   ASSERT_FALSE(explained.in_use().empty());
   EXPECT_EQ(explained.in_use()[0].effect->info().id, "intensity_geometry");
   EXPECT_TRUE(search.in_use().empty());
