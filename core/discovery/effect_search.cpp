@@ -102,6 +102,7 @@ void EffectSearch::refit() {
   constexpr int kSteps = 10;
   joint_covariance_.reset();
   shape_sigmas_.clear();
+  ranked_ = false;
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     const EffectColumnsList columns = own_columns();
     linear_ = linearize(table(), state_, model(), columns, context_);
@@ -111,10 +112,10 @@ void EffectSearch::refit() {
     const Eigen::VectorXd& x = reference_.fit.solution;
     std::vector<Vector6d> boards;
     for (const Eigen::VectorXd& local : reference_.fit.local) boards.push_back(local.head<6>());
-    // Displacements below a hundredth of their standard deviations are settled.
+    // A displacement of a tenth of the standard deviations leaves a hundredth of itself to the
+    // next.
     const Vector6d sigma = reference_.fit.covariance.diagonal().head<6>().cwiseSqrt();
-    const bool settled = (x.head<6>().cwiseAbs().array() < 0.01 * sigma.array()).all();
-    if (settled && step > 0) break;
+    const bool settled = (x.head<6>().cwiseAbs().array() < 0.1 * sigma.array()).all();
     state_ = moved(state_, x.head<6>(), boards);
     move_levels();
     Eigen::Index at = 6;
@@ -123,6 +124,7 @@ void EffectSearch::refit() {
       at += use.values.size();
     }
     if (sees_print()) move_blur(x.segment<3>(at));
+    if (settled && step > 0) break;
   }
 }
 
@@ -159,7 +161,7 @@ void EffectSearch::remake() {
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
     const Rigid3 before = state_.camera_from_lidar;
-    auto next = std::make_shared<MeasurementTable>(base_->again(state_, in_use_));
+    auto next = std::make_shared<MeasurementTable>(base_->again(state_, in_use_, context_));
     if (context_.stopped()) return;
     next->again = base_->again;
     remade_ = std::move(next);
@@ -225,6 +227,7 @@ void EffectSearch::append_candidates(EffectColumnsList& columns) const {
 }
 
 void EffectSearch::rank() {
+  if (ranked_) return;
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   append_candidates(columns);
@@ -252,6 +255,7 @@ void EffectSearch::rank() {
   }
   refit_promising();
   ask_both_prints();
+  ranked_ = !context_.stopped();
 }
 
 void EffectSearch::ask_both_prints() {

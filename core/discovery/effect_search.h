@@ -54,10 +54,14 @@ class EffectSearch {
   void remake();
   /// The table that remake() made; null if there was nothing to do.
   [[nodiscard]] std::shared_ptr<const MeasurementTable> remade() const { return remade_; }
-  /// Linearises with all candidates that are testable and not in use, and evaluates each.
+  /// Linearises with all candidates that are testable and not in use, and evaluates each. Does
+  /// nothing if that was done for the model as it is.
   void rank();
   /// From the next rank() on an effect is not accepted: scenes held out contradict it.
-  void refuse(const std::string& id) { refused_.insert(id); }
+  void refuse(const std::string& id) {
+    refused_.insert(id);
+    ranked_ = false;
+  }
   /// After rank(): index of the best accepted candidate, or of the simplest that predicts as well.
   [[nodiscard]] std::optional<std::size_t> best() const;
   /// After rank(): the model with effects that are sure but explain too little to be let in, of
@@ -127,6 +131,7 @@ class EffectSearch {
   Linearization linear_;
   Reference reference_;
   std::vector<Candidate> candidates_;
+  bool ranked_ = false;  // `candidates_` are those of the model as it is.
   std::set<std::string> refused_;
   std::optional<Eigen::MatrixXd> joint_covariance_;
   std::vector<double> shape_sigmas_;

@@ -332,7 +332,11 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
   });
   if (context.stopped()) return Error::cancelled();
   if (failed) return *failed;
-  return step;
+  // What was ranked at last is ranked.
+  search.set_context({});
+  auto last = std::make_shared<ModelStep>(*step);
+  last->search = std::make_shared<const EffectSearch>(std::move(search));
+  return ModelStepPtr(std::move(last));
 }
 
 }  // namespace lvcalib

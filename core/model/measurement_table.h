@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "base/progress.h"
 #include "base/rigid3.h"
 #include "camera/camera.h"
 #include "model/board_prediction.h"
@@ -154,7 +155,9 @@ struct MeasurementTable {
   /// Makes the table again for another state and effects in use: which returns are in
   /// the blur of an edge, and how far single ones are weighed down, follows what the model
   /// predicts.
-  std::function<MeasurementTable(const ModelState&, const std::vector<EffectInUse>&)> again;
+  std::function<MeasurementTable(const ModelState&, const std::vector<EffectInUse>&,
+                                 const RunContext&)>
+      again;
   /// Variances of structure that nothing explains, as the joint solve found them, in the order of
   /// VarianceGroup; empty: the fit starts from usual ones.
   std::vector<double> structure_variances;

@@ -2,6 +2,7 @@
 #include "solve/print_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -31,6 +32,7 @@ constexpr double kRobustThreshold = 3.0;  // Huber's threshold, as in the joint 
 struct Return {
   BeamPoint beam;
   std::uint32_t point = 0;  // In the scene's cloud.
+  std::uint64_t lot = 0;    // Decides which returns stay where there are too many.
   double measured_m = 0.0;
   double range_residual_m = 0.0;
   double intensity = 0.0;
@@ -51,6 +53,19 @@ struct SurfaceNoise {
   std::array<double, 2> range_m{};  // White, black.
   std::array<double, 2> intensity{};
 };
+
+// A number as if drawn by lot, from the ray alone: the same whenever and in whatever order the
+// returns are asked (the finalizer of SplitMix64).
+std::uint64_t lot_of(const Eigen::Vector3d& direction) {
+  std::uint64_t out = 0;
+  for (int k = 0; k < 3; ++k) {
+    out += 0x9e3779b97f4a7c15ULL + std::bit_cast<std::uint64_t>(direction(k));
+    out = (out ^ (out >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    out = (out ^ (out >> 27)) * 0x94d049bb133111ebULL;
+    out ^= out >> 31;
+  }
+  return out;
+}
 
 double robust_sigma(double sigma, double residual) {
   return sigma / std::sqrt(huber_weight(residual / sigma, kRobustThreshold));
@@ -183,6 +198,7 @@ class SceneRows {
       r.measured_m = kept.point_m(k).norm();
       r.beam.scene = scene_;
       const Eigen::Vector3d direction = kept.point_m(k) / r.measured_m;
+      r.lot = lot_of(direction);
       if (known_ != nullptr) r.seen = (*known_)[i];
       auto p = predictor.predict(direction, Eigen::Vector2d::Zero(), &r.seen, &r.seen);
       if (!p || !geometry_.describe(direction, r.beam)) continue;
@@ -245,7 +261,8 @@ class SceneRows {
     }
   }
 
-  // Places of the returns wanted, at most `most`, evenly over board cells and surfaces.
+  // Places of the returns wanted, at most `most`, evenly over board cells and surfaces. Which ones
+  // stay is drawn by lot, the same for every table: if a few change their kind, the others stay.
   template <class Wanted>
   [[nodiscard]] std::vector<std::size_t> thinned(const Wanted& wanted, std::size_t most) const {
     std::map<int, std::vector<std::size_t>> cells;
@@ -263,11 +280,16 @@ class SceneRows {
     std::vector<std::size_t> out;
     const double quota =
         static_cast<double>(most) / static_cast<double>(std::max<std::size_t>(1, cells.size()));
-    for (const auto& [cell, members] : cells) {
+    for (auto& [cell, members] : cells) {
       const std::size_t take =
           all <= most ? members.size()
                       : std::min(members.size(), static_cast<std::size_t>(std::max(1.0, quota)));
-      for (std::size_t k = 0; k < take; ++k) out.push_back(members[k * members.size() / take]);
+      if (take < members.size()) {
+        std::nth_element(
+            members.begin(), members.begin() + static_cast<std::ptrdiff_t>(take), members.end(),
+            [&](std::size_t a, std::size_t b) { return returns_[a].lot < returns_[b].lot; });
+      }
+      out.insert(out.end(), members.begin(), members.begin() + static_cast<std::ptrdiff_t>(take));
     }
     std::sort(out.begin(), out.end());
     return out;
@@ -473,8 +495,9 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
   first->table.log_contrast = table.log_contrast;
   first->table.lines = table.lines;
   first->table.has_intensity = table.has_intensity;
-  table.again = [=](const ModelState& at, const std::vector<EffectInUse>& in_use) {
-    return make_table(kept->scenes, print, camera, at, noise, sigma_px, options, {}, first.get(),
+  table.again = [=](const ModelState& at, const std::vector<EffectInUse>& in_use,
+                    const RunContext& now) {
+    return make_table(kept->scenes, print, camera, at, noise, sigma_px, options, now, first.get(),
                       nullptr, in_use);
   };
   return table;

@@ -141,6 +141,17 @@ TEST_F(Session, HeldValuesStayAndTheOthersAdapt) {
   EXPECT_NEAR((*freed)->terms[0].use.values(0), 0.008, 0.0006);
 }
 
+// The last step of a search is the one told before, ranked.
+void expect_same_model(const ModelStep& a, const ModelStep& b) {
+  EXPECT_TRUE(a.state.camera_from_lidar.translation == b.state.camera_from_lidar.translation);
+  EXPECT_TRUE(a.covariance == b.covariance);
+  ASSERT_EQ(a.terms.size(), b.terms.size());
+  for (std::size_t k = 0; k < a.terms.size(); ++k) {
+    EXPECT_EQ(a.terms[k].spec, b.terms[k].spec);
+    EXPECT_TRUE(a.terms[k].use.values == b.terms[k].use.values);
+  }
+}
+
 TEST_F(Session, FindAllAddsWhatIsHiddenStepByStep) {
   const ModelStepPtr base = start(two_effects());
   std::vector<ModelStepPtr> seen;
@@ -150,7 +161,7 @@ TEST_F(Session, FindAllAddsWhatIsHiddenStepByStep) {
   EXPECT_THAT(specs(**found), ::testing::UnorderedElementsAre("range_walk", "corner_bias"));
   ASSERT_EQ(seen.size(), 2U);
   EXPECT_EQ(seen[0]->terms.size(), 1U);
-  EXPECT_EQ(seen[1], *found);
+  expect_same_model(*seen[1], **found);
 }
 
 // A search may swap an earlier effect for its alias while it adds another one.
@@ -245,7 +256,7 @@ TEST_F(Session, FindAllLeavesACleanModelAlone) {
   const ModelStepPtr base = start({});
   const auto found = find_all(base, {}, context_);
   ASSERT_TRUE(found);
-  EXPECT_EQ(*found, base);
+  expect_same_model(**found, *base);
 }
 
 TEST_F(Session, DecisionsMakeTheSameStepsAgain) {
