@@ -1386,10 +1386,6 @@ were saved. Take them up again?</source>
         <translation>距离和入射角变化时，白色与黑色返回光的比例变化不同，且没有任何效应能解释；边缘是从这些强度中找到的，因此无法判断：%1。</translation>
     </message>
     <message>
-        <source>Something that is there, but too small to matter, explains more and leaves nothing to it: %1.</source>
-        <translation>另有一个存在但小到无关紧要的效应解释得更多，没有给它留下任何内容：%1。</translation>
-    </message>
-    <message>
         <source>It explains %1 % of what is wrong in the %2 channel: %3; something else is at work there.</source>
         <translation>它只解释了%2通道中误差的 %1 %：%3；那里另有原因。</translation>
     </message>
@@ -1957,6 +1953,18 @@ were saved. Take them up again?</source>
         <source>A wide beam blurs every edge of the print, the more the farther.</source>
         <translation>较宽的光束使印刷图案的每条边缘变模糊，距离越远越明显。</translation>
     </message>
+    <message>
+        <source>Drift within a scan</source>
+        <translation>扫描内的漂移</translation>
+    </message>
+    <message>
+        <source>The range drifts anew in every scan, as where the device is switched on for it.</source>
+        <translation>每次扫描中测距都会重新漂移，例如设备仅在扫描时才通电。</translation>
+    </message>
+    <message>
+        <source>let the device run before the scan; boards beside the middle, where motion looks different</source>
+        <translation>扫描前让设备先运行一段时间；把标定板放在视场中央两侧，那里运动的表现与之不同</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -2221,10 +2229,6 @@ were saved. Take them up again?</source>
     <message>
         <source>scenes predicted better</source>
         <translation>预测得更好的场景数</translation>
-    </message>
-    <message>
-        <source>largest size it may have, over what matters</source>
-        <translation>可能的最大大小与有影响大小之比</translation>
     </message>
     <message>
         <source>distance from what devices have, σ²</source>

@@ -11,6 +11,7 @@
   X(range_cyclic)           \
   X(range_near)             \
   X(range_warmup)           \
+  X(range_drift)            \
   X(channel_range_offset)   \
   X(boundary_range_pull)    \
   X(angle_zero)             \

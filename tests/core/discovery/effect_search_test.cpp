@@ -189,6 +189,30 @@ TEST_F(SearchState, WhatBothPrintsShowIsNotContradicted) {
     EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
 }
 
+// Within a scan of 0.1 s, with a decay of 0.03 s, 4 mm at the most: not an offset, nor a motion.
+TEST_F(SearchState, ADriftWithinEveryScanIsNoMotion) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    return 0.004 * (1.0 - std::exp(-beam.time_s / 0.03));
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  const EffectColumns& found = search.linear().columns.list()[search.candidates()[*best].columns];
+  ASSERT_EQ(found.effect->info().id, "range_drift");
+  search.add(found.effect, found.shape);
+  search.refine_shape(0);
+  search.refine_shapes();
+  const EffectInUse& use = search.in_use()[0];
+  EXPECT_NEAR(use.shape, 0.03, 4.0 * search.shape_sigma(0));
+  EXPECT_LT(search.shape_sigma(0), 0.01);
+  EXPECT_NEAR(use.values(0), 0.004 / 0.03, 4.0 * std::sqrt(search.joint_covariance()(6, 6)));
+  search.rank();
+  EXPECT_FALSE(search.best().has_value());
+}
+
 // A near effect beside a walk between the prints: their sum contradicts neither.
 TEST_F(SearchState, AConstantDifferenceBetweenPrintsIsNoContradiction) {
   test::Disturbance wrong;

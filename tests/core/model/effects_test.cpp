@@ -152,6 +152,13 @@ std::vector<HandCase> range_cases() {
       {"Cyclic", "range_cyclic", Hook::kLidar, {along_x(1.0), along_x(0.0)}, 16.0},
       {"Near", "range_near", Hook::kLidar, {along_x(0.5)}, 4.0 / std::log(2.0)},
       {"Warmup", "range_warmup", Hook::kLidar, {along_x(0.5)}, 0.4 / std::log(2.0)},
+      // At 2 s with a decay of 2 s / ln 2: half of a τ.
+      {"Drift",
+       "range_drift",
+       Hook::kLidar,
+       {along_x(1.0 / std::log(2.0))},
+       2.0 / std::log(2.0),
+       [](Place& p) { p.beam.time_s = 2.0; }},
       {"LineOffset",
        "channel_range_offset",
        Hook::kLidar,
