@@ -1965,6 +1965,10 @@ were saved. Take them up again?</source>
         <source>let the device run before the scan; boards beside the middle, where motion looks different</source>
         <translation>扫描前让设备先运行一段时间；把标定板放在视场中央两侧，那里运动的表现与之不同</translation>
     </message>
+    <message>
+        <source>decay (s)</source>
+        <translation>衰减时间（秒）</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

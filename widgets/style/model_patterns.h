@@ -39,6 +39,7 @@ inline constexpr const char* kModelPatterns[] = {
     QT_TRANSLATE_NOOP("Core", "decay length (m)"),
     QT_TRANSLATE_NOOP("Core", "exponent (2 more: power by range and incidence)"),
     QT_TRANSLATE_NOOP("Core", "decay (share of the session)"),
+    QT_TRANSLATE_NOOP("Core", "decay (s)"),
     QT_TRANSLATE_NOOP("Core", "width s (rad)"),
     QT_TRANSLATE_NOOP("Core", "%1 In the model, held: %2."),
     QT_TRANSLATE_NOOP("Core", "%1 In the model: %2."),
