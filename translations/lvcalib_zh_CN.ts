@@ -2728,18 +2728,26 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>误差的历史显示在这里。</translation>
     </message>
     <message>
-        <source>squared error (%)</source>
-        <translation>平方误差 (%)</translation>
-    </message>
-    <message>
-        <source>Squared error by the base model&apos;s: grey noise, red unexplained, green explained by effects; diamonds: scenes held out. Click to go to a step.</source>
-        <translation>相对于基础模型的平方误差：灰色为噪声，红色为未解释，绿色为效应已解释；菱形：留出的场景。单击可转到某一步。</translation>
-    </message>
-    <message>
         <source>Step %1, %2: %3
 RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <translation>第 %1 步，%2：%3
 均方根 %4，噪声 %5，未解释 %6，留出 %7（%8）</translation>
+    </message>
+    <message>
+        <source>error beyond noise</source>
+        <translation>噪声以上的误差</translation>
+    </message>
+    <message>
+        <source>%1 (noise %2)</source>
+        <translation>%1（噪声 %2）</translation>
+    </message>
+    <message>
+        <source>&lt; %1</source>
+        <translation>&lt; %1</translation>
+    </message>
+    <message>
+        <source>Error beyond the noise, every channel on its own scale: red unexplained, green explained by effects, grey what noise alone may leave; diamonds: scenes held out. Click to go to a step.</source>
+        <translation>噪声以上的误差，每个通道用各自的比例：红色为未解释部分，绿色为效应已解释部分，灰色为仅由噪声也可能留下的部分；菱形：留出的场景。点击可转到某一步。</translation>
     </message>
 </context>
 <context>
@@ -3829,10 +3837,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>运行标定，查看模型解释了什么、遗漏了什么。</translation>
     </message>
     <message>
-        <source>noise</source>
-        <translation>噪声</translation>
-    </message>
-    <message>
         <source>unexplained</source>
         <translation>未解释</translation>
     </message>
@@ -3847,6 +3851,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Steps: %1</source>
         <translation>步骤：%1</translation>
+    </message>
+    <message>
+        <source>within noise</source>
+        <translation>噪声以内</translation>
     </message>
 </context>
 <context>

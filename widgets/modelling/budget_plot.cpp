@@ -12,7 +12,11 @@
 namespace lvcalib::widgets {
 namespace {
 
-constexpr int kGap = 1;  // empty columns between channels
+constexpr int kGap = 1;           // empty columns between channels
+constexpr double kTop = 1.2;      // Held-out errors above it are drawn there.
+constexpr double kFigures = 1.4;  // Where the figures stand, in heights of the largest bar.
+// Of the scale: a bar that noise alone may leave fills no more than this of it.
+constexpr double kChanceHeight = 0.5;
 
 const ChannelSummary* summary_of(const ModelStep& step, Channel channel) {
   for (const ChannelSummary& c : step.channels) {
@@ -30,8 +34,10 @@ BudgetPlot::BudgetPlot(QWidget* parent) : PlotView(parent) {
   setMouseTracking(true);
   xAxis->grid()->setVisible(false);
   xAxis->setSubTicks(false);
-  yAxis->setSubTicks(false);
-  yAxis->ticker()->setTickCount(3);
+  // Every channel has its own scale, told by its figures.
+  yAxis->setTicks(false);
+  yAxis->setTickLabels(false);
+  yAxis->grid()->setVisible(false);
   follow_language(this, [this] { rebuild(); });
   connect(this, &PlotView::clicked, this, [this](const QPointF& place) {
     const int step = stepAt(xAxis->pixelToCoord(place.x()));
@@ -41,15 +47,14 @@ BudgetPlot::BudgetPlot(QWidget* parent) : PlotView(parent) {
           [this](const QMouseEvent* event) { showTip(event->pos()); });
 }
 
-BudgetPlot::Shares BudgetPlot::shares(const ChannelSummary& base, const ChannelSummary& now) {
-  Shares out;
-  const double whole = base.rms * base.rms;
-  if (!(whole > 0.0)) return out;
-  out.floor = std::min(1.0, now.noise_floor * now.noise_floor / whole);
-  out.unexplained = now.unexplained * now.unexplained / whole;
-  out.explained = std::max(0.0, 1.0 - out.floor - out.unexplained);
-  out.heldout = now.heldout_rms * now.heldout_rms / whole;
-  return out;
+// The mean square of n rows is uncertain by √(2/n) of the floor's, the floor, from as many pairs of
+// neighbouring rows, by as much again.
+BudgetPlot::BeyondNoise BudgetPlot::beyond_noise(const ChannelSummary& now) {
+  constexpr double kUpper = 1.645;
+  const double n = std::max<double>(1.0, static_cast<double>(now.n));
+  const double floor2 = now.noise_floor * now.noise_floor;
+  return {now.unexplained, now.noise_floor * std::sqrt(kUpper * 2.0 / std::sqrt(n)),
+          std::sqrt(std::max(0.0, now.heldout_rms * now.heldout_rms - floor2))};
 }
 
 QColor BudgetPlot::noiseColor(const PlotColors& colors) {
@@ -84,75 +89,71 @@ void BudgetPlot::rebuild() {
     replot(rpQueuedReplot);
     return;
   }
-  yAxis->setLabel(tr("squared error (%)"));
+  yAxis->setLabel(tr("error beyond noise"));
   QSharedPointer<QCPAxisTickerText> ticker(new QCPAxisTickerText);
   const int block = static_cast<int>(steps_.size()) + kGap;
   std::vector<QStringList> rows;
-  double top = 1.0;
   int channel = 0;
   for (const ChannelSummary& base : steps_.front()->channels) {
-    const ModelStepPtr shown = current_ < steps_.size() ? steps_[current_] : nullptr;
-    const ChannelSummary* now = shown ? summary_of(*shown, base.channel) : nullptr;
-    QString label = channel_name(base.channel);
-    if (now != nullptr) {
-      label += QStringLiteral(" %1 → %2 %3")
-                   .arg(base.rms, 0, 'g', 3)
-                   .arg(now->rms, 0, 'g', 3)
-                   .arg(base.channel == Channel::kIntensity ? QString() : unit_text(base.channel));
-    }
-    ticker->addTick(channel * block + 0.5 * (block - kGap - 1), label.trimmed());
+    const double middle = channel * block + 0.5 * (block - kGap - 1);
+    const QString unit = base.channel == Channel::kIntensity
+                             ? QString()
+                             : QStringLiteral(" ") + unit_text(base.channel);
+    ticker->addTick(middle, tr("%1 (noise %2)")
+                                .arg(channel_name(base.channel),
+                                     QString::number(base.noise_floor, 'g', 2) + unit));
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       const ChannelSummary* c = steps_[k] ? summary_of(*steps_[k], base.channel) : nullptr;
       if (c == nullptr) continue;
-      const Shares s = shares(base, *c);
-      top = std::max({top, s.floor + s.explained + s.unexplained, std::min(s.heldout, 1.5)});
       rows.push_back({QString::number(k), QString::fromLatin1(name_of(base.channel)),
                       csv_number(c->rms), csv_number(c->noise_floor), csv_number(c->unexplained),
                       csv_number(c->heldout_rms)});
     }
-    drawChannel(channel, channel * block);
+    drawChannel(base, channel * block);
+    writeFigures(base, middle);
     ++channel;
   }
   xAxis->setTicker(ticker);
   xAxis->setTickLength(0, 0);
   setTable({"step", "channel", "rms", "noise_floor", "unexplained", "heldout_rms"},
            std::move(rows));
-  setHome({-0.8, channel * block - kGap - 0.2}, {0.0, 106.0 * top});
+  setHome({-0.8, channel * block - kGap - 0.2}, {0.0, kFigures + 0.25});
   replot(rpQueuedReplot);
 }
 
-void BudgetPlot::drawChannel(int channel, int first) {
-  const ChannelSummary& base = steps_.front()->channels[static_cast<std::size_t>(channel)];
-  const QColor parts[] = {noiseColor(colors()), colors().refused, explainedColor(colors())};
+void BudgetPlot::drawChannel(const ChannelSummary& base, int first) {
+  double scale = beyond_noise(base).by_chance / kChanceHeight;
+  for (const ModelStepPtr& step : steps_) {
+    const ChannelSummary* c = step ? summary_of(*step, base.channel) : nullptr;
+    if (c != nullptr) scale = std::max(scale, c->unexplained);
+  }
+  if (!(scale > 0.0)) return;
   QVector<double> held_x, held_y;
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     if (!steps_[k]) continue;
     const ChannelSummary* now = summary_of(*steps_[k], base.channel);
     if (now == nullptr) continue;
-    const Shares s = shares(base, *now);
+    const BeyondNoise error = beyond_noise(*now);
     const double x = first + static_cast<double>(k);
-    const double values[] = {s.floor, s.unexplained, s.explained};
-    double y = 0.0;
-    for (int part = 0; part < 3; ++part) {
+    const auto bar = [&](double from, double to, QColor color) {
       auto* rect = new QCPItemRect(this);
-      rect->topLeft->setCoords(x - 0.42, 100.0 * (y + values[part]));
-      rect->bottomRight->setCoords(x + 0.42, 100.0 * y);
-      QColor color = parts[part];
+      rect->topLeft->setCoords(x - 0.42, to / scale);
+      rect->bottomRight->setCoords(x + 0.42, from / scale);
       if (k > current_) color.setAlpha(70);
       rect->setBrush(color);
       rect->setPen(Qt::NoPen);
-      y += values[part];
-    }
+    };
+    const double top = std::max(base.unexplained, error.unexplained);
+    bar(0.0, error.unexplained, error.is_chance() ? noiseColor(colors()) : colors().refused);
+    if (!beyond_noise(base).is_chance()) bar(error.unexplained, top, explainedColor(colors()));
     if (k == current_) {
       auto* frame = new QCPItemRect(this);
-      frame->topLeft->setCoords(x - 0.46, 100.0 * y);
+      frame->topLeft->setCoords(x - 0.46, std::max(top / scale, 0.04));
       frame->bottomRight->setCoords(x + 0.46, 0.0);
       frame->setPen(QPen(colors().mark, 1.6));
     }
-    if (s.heldout > 0.0) {
-      held_x.push_back(x);
-      held_y.push_back(100.0 * std::min(s.heldout, 1.5));
-    }
+    held_x.push_back(x);
+    held_y.push_back(std::min(error.heldout / scale, kTop));
   }
   QCPGraph* held = addGraph();
   held->setLineStyle(QCPGraph::lsNone);
@@ -161,13 +162,38 @@ void BudgetPlot::drawChannel(int channel, int first) {
       {QCPScatterStyle::ssDiamond, QPen(colors().mark), QBrush(colors().background), 7.0});
 }
 
+// "2.9 → 0.4 mm", large: before any effect, and in the step that is shown.
+void BudgetPlot::writeFigures(const ChannelSummary& base, double middle) {
+  const ModelStepPtr shown = current_ < steps_.size() ? steps_[current_] : nullptr;
+  const ChannelSummary* now = shown ? summary_of(*shown, base.channel) : nullptr;
+  const auto figure = [](const ChannelSummary& c) {
+    const BeyondNoise error = beyond_noise(c);
+    return error.is_chance() ? tr("< %1").arg(error.by_chance, 0, 'g', 2)
+                             : QString::number(error.unexplained, 'g', 2);
+  };
+  QString text = figure(base);
+  const QString then = now != nullptr && current_ > 0 ? figure(*now) : text;
+  if (then != text) text += QStringLiteral(" → ") + then;
+  if (base.channel != Channel::kIntensity) text += QStringLiteral(" ") + unit_text(base.channel);
+  auto* label = new QCPItemText(this);
+  label->position->setCoords(middle, kFigures);
+  label->setText(text);
+  QFont large = font();
+  large.setPointSizeF(1.25 * large.pointSizeF());
+  large.setBold(true);
+  label->setFont(large);
+  const bool wrong = !beyond_noise(now != nullptr ? *now : base).is_chance();
+  label->setColor(wrong ? colors().refused : colors().text);
+}
+
 void BudgetPlot::showTip(const QPoint& place) {
   const double x = xAxis->pixelToCoord(place.x());
   const int step = stepAt(x);
   if (step < 0) {
     setToolTip(
-        tr("Squared error by the base model's: grey noise, red unexplained, green explained "
-           "by effects; diamonds: scenes held out. Click to go to a step."));
+        tr("Error beyond the noise, every channel on its own scale: red unexplained, green "
+           "explained by effects, grey what noise alone may leave; diamonds: scenes held out. "
+           "Click to go to a step."));
     return;
   }
   const int block = static_cast<int>(steps_.size()) + kGap;

@@ -8,9 +8,9 @@
 
 namespace lvcalib::widgets {
 
-/// The error of every channel after each step of the model: how much of the base model's squared
-/// error is noise, explained by effects, and unexplained, with the error of scenes held out beside
-/// it. A click goes to a step.
+/// What every channel is wrong by beyond its noise, after each step of the model: unexplained, and
+/// explained by effects since the base model, each channel on its own scale, with large figures
+/// above. What the noise alone may leave is grey. A click goes to a step.
 class BudgetPlot : public PlotView {
   Q_OBJECT
 
@@ -19,16 +19,16 @@ class BudgetPlot : public PlotView {
   /// Steps from the base model; null ones are left out.
   void setSteps(std::vector<ModelStepPtr> steps, std::size_t current);
 
-  /// Shares of the base model's squared error; they add up to 1 or, where a model is worse, more.
-  struct Shares {
-    double floor = 0.0;
-    double explained = 0.0;
+  /// A channel's error beyond its noise floor, display units.
+  struct BeyondNoise {
     double unexplained = 0.0;
-    double heldout = 0.0;  ///< Squared held-out error by the base model's squared error.
+    double by_chance = 0.0;  ///< What noise alone leaves at most (95 %).
+    double heldout = 0.0;    ///< Of scenes held out.
+    [[nodiscard]] bool is_chance() const { return unexplained <= by_chance; }
   };
+  static BeyondNoise beyond_noise(const ChannelSummary& now);
   static QColor noiseColor(const PlotColors& colors);
   static QColor explainedColor(const PlotColors& colors);
-  static Shares shares(const ChannelSummary& base, const ChannelSummary& now);
 
  Q_SIGNALS:
   void stepClicked(int step);
@@ -37,7 +37,8 @@ class BudgetPlot : public PlotView {
   void rebuild() override;
 
  private:
-  void drawChannel(int channel, int first);
+  void drawChannel(const ChannelSummary& base, int first);
+  void writeFigures(const ChannelSummary& base, double middle);
   void showTip(const QPoint& place);
   [[nodiscard]] int stepAt(double x) const;
 

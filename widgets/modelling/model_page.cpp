@@ -179,7 +179,7 @@ void ModelPage::describeSteps() {
     const QString text = step ? step_text(*step).toHtmlEscaped() : QStringLiteral("…");
     steps << (k == work_.current() ? QStringLiteral("<b>%1</b>").arg(text) : text);
   }
-  const QStringList legend = {entry(BudgetPlot::noiseColor(colors), u'■', tr("noise")),
+  const QStringList legend = {entry(BudgetPlot::noiseColor(colors), u'■', tr("within noise")),
                               entry(colors.refused, u'■', tr("unexplained")),
                               entry(BudgetPlot::explainedColor(colors), u'■', tr("explained")),
                               entry(colors.mark, u'◇', tr("scenes held out"))};

@@ -15,17 +15,42 @@ const ChannelSummary& range_of(const ModelStep& step) {
   throw std::runtime_error("no range channel");
 }
 
-TEST(BudgetPlotTest, SharesAddUpAndTheUnexplainedOneFalls) {
+TEST(BudgetPlotTest, WhatIsUnexplainedFallsToWhatNoiseLeaves) {
   const auto& example = test::model_example();
-  const auto before = BudgetPlot::shares(range_of(*example.base), range_of(*example.base));
-  EXPECT_NEAR(before.floor + before.explained + before.unexplained, 1.0, 0.02);
-  EXPECT_NEAR(before.explained, 0.0, 0.02);
-  EXPECT_GT(before.unexplained, 0.1);
-  const auto after = BudgetPlot::shares(range_of(*example.base), range_of(*example.mended));
-  EXPECT_LT(after.unexplained, 0.1 * before.unexplained);
-  EXPECT_NEAR(after.explained, before.unexplained, 0.05);
+  const auto before = BudgetPlot::beyond_noise(range_of(*example.base));
+  EXPECT_FALSE(before.is_chance());
+  EXPECT_NEAR(before.unexplained, range_of(*example.base).unexplained, 1e-12);
+  const auto after = BudgetPlot::beyond_noise(range_of(*example.mended));
+  EXPECT_LT(after.unexplained, 0.3 * before.unexplained);
   EXPECT_LT(after.heldout, before.heldout);
-  EXPECT_EQ(BudgetPlot::shares({}, {}).floor, 0.0);
+  // 1 ± 1.645·2/√10⁴ of the floor's square: √0.0329 of the floor.
+  ChannelSummary c;
+  c.n = 10'000;
+  c.noise_floor = 10.0;
+  c.unexplained = 1.8;
+  EXPECT_NEAR(BudgetPlot::beyond_noise(c).by_chance, 1.8138, 1e-3);
+  EXPECT_TRUE(BudgetPlot::beyond_noise(c).is_chance());
+  c.unexplained = 1.9;
+  EXPECT_FALSE(BudgetPlot::beyond_noise(c).is_chance());
+}
+
+// The demo's kind of effect is seen at a glance: half of the bar's height and more is red before.
+TEST(BudgetPlotTest, TheFiguresSayBeforeAndAfter) {
+  const auto& example = test::model_example();
+  BudgetPlot plot;
+  plot.setSteps({example.base, example.mended}, 1);
+  const QString unexplained = QString::number(range_of(*example.base).unexplained, 'g', 2);
+  bool seen = false;
+  double red = 0.0;
+  for (int k = 0; k < plot.itemCount(); ++k) {
+    if (const auto* text = qobject_cast<QCPItemText*>(plot.item(k)))
+      seen = seen || text->text().startsWith(unexplained + QStringLiteral(" → "));
+    const auto* bar = qobject_cast<QCPItemRect*>(plot.item(k));
+    if (bar != nullptr && bar->brush().color() == plot.colors().refused)
+      red = std::max(red, bar->topLeft->coords().y());
+  }
+  EXPECT_TRUE(seen);
+  EXPECT_GT(red, 0.5);
 }
 
 TEST(BudgetPlotTest, AClickOnAColumnGoesToItsStep) {
