@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
@@ -81,13 +82,6 @@ BlackShapes black_shapes(const Target& target) {
   return shapes;
 }
 
-double normal_below(double x) {
-  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
-}
-double normal_density(double x) {
-  return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
-}
-
 // Beyond so many widths from an edge nothing of it is left: Φ(−5) = 3·10⁻⁷.
 constexpr double kReach = 5.0;
 
@@ -109,7 +103,7 @@ class DiscProfile {
       const double y = most * std::cos(angle);
       const auto k = static_cast<std::size_t>(i);
       weight[k] =
-          normal_density(y / sigma) / sigma * most * std::sin(angle) * std::numbers::pi / kStrips;
+          normal_pdf(y / sigma) / sigma * most * std::sin(angle) * std::numbers::pi / kStrips;
       chord[k] = std::sqrt(std::max(0.0, radius * radius - y * y));
     }
     for (int n = 0; n < count; ++n) {
@@ -118,10 +112,9 @@ class DiscProfile {
       for (std::size_t k = 0; k < kStrips; ++k) {
         const double near = (rho + chord[k]) / sigma;
         const double far = (rho - chord[k]) / sigma;
-        d[0] += weight[k] * (normal_below(near) - normal_below(far));
-        d[1] += weight[k] * (normal_density(near) - normal_density(far)) / sigma;
-        d[2] +=
-            weight[k] * (far * normal_density(far) - near * normal_density(near)) / (sigma * sigma);
+        d[0] += weight[k] * (normal_cdf(near) - normal_cdf(far));
+        d[1] += weight[k] * (normal_pdf(near) - normal_pdf(far)) / sigma;
+        d[2] += weight[k] * (far * normal_pdf(far) - near * normal_pdf(near)) / (sigma * sigma);
       }
       table_.push_back(d);
     }
@@ -290,9 +283,8 @@ struct BlurredPrint::Level {
         std::clamp(static_cast<int>(std::ceil((b + kReach * sigma - start) / step)), 0, count - 1);
     for (int i = s.first; i <= last; ++i) {
       const double x = start + i * step;
-      s.value.push_back(normal_below((x - a) / sigma) - normal_below((x - b) / sigma));
-      s.slope.push_back((normal_density((x - a) / sigma) - normal_density((x - b) / sigma)) * step /
-                        sigma);
+      s.value.push_back(normal_cdf((x - a) / sigma) - normal_cdf((x - b) / sigma));
+      s.slope.push_back((normal_pdf((x - a) / sigma) - normal_pdf((x - b) / sigma)) * step / sigma);
     }
     return s;
   }

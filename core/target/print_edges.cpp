@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
@@ -12,13 +13,6 @@ constexpr double kCell = 0.03;
 // Edges farther than this are beyond four widths of any spot that still tells edges of bits apart.
 constexpr double kFar = 0.08;
 constexpr double kReach = 4.0;  // Widths beyond which an edge is not asked.
-
-double normal_below(double x) {
-  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
-}
-double normal_density(double x) {
-  return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
-}
 
 // I₀(x)·exp(−x), by Abramowitz and Stegun 9.8.1 and 9.8.2 (to 2·10⁻⁷).
 double scaled_bessel_0(double x) {
@@ -151,8 +145,8 @@ double PrintEdges::growth_per_m(const Eigen::Vector2d& p, const Eigen::Matrix2d&
     const double middle = p(s.axis) + slope * off;
     const double along =
         std::sqrt(std::max(1e-18, blur(s.axis, s.axis) - slope * slope * across * across));
-    sum += normal_density(off / across) / across *
-           (normal_below((s.to - middle) / along) - normal_below((s.from - middle) / along));
+    sum += normal_pdf(off / across) / across *
+           (normal_cdf((s.to - middle) / along) - normal_cdf((s.from - middle) / along));
   }
   for (const int k : near_circles_[cell]) {
     const Eigen::Vector2d from = p - circles_[static_cast<std::size_t>(k)];
