@@ -5,8 +5,10 @@
 //   rig_study [RIGS] [FIRST_SEED] [FOLDER]
 //
 // Rig k takes the k-th of three scanners in turn, a board with circles or without, and 3 to 10
-// scenes; seeds are consecutive.
+// scenes; seeds are consecutive. An interrupt (Ctrl+C) ends it after the rig at hand, with the
+// summary.
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -33,6 +35,10 @@ struct RigOutcome {
   double bound_mm = 0, bound_mrad = 0;
   double stated_mm = 0, stated_mrad = 0;
   Vector6d normalized = Vector6d::Zero();
+  // Components within the 95 % interval.
+  [[nodiscard]] int inside() const {
+    return static_cast<int>((normalized.cwiseAbs().array() < 1.96).count());
+  }
   double bound_chi = 0.0;  // eᵀFe/6
   double node_chi = 0.0;   // The same of the joint solve over nodes and planes.
   int scanner = 0;
@@ -181,7 +187,8 @@ void summarize(const std::vector<RigOutcome>& all) {
     br.push_back(o.bound_mrad);
     if (o.scenes == 3) few_t.push_back(o.translation_mm), few_r.push_back(o.rotation_mrad);
     if (o.scenes >= 6) many_t.push_back(o.translation_mm), many_r.push_back(o.rotation_mrad);
-    for (int k = 0; k < 6; ++k, ++components) inside += std::abs(o.normalized(k)) < 1.96 ? 1 : 0;
+    inside += o.inside();
+    components += 6;
   }
   std::printf(
       "rigs %zu, not solved %d; scenes %d, board found in %d (%.2f %%), wrong board accepted in "
@@ -206,6 +213,8 @@ void summarize(const std::vector<RigOutcome>& all) {
               100.0 * inside / std::max(1, components), components);
 }
 
+volatile std::sig_atomic_t interrupted = 0;
+
 }  // namespace
 }  // namespace lvcalib::study
 
@@ -217,15 +226,16 @@ int main(int argc, char** argv) {
   std::vector<RigOutcome> all;
   std::printf(
       "seed,scenes,found,wrong,translation_mm,rotation_mrad,bound_mm,bound_mrad,stated_mm,stated_"
-      "mrad,chi,node_chi,dof,quality\n");
-  for (int k = 0; k < rigs; ++k) {
+      "mrad,chi,node_chi,dof,inside,quality\n");
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  for (int k = 0; k < rigs && interrupted == 0; ++k) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(k);
     all.push_back(run_rig(k, seed, folder));
     const RigOutcome& o = all.back();
-    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.0f,%s\n",
+    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.0f,%d,%s\n",
                 static_cast<unsigned long long>(seed), o.scenes, o.found, o.wrong, o.translation_mm,
                 o.rotation_mrad, o.bound_mm, o.bound_mrad, o.stated_mm, o.stated_mrad, o.bound_chi,
-                o.node_chi, o.dof, o.quality.c_str());
+                o.node_chi, o.dof, o.inside(), o.quality.c_str());
     std::fflush(stdout);
   }
   summarize(all);
