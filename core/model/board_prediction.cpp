@@ -150,9 +150,9 @@ PrintView view_print(const ReturnPrediction& p, const BoardLevels& levels, const
   // width from it, it is a third less.
   constexpr double kOneEdge = 0.2;
   PrintView out;
-  if (p.white > 1.0 - kPlainPrint || p.white < kPlainPrint) return out;
   const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
   const double slope = p.intensity_by_shift.norm();
+  if (!(slope > 0.0)) return out;
   const double width = std::sqrt(by_angle.dot(by_angle * beam.blur_rad2)) / std::max(slope, 1e-12);
   // Of one straight edge the slope follows from the share of white; where it does not, the spot
   // sees several edges, and what widens dark print is not what moves them.
@@ -160,9 +160,11 @@ PrintView view_print(const ReturnPrediction& p, const BoardLevels& levels, const
   const double z = boost::math::quantile(normal, std::clamp(p.white, 1e-4, 1.0 - 1e-4));
   const double one_edge =
       std::abs(levels.white - levels.black) * boost::math::pdf(normal, z) / width;
-  out.kind = PrintView::Kind::kMixed;
-  if (!(std::abs(std::log(slope / one_edge)) <= kOneEdge)) return out;
-  out.kind = PrintView::Kind::kEdge;
+  if (p.white <= 1.0 - kPlainPrint && p.white >= kPlainPrint) {
+    out.kind = std::abs(std::log(slope / one_edge)) <= kOneEdge ? PrintView::Kind::kEdge
+                                                                : PrintView::Kind::kMixed;
+  }
+  if (out.kind == PrintView::Kind::kMixed) return out;
   out.slope = slope;
   out.width_m = width;
   out.distance_m = width * z;

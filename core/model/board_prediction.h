@@ -114,7 +114,7 @@ BeamAxes beam_axes(const Eigen::Vector3d& direction);
 struct PrintView {
   enum class Kind { kPlain, kEdge, kMixed };
   Kind kind = Kind::kPlain;
-  // Of an edge:
+  // Of an edge, and of plain print in whose spot an edge leaves a trace (else the slope is zero):
   double slope = 0.0;       ///< Of the intensity across it, 1/m.
   double width_m = 0.0;     ///< σ of the spot across it.
   double distance_m = 0.0;  ///< From it to the spot, on the white side positive.

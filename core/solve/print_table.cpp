@@ -88,14 +88,24 @@ class ReturnEffects {
     double log_intensity = 0.0;
     double range_m = 0.0;
   };
+  // `edge`: which the spot sees, if any.
   Sum of(const SceneGeometry& geometry, const Eigen::Matrix3d& rotation, BeamPoint beam,
-         double predicted) {
+         double predicted, const std::optional<NearEdge>& near, double log_contrast) {
     Sum out;
     if (in_use_.empty()) return out;
     beam.darkness = darkness(table_, predicted);
     const Print side = beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
-    const PrintSensitivity::Moves moves(geometry, rotation, beam.direction, nullptr);
-    rows_.reading({beam, side, 0.0, 1.0, {}}, nullptr, moves,
+    BoundaryRow edge;
+    if (near) {
+      beam.edge = near;
+      edge.beam = beam;
+      edge.psi_rad = near->psi_rad;
+      edge.transition_m = near->transition_m;
+      edge.log_contrast = log_contrast;
+    }
+    const BoundaryRow* seen = near ? &edge : nullptr;
+    const PrintSensitivity::Moves moves(geometry, rotation, beam.direction, seen);
+    rows_.reading({beam, side, 0.0, 1.0, {}}, seen, moves,
                   [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
                     for (std::size_t k = 0; k < by.shift_m.size(); ++k) {
                       out.shift_m += value(c, k) * by.shift_m[k];
@@ -205,13 +215,16 @@ class SceneRows {
       if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
       if (cloud.has_line()) r.beam.line = cloud.line[i];
       if (!velocities.empty()) r.beam.scan_rad_s = velocities[i];
-      const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity);
+      // What an edge grown by effects does to the spot is seen as by the print displaced.
+      const double beside = beside_edge(*p, beam);
+      const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
+                                                near_edge(*p, beam, beside), log_contrast());
       if (!sum.shift_m.isZero()) p = predictor.predict(direction, sum.shift_m, &r.seen, &r.seen);
       r.range_residual_m = r.measured_m - p->range_m - sum.range_m;
       r.white = p->white;
       r.plain_level = p->intensity;
       if (has_intensity_)
-        describe_print(*p, beam, kept.intensity(k), std::exp(sum.log_intensity), r);
+        describe_print(*p, beam, kept.intensity(k), std::exp(sum.log_intensity), beside, r);
       returns_.push_back(r);
     }
     // In the order of the scan, whatever order the file has.
@@ -223,8 +236,34 @@ class SceneRows {
               [&](const Return& a, const Return& b) { return key(a) < key(b); });
   }
 
+  [[nodiscard]] double log_contrast() const {
+    const double white = std::max(levels_.white, 1e-12);
+    return std::log(white / std::max(levels_.black, kLeastShare * white));
+  }
+
+  // What edges beside the nearest add to the intensity that growing black takes, per metre.
+  [[nodiscard]] double beside_edge(const ReturnPrediction& p, const BeamSpread& beam) const {
+    const PrintView view = view_print(p, levels_, beam);
+    if (!(view.slope > 0.0)) return 0.0;
+    const double contrast = levels_.white - levels_.black;
+    const double light = p.intensity / (levels_.black + contrast * p.white);
+    return print_.edges().growth_per_m(p.board_m, p.spot_m2) * std::abs(light * contrast) -
+           view.slope;
+  }
+
+  // The edge that a spot sees, or of which plain print has a trace.
+  [[nodiscard]] std::optional<NearEdge> near_edge(const ReturnPrediction& p, const BeamSpread& beam,
+                                                  double beside_per_m) const {
+    // More than one edge adds is more than one edge.
+    constexpr double kMost = 2.0;
+    const PrintView view = view_print(p, levels_, beam);
+    if (!(view.slope > 0.0)) return std::nullopt;
+    return NearEdge{view.distance_m, view.psi_rad, view.width_m,
+                    std::clamp(1.0 + beside_per_m / view.slope, 1.0 / kMost, kMost)};
+  }
+
   void describe_print(const ReturnPrediction& p, const BeamSpread& beam, double intensity,
-                      double gain, Return& r) const {
+                      double gain, double beside_per_m, Return& r) const {
     r.intensity = intensity;
     r.predicted = gain * p.intensity;
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
@@ -233,11 +272,7 @@ class SceneRows {
     r.print = view.kind;
     if (view.kind != PrintView::Kind::kEdge) return;
     r.slope = view.slope;
-    r.beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m};
-    const double contrast = levels_.white - levels_.black;
-    const double light = p.intensity / (levels_.black + contrast * p.white);
-    r.beam.edge->growth =
-        print_.edges().growth_per_m(p.board_m, p.spot_m2) * std::abs(light * contrast) / view.slope;
+    r.beam.edge = near_edge(p, beam, beside_per_m);
   }
 
   void measure_noise(const SceneNoise& fallback) {
@@ -317,8 +352,7 @@ class SceneRows {
     row.beam = r.beam;
     row.psi_rad = r.beam.edge->psi_rad;
     row.transition_m = r.beam.edge->transition_m;
-    const double white = std::max(levels_.white, 1e-12);
-    row.log_contrast = std::log(white / std::max(levels_.black, kLeastShare * white));
+    row.log_contrast = log_contrast();
     row.sigma_m = intensity_sigma(r) / r.slope;
     row.edge_normal_rad = edge_normal(geometry_, r.beam, row.psi_rad);
     row.reading = {r.intensity, -r.slope, r.seen};
