@@ -47,6 +47,7 @@ WIDGET_DOORS = {
     "pages": ["style", "views"],
     "modelling": ["style", "views", "runner"],
     "dialogs": ["style"],
+    "importing": ["style", "runner", "dialogs"],
     "docks": ["style", "models"],
     "start": ["style"],
 }

@@ -73,6 +73,7 @@ QAction* MainActions::add(QMenu* menu, const char* name, const QKeySequence& key
 }
 
 void MainActions::make_file_menu(QMainWindow& window) {
+  import_recording = add(file_, "import_recording", QKeySequence::New);
   open_dataset = add(file_, "open_dataset", QKeySequence::Open);
   open_project = add(file_, "open_project", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
   recent_ = file_->addMenu(QString());
@@ -180,6 +181,8 @@ void MainActions::retranslate() {
     action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));
     action->setStatusTip({});
   };
+  describe(import_recording, tr("&New from recording…"),
+           tr("Make a dataset of a ROS bag, rosbag2 or MCAP, and calibrate it"));
   describe(open_dataset, tr("&Open dataset…"), tr("Open a dataset folder"));
   describe(open_project, tr("Open &project…"), tr("Open a .lvcalib file"));
   describe(demo, tr("Try the &demo"), tr("Simulate four scenes and open them, with a guided tour"));

@@ -66,6 +66,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   connect_pages();
   connect_results();
   connect_model();
+  connect_import();
   restore_window();
   pages_->welcome().set_recent(settings_.recent());
   actions_->set_recent(settings_.recent());
@@ -187,6 +188,7 @@ void MainWindow::connect_workspace() {
     update_actions();
   });
   connect(w, &Workspace::failed, this, [this](const Error& error, bool modest) {
+    run_when_opened_ = false;
     if (!modest) show_error(error);  // Else the status line says it.
   });
   connect(w, &Workspace::logged, log_,
@@ -229,15 +231,6 @@ void MainWindow::connect_results() {
   });
 }
 
-void MainWindow::open(const QString& path) {
-  if (!may_drop_decisions()) return;
-  if (QFileInfo(path).isDir()) {
-    workspace_->open_dataset(path);
-  } else {
-    workspace_->open_project(path);
-  }
-}
-
 void MainWindow::take_opened() {
   const Dataset& dataset = workspace_->dataset();
   const QString path = workspace_->project_path().isEmpty()
@@ -260,6 +253,7 @@ void MainWindow::take_opened() {
   }
   update_title();
   update_actions();
+  if (std::exchange(run_when_opened_, false)) workspace_->run();
 }
 
 void MainWindow::take_result() {

@@ -157,10 +157,14 @@ ImportedStretch describe_stretch(const Recording& recording, const RecordingSurv
                                  const std::vector<StillStretch>& stretches, std::size_t index,
                                  const ImportOptions& options) {
   const StillStretch& stretch = stretches[index];
-  const auto seconds = [&](std::int64_t t) { return seconds_from_start(recording, t); };
+  // A stretch reaches half a sample beyond its first and last one; the recording does not.
+  const auto seconds = [&](std::int64_t t) {
+    return std::clamp(seconds_from_start(recording, t), 0.0,
+                      seconds_from_start(recording, recording.span().last_ns));
+  };
   ImportedStretch out;
-  out.first_s = std::max(0.0, seconds(stretch.first_ns));
-  out.last_s = std::min(seconds(recording.span().last_ns), seconds(stretch.last_ns));
+  out.first_s = seconds(stretch.first_ns);
+  out.last_s = seconds(stretch.last_ns);
   out.images = stretch.last_image - stretch.first_image + 1;
   out.image_s = seconds(survey.images.time_ns(stretch.sharpest_image));
   out.image_ns = survey.images.time_ns(stretch.sharpest_image) - survey.image_offset_ns;

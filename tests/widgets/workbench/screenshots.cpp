@@ -17,7 +17,9 @@
 #include <QTreeWidget>
 #include <cstdio>
 
+#include "importing/stretch_list.h"
 #include "modelling/residual_plot.h"
+#include "widgets/importing/recorded_walk.h"
 #include "widgets/support/driver.h"
 
 namespace {
@@ -101,6 +103,28 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   take("error_dialog", QStringLiteral("error"));
 }
 
+// A walk with four poses, the first of which is taken up again.
+void photograph_import(widgets::MainWindow& window, Photographer& camera) {
+  test::RecordedWalk walk(test::walk_simulation(4, 60'000, 960, 600));
+  simulation::SimulatedRig rig = walk.rig;
+  rig.scenes.push_back(rig.scenes.front());
+  rig.scenes.back().name = "again";
+  test::WalkOptions options;
+  options.moving_ticks = 12;
+  window.open(walk.write(test::simulated_walk(rig, options), QStringLiteral("parking-lot.bag")));
+  auto* dialog = test::find<QDialog>(window, "import_dialog");
+  auto* stretches = test::find<widgets::StretchList>(*dialog, "stretches");
+  test::wait_until([&] { return stretches->topLevelItemCount() > 0; });
+  test::wait_until([&] { return !stretches->topLevelItem(3)->text(3).isEmpty(); }, 20'000);
+  stretches->setCurrentItem(stretches->topLevelItem(1));
+  for (const char* theme : {"light", "dark"}) {
+    choose(window, "theme", QString::fromLatin1(theme));
+    camera.take(QStringLiteral("import-%1").arg(QLatin1String(theme)), dialog);
+  }
+  choose(window, "theme", QStringLiteral("light"));
+  dialog->close();
+}
+
 bool wait_for_model(widgets::MainWindow& window) {
   return test::wait_until([&] { return window.model_work().step() && !window.model_work().busy(); },
                           600'000);
@@ -177,6 +201,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   window.move(0, 0);
   window.show();
   camera.take(QStringLiteral("welcome"));
+  if (!quick) photograph_import(window, camera);
   if (dataset.isEmpty()) {
     test::trigger(window, "demo");
   } else {
