@@ -48,6 +48,7 @@ WIDGET_DOORS = {
     "modelling": ["style", "views", "runner"],
     "dialogs": ["style"],
     "importing": ["style", "runner", "dialogs"],
+    "tools": ["style", "runner", "dialogs"],
     "docks": ["style", "models"],
     "start": ["style"],
 }

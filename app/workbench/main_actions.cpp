@@ -25,6 +25,7 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   file_ = bar->addMenu(QString());
   edit_ = bar->addMenu(QString());
   run_menu_ = bar->addMenu(QString());
+  tools_ = bar->addMenu(QString());
   view_ = bar->addMenu(QString());
   help_ = bar->addMenu(QString());
   make_file_menu(window);
@@ -38,6 +39,8 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   run_menu_->addSeparator();
   use_crops = add(run_menu_, "use_crops", {});
   use_crops->setCheckable(true);
+  correct = add(tools_, "correct_clouds", {});
+  compare = add(tools_, "compare_results", {});
   make_view_menu(window);
   guide = add(help_, "guide", QKeySequence::HelpContents);
   about = add(help_, "about", {});
@@ -166,6 +169,7 @@ void MainActions::retranslate() {
   file_->setTitle(tr("&File"));
   edit_->setTitle(tr("&Edit"));
   run_menu_->setTitle(tr("&Run"));
+  tools_->setTitle(tr("&Tools"));
   view_->setTitle(tr("&View"));
   help_->setTitle(tr("&Help"));
   recent_->setTitle(tr("Open &recent"));
@@ -195,6 +199,10 @@ void MainActions::retranslate() {
   describe(cancel, tr("&Cancel"), tr("Stop what is running"));
   describe(use_crops, tr("Use board.pcd &files"),
            tr("Take a scene's board.pcd instead of its whole cloud where there is one"));
+  describe(correct, tr("&Correct clouds…"),
+           tr("Take the effects of the model in force out of clouds of this LiDAR"));
+  describe(compare, tr("Compare &with…"),
+           tr("The difference to another result, or to a simulation's truth"));
   describe(guide, tr("&Guide"), tr("From the printed board to a result"));
   describe(about, tr("&About"), tr("Version and licence"));
   const QStringList names = {tr("As the &system"), tr("&Light"), tr("&Dark")};

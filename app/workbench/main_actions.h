@@ -36,6 +36,7 @@ class MainActions : public QObject {
 
   QAction *import_recording, *open_dataset, *open_project, *demo, *save, *save_as, *results,
       *report, *quit;
+  QAction *correct, *compare;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;
   QActionGroup* themes;     ///< data(): name_of(Theme).
   QActionGroup* languages;  ///< data(): code of the language.
@@ -51,7 +52,7 @@ class MainActions : public QObject {
   void describe_undo();
 
   QPointer<QUndoStack> undo_stack_;
-  QMenu *file_, *edit_, *run_menu_, *view_, *help_, *recent_, *theme_menu_,
+  QMenu *file_, *edit_, *run_menu_, *tools_, *view_, *help_, *recent_, *theme_menu_,
       *language_menu_;
   QAction* before_toggles_ = nullptr;
 };

@@ -121,6 +121,8 @@ void MainWindow::connect_actions() {
   on(actions_->results, [this] { results_->show(final_result()); });
   on(actions_->report,
      [this] { results_->write_report(final_result(), model_work_->discovery()); });
+  on(actions_->correct, [this] { results_->correct_clouds(final_result()); });
+  on(actions_->compare, [this] { results_->compare(final_result()); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();
@@ -356,7 +358,8 @@ void MainWindow::update_actions() {
   actions_->save_as->setEnabled(open);
   actions_->use_crops->setEnabled(open);
   actions_->results->setEnabled(workspace_->result() != nullptr);
-  actions_->report->setEnabled(workspace_->result() != nullptr);
+  for (QAction* action : {actions_->report, actions_->correct, actions_->compare})
+    action->setEnabled(workspace_->result() != nullptr);
   parameters_->widget()->setEnabled(open);
 }
 

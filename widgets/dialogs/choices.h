@@ -34,6 +34,13 @@ class Choices {
   virtual QString camera_to_open(QWidget* parent, const QString& folder);
   /// A folder that need not exist yet.
   virtual QString dataset_to_make(QWidget* parent, const QString& suggestion);
+  virtual QString cloud_to_open(QWidget* parent, const QString& folder);
+  /// A folder of clouds.
+  virtual QString clouds_to_open(QWidget* parent, const QString& folder);
+  /// A cloud's file, or the folder for several.
+  virtual QString clouds_to_save(QWidget* parent, const QString& suggestion);
+  /// A result.json, or the truth of a simulation.
+  virtual QString result_to_open(QWidget* parent, const QString& folder);
   virtual UnsavedAnswer unsaved(QWidget* parent, const QString& name);
   /// A project's dataset is not at `old_path`: where is it now?
   virtual QString moved_dataset(QWidget* parent, const QString& old_path);

@@ -13,6 +13,7 @@
 
 #include "dialogs/error_dialog.h"
 #include "model/user_effect.h"
+#include "report/result_file.h"
 #include "runner/demo.h"
 #include "style/texts.h"
 #include "views/color_bar.h"
@@ -101,6 +102,11 @@ class RetranslationTest : public ::testing::Test {
                                  false);
     ASSERT_TRUE(test::wait_for_result(*window_));
     for (const char* name : {"results", "guide", "about"}) ASSERT_TRUE(trigger(*window_, name));
+    const auto written = folder_.filePath(QStringLiteral("earlier")).toStdString();
+    ASSERT_TRUE(write_results(*window_->workspace().result(), written).ok());
+    answers_.other_result = QString::fromStdString(written + "/result.json");
+    for (const char* name : {"compare_results", "correct_clouds"})
+      ASSERT_TRUE(trigger(*window_, name));
     answers_.recording = test::small_walk().path;
     ASSERT_TRUE(trigger(*window_, "import_recording"));
     ASSERT_TRUE(wait_until([&] {

@@ -19,6 +19,8 @@
 
 #include "importing/stretch_list.h"
 #include "modelling/residual_plot.h"
+#include "report/result_file.h"
+#include "tools/compare_dialog.h"
 #include "widgets/importing/recorded_walk.h"
 #include "widgets/support/driver.h"
 
@@ -94,6 +96,20 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
         formats->findItems(QStringLiteral("kalibr"), Qt::MatchExactly).value(0));
   }
   take("results_dialog", QStringLiteral("exports"));
+  static test::Answers nobody;
+  const QTemporaryDir folder;
+  const auto result = window.workspace().result();
+  CalibrationResult other = *result;
+  other.extrinsic.camera_from_lidar.transform.translation.x() += 2e-4;
+  const auto written = folder.filePath(QStringLiteral("rig-in-spring")).toStdString();
+  if (write_results(other, written).ok()) {
+    auto* compare = new widgets::CompareDialog(result, nobody, folder.path(), &window);
+    compare->open(QString::fromStdString(written + "/result.json"));
+    compare->show();
+  }
+  take("compare_dialog", QStringLiteral("compare"));
+  test::trigger(window, "correct_clouds");
+  take("correct_dialog", QStringLiteral("correct"));
   test::trigger(window, "guide");
   take("guide_dialog", QStringLiteral("guide"));
   test::trigger(window, "about");
