@@ -12,6 +12,8 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <cstdlib>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -220,6 +222,26 @@ TEST_F(ImportDialogTest, DroppedRecordingsAndFoldersOfThemAreImported) {
   ASSERT_TRUE(test::trigger(*window_, "open_dataset"));
   ASSERT_NE(dialog(), nullptr);
   EXPECT_TRUE(wait_until([&] { return stretches().topLevelItemCount() == 3; }));
+}
+
+// Recordings of other people's tools, where they are at hand: none holds a board at rest.
+TEST_F(ImportDialogTest, OtherRecordingsEndInOneMessage) {
+  const char* data = std::getenv("LVCALIB_SHARED_DATA");
+  const auto folder =
+      (data != nullptr ? std::filesystem::path(data)
+                       : std::filesystem::path(LVCALIB_SOURCE_DIR).parent_path() / "shared/data") /
+      "recordings";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
+  int opened = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".md") continue;
+    open(QString::fromStdString(entry.path().string()));
+    ASSERT_TRUE(wait_until([&] { return !dialog()->busy(); })) << entry.path();
+    EXPECT_FALSE(problem().isEmpty() && stretches().topLevelItemCount() == 0) << entry.path();
+    EXPECT_EQ(find<QDialog>(*window_, "error_dialog"), nullptr);
+    ++opened;
+  }
+  EXPECT_GT(opened, 3);
 }
 
 TEST_F(ImportDialogTest, ALongerLeastRestChangesTheStretchesAtOnce) {
