@@ -4221,6 +4221,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>The difference to another result, or to a simulation&apos;s truth</source>
         <translation>与另一结果或仿真真值的差异</translation>
     </message>
+    <message>
+        <source>&amp;Print the board…</source>
+        <translation>打印标定板(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>Draw the board for printing, exactly to scale</source>
+        <translation>按精确比例绘制标定板以供打印</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::MainWindow</name>
@@ -4686,6 +4694,65 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Show everything</source>
         <translation>显示全部</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::PrintDialog</name>
+    <message>
+        <source>PDF (*.pdf);;SVG (*.svg);;PNG (*.png)</source>
+        <translation>PDF (*.pdf);;SVG (*.svg);;PNG (*.png)</translation>
+    </message>
+    <message>
+        <source>Board of %1 × %2 mm; pages: %3. Print without scaling (100 %) and measure the scale bar.</source>
+        <translation>标定板 %1 × %2 mm；页数：%3。请不缩放打印（100 %），并测量比例尺。</translation>
+    </message>
+    <message>
+        <source>Written: %1</source>
+        <translation>已写入：%1</translation>
+    </message>
+    <message>
+        <source>Print the board</source>
+        <translation>打印标定板</translation>
+    </message>
+    <message>
+        <source>&amp;Board:</source>
+        <translation>标定板(&amp;B)：</translation>
+    </message>
+    <message>
+        <source>&amp;Paper:</source>
+        <translation>纸张(&amp;P)：</translation>
+    </message>
+    <message>
+        <source>&amp;File:</source>
+        <translation>文件(&amp;F)：</translation>
+    </message>
+    <message>
+        <source>P&amp;lace…</source>
+        <translation>位置(&amp;L)…</translation>
+    </message>
+    <message>
+        <source>&amp;Write</source>
+        <translation>写入(&amp;W)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>of the open dataset</source>
+        <translation>当前数据集的标定板</translation>
+    </message>
+    <message>
+        <source>Standard board: 4 × 4 tags with circles</source>
+        <translation>标准标定板：4 × 4 标签，带圆</translation>
+    </message>
+    <message>
+        <source>Choose a target.yaml…</source>
+        <translation>选择 target.yaml…</translation>
+    </message>
+    <message>
+        <source>one page of the board&apos;s size</source>
+        <translation>一页，大小同标定板</translation>
     </message>
 </context>
 <context>

@@ -39,6 +39,7 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   run_menu_->addSeparator();
   use_crops = add(run_menu_, "use_crops", {});
   use_crops->setCheckable(true);
+  print_board = add(tools_, "print_board", {});
   correct = add(tools_, "correct_clouds", {});
   compare = add(tools_, "compare_results", {});
   make_view_menu(window);
@@ -199,6 +200,8 @@ void MainActions::retranslate() {
   describe(cancel, tr("&Cancel"), tr("Stop what is running"));
   describe(use_crops, tr("Use board.pcd &files"),
            tr("Take a scene's board.pcd instead of its whole cloud where there is one"));
+  describe(print_board, tr("&Print the board…"),
+           tr("Draw the board for printing, exactly to scale"));
   describe(correct, tr("&Correct clouds…"),
            tr("Take the effects of the model in force out of clouds of this LiDAR"));
   describe(compare, tr("Compare &with…"),

@@ -36,7 +36,7 @@ class MainActions : public QObject {
 
   QAction *import_recording, *open_dataset, *open_project, *demo, *save, *save_as, *results,
       *report, *quit;
-  QAction *correct, *compare;
+  QAction *print_board, *correct, *compare;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;
   QActionGroup* themes;     ///< data(): name_of(Theme).
   QActionGroup* languages;  ///< data(): code of the language.

@@ -121,6 +121,10 @@ void MainWindow::connect_actions() {
   on(actions_->results, [this] { results_->show(final_result()); });
   on(actions_->report,
      [this] { results_->write_report(final_result(), model_work_->discovery()); });
+  on(actions_->print_board, [this] {
+    results_->print_board(workspace_->is_open() ? std::optional(workspace_->dataset().target)
+                                                : std::nullopt);
+  });
   on(actions_->correct, [this] { results_->correct_clouds(final_result()); });
   on(actions_->compare, [this] { results_->compare(final_result()); });
   on(actions_->run, [this] { workspace_->run(); });

@@ -7,6 +7,7 @@
 #include "dialogs/results_dialog.h"
 #include "tools/compare_dialog.h"
 #include "tools/correct_dialog.h"
+#include "tools/print_dialog.h"
 
 namespace lvcalib::widgets {
 
@@ -72,6 +73,10 @@ void ResultActions::compare(const std::shared_ptr<const CalibrationResult>& resu
   auto* dialog = new CompareDialog(result, choices_, settings_.last_folder(), &window_);
   dialog->open(path);
   dialog->show();
+}
+
+void ResultActions::print_board(const std::optional<Target>& present) {
+  (new PrintDialog(present, choices_, settings_.last_folder(), &window_))->show();
 }
 
 void ResultActions::remember(const QString& path) {

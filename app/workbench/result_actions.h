@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <memory>
+#include <optional>
 
 #include "dialogs/choices.h"
 #include "runner/report_writer.h"
@@ -27,6 +28,8 @@ class ResultActions : public QObject {
   /// Nothing without a result.
   void correct_clouds(const std::shared_ptr<const CalibrationResult>& result);
   void compare(const std::shared_ptr<const CalibrationResult>& result);
+  /// `present`: the board of what is open.
+  void print_board(const std::optional<Target>& present);
   void cancel() { report_.cancel(); }
   /// A report is being written.
   [[nodiscard]] bool busy() const { return report_.busy(); }

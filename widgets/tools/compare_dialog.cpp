@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
 
 #include "style/texts.h"
 
@@ -19,8 +21,11 @@ namespace {
 constexpr double kContradiction = 0.001;
 constexpr double kDoubt = 0.05;
 
-QString number_text(double value, bool stated) {
-  return stated ? QString::number(value, 'f', 3) : QStringLiteral("–");
+// Half of the last digit shown, and less, is zero without a sign.
+QString number_text(double value, bool stated, int decimals = 3) {
+  if (!stated) return QStringLiteral("–");
+  const double least = 0.5 * std::pow(10.0, -decimals);
+  return QString::number(std::abs(value) < least ? 0.0 : value, 'f', decimals);
 }
 
 }  // namespace
@@ -53,6 +58,8 @@ CompareDialog::CompareDialog(const std::shared_ptr<const CalibrationResult>& res
   table_->setRootIsDecorated(false);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->header()->setStretchLastSection(false);
+  for (QPushButton* button : {choose_, close_}) button->setAutoDefault(false);
   auto* head = new QHBoxLayout;
   head->addWidget(file_, 1);
   head->addWidget(choose_);
@@ -97,7 +104,9 @@ QString CompareDialog::verdict() const {
       tr("They differ by %1 mm and %2 mrad.")
           .arg(QString::number(d.translation_mm, 'f', 3), QString::number(d.rotation_mrad, 'f', 3));
   if (!d.probability) return out + QLatin1Char(' ') + tr("The other file states no uncertainty.");
-  const QString chance = QString::number(100.0 * *d.probability, 'g', 2);
+  const double percent = 100.0 * *d.probability;
+  const QString chance =
+      percent >= 10.0 ? QString::number(percent, 'f', 0) : QString::number(percent, 'g', 2);
   if (*d.probability < kContradiction) {
     out += QLatin1Char(' ') +
            tr("They contradict each other: the stated uncertainties explain such a difference in "
@@ -132,14 +141,13 @@ void CompareDialog::showTable() {
   const bool other_stated = other_->states_errors() && !other_->is_truth;
   for (int k = 0; k < 6; ++k) {
     // Both mm and mrad are a thousandth.
-    const QStringList texts = {names[k],
-                               number_text(1e3 * d.by_axis(k), true),
-                               number_text(1e3 * d.sigma_first(k), true),
-                               number_text(1e3 * d.sigma_second(k), other_stated),
-                               number_text(1e3 * d.sigma(k), stated),
-                               stated && d.sigma(k) > 0.0
-                                   ? QString::number(d.by_axis(k) / d.sigma(k), 'f', 2)
-                                   : QStringLiteral("–")};
+    const QStringList texts = {
+        names[k],
+        number_text(1e3 * d.by_axis(k), true),
+        number_text(1e3 * d.sigma_first(k), true),
+        number_text(1e3 * d.sigma_second(k), other_stated),
+        number_text(1e3 * d.sigma(k), stated),
+        number_text(d.by_axis(k) / std::max(d.sigma(k), 1e-300), stated && d.sigma(k) > 0.0, 2)};
     auto* item = new QTreeWidgetItem(table_, texts);
     for (int c = 1; c < 6; ++c) item->setTextAlignment(c, Qt::AlignRight | Qt::AlignVCenter);
   }

@@ -53,6 +53,13 @@ TEST_F(CompareDialogTest, ShowsTheDifferenceWithBothUncertainties) {
   EXPECT_TRUE(verdict().contains("agree"));
 }
 
+TEST_F(CompareDialogTest, EqualResultsHaveNoSignsAndPlainPercents) {
+  dialog_.open(write(0.0));
+  for (int k = 0; k < 6; ++k) EXPECT_EQ(cell(k, 1), "0.000");
+  EXPECT_EQ(cell(5, 5), "0.00");
+  EXPECT_TRUE(verdict().contains("in 100 % of all cases")) << verdict().toStdString();
+}
+
 TEST_F(CompareDialogTest, SaysWhenTheyContradict) {
   answers_.other_result = write(12.0);
   find<QPushButton>(dialog_, "compare_choose")->click();

@@ -39,7 +39,8 @@ const std::set<QString>& same_everywhere() {
       "rad",         "deg",   "lvcalib",  "English",   "GPL",        "BSD",  "Clause", "later",
       "tagSize",     "nat",   "LVI",      "SAM",       "camchain",   "LIVO", "FAST",   "LIVE",
       "FileStorage", "Rcl",   "Pcl",      "rvec",      "tvec",       "cos",  "sin",    "Del",
-      "raw",         "demo",  "dataset",  "target",    "CameraInfo", "MCAP", "bag",    "rosbag"};
+      "raw",         "demo",  "dataset",  "target",    "CameraInfo", "MCAP", "bag",    "rosbag",
+      "Letter"};
   return words;
 }
 
@@ -105,7 +106,7 @@ class RetranslationTest : public ::testing::Test {
     const auto written = folder_.filePath(QStringLiteral("earlier")).toStdString();
     ASSERT_TRUE(write_results(*window_->workspace().result(), written).ok());
     answers_.other_result = QString::fromStdString(written + "/result.json");
-    for (const char* name : {"compare_results", "correct_clouds"})
+    for (const char* name : {"compare_results", "correct_clouds", "print_board"})
       ASSERT_TRUE(trigger(*window_, name));
     answers_.recording = test::small_walk().path;
     ASSERT_TRUE(trigger(*window_, "import_recording"));

@@ -110,6 +110,8 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   take("compare_dialog", QStringLiteral("compare"));
   test::trigger(window, "correct_clouds");
   take("correct_dialog", QStringLiteral("correct"));
+  test::trigger(window, "print_board");
+  take("print_dialog", QStringLiteral("print"));
   test::trigger(window, "guide");
   take("guide_dialog", QStringLiteral("guide"));
   test::trigger(window, "about");
