@@ -27,7 +27,7 @@ QT_SCALE_FACTOR=$scale LIBGL_ALWAYS_SOFTWARE=1 \
 
 # Few colours and less size: a guide's picture has 150 kB at most.
 if [[ -n $guide ]]; then
-  for name in welcome running scene-light crop-light refinement-light extrinsic-light \
+  for name in welcome import-light running scene-light crop-light refinement-light extrinsic-light \
     extrinsic-2-light response-light exports-light scene-dark \
     model-missing-light model-added-light model-unseen-light; do
     small="$guide/workbench-${name%-light}.png"

@@ -67,6 +67,50 @@ were saved. Take them up again?</source>
         <source>YAML (*.yaml *.yml)</source>
         <translation>YAML (*.yaml *.yml)</translation>
     </message>
+    <message>
+        <source>Open a recording</source>
+        <translation>打开记录</translation>
+    </message>
+    <message>
+        <source>Recordings (*.bag *.mcap *.db3 metadata.yaml *.zstd *.zst *.lz4);;All files (*)</source>
+        <translation>记录 (*.bag *.mcap *.db3 metadata.yaml *.zstd *.zst *.lz4);;所有文件 (*)</translation>
+    </message>
+    <message>
+        <source>Open a description of the board</source>
+        <translation>打开标定板描述</translation>
+    </message>
+    <message>
+        <source>Open a camera file</source>
+        <translation>打开相机文件</translation>
+    </message>
+    <message>
+        <source>Folder of the new dataset</source>
+        <translation>新数据集的文件夹</translation>
+    </message>
+    <message>
+        <source>Open a cloud</source>
+        <translation>打开点云</translation>
+    </message>
+    <message>
+        <source>Clouds (*.pcd *.ply)</source>
+        <translation>点云 (*.pcd *.ply)</translation>
+    </message>
+    <message>
+        <source>Open a folder of clouds</source>
+        <translation>打开点云文件夹</translation>
+    </message>
+    <message>
+        <source>Place of the corrected clouds</source>
+        <translation>校正后点云的位置</translation>
+    </message>
+    <message>
+        <source>Compare with</source>
+        <translation>比较对象</translation>
+    </message>
+    <message>
+        <source>Results and truths (*.json)</source>
+        <translation>结果和真值 (*.json)</translation>
+    </message>
 </context>
 <context>
     <name>CloudSceneText</name>
@@ -1954,6 +1998,298 @@ were saved. Take them up again?</source>
         <translation>较宽的光束使印刷图案的每条边缘变模糊，距离越远越明显。</translation>
     </message>
     <message>
+        <source>rig and board stand still for %1 s</source>
+        <translation>传感器与标定板静止 %1 s</translation>
+    </message>
+    <message>
+        <source>stands still for %1 s only; %2 s are needed</source>
+        <translation>仅静止 %1 s；需要 %2 s</translation>
+    </message>
+    <message>
+        <source>no sweep was recorded in this time</source>
+        <translation>这段时间内没有记录到扫描</translation>
+    </message>
+    <message>
+        <source>the images stand still, but the clouds change meanwhile</source>
+        <translation>图像静止，但点云在变化</translation>
+    </message>
+    <message>
+        <source>the same pose as from %1 s to %2 s, which is longer</source>
+        <translation>与 %1 s 到 %2 s 的位姿相同，而后者更长</translation>
+    </message>
+    <message>
+        <source>stands still, but was left out by its time</source>
+        <translation>静止，但未按时间选用</translation>
+    </message>
+    <message>
+        <source>the board is not found in its image: %1</source>
+        <translation>图像中找不到标定板：%1</translation>
+    </message>
+    <message>
+        <source>its image cannot be read again</source>
+        <translation>其图像无法再次读取</translation>
+    </message>
+    <message>
+        <source>none of its sweeps can be read</source>
+        <translation>其扫描均无法读取</translation>
+    </message>
+    <message>
+        <source>no CameraInfo was recorded; give a camera file (--camera) for the intrinsics</source>
+        <translation>没有记录 CameraInfo；请用相机文件（--camera）给出内参</translation>
+    </message>
+    <message>
+        <source>no CameraInfo was recorded for %1; put a camera.yaml into the dataset before it is calibrated</source>
+        <translation>没有为 %1 记录 CameraInfo；标定前请把 camera.yaml 放入数据集</translation>
+    </message>
+    <message>
+        <source>%1; put a camera.yaml into the dataset before it is calibrated</source>
+        <translation>%1；标定前请把 camera.yaml 放入数据集</translation>
+    </message>
+    <message>
+        <source>%1: holds no intrinsics</source>
+        <translation>%1：不含内参</translation>
+    </message>
+    <message>
+        <source>%1: clouds have no intensity; the calibration will rest on planes and corners alone</source>
+        <translation>%1：点云没有强度；标定将只依靠平面和角点</translation>
+    </message>
+    <message>
+        <source>%1: its images change their size; calibrate takes those of the camera&apos;s size</source>
+        <translation>%1：图像尺寸有变化；标定只采用与相机尺寸相同的图像</translation>
+    </message>
+    <message>
+        <source>%1: is of images of %2 px, but they have %3</source>
+        <translation>%1：对应 %2 px 的图像，而实际图像为 %3</translation>
+    </message>
+    <message>
+        <source>%1: is taken for rectified; camera.yaml holds the intrinsics of rectified images, without distortion</source>
+        <translation>%1：视为已校正的图像；camera.yaml 保存校正图像的内参，不含畸变</translation>
+    </message>
+    <message>
+        <source>%1: %2 messages a second; motion between them cannot be seen</source>
+        <translation>%1：每秒 %2 条消息；看不到其间的运动</translation>
+    </message>
+    <message>
+        <source>%1: %2 messages cannot be read and are left out, the first because: %3</source>
+        <translation>%1：%2 条消息无法读取，已略去；第一条的原因：%3</translation>
+    </message>
+    <message>
+        <source>%1: %2 message only</source>
+        <translation>%1：只有 %2 条消息</translation>
+    </message>
+    <message>
+        <source>%1: %2 messages only</source>
+        <translation>%1：只有 %2 条消息</translation>
+    </message>
+    <message>
+        <source>the clocks of camera and LiDAR differ by %1; the times at which messages were recorded are used instead</source>
+        <translation>相机与激光雷达的时钟相差 %1；改用消息的记录时刻</translation>
+    </message>
+    <message>
+        <source>images and clouds were never recorded at the same time</source>
+        <translation>图像与点云从未同时记录</translation>
+    </message>
+    <message>
+        <source>no scene shows the default board, which target.yaml describes; put the description of yours in its place, or import with --target</source>
+        <translation>没有场景显示 target.yaml 所描述的默认标定板；请换成您的标定板描述，或用 --target 导入</translation>
+    </message>
+    <message>
+        <source>%1: has no metadata.yaml; its %2 files are read as one recording</source>
+        <translation>%1：没有 metadata.yaml；其中的 %2 个文件作为一份记录读取</translation>
+    </message>
+    <message>
+        <source>%1: named in metadata.yaml and not there; left out</source>
+        <translation>%1：metadata.yaml 中列出但不存在；已略去</translation>
+    </message>
+    <message>
+        <source>%1: has no index (its recording was not ended in good order); read through instead, as far as whole messages go</source>
+        <translation>%1：没有索引（记录未正常结束）；改为从头读取，直到最后一条完整的消息</translation>
+    </message>
+    <message>
+        <source>%1: its index is missing or damaged; read through instead, as far as whole messages go</source>
+        <translation>%1：索引缺失或损坏；改为从头读取，直到最后一条完整的消息</translation>
+    </message>
+    <message>
+        <source>%1: has no end (its recording was not ended in good order, or it is cut off); read through instead, as far as whole messages go</source>
+        <translation>%1：没有结尾（记录未正常结束，或被截断）；改为从头读取，直到最后一条完整的消息</translation>
+    </message>
+    <message>
+        <source>%1: is damaged or cut off at byte %2 of %3</source>
+        <translation>%1：在第 %2 字节（共 %3）处损坏或被截断</translation>
+    </message>
+    <message>
+        <source>%1: is cut off within the record at byte %2</source>
+        <translation>%1：在第 %2 字节的数据记录内被截断</translation>
+    </message>
+    <message>
+        <source>%1: is damaged or cut off within the record at byte %2 of %3</source>
+        <translation>%1：在第 %2 字节（共 %3）的数据记录内损坏或被截断</translation>
+    </message>
+    <message>
+        <source>%1: is damaged or cut off; the messages that can be read are read</source>
+        <translation>%1：损坏或被截断；读取其中可读的消息</translation>
+    </message>
+    <message>
+        <source>%1: the chunk at byte %2 is damaged or cut off; %3 messages of it are read</source>
+        <translation>%1：第 %2 字节处的数据块损坏或被截断；读取其中的 %3 条消息</translation>
+    </message>
+    <message>
+        <source>%1: the times of its messages go back; some are read out of order</source>
+        <translation>%1：消息的时刻有倒退；部分消息的读取次序有误</translation>
+    </message>
+    <message>
+        <source>%1: its compressed data are damaged or cut off; the part before is read</source>
+        <translation>%1：压缩数据损坏或被截断；读取之前的部分</translation>
+    </message>
+    <message>
+        <source>%1: %2 compressed messages are damaged; left out</source>
+        <translation>%1：%2 条压缩消息已损坏；已略去</translation>
+    </message>
+    <message>
+        <source>the ROS 1 bag ends within its header</source>
+        <translation>ROS 1 bag 在文件头内中断</translation>
+    </message>
+    <message>
+        <source>copy or record it again</source>
+        <translation>请重新复制或重新记录</translation>
+    </message>
+    <message>
+        <source>is a ROS 1 bag of version %1; expected 2.0</source>
+        <translation>是版本 %1 的 ROS 1 bag；应为 2.0</translation>
+    </message>
+    <message>
+        <source>convert it with &apos;rosbag fix&apos; or &apos;rosbag migrate&apos; of ROS 1</source>
+        <translation>请用 ROS 1 的“rosbag fix”或“rosbag migrate”转换</translation>
+    </message>
+    <message>
+        <source>the rosbag2 database cannot be read: %1</source>
+        <translation>无法读取 rosbag2 数据库：%1</translation>
+    </message>
+    <message>
+        <source>it needs rosbag2&apos;s tables topics and messages; copy the file again</source>
+        <translation>需要 rosbag2 的话题表和消息表；请重新复制文件</translation>
+    </message>
+    <message>
+        <source>is empty, expected a recording</source>
+        <translation>为空，应为一份记录</translation>
+    </message>
+    <message>
+        <source>is no recording that can be read; expected a ROS 1 bag (.bag), a rosbag2 folder, or one of its files (.db3, .mcap)</source>
+        <translation>不是可读取的记录；应为 ROS 1 bag（.bag）、rosbag2 文件夹，或其中的文件（.db3、.mcap）</translation>
+    </message>
+    <message>
+        <source>what matters is the file&apos;s content, not its name</source>
+        <translation>起作用的是文件内容，而不是文件名</translation>
+    </message>
+    <message>
+        <source>is a folder without a recording; expected metadata.yaml, or .db3, .mcap or .bag files</source>
+        <translation>是没有记录的文件夹；应有 metadata.yaml，或 .db3、.mcap、.bag 文件</translation>
+    </message>
+    <message>
+        <source>a folder of scenes needs no import: lvcalib calibrate takes it</source>
+        <translation>场景文件夹无需导入：可直接标定</translation>
+    </message>
+    <message>
+        <source>%1: holds no messages</source>
+        <translation>%1：不含消息</translation>
+    </message>
+    <message>
+        <source>holds no messages</source>
+        <translation>不含消息</translation>
+    </message>
+    <message>
+        <source>%1: holds no images (sensor_msgs/Image or CompressedImage)</source>
+        <translation>%1：不含图像（sensor_msgs/Image 或 CompressedImage）</translation>
+    </message>
+    <message>
+        <source>%1: holds no clouds (sensor_msgs/PointCloud2 or Livox CustomMsg)</source>
+        <translation>%1：不含点云（sensor_msgs/PointCloud2 或 Livox CustomMsg）</translation>
+    </message>
+    <message>
+        <source>holds no images (sensor_msgs/Image or CompressedImage)</source>
+        <translation>不含图像（sensor_msgs/Image 或 CompressedImage）</translation>
+    </message>
+    <message>
+        <source>holds no clouds (sensor_msgs/PointCloud2 or Livox CustomMsg)</source>
+        <translation>不含点云（sensor_msgs/PointCloud2 或 Livox CustomMsg）</translation>
+    </message>
+    <message>
+        <source>play it through %1 and record what comes out</source>
+        <translation>请经 %1 回放并记录其输出</translation>
+    </message>
+    <message>
+        <source>none of its images can be read: %1</source>
+        <translation>其图像均无法读取：%1</translation>
+    </message>
+    <message>
+        <source>none of its clouds can be read: %1</source>
+        <translation>其点云均无法读取：%1</translation>
+    </message>
+    <message>
+        <source>rig and board never stand still: something moves in images or clouds all the time</source>
+        <translation>传感器与标定板从未静止：图像或点云中始终有物体在动</translation>
+    </message>
+    <message>
+        <source>let everything rest for two seconds or more at each board pose</source>
+        <translation>请在每个标定板位姿静止两秒或更久</translation>
+    </message>
+    <message>
+        <source>none of its %1 still stretches can be used; that from %2 s to %3 s: %4</source>
+        <translation>其 %1 个静止时段均不可用；其中 %2 s 到 %3 s：%4</translation>
+    </message>
+    <message>
+        <source>exists already</source>
+        <translation>已存在</translation>
+    </message>
+    <message>
+        <source>exists already and is no import</source>
+        <translation>已存在，且不是导入的数据集</translation>
+    </message>
+    <message>
+        <source>choose another name, or replace it with --force</source>
+        <translation>请换一个名称，或勾选替换</translation>
+    </message>
+    <message>
+        <source>choose another name</source>
+        <translation>请换一个名称</translation>
+    </message>
+    <message>
+        <source>is no name for a dataset folder</source>
+        <translation>不能作为数据集文件夹的名称</translation>
+    </message>
+    <message>
+        <source>holds no extrinsic; expected T_camera_lidar (a result) or T_CL (a truth)</source>
+        <translation>不含外参；应有 T_camera_lidar（结果）或 T_CL（真值）</translation>
+    </message>
+    <message>
+        <source>give the result.json of a calibration</source>
+        <translation>请给出标定的 result.json</translation>
+    </message>
+    <message>
+        <source>%1: has no metadata.yaml; its %2 file is read</source>
+        <translation>%1：没有 metadata.yaml；读取其中的 %2 个文件</translation>
+    </message>
+    <message>
+        <source>%1: holds no %2 but raw packets: %3 (play it through %4 and record what comes out)</source>
+        <translation>%1：不含%2，只有原始数据包：%3（请经 %4 回放并记录其输出）</translation>
+    </message>
+    <message>
+        <source>holds no %1 but raw packets: %2</source>
+        <translation>不含%1，只有原始数据包：%2</translation>
+    </message>
+    <message>
+        <source>images</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>clouds</source>
+        <translation>点云</translation>
+    </message>
+    <message>
+        <source>decay (s)</source>
+        <translation>衰减时间（秒）</translation>
+    </message>
+    <message>
         <source>Drift within a scan</source>
         <translation>扫描内的漂移</translation>
     </message>
@@ -1964,10 +2300,6 @@ were saved. Take them up again?</source>
     <message>
         <source>let the device run before the scan; boards beside the middle, where motion looks different</source>
         <translation>扫描前让设备先运行一段时间；把标定板放在视场中央两侧，那里运动的表现与之不同</translation>
-    </message>
-    <message>
-        <source>decay (s)</source>
-        <translation>衰减时间（秒）</translation>
     </message>
 </context>
 <context>
@@ -2928,6 +3260,101 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::CompareDialog</name>
+    <message>
+        <source>Choose another result.json, or the truth of a simulation, to compare with.</source>
+        <translation>请选择另一个 result.json 或仿真的真值进行比较。</translation>
+    </message>
+    <message>
+        <source>They differ by %1 mm and %2 mrad.</source>
+        <translation>两者相差 %1 mm 和 %2 mrad。</translation>
+    </message>
+    <message>
+        <source>The other file states no uncertainty.</source>
+        <translation>另一个文件没有给出不确定度。</translation>
+    </message>
+    <message>
+        <source>They contradict each other: the stated uncertainties explain such a difference in %1 % of all cases only.</source>
+        <translation>两者矛盾：按所给的不确定度，只有 %1 % 的情况会有这样的差异。</translation>
+    </message>
+    <message>
+        <source>That is much: the stated uncertainties explain such a difference in %1 % of all cases.</source>
+        <translation>差异较大：按所给的不确定度，%1 % 的情况会有这样的差异。</translation>
+    </message>
+    <message>
+        <source>They agree: by their stated uncertainties differences are as large or larger in %1 % of all cases.</source>
+        <translation>两者一致：按所给的不确定度，%1 % 的情况差异会同样大或更大。</translation>
+    </message>
+    <message>
+        <source>This holds for results from data of their own.</source>
+        <translation>这适用于由各自数据得到的结果。</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s axes</source>
+        <translation>沿相机坐标轴</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>差异</translation>
+    </message>
+    <message>
+        <source>± this result</source>
+        <translation>± 本结果</translation>
+    </message>
+    <message>
+        <source>± the other</source>
+        <translation>± 另一结果</translation>
+    </message>
+    <message>
+        <source>± of the difference</source>
+        <translation>± 差异</translation>
+    </message>
+    <message>
+        <source>In ±</source>
+        <translation>以 ± 计</translation>
+    </message>
+    <message>
+        <source>translation x, mm</source>
+        <translation>平移 x，mm</translation>
+    </message>
+    <message>
+        <source>translation y, mm</source>
+        <translation>平移 y，mm</translation>
+    </message>
+    <message>
+        <source>translation z, mm</source>
+        <translation>平移 z，mm</translation>
+    </message>
+    <message>
+        <source>rotation about x, mrad</source>
+        <translation>绕 x 旋转，mrad</translation>
+    </message>
+    <message>
+        <source>rotation about y, mrad</source>
+        <translation>绕 y 旋转，mrad</translation>
+    </message>
+    <message>
+        <source>rotation about z, mrad</source>
+        <translation>绕 z 旋转，mrad</translation>
+    </message>
+    <message>
+        <source>Compare results</source>
+        <translation>比较结果</translation>
+    </message>
+    <message>
+        <source>nothing chosen yet</source>
+        <translation>尚未选择</translation>
+    </message>
+    <message>
+        <source>&amp;Choose…</source>
+        <translation>选择(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::ConvergencePlot</name>
     <message>
         <source>iteration</source>
@@ -2944,6 +3371,100 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>no iterations</source>
         <translation>没有迭代</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CorrectDialog</name>
+    <message>
+        <source>The model in force holds no effects: clouds would stay as they are. Add effects on the Model page first.</source>
+        <translation>当前模型不含效应：点云不会改变。请先在“模型”页添加效应。</translation>
+    </message>
+    <message>
+        <source>Taken out of clouds of this LiDAR: %1</source>
+        <translation>从此激光雷达的点云中去除：%1</translation>
+    </message>
+    <message>
+        <source>Cancelled; clouds that were complete stay.</source>
+        <translation>已取消；已完成的点云保留。</translation>
+    </message>
+    <message>
+        <source>%1 clouds, %2 points, moved by %3 mm RMS, %4 mm at most.</source>
+        <translation>%1 个点云，%2 个点，移动 RMS %3 mm，最大 %4 mm。</translation>
+    </message>
+    <message>
+        <source>%1: %2 mm RMS</source>
+        <translation>%1：RMS %2 mm</translation>
+    </message>
+    <message>
+        <source>%1: left, it drifts with time</source>
+        <translation>%1：保留，它随时间漂移</translation>
+    </message>
+    <message>
+        <source>%1: left, it is known on the board only</source>
+        <translation>%1：保留，只在标定板上已知</translation>
+    </message>
+    <message>
+        <source>%1: left, it does not move points</source>
+        <translation>%1：保留，它不移动点</translation>
+    </message>
+    <message>
+        <source>%1 points are darker, brighter or more slanted than the board was; they get the correction at its limits.</source>
+        <translation>%1 个点比标定板更暗、更亮或更倾斜；按极限值校正。</translation>
+    </message>
+    <message>
+        <source>Correct clouds</source>
+        <translation>校正点云</translation>
+    </message>
+    <message>
+        <source>&amp;From:</source>
+        <translation>来源(&amp;F)：</translation>
+    </message>
+    <message>
+        <source>&amp;To:</source>
+        <translation>目标(&amp;T)：</translation>
+    </message>
+    <message>
+        <source>&amp;Cloud…</source>
+        <translation>点云(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>F&amp;older…</source>
+        <translation>文件夹(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>&amp;Place…</source>
+        <translation>位置(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>停止(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Co&amp;rrect</source>
+        <translation>校正(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CorrectionWork</name>
+    <message>
+        <source>is the cloud itself, which stays as it is</source>
+        <translation>就是点云本身，它保持不变</translation>
+    </message>
+    <message>
+        <source>choose another place for what is corrected</source>
+        <translation>请为校正结果选择另一位置</translation>
+    </message>
+    <message>
+        <source>holds no clouds (.pcd or .ply)</source>
+        <translation>不含点云（.pcd 或 .ply）</translation>
+    </message>
+    <message>
+        <source>choose a cloud, or a folder of clouds</source>
+        <translation>请选择点云或点云文件夹</translation>
     </message>
 </context>
 <context>
@@ -3366,6 +3887,144 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::ImportDialog</name>
+    <message>
+        <source>Looking for motion…</source>
+        <translation>正在查找运动…</translation>
+    </message>
+    <message>
+        <source>Reading…</source>
+        <translation>正在读取…</translation>
+    </message>
+    <message>
+        <source>%1 is written, without intrinsics: put a camera.yaml into it, then open it.</source>
+        <translation>已写入 %1，但没有内参：请放入 camera.yaml，然后打开。</translation>
+    </message>
+    <message>
+        <source>Nothing stands still: something moves in images or clouds all the time.</source>
+        <translation>没有静止时段：图像或点云中始终有物体在动。</translation>
+    </message>
+    <message>
+        <source>Tick the stretches that are to become scenes.</source>
+        <translation>请勾选要成为场景的时段。</translation>
+    </message>
+    <message>
+        <source>%1 of %2 still stretches become scenes</source>
+        <translation>%2 个静止时段中有 %1 个成为场景</translation>
+    </message>
+    <message>
+        <source>New from a recording</source>
+        <translation>从记录新建</translation>
+    </message>
+    <message>
+        <source>%1 – %2, %3 s</source>
+        <translation>%1 – %2，%3 s</translation>
+    </message>
+    <message>
+        <source>&amp;Other recording…</source>
+        <translation>其他记录(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>停止(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Import and &amp;calibrate</source>
+        <translation>导入并标定(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>&amp;Look again</source>
+        <translation>重新查看(&amp;L)</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ImportForm</name>
+    <message>
+        <source>CameraInfo %1</source>
+        <translation>CameraInfo %1</translation>
+    </message>
+    <message>
+        <source>none yet</source>
+        <translation>暂无</translation>
+    </message>
+    <message>
+        <source>Choose a camera file…</source>
+        <translation>选择相机文件…</translation>
+    </message>
+    <message>
+        <source>target.yaml beside the recording</source>
+        <translation>记录旁的 target.yaml</translation>
+    </message>
+    <message>
+        <source>Standard board: 4 × 4 tags with circles</source>
+        <translation>标准标定板：4 × 4 标签，带圆</translation>
+    </message>
+    <message>
+        <source>Board of %1</source>
+        <translation>%1 的标定板</translation>
+    </message>
+    <message>
+        <source>Choose a target.yaml…</source>
+        <translation>选择 target.yaml…</translation>
+    </message>
+    <message>
+        <source>Choose a folder for the dataset.</source>
+        <translation>请为数据集选择文件夹。</translation>
+    </message>
+    <message>
+        <source>&amp;Images:</source>
+        <translation>图像(&amp;I)：</translation>
+    </message>
+    <message>
+        <source>C&amp;louds:</source>
+        <translation>点云(&amp;L)：</translation>
+    </message>
+    <message>
+        <source>I&amp;ntrinsics:</source>
+        <translation>内参(&amp;N)：</translation>
+    </message>
+    <message>
+        <source>&amp;Board:</source>
+        <translation>标定板(&amp;B)：</translation>
+    </message>
+    <message>
+        <source>Shortest &amp;stretch:</source>
+        <translation>最短时段(&amp;S)：</translation>
+    </message>
+    <message>
+        <source>&amp;Dataset folder:</source>
+        <translation>数据集文件夹(&amp;D)：</translation>
+    </message>
+    <message>
+        <source>B&amp;rowse…</source>
+        <translation>浏览(&amp;R)…</translation>
+    </message>
+    <message>
+        <source>Re&amp;place the earlier import</source>
+        <translation>替换先前的导入(&amp;P)</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>Stretches in which everything stands still for less give no scene</source>
+        <translation>静止时间更短的时段不成为场景</translation>
+    </message>
+    <message>
+        <source>The printed board; stretches whose image does not show it are left out</source>
+        <translation>打印的标定板；图像中没有它的时段将被略去</translation>
+    </message>
+    <message>
+        <source>CameraInfo of the recording, or a camera.yaml</source>
+        <translation>记录中的 CameraInfo，或 camera.yaml</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::LogDock</name>
     <message>
         <source>Log</source>
@@ -3550,6 +4209,42 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>Simulate four scenes and open them, with a guided tour</source>
         <translation>模拟四个场景并打开，附带导览</translation>
     </message>
+    <message>
+        <source>&amp;New from recording…</source>
+        <translation>从记录新建(&amp;N)…</translation>
+    </message>
+    <message>
+        <source>Make a dataset of a ROS bag, rosbag2 or MCAP, and calibrate it</source>
+        <translation>由 ROS bag、rosbag2 或 MCAP 记录生成数据集并标定</translation>
+    </message>
+    <message>
+        <source>&amp;Tools</source>
+        <translation>工具(&amp;T)</translation>
+    </message>
+    <message>
+        <source>&amp;Correct clouds…</source>
+        <translation>校正点云(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>Take the effects of the model in force out of clouds of this LiDAR</source>
+        <translation>从此激光雷达的点云中去除当前模型的效应</translation>
+    </message>
+    <message>
+        <source>Compare &amp;with…</source>
+        <translation>比较(&amp;W)…</translation>
+    </message>
+    <message>
+        <source>The difference to another result, or to a simulation&apos;s truth</source>
+        <translation>与另一结果或仿真真值的差异</translation>
+    </message>
+    <message>
+        <source>&amp;Print the board…</source>
+        <translation>打印标定板(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>Draw the board for printing, exactly to scale</source>
+        <translation>按精确比例绘制标定板以供打印</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::MainWindow</name>
@@ -3560,6 +4255,22 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Scene %1: %2</source>
         <translation>场景 %1：%2</translation>
+    </message>
+    <message>
+        <source>%1 s to %2 s</source>
+        <translation>%1 s 到 %2 s</translation>
+    </message>
+    <message>
+        <source>%1: scene %2</source>
+        <translation>%1：场景 %2</translation>
+    </message>
+    <message>
+        <source>%1: left: %2</source>
+        <translation>%1：略去：%2</translation>
+    </message>
+    <message>
+        <source>Imported into %1: %2 of %3 still stretches are scenes.</source>
+        <translation>已导入到 %1：%3 个静止时段中有 %2 个是场景。</translation>
     </message>
 </context>
 <context>
@@ -3999,6 +4710,65 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Show everything</source>
         <translation>显示全部</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::PrintDialog</name>
+    <message>
+        <source>PDF (*.pdf);;SVG (*.svg);;PNG (*.png)</source>
+        <translation>PDF (*.pdf);;SVG (*.svg);;PNG (*.png)</translation>
+    </message>
+    <message>
+        <source>Board of %1 × %2 mm; pages: %3. Print without scaling (100 %) and measure the scale bar.</source>
+        <translation>标定板 %1 × %2 mm；页数：%3。请不缩放打印（100 %），并测量比例尺。</translation>
+    </message>
+    <message>
+        <source>Written: %1</source>
+        <translation>已写入：%1</translation>
+    </message>
+    <message>
+        <source>Print the board</source>
+        <translation>打印标定板</translation>
+    </message>
+    <message>
+        <source>&amp;Board:</source>
+        <translation>标定板(&amp;B)：</translation>
+    </message>
+    <message>
+        <source>&amp;Paper:</source>
+        <translation>纸张(&amp;P)：</translation>
+    </message>
+    <message>
+        <source>&amp;File:</source>
+        <translation>文件(&amp;F)：</translation>
+    </message>
+    <message>
+        <source>P&amp;lace…</source>
+        <translation>位置(&amp;L)…</translation>
+    </message>
+    <message>
+        <source>&amp;Write</source>
+        <translation>写入(&amp;W)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>of the open dataset</source>
+        <translation>当前数据集的标定板</translation>
+    </message>
+    <message>
+        <source>Standard board: 4 × 4 tags with circles</source>
+        <translation>标准标定板：4 × 4 标签，带圆</translation>
+    </message>
+    <message>
+        <source>Choose a target.yaml…</source>
+        <translation>选择 target.yaml…</translation>
+    </message>
+    <message>
+        <source>one page of the board&apos;s size</source>
+        <translation>一页，大小同标定板</translation>
     </message>
 </context>
 <context>
@@ -4694,6 +5464,69 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::StretchList</name>
+    <message>
+        <source>left out by you</source>
+        <translation>由您略去</translation>
+    </message>
+    <message>
+        <source>left: %1</source>
+        <translation>略去：%1</translation>
+    </message>
+    <message>
+        <source>a scene: %1</source>
+        <translation>成为场景：%1</translation>
+    </message>
+    <message>
+        <source>a scene, as you decided: %1</source>
+        <translation>按您的决定成为场景：%1</translation>
+    </message>
+    <message>
+        <source>%1 s to %2 s: %3</source>
+        <translation>%1 s 到 %2 s：%3</translation>
+    </message>
+    <message>
+        <source>%1 s – %2 s</source>
+        <translation>%1 s – %2 s</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>seen</source>
+        <translation>可见</translation>
+    </message>
+    <message>
+        <source>not seen</source>
+        <translation>不可见</translation>
+    </message>
+    <message>
+        <source>no board in the image: %1</source>
+        <translation>图像中没有标定板：%1</translation>
+    </message>
+    <message>
+        <source>Still stretch</source>
+        <translation>静止时段</translation>
+    </message>
+    <message>
+        <source>Length</source>
+        <translation>时长</translation>
+    </message>
+    <message>
+        <source>Images / sweeps</source>
+        <translation>图像 / 扫描</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>What becomes of it</source>
+        <translation>结果</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::TermList</name>
     <message>
         <source>base model</source>
@@ -4750,6 +5583,56 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Take the chosen effect out of the model</source>
         <translation>把所选效应移出模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::TimeLine</name>
+    <message>
+        <source>Images</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>Clouds</source>
+        <translation>点云</translation>
+    </message>
+    <message>
+        <source>How much image and cloud change, above the dotted line: motion. Bands are stretches in which both stand still.</source>
+        <translation>图像和点云的变化程度，高于虚线表示有运动。色带是两者都静止的时段。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::TopicList</name>
+    <message>
+        <source>Topic</source>
+        <translation>话题</translation>
+    </message>
+    <message>
+        <source>Type</source>
+        <translation>类型</translation>
+    </message>
+    <message>
+        <source>Messages</source>
+        <translation>消息数</translation>
+    </message>
+    <message>
+        <source>Rate</source>
+        <translation>频率</translation>
+    </message>
+    <message>
+        <source>From – to</source>
+        <translation>起止时间</translation>
+    </message>
+    <message>
+        <source>%1 Hz</source>
+        <translation>%1 Hz</translation>
+    </message>
+    <message>
+        <source>%1 s – %2 s</source>
+        <translation>%1 s – %2 s</translation>
+    </message>
+    <message>
+        <source>Raw: convert it with %1</source>
+        <translation>原始数据：请用 %1 转换</translation>
     </message>
 </context>
 <context>
@@ -4877,12 +5760,20 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>从打印标定板到结果的逐步说明</translation>
     </message>
     <message>
-        <source>Recent (or drop a folder on this window)</source>
-        <translation>最近打开（也可将文件夹拖到此窗口）</translation>
-    </message>
-    <message>
         <source>Simulates four scenes with an effect hidden in them, and a tour to find it</source>
         <translation>模拟四个藏有一个效应的场景，并带您找到它</translation>
+    </message>
+    <message>
+        <source>New from a recording</source>
+        <translation>从记录新建</translation>
+    </message>
+    <message>
+        <source>A ROS bag, rosbag2 or MCAP in which board and rig stood still</source>
+        <translation>标定板与传感器曾静止的 ROS bag、rosbag2 或 MCAP 记录</translation>
+    </message>
+    <message>
+        <source>Recent (or drop a folder or a recording on this window)</source>
+        <translation>最近使用（或将文件夹、记录拖到此窗口）</translation>
     </message>
 </context>
 <context>

@@ -8,7 +8,7 @@
 #include "base/yaml_file.h"
 #include "camera/camera.h"
 #include "command.h"
-#include "detection/board_view.h"
+#include "pipeline/board_check.h"
 #include "recording/import.h"
 #include "recording/messages.h"
 #include "target/target.h"
@@ -109,15 +109,7 @@ Status set_target(const ImportArguments& options, Session& session, ImportOption
     target = file->target;
   }
   out.target_yaml = to_yaml(target);
-  const RunContext context = session.context;
-  out.board_check = [target, context](const fs::path& image, const Camera& camera) -> std::string {
-    const auto pixels = read_image(image);
-    if (!pixels) return pixels.error().message;
-    RunContext silent = context;
-    silent.progress = nullptr;
-    const auto view = find_board_in_image(*pixels, target, camera, {}, silent);
-    return view ? std::string{} : view.error().message;
-  };
+  out.board_check = make_board_check(target, session.context);
   return Done{};
 }
 

@@ -25,6 +25,7 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   file_ = bar->addMenu(QString());
   edit_ = bar->addMenu(QString());
   run_menu_ = bar->addMenu(QString());
+  tools_ = bar->addMenu(QString());
   view_ = bar->addMenu(QString());
   help_ = bar->addMenu(QString());
   make_file_menu(window);
@@ -38,6 +39,9 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   run_menu_->addSeparator();
   use_crops = add(run_menu_, "use_crops", {});
   use_crops->setCheckable(true);
+  print_board = add(tools_, "print_board", {});
+  correct = add(tools_, "correct_clouds", {});
+  compare = add(tools_, "compare_results", {});
   make_view_menu(window);
   guide = add(help_, "guide", QKeySequence::HelpContents);
   about = add(help_, "about", {});
@@ -73,6 +77,7 @@ QAction* MainActions::add(QMenu* menu, const char* name, const QKeySequence& key
 }
 
 void MainActions::make_file_menu(QMainWindow& window) {
+  import_recording = add(file_, "import_recording", QKeySequence::New);
   open_dataset = add(file_, "open_dataset", QKeySequence::Open);
   open_project = add(file_, "open_project", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
   recent_ = file_->addMenu(QString());
@@ -165,6 +170,7 @@ void MainActions::retranslate() {
   file_->setTitle(tr("&File"));
   edit_->setTitle(tr("&Edit"));
   run_menu_->setTitle(tr("&Run"));
+  tools_->setTitle(tr("&Tools"));
   view_->setTitle(tr("&View"));
   help_->setTitle(tr("&Help"));
   recent_->setTitle(tr("Open &recent"));
@@ -180,6 +186,8 @@ void MainActions::retranslate() {
     action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));
     action->setStatusTip({});
   };
+  describe(import_recording, tr("&New from recording…"),
+           tr("Make a dataset of a ROS bag, rosbag2 or MCAP, and calibrate it"));
   describe(open_dataset, tr("&Open dataset…"), tr("Open a dataset folder"));
   describe(open_project, tr("Open &project…"), tr("Open a .lvcalib file"));
   describe(demo, tr("Try the &demo"), tr("Simulate four scenes and open them, with a guided tour"));
@@ -192,6 +200,12 @@ void MainActions::retranslate() {
   describe(cancel, tr("&Cancel"), tr("Stop what is running"));
   describe(use_crops, tr("Use board.pcd &files"),
            tr("Take a scene's board.pcd instead of its whole cloud where there is one"));
+  describe(print_board, tr("&Print the board…"),
+           tr("Draw the board for printing, exactly to scale"));
+  describe(correct, tr("&Correct clouds…"),
+           tr("Take the effects of the model in force out of clouds of this LiDAR"));
+  describe(compare, tr("Compare &with…"),
+           tr("The difference to another result, or to a simulation's truth"));
   describe(guide, tr("&Guide"), tr("From the printed board to a result"));
   describe(about, tr("&About"), tr("Version and licence"));
   const QStringList names = {tr("As the &system"), tr("&Light"), tr("&Dark")};

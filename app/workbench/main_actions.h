@@ -34,7 +34,9 @@ class MainActions : public QObject {
   /// must outlive this.
   void follow(AppSettings& settings);
 
-  QAction *open_dataset, *open_project, *demo, *save, *save_as, *results, *report, *quit;
+  QAction *import_recording, *open_dataset, *open_project, *demo, *save, *save_as, *results,
+      *report, *quit;
+  QAction *print_board, *correct, *compare;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;
   QActionGroup* themes;     ///< data(): name_of(Theme).
   QActionGroup* languages;  ///< data(): code of the language.
@@ -50,7 +52,8 @@ class MainActions : public QObject {
   void describe_undo();
 
   QPointer<QUndoStack> undo_stack_;
-  QMenu *file_, *edit_, *run_menu_, *view_, *help_, *recent_, *theme_menu_, *language_menu_;
+  QMenu *file_, *edit_, *run_menu_, *tools_, *view_, *help_, *recent_, *theme_menu_,
+      *language_menu_;
   QAction* before_toggles_ = nullptr;
 };
 

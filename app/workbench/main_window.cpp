@@ -66,6 +66,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   connect_pages();
   connect_results();
   connect_model();
+  connect_import();
   restore_window();
   pages_->welcome().set_recent(settings_.recent());
   actions_->set_recent(settings_.recent());
@@ -120,6 +121,12 @@ void MainWindow::connect_actions() {
   on(actions_->results, [this] { results_->show(final_result()); });
   on(actions_->report,
      [this] { results_->write_report(final_result(), model_work_->discovery()); });
+  on(actions_->print_board, [this] {
+    results_->print_board(workspace_->is_open() ? std::optional(workspace_->dataset().target)
+                                                : std::nullopt);
+  });
+  on(actions_->correct, [this] { results_->correct_clouds(final_result()); });
+  on(actions_->compare, [this] { results_->compare(final_result()); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();
@@ -187,6 +194,7 @@ void MainWindow::connect_workspace() {
     update_actions();
   });
   connect(w, &Workspace::failed, this, [this](const Error& error, bool modest) {
+    run_when_opened_ = false;
     if (!modest) show_error(error);  // Else the status line says it.
   });
   connect(w, &Workspace::logged, log_,
@@ -229,15 +237,6 @@ void MainWindow::connect_results() {
   });
 }
 
-void MainWindow::open(const QString& path) {
-  if (!may_drop_decisions()) return;
-  if (QFileInfo(path).isDir()) {
-    workspace_->open_dataset(path);
-  } else {
-    workspace_->open_project(path);
-  }
-}
-
 void MainWindow::take_opened() {
   const Dataset& dataset = workspace_->dataset();
   const QString path = workspace_->project_path().isEmpty()
@@ -260,6 +259,7 @@ void MainWindow::take_opened() {
   }
   update_title();
   update_actions();
+  if (std::exchange(run_when_opened_, false)) workspace_->run();
 }
 
 void MainWindow::take_result() {
@@ -362,7 +362,8 @@ void MainWindow::update_actions() {
   actions_->save_as->setEnabled(open);
   actions_->use_crops->setEnabled(open);
   actions_->results->setEnabled(workspace_->result() != nullptr);
-  actions_->report->setEnabled(workspace_->result() != nullptr);
+  for (QAction* action : {actions_->report, actions_->correct, actions_->compare})
+    action->setEnabled(workspace_->result() != nullptr);
   parameters_->widget()->setEnabled(open);
 }
 

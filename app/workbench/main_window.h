@@ -2,11 +2,13 @@
 #pragma once
 
 #include <QMainWindow>
+#include <QPointer>
 #include <memory>
 
 #include "base/error.h"
 #include "dialogs/choices.h"
 #include "models/scene_model.h"
+#include "recording/import.h"
 #include "runner/model_work.h"
 #include "runner/scene_data.h"
 #include "runner/workspace.h"
@@ -15,6 +17,7 @@
 namespace lvcalib::widgets {
 
 class DemoTour;
+class ImportDialog;
 class LogDock;
 class MainActions;
 class PageStack;
@@ -32,7 +35,8 @@ class MainWindow : public QMainWindow {
   MainWindow(AppSettings& settings, Choices& choices, QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  /// Opens a dataset folder or a project file, after asking about unsaved decisions.
+  /// Opens a dataset folder or a project file, after asking about unsaved decisions; of a recording
+  /// the dialog that makes a dataset of it.
   void open(const QString& path);
   /// What the demo simulates; tests take something smaller.
   void set_demo(const simulation::SimulationOptions& options) { demo_ = options; }
@@ -55,6 +59,9 @@ class MainWindow : public QMainWindow {
   void connect_pages();
   void connect_results();
   void connect_model();
+  void connect_import();
+  void import_recording(const QString& path);
+  void take_imported(const QString& dataset, const ImportSummary& summary);
   void start_tour();
   void restore_window();
   bool may_drop_decisions();
@@ -87,7 +94,9 @@ class MainWindow : public QMainWindow {
   StatusLine* status_;
   ResultActions* results_;
   DemoTour* tour_ = nullptr;
-  bool demo_opening_ = false;  // What opens next is the demo.
+  QPointer<ImportDialog> import_;
+  bool demo_opening_ = false;     // What opens next is the demo.
+  bool run_when_opened_ = false;  // What opens next is to be calibrated at once.
 };
 
 }  // namespace lvcalib::widgets

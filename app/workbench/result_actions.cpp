@@ -5,6 +5,9 @@
 #include <QFileInfo>
 
 #include "dialogs/results_dialog.h"
+#include "tools/compare_dialog.h"
+#include "tools/correct_dialog.h"
+#include "tools/print_dialog.h"
 
 namespace lvcalib::widgets {
 
@@ -56,6 +59,24 @@ void ResultActions::write_report(const std::shared_ptr<const CalibrationResult>&
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".html");
   report_.write(result, discovery, path);
   Q_EMIT busy_changed();
+}
+
+void ResultActions::correct_clouds(const std::shared_ptr<const CalibrationResult>& result) {
+  if (!result) return;
+  (new CorrectDialog(result, choices_, settings_.last_folder(), &window_))->show();
+}
+
+void ResultActions::compare(const std::shared_ptr<const CalibrationResult>& result) {
+  if (!result) return;
+  const QString path = choices_.result_to_open(&window_, settings_.last_folder());
+  if (path.isEmpty()) return;
+  auto* dialog = new CompareDialog(result, choices_, settings_.last_folder(), &window_);
+  dialog->open(path);
+  dialog->show();
+}
+
+void ResultActions::print_board(const std::optional<Target>& present) {
+  (new PrintDialog(present, choices_, settings_.last_folder(), &window_))->show();
 }
 
 void ResultActions::remember(const QString& path) {

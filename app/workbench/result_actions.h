@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <memory>
+#include <optional>
 
 #include "dialogs/choices.h"
 #include "runner/report_writer.h"
@@ -10,7 +11,7 @@
 
 namespace lvcalib::widgets {
 
-/// What is done with a result: the results dialog and the report.
+/// What is done with a result: the results dialog, the report, corrected clouds, a comparison.
 class ResultActions : public QObject {
   Q_OBJECT
 
@@ -24,6 +25,11 @@ class ResultActions : public QObject {
   /// `discovery`: what was found out about the model, may be null.
   void write_report(const std::shared_ptr<const CalibrationResult>& result,
                     const std::shared_ptr<const Discovery>& discovery);
+  /// Nothing without a result.
+  void correct_clouds(const std::shared_ptr<const CalibrationResult>& result);
+  void compare(const std::shared_ptr<const CalibrationResult>& result);
+  /// `present`: the board of what is open.
+  void print_board(const std::optional<Target>& present);
   void cancel() { report_.cancel(); }
   /// A report is being written.
   [[nodiscard]] bool busy() const { return report_.busy(); }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,6 +31,8 @@ struct GrayImage {
 
 /// Reads png, jpg, bmp or tiff; colour, grey, palette, with alpha, 8 or 16 bit.
 Result<GrayImage> read_image(const std::filesystem::path& path);
+/// The same of a file's content; errors name `where`.
+Result<GrayImage> read_image(std::string_view file, const std::string& where);
 
 /// One corner of the board's pattern found in an image.
 struct CornerObservation {

@@ -68,11 +68,8 @@ void copy_color(const cv::Mat& mat, int divisor, std::vector<std::uint8_t>& rgb)
   }
 }
 
-Result<cv::Mat> decode(const std::filesystem::path& path) {
-  const std::string where = path.string();
-  const auto bytes = read_text_file(path, kMaxFileBytes);
-  if (!bytes) return bytes.error();
-  const auto header = read_image_header(*bytes);
+Result<cv::Mat> decode(std::string_view bytes, const std::string& where) {
+  const auto header = read_image_header(bytes);
   if (!header) {
     Error error = header.error();
     error.where = where;
@@ -88,8 +85,8 @@ Result<cv::Mat> decode(const std::filesystem::path& path) {
   const Error damaged = Error::input("the image cannot be decoded: its data are damaged", where,
                                      "copy or save the image again");
   try {
-    const cv::Mat raw(1, static_cast<int>(bytes->size()), CV_8U,
-                      const_cast<char*>(bytes->data()));  // imdecode only reads
+    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U,
+                      const_cast<char*>(bytes.data()));  // imdecode only reads
     cv::Mat mat = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
     if (mat.empty()) return damaged;
     return mat;
@@ -99,7 +96,19 @@ Result<cv::Mat> decode(const std::filesystem::path& path) {
   }
 }
 
+Result<cv::Mat> decode(const std::filesystem::path& path) {
+  const auto bytes = read_text_file(path, kMaxFileBytes);
+  if (!bytes) return bytes.error();
+  return decode(*bytes, path.string());
+}
+
 }  // namespace
+
+Result<GrayImage> read_image(std::string_view file, const std::string& where) {
+  const auto mat = decode(file, where);
+  if (!mat) return mat.error();
+  return to_gray(*mat, where);
+}
 
 Result<GrayImage> read_image(const std::filesystem::path& path) {
   const auto mat = decode(path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -12,6 +13,8 @@
 #include "recording/still_stretches.h"
 
 namespace lvcalib {
+
+struct RecordingSurvey;
 
 /// Which topics to use; empty: the only one that fits.
 struct TopicNames {
@@ -31,6 +34,15 @@ struct TopicChoice {
 /// Chooses topics. Errors (kUsage): a name that is not recorded, of another type, or several to
 /// choose from; (kInput): no images or no clouds, naming what converts raw packets.
 Result<TopicChoice> choose_topics(const Recording& recording, const TopicNames& names);
+
+/// Topics that an import could use, the likeliest first; indices into Recording::topics(). Depth
+/// images come last, and a camera's compressed images after its raw ones.
+struct TopicCandidates {
+  std::vector<std::size_t> images;
+  std::vector<std::size_t> clouds;
+  std::vector<std::size_t> infos;
+};
+TopicCandidates list_candidates(const Recording& recording);
 
 /// What to know about a recording before it is imported: missing or unreadable topics, clouds
 /// without intensity, clocks that differ, low rates, sensors that never ran together. Reads the
@@ -62,10 +74,12 @@ struct ImportedStretch {
   double first_s = 0.0;
   double last_s = 0.0;
   bool taken = false;
-  std::string scene;   ///< Name of the scene, if taken.
-  std::string reason;  ///< In words, why it was taken or left.
+  bool usable = false;  ///< Is a scene if its time is asked for, unless its files say otherwise.
+  std::string scene;    ///< Name of the scene, if taken.
+  std::string reason;   ///< In words, why it was taken or left.
   double image_s = 0.0;
-  std::size_t images = 0;  ///< To choose from.
+  std::int64_t image_ns = 0;  ///< The image's time in the recording.
+  std::size_t images = 0;     ///< To choose from.
   std::size_t sweeps = 0;
   std::size_t points = 0;
   std::string board_complaint;  ///< Why a scene that was taken does not show the guessed board.
@@ -74,6 +88,7 @@ struct ImportedStretch {
 struct ImportSummary {
   std::string image_topic, cloud_topic, info_topic;
   double length_s = 0.0;
+  bool has_camera = false;                 ///< The dataset has a camera.yaml.
   std::vector<ImportedStretch> stretches;  ///< In the order of time.
   std::vector<std::string> warnings;
   [[nodiscard]] std::size_t scene_count() const;
@@ -87,6 +102,12 @@ struct ImportSummary {
 /// Errors: those of choose_topics(); DATASET exists; no stretch that can be used (naming why); a
 /// time asked for at which something moves; a stop.
 Result<ImportSummary> import_recording(const Recording& recording, const ImportOptions& options,
+                                       const std::filesystem::path& dataset,
+                                       const RunContext& context);
+
+/// The second pass alone, after survey_recording() with the same recording, topics and time offset.
+Result<ImportSummary> import_recording(const Recording& recording, const RecordingSurvey& survey,
+                                       const ImportOptions& options,
                                        const std::filesystem::path& dataset,
                                        const RunContext& context);
 

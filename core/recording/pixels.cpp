@@ -150,6 +150,38 @@ Result<ImageLook> look_at_image(const ImageMessage& message, const std::string& 
   }
 }
 
+Result<Thumbnail> make_thumbnail(const ImageMessage& message, int longest_px,
+                                 const std::string& where) {
+  try {
+    cv::Mat pixels = pixels_of(message);
+    if (pixels.empty()) return damaged_image(where);
+    const int code = message.compressed ? -1 : conversion_of(message.encoding).to_color;
+    if (code >= 0) {
+      cv::Mat color;
+      cv::cvtColor(pixels, color, code);
+      pixels = color;
+    }
+    if (pixels.depth() != CV_8U) {
+      cv::Mat bytes;
+      cv::normalize(pixels, bytes, 0.0, 255.0, cv::NORM_MINMAX, CV_8U);
+      pixels = bytes;
+    }
+    const double scale =
+        std::min(1.0, static_cast<double>(longest_px) / std::max(pixels.cols, pixels.rows));
+    cv::Mat small;
+    cv::resize(pixels, small, {}, scale, scale, cv::INTER_AREA);
+    const int to_rgb[] = {-1, cv::COLOR_GRAY2RGB, -1, cv::COLOR_BGR2RGB, cv::COLOR_BGRA2RGB};
+    if (small.channels() > 4 || to_rgb[small.channels()] < 0) return damaged_image(where);
+    cv::Mat rgb;
+    cv::cvtColor(small, rgb, to_rgb[small.channels()]);
+    Thumbnail out{rgb.cols, rgb.rows, {}};
+    out.rgb.assign(rgb.data, rgb.data + rgb.total() * 3);
+    return out;
+  } catch (const cv::Exception&) {
+    return damaged_image(where);
+  }
+}
+
 Result<ImageFile> make_image_file(const ImageMessage& message, const std::string& where) {
   ImageFile out;
   try {

@@ -28,6 +28,16 @@ struct ImageLook {
 /// Decodes an image and reduces it. Errors name `where`: damaged data.
 Result<ImageLook> look_at_image(const ImageMessage& message, const std::string& where);
 
+/// A small picture to look at: red, green, blue, row by row.
+struct Thumbnail {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgb;
+};
+/// At most `longest_px` on a side. Errors as look_at_image().
+Result<Thumbnail> make_thumbnail(const ImageMessage& message, int longest_px,
+                                 const std::string& where);
+
 /// An image as a file that keeps every bit: jpeg and png as they came, everything else as png
 /// (bayer and yuv422 in colours).
 struct ImageFile {

@@ -454,4 +454,20 @@ Result<std::vector<std::string>> Recording::read(const std::vector<std::size_t>&
   return std::move(cursor.warnings);
 }
 
+bool looks_like_recording(const fs::path& path) {
+  std::error_code code;
+  std::vector<std::string> warnings;
+  const auto files = files_of(path, warnings);
+  if (!files) return false;
+  return std::any_of(files->begin(), files->end(), [&](const fs::path& file) {
+    if (!fs::is_regular_file(file, code)) return false;
+    auto opened = RandomFile::open(file);
+    std::string start;
+    if (opened) opened->read(0, 16, start);
+    return start.starts_with("SQLite format 3") || start.starts_with("#ROSBAG V") ||
+           start.starts_with(std::string_view("\x89MCAP0\r\n", 8)) ||
+           (compression_by_content(start) != Compression::kNone && is_bag_name(file));
+  });
+}
+
 }  // namespace lvcalib

@@ -90,4 +90,8 @@ class Recording {
   std::vector<std::string> warnings_;
 };
 
+/// Whether a file, or what a folder holds, looks like a recording: by the first bytes of files, by
+/// the name of compressed ones. Nothing else is read.
+bool looks_like_recording(const std::filesystem::path& path);
+
 }  // namespace lvcalib

@@ -311,11 +311,11 @@ ImageComparison::ImageComparison(const ImageTrack& track) : track_(track) {
   for (float& sigma : sigma_) sigma = std::min(sigma, 4.0F * *middle);
 }
 
-bool ImageComparison::moved(std::size_t a, std::size_t b, double tolerance_px) const {
+double ImageComparison::motion(std::size_t a, std::size_t b, double tolerance_px) const {
   const ImageLook& first = track_.look(a);
   const ImageLook& second = track_.look(b);
   if (!same_size(first, second) || first.cells.size() != sigma_.size()) {
-    return a != b;
+    return a == b ? 0.0 : 1.0 / kImageShare;
   }
   const float gain = gain_between(first, second);
   const auto shift = static_cast<float>(tolerance_px / first.cell_px);
@@ -330,10 +330,14 @@ bool ImageComparison::moved(std::size_t a, std::size_t b, double tolerance_px) c
       if (difference > gate && difference > gate + shift * contrast(first, x, y)) ++changed;
     }
   }
-  return changed > allowed;
+  return static_cast<double>(changed) / static_cast<double>(allowed + 1);
 }
 
 bool moved(const CloudLook& a, const CloudLook& b) {
+  return motion(a, b) >= 1.0;
+}
+
+double motion(const CloudLook& a, const CloudLook& b) {
   std::size_t common = 0;
   std::size_t changed = 0;
   for (auto i = a.cells.begin(), k = b.cells.begin(); i != a.cells.end() && k != b.cells.end();) {
@@ -350,7 +354,8 @@ bool moved(const CloudLook& a, const CloudLook& b) {
   }
   const std::size_t allowed = std::max(
       kLeastCloudCells, static_cast<std::size_t>(kCloudShare * static_cast<double>(common)));
-  return common == 0 || changed > allowed;
+  if (common == 0) return 1.0 / kCloudShare;
+  return static_cast<double>(changed) / static_cast<double>(allowed + 1);
 }
 
 std::vector<StillStretch> find_still_stretches(const ImageTrack& images, const CloudTrack& clouds,

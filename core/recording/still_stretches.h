@@ -91,7 +91,11 @@ CloudTrack make_cloud_track(const StillOptions& options);
 class ImageComparison {
  public:
   explicit ImageComparison(const ImageTrack& track);
-  [[nodiscard]] bool moved(std::size_t a, std::size_t b, double tolerance_px) const;
+  [[nodiscard]] bool moved(std::size_t a, std::size_t b, double tolerance_px) const {
+    return motion(a, b, tolerance_px) >= 1.0;
+  }
+  /// How many cells differ by more, in units of what is no motion yet; 1 and more: moved().
+  [[nodiscard]] double motion(std::size_t a, std::size_t b, double tolerance_px) const;
 
  private:
   const ImageTrack& track_;
@@ -101,6 +105,8 @@ class ImageComparison {
 /// Whether the ranges in two sweeps differ by more than their standard errors allow, in more
 /// directions than people in the background take.
 bool moved(const CloudLook& a, const CloudLook& b);
+/// In how many directions they differ, in units of what is no motion yet; 1 and more: moved().
+double motion(const CloudLook& a, const CloudLook& b);
 
 /// Why a stretch is no scene; kTaken: it is one.
 enum class StretchVerdict {

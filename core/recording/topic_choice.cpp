@@ -147,6 +147,11 @@ std::optional<std::size_t> matching_info(const Recording& recording, const Topic
   return std::nullopt;
 }
 
+// Raw before compressed, anything before depth.
+int unlikeliness(const Topic& topic) {
+  return (is_depth_name(topic) ? 2 : 0) + (topic.type == "sensor_msgs/CompressedImage" ? 1 : 0);
+}
+
 std::string seconds_text(double seconds) {
   return formatted(std::abs(seconds) < 100.0 ? "%.2f s" : "%.0f s", seconds);
 }
@@ -220,6 +225,16 @@ Result<TopicChoice> choose_topics(const Recording& recording, const TopicNames& 
   return out;
 }
 
+TopicCandidates list_candidates(const Recording& recording) {
+  TopicCandidates out{topics_of(recording, MessageKind::kImage),
+                      topics_of(recording, MessageKind::kCloud),
+                      topics_of(recording, MessageKind::kCameraInfo)};
+  std::stable_sort(out.images.begin(), out.images.end(), [&](std::size_t a, std::size_t b) {
+    return unlikeliness(recording.topics()[a]) < unlikeliness(recording.topics()[b]);
+  });
+  return out;
+}
+
 Result<std::vector<std::string>> check_recording(const Recording& recording,
                                                  const RunContext& context) {
   std::vector<std::string> out;
@@ -233,7 +248,7 @@ Result<std::vector<std::string>> check_recording(const Recording& recording,
   if (images.empty()) out.push_back(not_recorded(recording, MessageKind::kImage).text());
   if (clouds.empty()) out.push_back(not_recorded(recording, MessageKind::kCloud).text());
   if (infos.empty()) {
-    out.push_back("no CameraInfo was recorded; lvcalib import needs --camera FILE for intrinsics");
+    out.push_back("no CameraInfo was recorded; give a camera file (--camera) for the intrinsics");
   }
   std::optional<double> image_clock;
   std::optional<double> cloud_clock;

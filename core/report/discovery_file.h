@@ -9,7 +9,8 @@
 
 namespace lvcalib {
 
-/// The text of discovery.json (keys: see resources/guide/effects.md). Parameters in their display units.
+/// The text of discovery.json (keys: see resources/guide/effects.md). Parameters in their display
+/// units.
 std::string discovery_as_json(const Discovery& discovery);
 
 /// A summary that a technician understands: what was found, how sure, what it does to the

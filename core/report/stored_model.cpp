@@ -169,6 +169,11 @@ nlohmann::ordered_json model_json(const CalibrationResult& result) {
   return model;
 }
 
+Result<StoredModel> model_of(const CalibrationResult& result) {
+  const nlohmann::json model = model_json(result);
+  return Reader(model, "model").run();
+}
+
 Result<StoredModel> read_model(const std::filesystem::path& path) {
   auto text = read_text_file(path, kMaxResultBytes);
   if (!text) return text.error();

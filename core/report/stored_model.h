@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "model/linear_model.h"
 #include "model/model_scales.h"
+#include "pipeline/calibration.h"
 
 namespace lvcalib {
 
@@ -20,5 +21,8 @@ struct StoredModel {
 /// Errors (kInput, naming file and key): no such file, not JSON, no model, an effect that this
 /// version does not know, parameters missing, not finite or in another unit.
 Result<StoredModel> read_model(const std::filesystem::path& path);
+
+/// The same of a calibration that was not written.
+Result<StoredModel> model_of(const CalibrationResult& result);
 
 }  // namespace lvcalib

@@ -54,6 +54,55 @@ QString Choices::transform_to_open(QWidget* parent, const QString& folder) {
       words(QT_TRANSLATE_NOOP("Choices", "YAML (*.yaml *.yml)")));
 }
 
+QString Choices::recording_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a recording")), folder,
+      words(QT_TRANSLATE_NOOP(
+          "Choices",
+          "Recordings (*.bag *.mcap *.db3 metadata.yaml *.zstd *.zst *.lz4);;All files (*)")));
+}
+
+QString Choices::target_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a description of the board")), folder,
+      words(QT_TRANSLATE_NOOP("Choices", "YAML (*.yaml *.yml)")));
+}
+
+QString Choices::camera_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a camera file")), folder,
+      words(QT_TRANSLATE_NOOP("Choices", "YAML (*.yaml *.yml)")));
+}
+
+QString Choices::dataset_to_make(QWidget* parent, const QString& suggestion) {
+  return QFileDialog::getSaveFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Folder of the new dataset")), suggestion, {},
+      nullptr, QFileDialog::ShowDirsOnly | QFileDialog::DontConfirmOverwrite);
+}
+
+QString Choices::cloud_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(parent, words(QT_TRANSLATE_NOOP("Choices", "Open a cloud")),
+                                      folder,
+                                      words(QT_TRANSLATE_NOOP("Choices", "Clouds (*.pcd *.ply)")));
+}
+
+QString Choices::clouds_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getExistingDirectory(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a folder of clouds")), folder);
+}
+
+QString Choices::clouds_to_save(QWidget* parent, const QString& suggestion) {
+  return QFileDialog::getSaveFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Place of the corrected clouds")), suggestion, {},
+      nullptr, QFileDialog::DontConfirmOverwrite);
+}
+
+QString Choices::result_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Compare with")), folder,
+      words(QT_TRANSLATE_NOOP("Choices", "Results and truths (*.json)")));
+}
+
 UnsavedAnswer Choices::unsaved(QWidget* parent, const QString& name) {
   const auto answer = QMessageBox::question(
       parent, words(QT_TRANSLATE_NOOP("Choices", "Unsaved decisions")),

@@ -28,6 +28,19 @@ class Choices {
   virtual QString file_to_export(QWidget* parent, const QString& suggestion, const QString& filter);
   /// A YAML file with T_imu_lidar.
   virtual QString transform_to_open(QWidget* parent, const QString& folder);
+  /// A recording's file; of a rosbag2 folder its metadata.yaml.
+  virtual QString recording_to_open(QWidget* parent, const QString& folder);
+  virtual QString target_to_open(QWidget* parent, const QString& folder);
+  virtual QString camera_to_open(QWidget* parent, const QString& folder);
+  /// A folder that need not exist yet.
+  virtual QString dataset_to_make(QWidget* parent, const QString& suggestion);
+  virtual QString cloud_to_open(QWidget* parent, const QString& folder);
+  /// A folder of clouds.
+  virtual QString clouds_to_open(QWidget* parent, const QString& folder);
+  /// A cloud's file, or the folder for several.
+  virtual QString clouds_to_save(QWidget* parent, const QString& suggestion);
+  /// A result.json, or the truth of a simulation.
+  virtual QString result_to_open(QWidget* parent, const QString& folder);
   virtual UnsavedAnswer unsaved(QWidget* parent, const QString& name);
   /// A project's dataset is not at `old_path`: where is it now?
   virtual QString moved_dataset(QWidget* parent, const QString& old_path);

@@ -18,6 +18,7 @@ WelcomePage::WelcomePage(QWidget* parent)
       purpose_(new QLabel(this)),
       dataset_(new QCommandLinkButton(this)),
       project_(new QCommandLinkButton(this)),
+      import_(new QCommandLinkButton(this)),
       demo_(new QCommandLinkButton(this)),
       guide_(new QCommandLinkButton(this)),
       recent_title_(new QLabel(this)),
@@ -30,8 +31,11 @@ WelcomePage::WelcomePage(QWidget* parent)
   recent_->setTextElideMode(Qt::ElideMiddle);
   recent_title_->setBuddy(recent_);
   auto* buttons = new QVBoxLayout;
-  const std::pair<QCommandLinkButton*, const char*> named[] = {
-      {dataset_, "open_dataset"}, {project_, "open_project"}, {demo_, "demo"}, {guide_, "guide"}};
+  const std::pair<QCommandLinkButton*, const char*> named[] = {{import_, "import_recording"},
+                                                               {dataset_, "open_dataset"},
+                                                               {project_, "open_project"},
+                                                               {demo_, "demo"},
+                                                               {guide_, "guide"}};
   for (const auto& [button, name] : named) {
     button->setObjectName(QString::fromLatin1(name));
     buttons->addWidget(button);
@@ -52,6 +56,7 @@ WelcomePage::WelcomePage(QWidget* parent)
   layout->addLayout(columns, 1);
   connect(dataset_, &QCommandLinkButton::clicked, this, &WelcomePage::open_dataset_wanted);
   connect(project_, &QCommandLinkButton::clicked, this, &WelcomePage::open_project_wanted);
+  connect(import_, &QCommandLinkButton::clicked, this, &WelcomePage::import_wanted);
   connect(demo_, &QCommandLinkButton::clicked, this, &WelcomePage::demo_wanted);
   connect(guide_, &QCommandLinkButton::clicked, this, &WelcomePage::guide_wanted);
   connect(recent_, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
@@ -86,12 +91,14 @@ void WelcomePage::retranslate() {
   dataset_->setDescription(tr("A folder with target.yaml, camera.yaml and scenes"));
   project_->setText(tr("Open a project"));
   project_->setDescription(tr("A dataset with your decisions about it (.lvcalib)"));
+  import_->setText(tr("New from a recording"));
+  import_->setDescription(tr("A ROS bag, rosbag2 or MCAP in which board and rig stood still"));
   demo_->setText(tr("Try the demo"));
   demo_->setDescription(
       tr("Simulates four scenes with an effect hidden in them, and a tour to find it"));
   guide_->setText(tr("Guide"));
   guide_->setDescription(tr("From the printed board to a result, step by step"));
-  recent_title_->setText(tr("Recent (or drop a folder on this window)"));
+  recent_title_->setText(tr("Recent (or drop a folder or a recording on this window)"));
 }
 
 }  // namespace lvcalib::widgets

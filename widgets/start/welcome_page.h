@@ -22,6 +22,7 @@ class WelcomePage : public QWidget {
  Q_SIGNALS:
   void open_dataset_wanted();
   void open_project_wanted();
+  void import_wanted();
   void demo_wanted();
   void guide_wanted();
   void recent_wanted(const QString& path);
@@ -36,6 +37,7 @@ class WelcomePage : public QWidget {
   QLabel* purpose_;
   QCommandLinkButton* dataset_;
   QCommandLinkButton* project_;
+  QCommandLinkButton* import_;
   QCommandLinkButton* demo_;
   QCommandLinkButton* guide_;
   QLabel* recent_title_;

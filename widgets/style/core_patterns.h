@@ -269,6 +269,9 @@ inline constexpr const char* kCorePatterns[] = {
         "'%1' is no name of a frame; expected letters, digits and _ - . /, not beginning with - "
         "and without --"),
     QT_TRANSLATE_NOOP("Core", "as the robot's description calls it: velodyne, camera_left"),
+    QT_TRANSLATE_NOOP("Core",
+                      "holds no extrinsic; expected T_camera_lidar (a result) or T_CL (a truth)"),
+    QT_TRANSLATE_NOOP("Core", "give the result.json of a calibration"),
     // Scenes named before anything else that is said of them.
     QT_TRANSLATE_NOOP("Core", "scene %1: %2"),
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "style/core_patterns.h"
+#include "style/import_patterns.h"
 #include "style/model_patterns.h"
 
 namespace lvcalib::widgets {
@@ -59,6 +60,7 @@ const std::vector<Pattern>& patterns() {
   static const std::vector<Pattern> all = [] {
     std::vector<Pattern> out;
     for (const char* source : kModelPatterns) out.push_back(compiled(source));
+    for (const char* source : kImportPatterns) out.push_back(compiled(source));
     for (const char* source : kCorePatterns) out.push_back(compiled(source));
     return out;
   }();

@@ -164,7 +164,7 @@ TEST_F(Import, TimesOfScenesCanBeGiven) {
   EXPECT_EQ(summary->scene_count(), 1U);
   ASSERT_EQ(summary->stretches.size(), 3U);
   EXPECT_TRUE(summary->stretches[1].taken);
-  EXPECT_THAT(summary->stretches[0].reason, HasSubstr("--scenes"));
+  EXPECT_THAT(summary->stretches[0].reason, HasSubstr("left out by its time"));
   EXPECT_TRUE(fs::exists(dataset_ / "scenes" / "001" / "cloud.pcd"));
   fs::remove_all(dataset_);
   expect_refused(recording, "nothing stands still at 2.40 s",

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "style/core_patterns.h"
+#include "style/import_patterns.h"
 #include "style/model_patterns.h"
 
 namespace lvcalib::widgets::texts_test {
@@ -79,6 +80,7 @@ TEST(CoreText, EveryPatternIsSomethingThatTheCoreSays) {
       "%[0-9]|[:;,.()]|\\b(larger|smaller|farther|nearer)\\b|\\b(paper|circle)'s");
   std::vector<const char*> patterns(std::begin(kCorePatterns), std::end(kCorePatterns));
   patterns.insert(patterns.end(), std::begin(kModelPatterns), std::end(kModelPatterns));
+  patterns.insert(patterns.end(), std::begin(kImportPatterns), std::end(kImportPatterns));
   for (const char* pattern : patterns) {
     QString longest;
     for (const QString& part : QString::fromUtf8(pattern).split(places)) {

@@ -46,6 +46,7 @@ class Watchdog : public QObject {
 class Answers : public widgets::Choices {
  public:
   QString dataset, project, save_as, export_to, transform, moved_to;
+  QString recording, target, camera, new_dataset, cloud, clouds, clouds_to, other_result;
   QStringList scenes;
   widgets::UnsavedAnswer unsaved_answer = widgets::UnsavedAnswer::kDiscard;
   bool recover_answer = false;
@@ -57,6 +58,14 @@ class Answers : public widgets::Choices {
   QStringList scenes_to_add(QWidget*, const QString&) override { return scenes; }
   QString file_to_export(QWidget*, const QString&, const QString&) override { return export_to; }
   QString transform_to_open(QWidget*, const QString&) override { return transform; }
+  QString recording_to_open(QWidget*, const QString&) override { return recording; }
+  QString target_to_open(QWidget*, const QString&) override { return target; }
+  QString camera_to_open(QWidget*, const QString&) override { return camera; }
+  QString dataset_to_make(QWidget*, const QString&) override { return new_dataset; }
+  QString cloud_to_open(QWidget*, const QString&) override { return cloud; }
+  QString clouds_to_open(QWidget*, const QString&) override { return clouds; }
+  QString clouds_to_save(QWidget*, const QString&) override { return clouds_to; }
+  QString result_to_open(QWidget*, const QString&) override { return other_result; }
   widgets::UnsavedAnswer unsaved(QWidget*, const QString&) override {
     ++asked_unsaved;
     return unsaved_answer;

@@ -4,6 +4,7 @@
 #include <QRegularExpression>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTreeWidget>
 #include <algorithm>
 #include <set>
 
@@ -12,9 +13,11 @@
 
 #include "dialogs/error_dialog.h"
 #include "model/user_effect.h"
+#include "report/result_file.h"
 #include "runner/demo.h"
 #include "style/texts.h"
 #include "views/color_bar.h"
+#include "widgets/importing/recorded_walk.h"
 #include "widgets/modelling/model_example.h"
 #include "widgets/support/visible_texts.h"
 #include "widgets/workbench/main_window_fixture.h"
@@ -30,22 +33,24 @@ using test::wait_until;
 // Names, units, file names and keys are the same in every language.
 const std::set<QString>& same_everywhere() {
   static const std::set<QString> words = {
-      "Calib",       "LiDAR", "AprilTag", "AprilGrid", "YAML",     "JSON", "PNG",    "PDF",
-      "CSV",         "HTML",  "SVD",      "PnP",       "RMS",      "IMU",  "SLAM",   "ROS",
-      "OpenGL",      "Mesa",  "Huber",    "Ctrl",      "Shift",    "Esc",  "Home",   "mrad",
-      "rad",         "deg",   "lvcalib",  "English",   "GPL",      "BSD",  "Clause", "later",
-      "tagSize",     "nat",   "LVI",      "SAM",       "camchain", "LIVO", "FAST",   "LIVE",
-      "FileStorage", "Rcl",   "Pcl",      "rvec",      "tvec",     "cos",  "sin",    "Del",
-      "raw",         "demo",  "dataset",  "target"};
+      "Calib",       "LiDAR", "AprilTag", "AprilGrid", "YAML",       "JSON", "PNG",    "PDF",
+      "CSV",         "HTML",  "SVD",      "PnP",       "RMS",        "IMU",  "SLAM",   "ROS",
+      "OpenGL",      "Mesa",  "Huber",    "Ctrl",      "Shift",      "Esc",  "Home",   "mrad",
+      "rad",         "deg",   "lvcalib",  "English",   "GPL",        "BSD",  "Clause", "later",
+      "tagSize",     "nat",   "LVI",      "SAM",       "camchain",   "LIVO", "FAST",   "LIVE",
+      "FileStorage", "Rcl",   "Pcl",      "rvec",      "tvec",       "cos",  "sin",    "Del",
+      "raw",         "demo",  "dataset",  "target",    "CameraInfo", "MCAP", "bag",    "rosbag",
+      "Letter"};
   return words;
 }
 
 // English words of a text, after what is the same in every language is taken out.
 QStringList english_words(QString text) {
   static const QRegularExpression code("<code>.*?</code>|<style>.*?</style>|<[^>]*>");
-  // Paths, file names, identifiers, format specifiers: anything with . / _ * or a digit in it.
+  // Paths, file names, identifiers, format specifiers: anything with . / _ * or a digit in it;
+  // and topics.
   static const QRegularExpression names(
-      "[^\\s，。：；（）]*[A-Za-z0-9_]+[./_*0-9:][^\\s，。：；（）]*");
+      "[^\\s，。：；（）]*[A-Za-z0-9_]+[./_*0-9:][^\\s，。：；（）]*|(?<!\\w)/[A-Za-z_/]+");
   static const QRegularExpression word("[A-Za-z]{3,}");
   text.remove(code);
   text.replace(QLatin1String("&nbsp;"), QLatin1String(" "));
@@ -98,6 +103,18 @@ class RetranslationTest : public ::testing::Test {
                                  false);
     ASSERT_TRUE(test::wait_for_result(*window_));
     for (const char* name : {"results", "guide", "about"}) ASSERT_TRUE(trigger(*window_, name));
+    const auto written = folder_.filePath(QStringLiteral("earlier")).toStdString();
+    ASSERT_TRUE(write_results(*window_->workspace().result(), written).ok());
+    answers_.other_result = QString::fromStdString(written + "/result.json");
+    for (const char* name : {"compare_results", "correct_clouds", "print_board"})
+      ASSERT_TRUE(trigger(*window_, name));
+    answers_.recording = test::small_walk().path;
+    ASSERT_TRUE(trigger(*window_, "import_recording"));
+    ASSERT_TRUE(wait_until([&] {
+      auto* stretches = find<QTreeWidget>(*window_, "stretches");
+      const auto* last = stretches->topLevelItem(stretches->topLevelItemCount() - 1);
+      return last != nullptr && !last->text(3).isEmpty();
+    }));
     const auto* result = window_->workspace().result().get();
     auto* error = new widgets::ErrorDialog(
         Error::untrusted("the scenes determine only 5 of 6 directions of the extrinsic",

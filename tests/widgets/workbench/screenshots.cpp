@@ -17,7 +17,11 @@
 #include <QTreeWidget>
 #include <cstdio>
 
+#include "importing/stretch_list.h"
 #include "modelling/residual_plot.h"
+#include "report/result_file.h"
+#include "tools/compare_dialog.h"
+#include "widgets/importing/recorded_walk.h"
 #include "widgets/support/driver.h"
 
 namespace {
@@ -92,6 +96,22 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
         formats->findItems(QStringLiteral("kalibr"), Qt::MatchExactly).value(0));
   }
   take("results_dialog", QStringLiteral("exports"));
+  static test::Answers nobody;
+  const QTemporaryDir folder;
+  const auto result = window.workspace().result();
+  CalibrationResult other = *result;
+  other.extrinsic.camera_from_lidar.transform.translation.x() += 2e-4;
+  const auto written = folder.filePath(QStringLiteral("rig-in-spring")).toStdString();
+  if (write_results(other, written).ok()) {
+    auto* compare = new widgets::CompareDialog(result, nobody, folder.path(), &window);
+    compare->open(QString::fromStdString(written + "/result.json"));
+    compare->show();
+  }
+  take("compare_dialog", QStringLiteral("compare"));
+  test::trigger(window, "correct_clouds");
+  take("correct_dialog", QStringLiteral("correct"));
+  test::trigger(window, "print_board");
+  take("print_dialog", QStringLiteral("print"));
   test::trigger(window, "guide");
   take("guide_dialog", QStringLiteral("guide"));
   test::trigger(window, "about");
@@ -99,6 +119,28 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   window.open(QStringLiteral("/nowhere/rig"));
   test::wait_until([&] { return test::find<QDialog>(window, "error_dialog") != nullptr; }, 5000);
   take("error_dialog", QStringLiteral("error"));
+}
+
+// A walk with four poses, the first of which is taken up again.
+void photograph_import(widgets::MainWindow& window, Photographer& camera) {
+  test::RecordedWalk walk(test::walk_simulation(4, 60'000, 960, 600));
+  simulation::SimulatedRig rig = walk.rig;
+  rig.scenes.push_back(rig.scenes.front());
+  rig.scenes.back().name = "again";
+  test::WalkOptions options;
+  options.moving_ticks = 12;
+  window.open(walk.write(test::simulated_walk(rig, options), QStringLiteral("parking-lot.bag")));
+  auto* dialog = test::find<QDialog>(window, "import_dialog");
+  auto* stretches = test::find<widgets::StretchList>(*dialog, "stretches");
+  test::wait_until([&] { return stretches->topLevelItemCount() > 0; });
+  test::wait_until([&] { return !stretches->topLevelItem(3)->text(3).isEmpty(); }, 20'000);
+  stretches->setCurrentItem(stretches->topLevelItem(1));
+  for (const char* theme : {"light", "dark"}) {
+    choose(window, "theme", QString::fromLatin1(theme));
+    camera.take(QStringLiteral("import-%1").arg(QLatin1String(theme)), dialog);
+  }
+  choose(window, "theme", QStringLiteral("light"));
+  dialog->close();
 }
 
 bool wait_for_model(widgets::MainWindow& window) {
@@ -177,6 +219,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   window.move(0, 0);
   window.show();
   camera.take(QStringLiteral("welcome"));
+  if (!quick) photograph_import(window, camera);
   if (dataset.isEmpty()) {
     test::trigger(window, "demo");
   } else {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The window's side of a new dataset from a recording.
+#include <QFileInfo>
+
+#include "docks/log_dock.h"
+#include "importing/import_dialog.h"
+#include "recording/recording.h"
+#include "start/welcome_page.h"
+#include "style/texts.h"
+#include "workbench/main_actions.h"
+#include "workbench/main_window.h"
+#include "workbench/page_stack.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+// A recording, and no dataset or project that lies beside one.
+bool is_to_be_imported(const QString& path) {
+  const QFileInfo info(path);
+  if (info.suffix() == QLatin1String("lvcalib")) return false;
+  if (info.fileName() == QLatin1String("metadata.yaml")) return true;
+  if (info.isDir() && QFileInfo(path + QStringLiteral("/scenes")).isDir()) return false;
+  return looks_like_recording(path.toStdString());
+}
+
+}  // namespace
+
+void MainWindow::connect_import() {
+  const auto choose = [this] {
+    const QString path = choices_.recording_to_open(this, settings_.last_folder());
+    if (!path.isEmpty()) import_recording(path);
+  };
+  connect(actions_->import_recording, &QAction::triggered, this, choose);
+  connect(&pages_->welcome(), &WelcomePage::import_wanted, this, choose);
+}
+
+void MainWindow::open(const QString& path) {
+  if (is_to_be_imported(path)) {
+    import_recording(path);
+    return;
+  }
+  if (!may_drop_decisions()) return;
+  if (QFileInfo(path).isDir()) {
+    workspace_->open_dataset(path);
+  } else {
+    workspace_->open_project(path);
+  }
+}
+
+void MainWindow::import_recording(const QString& path) {
+  if (!import_) {
+    import_ = new ImportDialog(choices_, settings_.recent(), this);
+    connect(import_, &ImportDialog::imported, this, &MainWindow::take_imported);
+  }
+  settings_.set_last_folder(QFileInfo(path).absolutePath());
+  import_->open(path);
+  import_->show();
+  import_->raise();
+  import_->activateWindow();
+}
+
+void MainWindow::take_imported(const QString& dataset, const ImportSummary& summary) {
+  log_->append(tr("Imported into %1: %2 of %3 still stretches are scenes.")
+                   .arg(dataset)
+                   .arg(summary.scene_count())
+                   .arg(summary.stretches.size()));
+  for (const ImportedStretch& s : summary.stretches) {
+    const QString time =
+        tr("%1 s to %2 s")
+            .arg(QString::number(s.first_s, 'f', 1), QString::number(s.last_s, 'f', 1));
+    log_->append(s.taken ? tr("%1: scene %2").arg(time, QString::fromStdString(s.scene))
+                         : tr("%1: left: %2").arg(time, core_text(s.reason)));
+  }
+  for (const std::string& warning : summary.warnings) log_->append(core_text(warning));
+  if (!may_drop_decisions()) return;
+  run_when_opened_ = true;
+  workspace_->open_dataset(dataset);
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recording/survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "recording/messages.h"
+
+namespace lvcalib {
+namespace {
+
+double seconds_from_start(const Recording& recording, std::int64_t time_ns) {
+  return 1e-9 * static_cast<double>(time_ns - recording.span().first_ns);
+}
+
+// A stretch that may become a scene if somebody wants it to.
+bool is_usable(const StillStretch& stretch) {
+  return stretch.verdict == StretchVerdict::kTaken || stretch.verdict == StretchVerdict::kRepeat ||
+         stretch.verdict == StretchVerdict::kNotAsked;
+}
+
+class Surveyor {
+ public:
+  Surveyor(const Recording& recording, TopicChoice topics, const RunContext& context)
+      : recording_(recording), topics_(topics), context_(context) {}
+  Result<RecordingSurvey> survey(const ImportOptions& options);
+
+ private:
+  [[nodiscard]] const Topic& image_topic() const { return recording_.topics()[topics_.image]; }
+  [[nodiscard]] const Topic& cloud_topic() const { return recording_.topics()[topics_.cloud]; }
+  void take_image(const RecordedMessage& message, RecordingSurvey& out);
+  void take_cloud(const RecordedMessage& message, RecordingSurvey& out);
+
+  const Recording& recording_;
+  TopicChoice topics_;
+  const RunContext& context_;
+  std::size_t bad_images_ = 0;
+  std::size_t bad_clouds_ = 0;
+  std::string first_image_complaint_;
+  std::string first_cloud_complaint_;
+};
+
+void Surveyor::take_image(const RecordedMessage& message, RecordingSurvey& out) {
+  const std::int64_t time = message.time_ns + out.image_offset_ns;
+  if (!out.images.wants(time)) return;
+  const auto image = decode_image(image_topic(), message.data);
+  auto look = image ? look_at_image(*image, image_topic().name) : Result<ImageLook>(image.error());
+  if (!look) {
+    if (bad_images_++ == 0) first_image_complaint_ = look.error().text();
+    return;
+  }
+  if (out.images.size() > 0 && (out.images.look(0).width_px != look->width_px ||
+                                out.images.look(0).height_px != look->height_px)) {
+    out.sizes_change = true;
+  }
+  const std::size_t bytes = sizeof(ImageLook) + 2 * look->cells.size();
+  out.images.add(time, std::move(*look), bytes);
+}
+
+void Surveyor::take_cloud(const RecordedMessage& message, RecordingSurvey& out) {
+  if (!out.clouds.wants(message.time_ns)) return;
+  const auto cloud = decode_cloud(cloud_topic(), message.data);
+  if (!cloud) {
+    if (bad_clouds_++ == 0) first_cloud_complaint_ = cloud.error().text();
+    return;
+  }
+  out.intensity = out.intensity && cloud->cloud.has_intensity();
+  CloudLook look = look_at_cloud(cloud->cloud);
+  const std::size_t bytes = sizeof(CloudLook) + sizeof(CloudLook::Cell) * look.cells.size();
+  out.clouds.add(message.time_ns, std::move(look), bytes);
+}
+
+Result<RecordingSurvey> Surveyor::survey(const ImportOptions& options) {
+  RecordingSurvey out(options.still);
+  out.topics = topics_;
+  out.image_offset_ns = static_cast<std::int64_t>(std::llround(1e9 * options.image_time_offset_s));
+  std::vector<std::size_t> topics = {topics_.image, topics_.cloud};
+  if (topics_.info) topics.push_back(*topics_.info);
+  auto warnings = recording_.read(
+      topics, {}, context_, "look", [&](const RecordedMessage& message) -> Result<bool> {
+        if (message.topic == topics_.image) take_image(message, out);
+        if (message.topic == topics_.cloud) take_cloud(message, out);
+        if (topics_.info && message.topic == *topics_.info && !out.camera) {
+          auto info = decode_camera_info(recording_.topics()[message.topic], message.data,
+                                         topics_.rectified);
+          if (info) {
+            out.camera = info->camera;
+          } else if (out.camera_complaint.empty()) {
+            out.camera_complaint = info.error().text();
+          }
+        }
+        return true;
+      });
+  if (!warnings) return warnings.error();
+  out.warnings = std::move(*warnings);
+  if (out.images.size() == 0) {
+    return Error::input("none of its images can be read: " + first_image_complaint_,
+                        recording_.path().string());
+  }
+  if (out.clouds.size() == 0) {
+    return Error::input("none of its clouds can be read: " + first_cloud_complaint_,
+                        recording_.path().string());
+  }
+  const auto warn_of_bad = [&](std::size_t bad, const Topic& topic, const std::string& first) {
+    if (bad == 0) return;
+    out.warnings.push_back(
+        topic.name + ": " + std::to_string(bad) +
+        " messages cannot be read and are left out, the first because: " + first);
+  };
+  warn_of_bad(bad_images_, image_topic(), first_image_complaint_);
+  warn_of_bad(bad_clouds_, cloud_topic(), first_cloud_complaint_);
+  return out;
+}
+
+}  // namespace
+
+Result<RecordingSurvey> survey_recording(const Recording& recording, const ImportOptions& options,
+                                         const RunContext& context) {
+  const auto topics = choose_topics(recording, options.topics);
+  if (!topics) return topics.error();
+  return Surveyor(recording, *topics, context).survey(options);
+}
+
+Result<std::vector<StillStretch>> choose_stretches(const Recording& recording,
+                                                   const RecordingSurvey& survey,
+                                                   const ImportOptions& options) {
+  auto stretches = find_still_stretches(survey.images, survey.clouds, options.still);
+  if (options.scene_times_s.empty()) return stretches;
+  std::vector<char> asked(stretches.size(), 0);
+  for (const double time_s : options.scene_times_s) {
+    const auto holds = [&](const StillStretch& s) {
+      return is_usable(s) && seconds_from_start(recording, s.first_ns) <= time_s &&
+             time_s <= seconds_from_start(recording, s.last_ns);
+    };
+    const auto found = std::find_if(stretches.begin(), stretches.end(), holds);
+    if (found == stretches.end()) {
+      return Error::input("nothing stands still at " + formatted("%.2f s", time_s),
+                          recording.path().string(),
+                          "times count from the first message; without --scenes all still "
+                          "stretches are found");
+    }
+    asked[static_cast<std::size_t>(found - stretches.begin())] = 1;
+  }
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    StretchVerdict& verdict = stretches[i].verdict;
+    if (asked[i] != 0) {
+      verdict = StretchVerdict::kTaken;
+    } else if (is_usable(stretches[i])) {
+      verdict = StretchVerdict::kNotAsked;
+    }
+  }
+  return stretches;
+}
+
+ImportedStretch describe_stretch(const Recording& recording, const RecordingSurvey& survey,
+                                 const std::vector<StillStretch>& stretches, std::size_t index,
+                                 const ImportOptions& options) {
+  const StillStretch& stretch = stretches[index];
+  // A stretch reaches half a sample beyond its first and last one; the recording does not.
+  const auto seconds = [&](std::int64_t t) {
+    return std::clamp(seconds_from_start(recording, t), 0.0,
+                      seconds_from_start(recording, recording.span().last_ns));
+  };
+  ImportedStretch out;
+  out.first_s = seconds(stretch.first_ns);
+  out.last_s = seconds(stretch.last_ns);
+  out.images = stretch.last_image - stretch.first_image + 1;
+  out.image_s = seconds(survey.images.time_ns(stretch.sharpest_image));
+  out.image_ns = survey.images.time_ns(stretch.sharpest_image) - survey.image_offset_ns;
+  out.taken = stretch.verdict == StretchVerdict::kTaken;
+  out.usable = is_usable(stretch);
+  switch (stretch.verdict) {
+    case StretchVerdict::kTaken:
+      out.reason = formatted("rig and board stand still for %.1f s", stretch.length_s());
+      break;
+    case StretchVerdict::kTooShort:
+      out.reason = formatted("stands still for %.1f s only; %.1f s are needed", stretch.length_s(),
+                             options.still.min_still_s);
+      break;
+    case StretchVerdict::kNoCloud:
+      out.reason = "no sweep was recorded in this time";
+      break;
+    case StretchVerdict::kCloudMoves:
+      out.reason = "the images stand still, but the clouds change meanwhile";
+      break;
+    case StretchVerdict::kRepeat: {
+      const StillStretch& other = stretches[stretch.repeat_of];
+      out.reason = formatted("the same pose as from %.1f s to %.1f s, which is longer",
+                             seconds(other.first_ns), seconds(other.last_ns));
+      break;
+    }
+    case StretchVerdict::kNotAsked:
+      out.reason = "stands still, but was left out by its time";
+      break;
+  }
+  return out;
+}
+
+Result<std::vector<ImportedStretch>> preview_stretches(const Recording& recording,
+                                                       const RecordingSurvey& survey,
+                                                       const ImportOptions& options) {
+  const auto stretches = choose_stretches(recording, survey, options);
+  if (!stretches) return stretches.error();
+  std::vector<ImportedStretch> out;
+  for (std::size_t i = 0; i < stretches->size(); ++i) {
+    out.push_back(describe_stretch(recording, survey, *stretches, i, options));
+    out.back().sweeps = (*stretches)[i].last_cloud - (*stretches)[i].first_cloud + 1;
+  }
+  return out;
+}
+
+namespace {
+
+// Half a shortest stretch to either side: a view that stands still agrees with one of both, however
+// slowly it was carried there.
+template <class Look, class Motion>
+std::vector<MotionSample> motion_of(const Track<Look>& track, const Recording& recording,
+                                    const StillOptions& options, const Motion& motion) {
+  std::vector<MotionSample> out;
+  if (track.size() < 2) return out;
+  const double period_s = std::max(1e-3, 1e-9 * static_cast<double>(track.period_ns()));
+  const double reach = std::max(1.0, std::round(0.5 * options.min_still_s / period_s));
+  const std::size_t step = std::min(track.size() - 1, static_cast<std::size_t>(reach));
+  std::vector<double> over(track.size() - step);
+  for (std::size_t i = 0; i < over.size(); ++i) over[i] = motion(i, i + step);
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    const bool has_before = i >= step;
+    const bool has_after = i < over.size();
+    const double before = has_before ? over[i - step] : over[std::min(i, over.size() - 1)];
+    const double after = has_after ? over[i] : before;
+    out.push_back({seconds_from_start(recording, track.time_ns(i)), std::min(before, after)});
+  }
+  return out;
+}
+
+}  // namespace
+
+RecordedMotion motion_over_time(const Recording& recording, const RecordingSurvey& survey,
+                                const StillOptions& options) {
+  const ImageComparison comparison(survey.images);
+  return {motion_of(survey.images, recording, options,
+                    [&](std::size_t a, std::size_t b) {
+                      return comparison.motion(a, b, options.still_px);
+                    }),
+          motion_of(survey.clouds, recording, options, [&](std::size_t a, std::size_t b) {
+            return motion(survey.clouds.look(a), survey.clouds.look(b));
+          })};
+}
+
+std::vector<std::string> warnings_of(const Recording& recording, const RecordingSurvey& survey,
+                                     const ImportOptions& options) {
+  const auto name = [&](std::size_t topic) { return recording.topics()[topic].name; };
+  const std::string image_topic = name(survey.topics.image);
+  const std::string cloud_topic = name(survey.topics.cloud);
+  const std::string info_topic = survey.topics.info ? name(*survey.topics.info) : std::string{};
+  std::vector<std::string> out = survey.warnings;
+  if (!survey.intensity) {
+    out.push_back(cloud_topic +
+                  ": clouds have no intensity; the calibration will rest on planes and "
+                  "corners alone");
+  }
+  if (survey.sizes_change) {
+    out.push_back(image_topic +
+                  ": its images change their size; calibrate takes those "
+                  "of the camera's size");
+  }
+  if (options.camera) return out;
+  if (!survey.camera) {
+    out.push_back((survey.topics.info
+                       ? info_topic + ": " +
+                             (survey.camera_complaint.empty() ? "holds no intrinsics"
+                                                              : survey.camera_complaint)
+                       : "no CameraInfo was recorded for " + image_topic) +
+                  "; put a camera.yaml into the dataset before it is calibrated");
+    return out;
+  }
+  const ImageLook& image = survey.images.look(0);
+  if (image.width_px != survey.camera->width_px || image.height_px != survey.camera->height_px) {
+    out.push_back(info_topic + ": is of images of " + std::to_string(survey.camera->width_px) +
+                  " × " + std::to_string(survey.camera->height_px) + " px, but they have " +
+                  std::to_string(image.width_px) + " × " + std::to_string(image.height_px));
+  }
+  if (survey.topics.rectified) {
+    out.push_back(image_topic +
+                  ": is taken for rectified; camera.yaml holds the intrinsics of "
+                  "rectified images, without distortion");
+  }
+  return out;
+}
+
+Result<StretchPicture> picture_of(const Recording& recording, const RecordingSurvey& survey,
+                                  const ImportedStretch& stretch, int longest_px,
+                                  const RunContext& context) {
+  const Topic& topic = recording.topics()[survey.topics.image];
+  RunContext silent = context;
+  silent.progress = nullptr;
+  StretchPicture out;
+  Status taken = Error::input("its image cannot be read again", topic.name);
+  const auto take = [&](const RecordedMessage& message) -> Status {
+    const auto image = decode_image(topic, message.data);
+    if (!image) return image.error();
+    auto small = make_thumbnail(*image, longest_px, topic.name);
+    if (!small) return small.error();
+    auto file = make_image_file(*image, topic.name);
+    if (!file) return file.error();
+    out = {std::move(*file), std::move(*small)};
+    return Done{};
+  };
+  const auto read = recording.read({survey.topics.image}, {stretch.image_ns, stretch.image_ns},
+                                   silent, "scene", [&](const RecordedMessage& message) {
+                                     taken = take(message);
+                                     return Result<bool>(!taken.ok());
+                                   });
+  if (!read) return read.error();
+  if (!taken) return taken.error();
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recording/unfinished_folder.h"
+
+#include <gtest/gtest.h>
+
+#include "support/bag_writer.h"
+#include "support/temporary_folder.h"
+
+namespace lvcalib {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(UnfinishedFolder, TakesItsNameWhenFinishedAndLeavesNothingOtherwise) {
+  const test::TemporaryFolder folder;
+  const fs::path place = folder.path() / "rig";
+  {
+    auto first = UnfinishedFolder::create(place, false);
+    auto second = UnfinishedFolder::create(place, false);
+    ASSERT_TRUE(first.ok());
+    ASSERT_TRUE(second.ok());
+    EXPECT_NE(first->path(), second->path()) << "one may still be clearing up";
+    test::write_bytes(second->path() / "import.json", "{}");
+    ASSERT_TRUE(second->finish().ok());
+    EXPECT_TRUE(fs::exists(place / "import.json"));
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(UnfinishedFolder, ReplacesImportsOnlyAndOnlyIfAsked) {
+  const test::TemporaryFolder folder;
+  const fs::path place = folder.path() / "rig";
+  fs::create_directories(place);
+  test::write_bytes(place / "other", "x");
+  EXPECT_FALSE(UnfinishedFolder::create(place, true).ok());
+  test::write_bytes(place / "import.json", "{}");
+  EXPECT_FALSE(UnfinishedFolder::create(place, false).ok());
+  auto replacing = UnfinishedFolder::create(place, true);
+  ASSERT_TRUE(replacing.ok());
+  EXPECT_TRUE(fs::exists(place / "other")) << "until the new one is complete";
+  ASSERT_TRUE(replacing->finish().ok());
+  EXPECT_FALSE(fs::exists(place / "other"));
+  EXPECT_FALSE(UnfinishedFolder::create({}, true).ok());
+}
+
+}  // namespace
+}  // namespace lvcalib

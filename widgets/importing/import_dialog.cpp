@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importing/import_dialog.h"
+
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "importing/import_form.h"
+#include "importing/stretch_list.h"
+#include "importing/time_line.h"
+#include "importing/topic_list.h"
+#include "style/marks.h"
+#include "style/texts.h"
+
+namespace lvcalib::widgets {
+
+ImportDialog::ImportDialog(Choices& choices, const QStringList& recent, QWidget* parent)
+    : QDialog(parent),
+      choices_(choices),
+      title_(new QLabel(this)),
+      other_(new QPushButton(this)),
+      topics_(new TopicList(this)),
+      form_(new ImportForm(choices, recent, this)),
+      warnings_(new QListWidget(this)),
+      time_line_(new TimeLine(this)),
+      stretches_(new StretchList(this)),
+      count_(new QLabel(this)),
+      problem_(new QLabel(this)),
+      progress_(new QProgressBar(this)),
+      progress_text_(new QLabel(this)),
+      stop_(new QPushButton(this)),
+      import_(new QPushButton(this)),
+      close_(new QPushButton(this)) {
+  setObjectName(QStringLiteral("import_dialog"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  setAcceptDrops(false);  // The window takes what is dropped.
+  build();
+  connectParts();
+  follow_language(this, [this] { retranslate(); });
+  refresh();
+}
+
+ImportDialog::~ImportDialog() {
+  // They change while they go.
+  for (QObject* part : std::initializer_list<QObject*>{stretches_, form_, &work_})
+    part->disconnect(this);
+}
+
+void ImportDialog::build() {
+  resize(1080, 860);
+  const std::pair<QWidget*, const char*> named[] = {
+      {title_, "import_title"},       {warnings_, "import_warnings"}, {problem_, "import_problem"},
+      {progress_, "import_progress"}, {stop_, "import_stop"},         {import_, "import_start"},
+      {close_, "import_close"},       {other_, "import_other"},       {count_, "import_count"}};
+  for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
+  title_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  QFont bold = title_->font();
+  bold.setBold(true);
+  title_->setFont(bold);
+  warnings_->setWordWrap(true);
+  warnings_->setSelectionMode(QAbstractItemView::NoSelection);
+  warnings_->setFocusPolicy(Qt::NoFocus);
+  warnings_->setMaximumHeight(72);
+  problem_->setWordWrap(true);
+  problem_->setTextFormat(Qt::PlainText);
+  problem_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  progress_->setRange(0, 1000);
+  progress_->setTextVisible(false);
+  // Enter imports, and nothing else.
+  for (QPushButton* button : {other_, stop_, close_}) button->setAutoDefault(false);
+  import_->setDefault(true);
+
+  auto* head = new QHBoxLayout;
+  head->addWidget(title_, 1);
+  head->addWidget(other_);
+  auto* above = new QSplitter(Qt::Horizontal, this);
+  above->setChildrenCollapsible(false);
+  above->addWidget(topics_);
+  above->addWidget(form_);
+  above->setStretchFactor(0, 1);
+  above->setSizes({600, 460});
+  auto* lower = new QWidget(this);
+  auto* lower_layout = new QVBoxLayout(lower);
+  lower_layout->setContentsMargins(0, 0, 0, 0);
+  lower_layout->addWidget(time_line_);
+  lower_layout->addWidget(stretches_, 1);
+  auto* parts = new QSplitter(Qt::Vertical, this);
+  parts->setChildrenCollapsible(false);
+  parts->addWidget(above);
+  parts->addWidget(lower);
+  parts->setStretchFactor(1, 1);
+  auto* running = new QHBoxLayout;
+  running->addWidget(progress_text_, 1);
+  running->addWidget(progress_, 1);
+  running->addWidget(stop_);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(count_, 1);
+  buttons->addWidget(import_);
+  buttons->addWidget(close_);
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(head);
+  layout->addWidget(warnings_);
+  layout->addWidget(parts, 1);
+  layout->addWidget(problem_);
+  layout->addLayout(running);
+  layout->addLayout(buttons);
+}
+
+void ImportDialog::connectParts() {
+  connect(other_, &QPushButton::clicked, this, [this] {
+    const QString path = choices_.recording_to_open(this, QFileInfo(path_).absolutePath());
+    if (!path.isEmpty()) open(path);
+  });
+  connect(form_, &ImportForm::topicsChanged, this, [this] { lookAgain(true); });
+  connect(form_, &ImportForm::limitsChanged, this, [this] { lookAgain(false); });
+  connect(form_, &ImportForm::boardChanged, this, [this] {
+    stretches_->forgetBoards();
+    showPictures();
+    refresh();
+  });
+  connect(form_, &ImportForm::changed, this, &ImportDialog::refresh);
+  connect(time_line_, &TimeLine::clicked, stretches_, &StretchList::toggle);
+  connect(stretches_, &StretchList::takenChanged, this, &ImportDialog::showTaken);
+  connect(stretches_, &QTreeWidget::currentItemChanged, this, [this] {
+    time_line_->setCurrent(stretches_->indexOfTopLevelItem(stretches_->currentItem()));
+  });
+  connect(stop_, &QPushButton::clicked, this, [this] {
+    if (work_.busy()) {
+      work_.cancel();
+    } else if (opened_) {
+      lookAgain(true);
+    } else {
+      open(path_);
+    }
+  });
+  connect(import_, &QPushButton::clicked, this, &ImportDialog::startImport);
+  connect(close_, &QPushButton::clicked, this, &QDialog::close);
+  connect(this, &QDialog::finished, this, [this] { work_.cancel(); });
+  connect(&work_, &RecordingWork::opened, this, &ImportDialog::takeOpened);
+  connect(&work_, &RecordingWork::looked, this, &ImportDialog::takeLook);
+  connect(&work_, &RecordingWork::pictured, stretches_, &StretchList::setPicture);
+  connect(&work_, &RecordingWork::imported, this, &ImportDialog::takeImported);
+  connect(&work_, &RecordingWork::failed, this, [this](const Error& error) { showProblem(error); });
+  connect(&work_, &RecordingWork::cancelled, this, [this] { refresh(); });
+  connect(&work_, &RecordingWork::progressed, this,
+          [this](const QString& stage, double fraction, const QString& text) {
+            progress_->setValue(static_cast<int>(1000 * fraction));
+            progress_text_->setText(stage == QLatin1String("look")    ? tr("Looking for motion…")
+                                    : stage == QLatin1String("write") ? core_text(text)
+                                                                      : tr("Reading…"));
+          });
+}
+
+void ImportDialog::open(const QString& path) {
+  path_ = path;
+  const QFileInfo info(path);
+  if (info.fileName() == QLatin1String("metadata.yaml")) path_ = info.absolutePath();
+  opened_.reset();
+  look_.reset();
+  error_.reset();
+  note_.clear();
+  form_->clear();
+  topics_->setRecording(nullptr);
+  time_line_->clear();
+  stretches_->setStretches({});
+  progress_->setValue(0);
+  progress_text_->setText(tr("Reading…"));
+  work_.open(path_);
+  showWarnings();
+  retranslate();
+  refresh();
+}
+
+void ImportDialog::takeOpened(const OpenedRecording& opened) {
+  opened_ = opened;
+  topics_->setRecording(opened.recording);
+  form_->setRecording(opened);
+  retranslate();
+  showWarnings();
+  lookAgain(true);
+}
+
+// Topics change what is read; limits only what is made of it.
+void ImportDialog::lookAgain(bool with_topics) {
+  if (!opened_) return;
+  error_.reset();
+  if (with_topics) look_.reset();
+  work_.look(opened_->recording, form_->options(), look_ ? look_->survey : nullptr);
+  refresh();
+}
+
+void ImportDialog::takeLook(const RecordingLook& look) {
+  look_ = look;
+  const TimeSpan span = opened_->recording->span();
+  time_line_->setRecording(1e-9 * static_cast<double>(span.last_ns - span.first_ns), look.motion,
+                           look.stretches);
+  stretches_->setStretches(look.stretches);
+  showWarnings();
+  showPictures();
+  refresh();
+}
+
+void ImportDialog::showPictures() {
+  if (!look_ || !form_->target()) return;
+  const ImportOptions options = form_->options();
+  work_.show_pictures(opened_->recording, *look_, *form_->target(),
+                      options.camera ? options.camera : look_->survey->camera);
+}
+
+void ImportDialog::showTaken() {
+  time_line_->setTaken(stretches_->taken());
+  QStringList texts;
+  for (int i = 0; i < stretches_->topLevelItemCount(); ++i) texts << stretches_->describe(i);
+  time_line_->setTexts(texts);
+  refresh();
+}
+
+void ImportDialog::showWarnings() {
+  warnings_->clear();
+  QStringList texts;
+  const auto add = [&](const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+      const QString text = core_text(warning);
+      if (!texts.contains(text)) texts << text;
+    }
+  };
+  if (opened_) add(opened_->warnings);
+  if (look_) add(look_->warnings);
+  for (const QString& text : texts)
+    new QListWidgetItem(mark_icon(Mark::kDoubtful, palette()), text, warnings_);
+  warnings_->setVisible(!texts.isEmpty());
+}
+
+void ImportDialog::showProblem(const std::optional<Error>& error) {
+  error_ = error;
+  refresh();
+}
+
+void ImportDialog::startImport() {
+  if (!look_ || !form_->target()) return;
+  ImportOptions options = form_->options();
+  options.scene_times_s = stretches_->sceneTimes();
+  error_.reset();
+  note_.clear();
+  progress_->setValue(0);
+  work_.import(opened_->recording, look_->survey, *form_->target(), options, form_->folder());
+  refresh();
+}
+
+void ImportDialog::takeImported(const ImportSummary& summary, const QString& dataset) {
+  if (!summary.has_camera) {
+    note_ = tr("%1 is written, without intrinsics: put a camera.yaml into it, then open it.")
+                .arg(dataset);
+    refresh();
+    return;
+  }
+  Q_EMIT imported(dataset, summary);
+  close();
+}
+
+void ImportDialog::refresh() {
+  const bool busy = work_.busy();
+  progress_->setVisible(busy);
+  stop_->setVisible(busy || (!look_ && !path_.isEmpty()));
+  stop_->setText(busy ? tr("&Stop") : tr("&Look again"));
+  if (!busy) progress_text_->clear();
+  const std::vector<bool> taken = stretches_->taken();
+  const bool any = std::find(taken.begin(), taken.end(), true) != taken.end();
+  QString problem = error_ ? core_text(*error_) : QString();
+  if (problem.isEmpty() && opened_ && !busy) problem = form_->problem();
+  if (problem.isEmpty() && look_ && !busy && taken.empty()) {
+    problem = tr("Nothing stands still: something moves in images or clouds all the time.");
+  } else if (problem.isEmpty() && look_ && !busy && !any) {
+    problem = tr("Tick the stretches that are to become scenes.");
+  }
+  if (problem.isEmpty()) problem = note_;
+  if (!problem.isEmpty()) problem[0] = problem[0].toUpper();
+  problem_->setText(problem);
+  problem_->setVisible(!problem.isEmpty());
+  form_->setEnabled(opened_.has_value());
+  import_->setEnabled(look_ && any && !busy && form_->target() && form_->problem().isEmpty());
+  const int scenes = stretches_->expectedScenes();
+  count_->setText(look_ ? tr("%1 of %2 still stretches become scenes").arg(scenes).arg(taken.size())
+                        : QString());
+}
+
+void ImportDialog::changeEvent(QEvent* event) {
+  QDialog::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && warnings_ != nullptr) showWarnings();
+}
+
+void ImportDialog::retranslate() {
+  setWindowTitle(tr("New from a recording"));
+  QString title = QFileInfo(path_).fileName();
+  if (opened_) {
+    const TimeSpan span = opened_->recording->span();
+    const double length_s = span.first_ns > span.last_ns
+                                ? 0.0
+                                : 1e-9 * static_cast<double>(span.last_ns - span.first_ns);
+    title = tr("%1 – %2, %3 s")
+                .arg(title, QString::fromStdString(opened_->recording->kind()),
+                     QString::number(length_s, 'f', 1));
+  }
+  title_->setText(title);
+  other_->setText(tr("&Other recording…"));
+  import_->setText(tr("Import and &calibrate"));
+  close_->setText(tr("Close"));
+  showWarnings();
+  showTaken();
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <optional>
+
+#include "dialogs/choices.h"
+#include "runner/recording_work.h"
+
+class QLabel;
+class QListWidget;
+class QProgressBar;
+class QPushButton;
+
+namespace lvcalib::widgets {
+
+class ImportForm;
+class StretchList;
+class TimeLine;
+class TopicList;
+
+/// From a recording to a dataset: what was recorded and what stands in the way, where nothing
+/// moves, which of these stretches become scenes. All work is done beside the window.
+class ImportDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  /// `choices` must outlive this; `recent`: datasets whose boards are offered.
+  ImportDialog(Choices& choices, const QStringList& recent, QWidget* parent = nullptr);
+  ~ImportDialog() override;
+
+  /// A file or folder; of a rosbag2 folder its metadata.yaml will do.
+  void open(const QString& path);
+  [[nodiscard]] bool busy() const { return work_.busy(); }
+
+ Q_SIGNALS:
+  /// The dataset is complete and can be opened.
+  void imported(const QString& dataset, const lvcalib::ImportSummary& summary);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void build();
+  void connectParts();
+  void retranslate();
+  void takeOpened(const OpenedRecording& opened);
+  void takeLook(const RecordingLook& look);
+  void takeImported(const ImportSummary& summary, const QString& dataset);
+  void lookAgain(bool with_topics);
+  void showPictures();
+  void showTaken();
+  void showWarnings();
+  void showProblem(const std::optional<Error>& error);
+  void startImport();
+  void refresh();
+
+  Choices& choices_;
+  QString path_;
+  std::optional<OpenedRecording> opened_;
+  std::optional<RecordingLook> look_;
+  std::optional<Error> error_;
+  QString note_;  // Written, but not to be opened yet.
+
+  QLabel* title_;
+  QPushButton* other_;
+  TopicList* topics_;
+  ImportForm* form_;
+  QListWidget* warnings_;
+  TimeLine* time_line_;
+  StretchList* stretches_;
+  QLabel* count_;
+  QLabel* problem_;
+  QProgressBar* progress_;
+  QLabel* progress_text_;
+  QPushButton* stop_;
+  QPushButton* import_;
+  QPushButton* close_;
+  RecordingWork work_;  // Last: stopped before what it tells goes.
+};
+
+}  // namespace lvcalib::widgets
