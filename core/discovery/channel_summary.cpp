@@ -4,19 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/residuals.h"
-
 namespace lvcalib {
 
-std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
-                                               const ModelState& state,
+std::vector<ChannelSummary> summarize_channels(const EveryResidual& residuals,
                                                const std::vector<EffectInUse>& in_use,
                                                const Reference& reference) {
   std::vector<ChannelSummary> out;
   std::size_t parameters = 0;
   for (const EffectInUse& use : in_use) parameters += static_cast<std::size_t>(use.values.size());
-  for (const Channel channel : kAllChannels) {
-    ChannelResiduals r = residuals_of(table, state, in_use, channel);
+  for (const ChannelResiduals& r : residuals) {
     if (r.values.empty()) continue;
     double weights = 0.0;
     double whitened = 0.0;
@@ -28,17 +24,18 @@ std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
     const auto n = static_cast<double>(r.values.size());
     // Poses (or levels) and effects are fitted to these rows.
     const double fitted =
-        std::min(0.5 * n, static_cast<double>(6 * table.scenes.size() + parameters));
-    const double unit = display_factor(channel);
+        std::min(0.5 * n, static_cast<double>(6 * reference.heldout.size() + parameters));
+    const double unit = display_factor(r.channel);
     ChannelSummary s;
-    s.channel = channel;
+    s.channel = r.channel;
     s.n = r.values.size();
     s.rms = unit * std::sqrt(whitened / weights);
     s.noise_floor = unit * std::sqrt(n / weights);
     s.unexplained =
         std::sqrt(std::max(0.0, s.rms * s.rms * n / (n - fitted) - s.noise_floor * s.noise_floor));
     double heldout = 0.0;
-    for (const auto& scene : reference.heldout) heldout += scene[static_cast<std::size_t>(channel)];
+    for (const auto& scene : reference.heldout)
+      heldout += scene[static_cast<std::size_t>(r.channel)];
     s.heldout_rms = unit * std::sqrt(heldout / weights);
     out.push_back(s);
   }

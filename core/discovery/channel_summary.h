@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "discovery/candidate.h"
+#include "model/residuals.h"
 
 namespace lvcalib {
 
 /// RMS, noise floor, unexplained part and held-out RMS of every channel that has rows.
-std::vector<ChannelSummary> summarize_channels(const MeasurementTable& table,
-                                               const ModelState& state,
+std::vector<ChannelSummary> summarize_channels(const EveryResidual& residuals,
                                                const std::vector<EffectInUse>& in_use,
                                                const Reference& reference);
 

@@ -74,11 +74,14 @@ Result<ModelStepPtr> step_from(EffectSearch search, ModelStep step, const RunCon
   const auto model = search.model();
   step.nuisance.assign(model.begin() + static_cast<std::ptrdiff_t>(search.in_use().size()),
                        model.end());
-  step.channels = summarize_channels(search.table(), search.state(), model, search.reference());
-  context.report("structure", 0.7, "looking for structure");
-  step.structure = scan_structure(search.table(), search.state(), model, context);
-  step.places = scan_places(search.table(), search.state(), model, step.structure, context);
+  const EveryResidual residuals = every_residual(search.table(), search.state(), model, context);
   if (context.stopped()) return Error::cancelled();
+  step.channels = summarize_channels(residuals, model, search.reference());
+  context.report("structure", 0.7, "looking for structure");
+  StructureScan scan = scan_structure(search.table(), residuals, context);
+  if (context.stopped()) return Error::cancelled();
+  step.structure = std::move(scan.curves);
+  step.places = std::move(scan.places);
   search.set_context({});
   step.search = std::make_shared<const EffectSearch>(std::move(search));
   return ModelStepPtr(std::make_shared<const ModelStep>(std::move(step)));

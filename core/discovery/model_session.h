@@ -48,7 +48,7 @@ struct ModelStep {
   std::vector<EffectInUse> nuisance;  ///< Nature's share that is no effect to find.
   std::vector<ChannelSummary> channels;
   std::vector<StructureScore> structure;  ///< Every covariate's, best first.
-  std::vector<StructureScore> places;     ///< Of surfaces, best first (see scan_places()).
+  std::vector<StructureScore> places;     ///< Of surfaces, best first (see StructureScan).
   /// The search that stands at this model: where the next step takes it up.
   std::shared_ptr<const EffectSearch> search;
   /// The measurements made again for this model (see MeasurementTable::again); null where that

@@ -163,8 +163,8 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   if (!any) {
     const EffectSearch explained = search.with_faint();
     if (context.stopped()) return Error::cancelled();
-    out.unknown = notable_structure(explained.table(), explained.state(), explained.model(),
-                                    options, context);
+    out.unknown = notable_of(
+        scan_structure(explained.table(), explained.state(), explained.model(), context), options);
     judge_unknown(explained, options, out.unknown);
     suggest_closed_forms(explained.table(), explained.state(), explained.model(),
                          options.closed_forms, context, out.unknown);
@@ -187,9 +187,7 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   const ModelStep& base = *steps.front();
   const ModelStep& last = *steps.back();
   out.channels = base.channels;
-  out.structure = base.structure;
-  out.structure.insert(out.structure.end(), base.places.begin(), base.places.end());
-  out.structure = notable_of(std::move(out.structure), base.basis->options);
+  out.structure = notable_of({base.structure, base.places}, base.basis->options);
   for (const ModelTerm& term : last.terms) {
     if (!term.on) continue;
     if (ranking == nullptr) out.effects.push_back(finding_in_model(term));

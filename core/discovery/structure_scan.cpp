@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "base/parallel.h"
 #include "base/statistics.h"
@@ -21,60 +24,116 @@ constexpr int kFine = 32;   // where rows are many: ripples of several periods o
 constexpr std::size_t kRowsPerSpline = 50;
 constexpr int kNuisance = LocalLayout::kFixed;
 
-// Whitened cross products of one scene: curve, nuisance, residual.
+// One channel's residuals as the shapes see them, in units of their standard deviations. What each
+// scene's own pose and levels can do is described by orthonormal columns over its rows, and taken
+// out of the residuals: that is the same for every shape.
+class OwnRows {
+ public:
+  using Nuisance = Eigen::Matrix<double, kNuisance, 1>;
+
+  OwnRows(const ChannelResiduals& residuals, int scenes)
+      : of_(residuals), weight_(residuals.values.size()), value_(residuals.values.size()) {
+    const auto n = static_cast<std::size_t>(scenes);
+    using Products = Eigen::Matrix<double, kNuisance, kNuisance>;
+    std::vector<Products> products(n, Products::Zero());
+    for (std::size_t k = 0; k < size(); ++k) {
+      weight_[k] = 1.0 / residuals.sigma[k];
+      value_[k] = weight_[k] * residuals.values[k];
+      const Nuisance own = weight_[k] * residuals.nuisance[k];
+      products[scene(k)].noalias() += own * own.transpose();
+    }
+    std::vector<Products> basis;
+    for (const Products& p : products) basis.push_back(orthonormal(p));
+    nuisance_.resize(size());
+    std::vector<Nuisance> along(n, Nuisance::Zero());
+    for (std::size_t k = 0; k < size(); ++k) {
+      nuisance_[k].noalias() = basis[scene(k)] * (weight_[k] * residuals.nuisance[k]);
+      along[scene(k)] += value_[k] * nuisance_[k];
+    }
+    squares_.assign(n, 0.0);
+    weights_.assign(n, 0.0);
+    for (std::size_t k = 0; k < size(); ++k) {
+      value_[k] -= nuisance_[k].dot(along[scene(k)]);
+      squares_[scene(k)] += value_[k] * value_[k];
+      weights_[scene(k)] += weight_[k] * weight_[k];
+    }
+  }
+
+  [[nodiscard]] const ChannelResiduals& residuals() const { return of_; }
+  [[nodiscard]] std::size_t size() const { return of_.values.size(); }
+  [[nodiscard]] std::size_t scenes() const { return squares_.size(); }
+  [[nodiscard]] std::size_t scene(std::size_t k) const {
+    return static_cast<std::size_t>(of_.scene[k]);
+  }
+  [[nodiscard]] double weight(std::size_t k) const { return weight_[k]; }  // 1/σ
+  [[nodiscard]] double value(std::size_t k) const { return value_[k]; }
+  [[nodiscard]] const Nuisance& nuisance(std::size_t k) const { return nuisance_[k]; }
+  [[nodiscard]] double squares_of(std::size_t scene) const { return squares_[scene]; }
+  [[nodiscard]] double weight_of(std::size_t scene) const { return weights_[scene]; }
+
+ private:
+  // Turns nuisance rows into orthonormal ones; directions that the rows do not tell become zero.
+  static Eigen::Matrix<double, kNuisance, kNuisance> orthonormal(
+      const Eigen::Matrix<double, kNuisance, kNuisance>& products) {
+    constexpr double kRounding = 1e-10;
+    Nuisance scale;
+    for (int c = 0; c < kNuisance; ++c)
+      scale(c) = products(c, c) > 0.0 ? 1.0 / std::sqrt(products(c, c)) : 0.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kNuisance, kNuisance>> axes(
+        scale.asDiagonal() * products * scale.asDiagonal());
+    Nuisance share;
+    for (int c = 0; c < kNuisance; ++c) {
+      const double size = axes.eigenvalues()(c);
+      share(c) = size > kRounding ? 1.0 / std::sqrt(size) : 0.0;
+    }
+    return share.asDiagonal() * axes.eigenvectors().transpose() * scale.asDiagonal();
+  }
+
+  const ChannelResiduals& of_;
+  std::vector<double> weight_, value_;
+  std::vector<Nuisance> nuisance_;
+  std::vector<double> squares_, weights_;  // By scene.
+};
+
+// Products of a shape's columns over one scene's rows, what the scene's own nuisance can do taken
+// out.
 struct SceneSums {
-  Eigen::MatrixXd curve;           // b × b
-  Eigen::MatrixXd curve_nuisance;  // b × 8
-  Eigen::MatrixXd nuisance = Eigen::MatrixXd::Zero(kNuisance, kNuisance);
-  Eigen::VectorXd curve_residual;
-  Eigen::VectorXd nuisance_residual = Eigen::VectorXd::Zero(kNuisance);
-  double squares = 0.0;
-  double weight = 0.0;
+  Eigen::MatrixXd curve;
+  Eigen::VectorXd residual;
 };
 
 template <class Shape>
-std::vector<SceneSums> accumulate(const Shape& shape, const ChannelResiduals& residuals,
-                                  int scenes) {
-  std::vector<SceneSums> sums(static_cast<std::size_t>(scenes));
-  for (SceneSums& s : sums) {
-    s.curve.setZero(shape.size(), shape.size());
-    s.curve_nuisance.setZero(shape.size(), kNuisance);
-    s.curve_residual.setZero(shape.size());
+std::vector<SceneSums> scene_sums(const Shape& shape, const OwnRows& rows) {
+  std::vector<SceneSums> sums(rows.scenes());
+  std::vector<Eigen::MatrixXd> nuisance(rows.scenes());
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    sums[s].curve.setZero(shape.size(), shape.size());
+    sums[s].residual.setZero(shape.size());
+    nuisance[s].setZero(kNuisance, shape.size());
   }
   BasisRow b;
-  for (std::size_t k = 0; k < residuals.values.size(); ++k) {
-    SceneSums& s = sums[static_cast<std::size_t>(residuals.scene[k])];
-    const double w = 1.0 / (residuals.sigma[k] * residuals.sigma[k]);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::size_t scene = rows.scene(k);
+    SceneSums& s = sums[scene];
     shape.evaluate(k, b);
     const auto count = static_cast<std::size_t>(b.count);
+    for (std::size_t i = 0; i < count; ++i) b.value[i] *= rows.weight(k);
     for (std::size_t i = 0; i < count; ++i) {
-      const double wi = w * b.value[i];
-      s.curve_residual(b.column[i]) += wi * residuals.values[k];
-      s.curve_nuisance.row(b.column[i]) += wi * residuals.nuisance[k].transpose();
-      for (std::size_t j = 0; j < count; ++j) s.curve(b.column[i], b.column[j]) += wi * b.value[j];
+      s.residual(b.column[i]) += b.value[i] * rows.value(k);
+      nuisance[scene].col(b.column[i]) += b.value[i] * rows.nuisance(k);
+      // Columns rise within a row: the lower triangle.
+      for (std::size_t j = 0; j <= i; ++j)
+        s.curve(b.column[i], b.column[j]) += b.value[i] * b.value[j];
     }
-    s.nuisance.noalias() += w * residuals.nuisance[k] * residuals.nuisance[k].transpose();
-    s.nuisance_residual += w * residuals.values[k] * residuals.nuisance[k];
-    s.squares += w * residuals.values[k] * residuals.values[k];
-    s.weight += w;
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    sums[s].curve.selfadjointView<Eigen::Lower>().rankUpdate(nuisance[s].transpose(), -1.0);
+    sums[s].curve.triangularView<Eigen::StrictlyUpper>() = sums[s].curve.transpose();
   }
   return sums;
 }
 
-// Takes a scene's own nuisance out of its sums.
-void project(SceneSums& s) {
-  for (int c = 0; c < kNuisance; ++c) {
-    if (s.nuisance(c, c) <= 0.0) s.nuisance(c, c) = 1.0;
-  }
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(s.nuisance);
-  const Eigen::MatrixXd x = ldlt.solve(s.curve_nuisance.transpose());
-  const Eigen::VectorXd y = ldlt.solve(s.nuisance_residual);
-  s.curve -= s.curve_nuisance * x;
-  s.curve_residual -= s.curve_nuisance * y;
-  s.squares -= s.nuisance_residual.dot(y);
-}
-
-// Sums of all scenes, their own nuisance taken out.
+// Sums of all scenes.
 struct AllSums {
   std::vector<SceneSums> scenes;
   Eigen::MatrixXd curve;
@@ -83,35 +142,36 @@ struct AllSums {
 };
 
 template <class Shape>
-AllSums all_sums(const Shape& shape, const ChannelResiduals& residuals, int scenes) {
+AllSums all_sums(const Shape& shape, const OwnRows& rows) {
   AllSums out;
-  out.scenes = accumulate(shape, residuals, scenes);
+  out.scenes = scene_sums(shape, rows);
   out.curve.setZero(shape.size(), shape.size());
   out.gradient.setZero(shape.size());
-  for (SceneSums& s : out.scenes) {
-    out.weight += s.weight;
-    project(s);
-    out.curve += s.curve;
-    out.gradient += s.curve_residual;
+  for (std::size_t s = 0; s < out.scenes.size(); ++s) {
+    out.weight += rows.weight_of(s);
+    out.curve += out.scenes[s].curve;
+    out.gradient += out.scenes[s].residual;
   }
   return out;
 }
 
 // What the shape fitted to the other scenes predicts of each, with coefficients shrunk by a ridge.
-void predict_scenes(const AllSums& sums, double ridge, StructureScore& out) {
+void predict_scenes(const AllSums& sums, const OwnRows& rows, double ridge, StructureScore& out) {
   out.scene_gain.clear();
   double before = 0.0;
   double after = 0.0;
   double fitted = 0.0;
-  for (const SceneSums& s : sums.scenes) {
+  for (std::size_t k = 0; k < sums.scenes.size(); ++k) {
+    const SceneSums& s = sums.scenes[k];
     Eigen::MatrixXd others = sums.curve - s.curve;
     others.diagonal().array() += ridge;
-    const Eigen::VectorXd c = others.ldlt().solve(sums.gradient - s.curve_residual);
-    before += s.squares;
-    const double drop = 2.0 * c.dot(s.curve_residual) - c.dot(s.curve * c);
-    after += s.squares - drop;
+    const Eigen::VectorXd c = others.ldlt().solve(sums.gradient - s.residual);
+    const double size = c.dot(s.curve * c);
+    const double drop = 2.0 * c.dot(s.residual) - size;
+    before += rows.squares_of(k);
+    after += rows.squares_of(k) - drop;
     out.scene_gain.push_back(0.5 * drop);
-    fitted += c.dot(s.curve * c);
+    fitted += size;
   }
   if (!(before > 0.0) || !std::isfinite(after)) return;
   out.score = 1.0 - after / before;
@@ -123,14 +183,13 @@ void predict_scenes(const AllSums& sums, double ridge, StructureScore& out) {
 // Largest deviation (all but half a percent of the rows) of the fitted shape from its median, in
 // standard deviations of one row.
 template <class Shape>
-double height_of(const Shape& shape, const ChannelResiduals& residuals, const AllSums& sums,
-                 double ridge) {
+double height_of(const Shape& shape, const OwnRows& rows, const AllSums& sums, double ridge) {
   constexpr double kAlmostAll = 0.995;
   if (!shape.kLocal) return 0.0;
   Eigen::MatrixXd curve = sums.curve;
   curve.diagonal().array() += ridge;
   const Eigen::VectorXd c = curve.ldlt().solve(sums.gradient);
-  std::vector<double> values(residuals.values.size());
+  std::vector<double> values(rows.size());
   BasisRow b;
   for (std::size_t k = 0; k < values.size(); ++k) {
     shape.evaluate(k, b);
@@ -139,7 +198,7 @@ double height_of(const Shape& shape, const ChannelResiduals& residuals, const Al
   }
   const double middle = median(values);
   for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] = std::abs(values[k] - middle) / residuals.sigma[k];
+    values[k] = std::abs(values[k] - middle) * rows.weight(k);
   const auto at = values.begin() +
                   static_cast<std::ptrdiff_t>(kAlmostAll * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
@@ -147,19 +206,18 @@ double height_of(const Shape& shape, const ChannelResiduals& residuals, const Al
 }
 
 template <class Shape>
-void score(const Shape& shape, const ChannelResiduals& residuals, int scenes, StructureScore& out) {
-  const AllSums sums = all_sums(shape, residuals, scenes);
+void score(const Shape& shape, const OwnRows& rows, StructureScore& out) {
+  const AllSums sums = all_sums(shape, rows);
   // Shrinks what few rows support: one row's weight as a prior about zero. Something local leaves
   // most of a surface flat: there stronger priors are tried as well, and scenes held out choose.
-  const double one_row =
-      sums.weight / std::max<double>(1.0, static_cast<double>(residuals.values.size()));
+  const double one_row = sums.weight / std::max<double>(1.0, static_cast<double>(rows.size()));
   const StructureScore start = out;
-  for (const double rows : Shape::kPriorRows) {
+  for (const double prior_rows : Shape::kPriorRows) {
     StructureScore tried = start;
-    predict_scenes(sums, rows * one_row, tried);
-    if (rows > 1.0 && tried.score <= out.score) continue;
+    predict_scenes(sums, rows, prior_rows * one_row, tried);
+    if (prior_rows > 1.0 && tried.score <= out.score) continue;
     out = tried;
-    out.height = height_of(shape, residuals, sums, rows * one_row);
+    out.height = height_of(shape, rows, sums, prior_rows * one_row);
   }
 }
 
@@ -193,7 +251,7 @@ bool is_better(const StructureScore& surface, const StructureScore& curve) {
 // Surfaces that predict held-out scenes better than either of their covariates alone.
 std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
                                      const std::vector<StructureScore>& alone,
-                                     const ChannelResiduals& residuals, int scenes) {
+                                     const OwnRows& rows) {
   std::vector<StructureScore> out;
   for (const auto& [first, second] : kPlaces) {
     const Covariate* x = find_in(covariates, first);
@@ -201,9 +259,9 @@ std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
     if (x == nullptr || y == nullptr) continue;
     const Surface surface(*x, *y);
     if (x->values.size() < kRowsPerSpline * static_cast<std::size_t>(surface.size())) continue;
-    StructureScore s{residuals.channel, x->name, 0.0, 0.0};
+    StructureScore s{rows.residuals().channel, x->name, 0.0, 0.0};
     s.second_covariate = y->name;
-    score(surface, residuals, scenes, s);
+    score(surface, rows, s);
     const auto worse = [&](const StructureScore& one) {
       return (one.covariate != first && one.covariate != second) || is_better(s, one);
     };
@@ -215,15 +273,15 @@ std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
 // Something local in the lens displaces corners in both directions of the image.
 std::vector<StructureScore> image_surface(const std::vector<Covariate>& covariates,
                                           const std::vector<StructureScore>& alone,
-                                          const ChannelResiduals& residuals, int scenes) {
+                                          const OwnRows& rows) {
   const Covariate* x = find_in(covariates, "image x");
   const Covariate* y = find_in(covariates, "image y");
   if (x == nullptr || y == nullptr) return {};
-  const ImageSurface surface(*x, *y, residuals.row);
+  const ImageSurface surface(*x, *y, rows.residuals().row);
   if (x->values.size() < static_cast<std::size_t>(surface.size())) return {};
-  StructureScore s{residuals.channel, x->name, 0.0, 0.0};
+  StructureScore s{rows.residuals().channel, x->name, 0.0, 0.0};
   s.second_covariate = y->name;
-  score(surface, residuals, scenes, s);
+  score(surface, rows, s);
   const bool better = std::all_of(alone.begin(), alone.end(),
                                   [&](const StructureScore& one) { return is_better(s, one); });
   return better ? std::vector{s} : std::vector<StructureScore>{};
@@ -243,60 +301,68 @@ bool scenes_agree(const StructureScore& score, std::size_t tried, const Discover
          static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
 }
 
+StructureScore score_of(const Covariate& covariate, const OwnRows& rows) {
+  StructureScore out{rows.residuals().channel, covariate.name, 0.0, 0.0};
+  score(Curve(covariate, kCoarse), rows, out);
+  if (covariate.categories || covariate.values.size() < kRowsPerSpline * kFine) return out;
+  StructureScore fine = out;
+  score(Curve(covariate, kFine), rows, fine);
+  return fine.score > out.score ? fine : out;
+}
+
+struct ScannedChannel {
+  std::optional<OwnRows> rows;
+  std::vector<Covariate> covariates;
+};
+
 }  // namespace
 
 StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
                                int scenes) {
-  StructureScore out{residuals.channel, covariate.name, 0.0, 0.0};
-  score(Curve(covariate, kCoarse), residuals, scenes, out);
-  if (covariate.categories || covariate.values.size() < kRowsPerSpline * kFine) return out;
-  StructureScore fine = out;
-  score(Curve(covariate, kFine), residuals, scenes, fine);
-  return fine.score > out.score ? fine : out;
+  return score_of(covariate, OwnRows(residuals, scenes));
 }
 
-std::vector<StructureScore> scan_structure(const MeasurementTable& table, const ModelState& state,
-                                           const std::vector<EffectInUse>& in_use,
-                                           const RunContext& context) {
-  const int scenes = static_cast<int>(table.scenes.size());
-  std::vector<StructureScore> out;
-  for (const Channel channel : kAllChannels) {
-    if (table.size(channel) == 0 || context.stopped()) continue;
-    const ChannelResiduals residuals = residuals_of(table, state, in_use, channel);
-    const auto covariates = covariates_of(table, channel, residuals);
-    std::vector<StructureScore> scores(covariates.size());
-    parallel_for(covariates.size(), context.thread_count(), [&](std::size_t k) {
-      if (!context.stopped()) scores[k] = structure_score(covariates[k], residuals, scenes);
-    });
-    out.insert(out.end(), scores.begin(), scores.end());
+StructureScan scan_structure(const MeasurementTable& table, const EveryResidual& residuals,
+                             const RunContext& context) {
+  std::array<ScannedChannel, kChannels> channels;
+  parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
+    const ChannelResiduals& r = residuals[k];
+    if (r.values.empty() || context.stopped()) return;
+    channels[k].rows.emplace(r, static_cast<int>(table.scenes.size()));
+    channels[k].covariates = covariates_of(table, r.channel, r);
+  });
+  std::vector<std::pair<std::size_t, const Covariate*>> asked;
+  for (std::size_t k = 0; k < kChannels; ++k) {
+    for (const Covariate& c : channels[k].covariates) asked.emplace_back(k, &c);
   }
-  sort_best_first(out);
-  return out;
-}
-
-std::vector<StructureScore> scan_places(const MeasurementTable& table, const ModelState& state,
-                                        const std::vector<EffectInUse>& in_use,
-                                        const std::vector<StructureScore>& alone,
-                                        const RunContext& context) {
-  const int scenes = static_cast<int>(table.scenes.size());
-  std::vector<std::vector<StructureScore>> found(kAllChannels.size());
-  parallel_for(kAllChannels.size(), context.thread_count(), [&](std::size_t k) {
-    const Channel channel = kAllChannels[k];
-    if (table.size(channel) == 0 || context.stopped()) return;
-    const ChannelResiduals residuals = residuals_of(table, state, in_use, channel);
-    std::vector<StructureScore> same;
-    for (const StructureScore& s : alone) {
-      if (s.channel == channel) same.push_back(s);
+  StructureScan out;
+  out.curves.resize(asked.size());
+  parallel_for(asked.size(), context.thread_count(), [&](std::size_t k) {
+    if (!context.stopped())
+      out.curves[k] = score_of(*asked[k].second, *channels[asked[k].first].rows);
+  });
+  std::array<std::vector<StructureScore>, kChannels> places;
+  parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
+    const ScannedChannel& channel = channels[k];
+    if (!channel.rows || context.stopped()) return;
+    std::vector<StructureScore> alone;
+    for (const StructureScore& s : out.curves) {
+      if (s.channel == residuals[k].channel) alone.push_back(s);
     }
     // Corners have two axes, which no single surface over the board describes.
-    const auto covariates = covariates_of(table, channel, residuals);
-    found[k] = channel == Channel::kCorner ? image_surface(covariates, same, residuals, scenes)
-                                           : surfaces(covariates, same, residuals, scenes);
+    places[k] = residuals[k].channel == Channel::kCorner
+                    ? image_surface(channel.covariates, alone, *channel.rows)
+                    : surfaces(channel.covariates, alone, *channel.rows);
   });
-  std::vector<StructureScore> out;
-  for (const auto& one : found) out.insert(out.end(), one.begin(), one.end());
-  sort_best_first(out);
+  for (const auto& one : places) out.places.insert(out.places.end(), one.begin(), one.end());
+  sort_best_first(out.curves);
+  sort_best_first(out.places);
   return out;
+}
+
+StructureScan scan_structure(const MeasurementTable& table, const ModelState& state,
+                             const std::vector<EffectInUse>& in_use, const RunContext& context) {
+  return scan_structure(table, every_residual(table, state, in_use, context), context);
 }
 
 bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
@@ -315,15 +381,10 @@ std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
   return scores;
 }
 
-std::vector<StructureScore> notable_structure(const MeasurementTable& table,
-                                              const ModelState& state,
-                                              const std::vector<EffectInUse>& in_use,
-                                              const DiscoveryOptions& options,
-                                              const RunContext& context) {
-  std::vector<StructureScore> out = scan_structure(table, state, in_use, context);
-  const auto places = scan_places(table, state, in_use, out, context);
-  out.insert(out.end(), places.begin(), places.end());
-  return notable_of(std::move(out), options);
+std::vector<StructureScore> notable_of(const StructureScan& scan, const DiscoveryOptions& options) {
+  std::vector<StructureScore> all = scan.curves;
+  all.insert(all.end(), scan.places.begin(), scan.places.end());
+  return notable_of(std::move(all), options);
 }
 
 }  // namespace lvcalib

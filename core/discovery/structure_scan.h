@@ -15,29 +15,23 @@ namespace lvcalib {
 StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
                                int scenes);
 
-/// Scores of every covariate of every channel, best first. Scenes held out one by one.
-std::vector<StructureScore> scan_structure(const MeasurementTable& table, const ModelState& state,
-                                           const std::vector<EffectInUse>& in_use,
-                                           const RunContext& context);
-
-/// Something local, a bump on the board or a flaw in the field of view, hardly shows over one
-/// covariate: surfaces over the board and over azimuth and elevation (8 × 8 splines), those that
-/// predict scenes held out better than `alone`, the scores of their covariates. Best first.
-std::vector<StructureScore> scan_places(const MeasurementTable& table, const ModelState& state,
-                                        const std::vector<EffectInUse>& in_use,
-                                        const std::vector<StructureScore>& alone,
-                                        const RunContext& context);
+/// What a scan found, best first, scenes held out one by one.
+struct StructureScan {
+  std::vector<StructureScore> curves;  ///< Every covariate of every channel.
+  /// Something local, a bump on the board or a flaw in the field of view, hardly shows over one
+  /// covariate: surfaces over the board and over azimuth and elevation (8 × 8 splines), those that
+  /// predict scenes held out better than the curves of their covariates.
+  std::vector<StructureScore> places;
+};
+StructureScan scan_structure(const MeasurementTable& table, const EveryResidual& residuals,
+                             const RunContext& context);
+StructureScan scan_structure(const MeasurementTable& table, const ModelState& state,
+                             const std::vector<EffectInUse>& in_use, const RunContext& context);
 
 /// Those of all scores tried that are notable, best first.
 std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
                                        const DiscoveryOptions& options);
-
-/// scan_structure and scan_places together, those that are notable, best first.
-std::vector<StructureScore> notable_structure(const MeasurementTable& table,
-                                              const ModelState& state,
-                                              const std::vector<EffectInUse>& in_use,
-                                              const DiscoveryOptions& options,
-                                              const RunContext& context);
+std::vector<StructureScore> notable_of(const StructureScan& scan, const DiscoveryOptions& options);
 
 /// Whether a score, one of so many tried, is large enough to be mentioned.
 bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options);

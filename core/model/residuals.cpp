@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "base/parallel.h"
 #include "model/effect_rows.h"
 #include "model/print_rows.h"
 #include "model/scene_geometry.h"
@@ -109,6 +110,15 @@ class Collector {
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
                               const std::vector<EffectInUse>& in_use, Channel channel) {
   return Collector(table, state, in_use).run(channel);
+}
+
+EveryResidual every_residual(const MeasurementTable& table, const ModelState& state,
+                             const std::vector<EffectInUse>& in_use, const RunContext& context) {
+  EveryResidual out;
+  parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
+    if (!context.stopped()) out[k] = residuals_of(table, state, in_use, kAllChannels[k]);
+  });
+  return out;
 }
 
 }  // namespace lvcalib

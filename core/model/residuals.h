@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "model/linear_model.h"
@@ -22,5 +23,10 @@ struct ChannelResiduals {
 };
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
                               const std::vector<EffectInUse>& in_use, Channel channel);
+
+/// Those of every channel, in the order of Channel; computed in parallel. Empty when stopped.
+using EveryResidual = std::array<ChannelResiduals, kChannels>;
+EveryResidual every_residual(const MeasurementTable& table, const ModelState& state,
+                             const std::vector<EffectInUse>& in_use, const RunContext& context);
 
 }  // namespace lvcalib

@@ -42,7 +42,8 @@ struct Return {
   double slope = 0.0;        // Of the intensity across the edge, per metre.
   PrintView::Kind print = PrintView::Kind::kPlain;
   double jitter = 0.0;  // Standard deviation that the jitter gives the intensity.
-  LocalPrint seen;
+  LocalPrint seen;      // The print at the place that the ray meets,
+  LocalPrint moved;     // and at the one that effects displace under it.
 
   [[nodiscard]] bool is_plain() const { return print == PrintView::Kind::kPlain; }
   [[nodiscard]] bool is_edge() const { return print == PrintView::Kind::kEdge; }
@@ -219,7 +220,8 @@ class SceneRows {
       const double beside = beside_edge(*p, beam);
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
                                                 near_edge(*p, beam, beside), log_contrast());
-      if (!sum.shift_m.isZero()) p = predictor.predict(direction, sum.shift_m, &r.seen, &r.seen);
+      r.moved = r.seen;
+      if (!sum.shift_m.isZero()) p = predictor.predict(direction, sum.shift_m, &r.moved, &r.moved);
       r.range_residual_m = r.measured_m - p->range_m - sum.range_m;
       r.white = p->white;
       r.plain_level = p->intensity;
@@ -355,7 +357,7 @@ class SceneRows {
     row.log_contrast = log_contrast();
     row.sigma_m = intensity_sigma(r) / r.slope;
     row.edge_normal_rad = edge_normal(geometry_, r.beam, row.psi_rad);
-    row.reading = {r.intensity, -r.slope, r.seen};
+    row.reading = {r.intensity, -r.slope, r.moved};
     const double radius = print_.target().circle_radius_m;
     for (const TargetNode& node : print_.target().nodes()) {
       if (std::abs((r.beam.board_m - node.center_m).norm() - radius) > 3.0 * row.transition_m)
@@ -373,7 +375,7 @@ class SceneRows {
                                r.surface() == 0 ? Print::kWhite : Print::kBlack,
                                std::log(std::max(r.intensity, 1e-3 * unit)),
                                sigma / unit,
-                               {r.intensity, unit, r.seen}});
+                               {r.intensity, unit, r.moved}});
   }
 
   const std::vector<LocalPrint>* known_;

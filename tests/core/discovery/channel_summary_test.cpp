@@ -23,7 +23,8 @@ class Summary : public ::testing::Test {
  protected:
   std::vector<ChannelSummary> summary(const test::SyntheticTable& made) {
     EffectSearch search(made.table, made.truth, options_, context_);
-    return summarize_channels(made.table, search.state(), search.in_use(), search.reference());
+    return summarize_channels(every_residual(made.table, search.state(), search.in_use(), context_),
+                              search.in_use(), search.reference());
   }
   DiscoveryOptions options_;
   RunContext context_;

@@ -13,7 +13,7 @@ namespace {
 
 TEST(StructureScan, FindsNothingInNoise) {
   const auto made = test::synthetic_table({});
-  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {}))
+  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {}).curves)
     EXPECT_LT(s.score, 0.02) << name_of(s.channel) << " against " << s.covariate;
 }
 
@@ -21,7 +21,7 @@ TEST(StructureScan, NamesChannelAndCovariateOfARipple) {
   test::Disturbance wrong;
   wrong.range_m = [](const BeamPoint& beam) { return 0.008 * std::sin(40.0 * beam.azimuth_rad); };
   const auto made = test::synthetic_table({}, wrong);
-  const auto scores = scan_structure(made.table, made.truth, {}, {});
+  const auto scores = scan_structure(made.table, made.truth, {}, {}).curves;
   ASSERT_FALSE(scores.empty());
   EXPECT_EQ(scores.front().channel, Channel::kRange);
   EXPECT_EQ(scores.front().covariate, "azimuth");
@@ -56,7 +56,7 @@ TEST(StructureScan, WhatHoldsInOneSceneOnlyIsNoStructure) {
     return beam.scene == 2 ? 0.01 * std::sin(30.0 * beam.board_m.x()) : 0.0;
   };
   const auto made = test::synthetic_table({}, wrong);
-  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {})) {
+  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {}).curves) {
     if (s.channel != Channel::kRange) continue;
     EXPECT_LT(s.score, 0.02) << s.covariate;
   }
@@ -68,7 +68,7 @@ TEST(StructureScan, AFineRippleNeedsFineSplines) {
   test::TableRecipe recipe;
   recipe.range_rows = 6000;
   const auto made = test::synthetic_table(recipe, wrong);
-  const auto scores = scan_structure(made.table, made.truth, {}, {});
+  const auto scores = scan_structure(made.table, made.truth, {}, {}).curves;
   ASSERT_FALSE(scores.empty());
   EXPECT_EQ(scores.front().channel, Channel::kRange);
   EXPECT_EQ(scores.front().covariate, "azimuth");
@@ -92,7 +92,7 @@ TEST(NotableStructure, FaintStructureIsMentionedIfAllScenesShowIt) {
   recipe.range_rows = 6000;
   recipe.scenes = 12;  // every azimuth in several of them
   const auto made = test::synthetic_table(recipe, wrong);
-  const auto scores = scan_structure(made.table, made.truth, {}, {});
+  const auto scores = scan_structure(made.table, made.truth, {}, {}).curves;
   const StructureScore ripple = best_of(scores, "azimuth");
   EXPECT_GT(ripple.score, 0.01);
   EXPECT_LT(ripple.score, 0.02);
@@ -131,14 +131,14 @@ TEST(StructurePlaces, ABumpOnTheBoardIsSeenOverBothAxesTogether) {
     return -0.012 * std::exp(-0.5 * (beam.board_m - bump).squaredNorm() / (0.05 * 0.05));
   };
   const auto made = test::synthetic_table(recipe, wrong);
-  const auto alone = scan_structure(made.table, made.truth, {}, {});
-  const auto places = scan_places(made.table, made.truth, {}, alone, {});
+  const auto scan = scan_structure(made.table, made.truth, {}, {});
+  const auto& places = scan.places;
   ASSERT_FALSE(places.empty());
   EXPECT_EQ(places.front().channel, Channel::kRange);
   EXPECT_EQ(places.front().covariates(), "board x and board y");
   DiscoveryOptions options;
   options.min_structure = 0.01;
-  const auto notable = notable_structure(made.table, made.truth, {}, options, {});
+  const auto notable = notable_of(scan, options);
   ASSERT_FALSE(notable.empty());
   EXPECT_EQ(notable.front().covariates(), "board x and board y");
 }
@@ -149,7 +149,7 @@ TEST(StructurePlaces, WhatComesNearOnOnePrintOnlyIsSeenOverPrintAndRange) {
     return beam.darkness < 0.5 && beam.range_m < 2.8 ? -0.01 * (2.8 - beam.range_m) : 0.0;
   };
   const auto made = test::synthetic_table({}, wrong);
-  const auto found = notable_structure(made.table, made.truth, {}, {}, {});
+  const auto found = notable_of(scan_structure(made.table, made.truth, {}, {}), {});
   EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const StructureScore& s) {
     return s.channel == Channel::kRange && s.covariate == "print" && s.second_covariate == "range";
   }));
@@ -159,8 +159,7 @@ TEST(StructurePlaces, ARippleOverOneCovariateIsNoSurface) {
   test::Disturbance wrong;
   wrong.range_m = [](const BeamPoint& beam) { return 0.008 * std::sin(40.0 * beam.azimuth_rad); };
   const auto made = test::synthetic_table({}, wrong);
-  const auto alone = scan_structure(made.table, made.truth, {}, {});
-  for (const StructureScore& s : scan_places(made.table, made.truth, {}, alone, {}))
+  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {}).places)
     EXPECT_NE(s.covariate, "azimuth");
 }
 
@@ -177,7 +176,7 @@ TEST(NotableStructure, SomethingLocalIsJudgedByItsHeight) {
     };
     const auto made = test::synthetic_table(recipe, wrong);
     std::vector<std::string> named;
-    for (const StructureScore& s : notable_structure(made.table, made.truth, {}, {}, {})) {
+    for (const StructureScore& s : notable_of(scan_structure(made.table, made.truth, {}, {}), {})) {
       EXPECT_LT(s.score, 0.01);
       named.push_back(s.covariates());
     }
