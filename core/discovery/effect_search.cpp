@@ -69,9 +69,14 @@ EffectColumnsList EffectSearch::own_columns() const {
   return columns;
 }
 
-ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns) const {
+ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns,
+                                      const std::optional<OtherColumns>& other) const {
   ColumnSubset subset;
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
+    if (other && other->of == k) {
+      append_columns(columns.list()[other->columns], nullptr, subset);
+      continue;
+    }
     append_columns(columns.list()[k], &in_use_[k].values, subset);
     if (in_use_[k].held) hold_last(columns.list()[k], subset);
   }
@@ -114,8 +119,8 @@ void EffectSearch::refit() {
     for (const Eigen::VectorXd& local : reference_.fit.local) boards.push_back(local.head<6>());
     // A displacement of a tenth of the standard deviations leaves a hundredth of itself to the
     // next.
-    const Vector6d sigma = reference_.fit.covariance.diagonal().head<6>().cwiseSqrt();
-    const bool settled = (x.head<6>().cwiseAbs().array() < 0.1 * sigma.array()).all();
+    const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
+    const bool settled = (x.cwiseAbs().array() <= 0.1 * sigma.array()).all();
     state_ = moved(state_, x.head<6>(), boards);
     move_levels();
     Eigen::Index at = 6;
@@ -124,7 +129,7 @@ void EffectSearch::refit() {
       at += use.values.size();
     }
     if (sees_print()) move_blur(x.segment<3>(at));
-    if (settled && step > 0) break;
+    if (settled) break;
   }
 }
 

@@ -98,22 +98,20 @@ class EffectSearch {
   void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
   void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
   [[nodiscard]] EffectColumnsList own_columns() const;
-  [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns) const;
+  // Columns that stand for effect number `of`, its value in use taken for zero.
+  struct OtherColumns {
+    std::size_t of, columns;
+  };
+  [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns,
+                                        const std::optional<OtherColumns>& other = {}) const;
   void append_candidates(EffectColumnsList& columns) const;
   bool move_shape(std::size_t k);
-  // Restricted log-likelihood over the shape number of effect k, all other values as they are. Only
-  // the channels on which the effect acts change with it.
-  class ShapeProfile {
-   public:
-    ShapeProfile(const EffectSearch& search, std::size_t k);
-    [[nodiscard]] double operator()(double shape) const;
-
-   private:
-    const EffectSearch& search_;
-    std::size_t k_;
-    Linearization all_;
-    ChannelMask acts_{};
-  };
+  // Restricted log-likelihood at shape numbers of effect k, all other values as they are, to first
+  // order in what the effect moves. Only the channels on which it acts change with the shape: the
+  // first call keeps the others in `elsewhere`, later ones with as many shapes take them from
+  // there.
+  [[nodiscard]] std::vector<double> shape_profile(std::size_t k, const std::vector<double>& shapes,
+                                                  std::optional<Linearization>& elsewhere) const;
   void estimate_joint_covariance();
   // Effects in use and the beam's blur, which only intensities tell.
   [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (sees_print() ? 1 : 0); }

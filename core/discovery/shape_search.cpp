@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/tools/minima.hpp>
-
 #include "base/parallel.h"
 #include "discovery/effect_search.h"
 #include "model/shape_slope.h"
@@ -12,8 +10,8 @@
 namespace lvcalib {
 namespace {
 
-constexpr int kBits = 10;  // a thousandth of the bracket
-constexpr std::uintmax_t kMostEvaluations = 14;
+constexpr int kTried = 9;            // shapes at a time
+constexpr double kPrecision = 1e-3;  // of the bracket
 
 // Neighbours of a value on a grid.
 std::pair<double, double> bracket(std::vector<double> grid, double value) {
@@ -28,6 +26,17 @@ std::pair<double, double> bracket(std::vector<double> grid, double value) {
     }
   }
   return {low, high};
+}
+
+// Puts what an effect in use explains back into the residuals of one channel's products.
+void take_back(const EffectColumns& columns, const Eigen::VectorXd& values, int effects,
+               Eigen::MatrixXd& products) {
+  const Eigen::Index residual = products.cols() - 1;
+  for (Eigen::Index p = 0; p < values.size(); ++p) {
+    const Eigen::Index column = effects + columns.first + p;
+    products.col(residual) += values(p) * products.col(column);
+    products.row(residual) += values(p) * products.row(column);
+  }
 }
 
 }  // namespace
@@ -52,47 +61,75 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
                                          gain.begin())];
 }
 
-EffectSearch::ShapeProfile::ShapeProfile(const EffectSearch& search, std::size_t k)
-    : search_(search), k_(k) {
-  const EffectColumnsList columns = search.own_columns();
-  all_ = linearize(search.table(), search.state_, search.model(), columns, search.context_);
-  if (search.context_.stopped()) return;
-  const EffectColumns& mine = columns.list()[k];
-  for (const Channel channel : kAllChannels) {
-    for (int p = 0; p < mine.count(); ++p)
-      acts_[static_cast<std::size_t>(channel)] |= all_.squares(channel, mine.first + p) > 0.0;
-  }
-}
-
-double EffectSearch::ShapeProfile::operator()(double shape) const {
-  std::vector<EffectInUse> in_use = search_.model();
-  in_use[k_].shape = shape;
-  EffectColumnsList columns;
-  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, search_.table());
-  Linearization linear =
-      linearize(search_.table(), search_.state_, in_use, columns, search_.context_, acts_);
-  if (search_.context_.stopped()) return 0.0;
-  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
-    for (std::size_t c = 0; c < kChannels; ++c) {
-      if (acts_[c]) continue;
-      linear.scenes[s].products[c] = all_.scenes[s].products[c];
-      linear.scenes[s].rows[c] = all_.scenes[s].rows[c];
+std::vector<double> EffectSearch::shape_profile(std::size_t k, const std::vector<double>& shapes,
+                                                std::optional<Linearization>& elsewhere) const {
+  const EffectInUse& use = in_use_[k];
+  EffectColumnsList columns = own_columns();
+  for (const double shape : shapes) columns.add(use.effect, shape, table());
+  const EffectColumns mine = columns.list()[k];
+  ChannelMask acts = kEveryChannel;
+  if (elsewhere) {
+    for (const Channel channel : kAllChannels) {
+      bool& here = acts[static_cast<std::size_t>(channel)];
+      here = false;
+      for (int p = 0; p < mine.count(); ++p)
+        here = here || elsewhere->squares(channel, mine.first + p) > 0.0;
     }
   }
-  return fit_model(linear, search_.own_subset(columns), search_.variances_, {.rounds = 0})
-      .log_likelihood;
+  Linearization linear = linearize(table(), state_, model(), columns, context_, acts);
+  std::vector<double> out(shapes.size(), 0.0);
+  if (context_.stopped()) return out;
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+    SceneProducts& scene = linear.scenes[s];
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      if (acts[c]) {
+        take_back(mine, use.values, scene.layout.size() + 6, scene.products[c]);
+      } else {
+        scene.products[c] = elsewhere->scenes[s].products[c];
+        scene.rows[c] = elsewhere->scenes[s].rows[c];
+      }
+    }
+  }
+  parallel_for(shapes.size(), context_.thread_count(), [&](std::size_t j) {
+    if (context_.stopped()) return;
+    const ColumnSubset subset = own_subset(columns, OtherColumns{k, own_count() + j});
+    out[j] = fit_model(linear, subset, variances_, {.rounds = 0}).log_likelihood;
+  });
+  if (!elsewhere) elsewhere = std::move(linear);
+  return out;
 }
 
 bool EffectSearch::move_shape(std::size_t k) {
   const std::vector<double> shapes = in_use_[k].effect->shapes(table());
   if (in_use_[k].held || !in_use_[k].effect->has_smooth_shape() || shapes.size() < 2) return false;
-  const auto [low, high] = bracket(shapes, in_use_[k].shape);
-  const ShapeProfile profile(*this, k);
-  if (context_.stopped()) return false;
-  std::uintmax_t most = kMostEvaluations;
-  const auto [shape, value] = boost::math::tools::brent_find_minima(
-      [&](double s) { return context_.stopped() ? 0.0 : -profile(s); }, low, high, kBits, most);
-  if (context_.stopped() || -value < profile(in_use_[k].shape)) return false;
+  const double before = in_use_[k].shape;
+  auto [low, high] = bracket(shapes, before);
+  const double precision = kPrecision * (high - low);
+  std::optional<Linearization> elsewhere;
+  double shape = before;
+  // The second time between the neighbours of the best.
+  for (int round = 0; round < 2; ++round) {
+    std::vector<double> tried;
+    for (int j = 0; j < kTried; ++j) tried.push_back(low + (high - low) * j / (kTried - 1));
+    tried.push_back(before);
+    const std::vector<double> likelihood = shape_profile(k, tried, elsewhere);
+    if (context_.stopped()) return false;
+    const auto end = likelihood.end() - 1;
+    const auto best = std::max_element(likelihood.begin(), end);
+    if (!(*best > likelihood.back())) return false;
+    const auto at = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(best - likelihood.begin(), 1, kTried - 2));
+    const double step = tried[1] - tried[0];
+    low = tried[at - 1];
+    high = tried[at + 1];
+    // The vertex of the parabola through the best and its neighbours.
+    const double bend = likelihood[at - 1] - 2.0 * likelihood[at] + likelihood[at + 1];
+    const double slope = 0.5 * (likelihood[at + 1] - likelihood[at - 1]);
+    shape = best == likelihood.begin() ? tried.front()
+            : best == end - 1          ? tried[kTried - 1]
+                                       : tried[at] - (bend < 0.0 ? slope / bend : 0.0) * step;
+  }
+  if (std::abs(shape - before) < precision) return false;
   in_use_[k].shape = shape;
   return true;
 }

@@ -24,13 +24,20 @@ class Basis {
  public:
   Basis(const Covariate& covariate, int splines)
       : categories_(covariate.categories), intervals_(splines - 3) {
-    std::vector<float> sorted = covariate.values;
-    std::sort(sorted.begin(), sorted.end());
     if (categories_) {
-      sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-      knots_ = std::move(sorted);
+      for (const float label : covariate.values) {
+        const auto at = std::lower_bound(knots_.begin(), knots_.end(), label);
+        if (at == knots_.end() || *at != label) knots_.insert(at, label);
+      }
       return;
     }
+    // Shares of some thousands of rows are those of all to a hundredth.
+    constexpr std::size_t kEnough = 5000;
+    const std::size_t stride = std::max<std::size_t>(1, covariate.values.size() / kEnough);
+    std::vector<float> sorted;
+    for (std::size_t k = 0; k < covariate.values.size(); k += stride)
+      sorted.push_back(covariate.values[k]);
+    std::sort(sorted.begin(), sorted.end());
     // Equal shares of rows between knots keep every spline supported.
     for (int k = 0; k <= intervals_; ++k) {
       const auto at = static_cast<std::size_t>(static_cast<double>(k) / intervals_ *

@@ -50,6 +50,20 @@ struct Return {
   [[nodiscard]] std::size_t surface() const { return white > 0.5 ? 0 : 1; }
 };
 
+// The rows of one scene.
+struct TableRows {
+  std::vector<RangeRow> range;
+  std::vector<BoundaryRow> boundary;
+  std::vector<IntensityRow> intensity;
+};
+
+// A scene as it is kept for as long as its table may be made again.
+struct KeptScene {
+  SceneMeasurements measured;
+  Cloud cloud;
+  std::vector<Eigen::Vector2d> scan_rad_s;  // Empty if the cloud does not tell.
+};
+
 struct SurfaceNoise {
   std::array<double, 2> range_m{};  // White, black.
   std::array<double, 2> intensity{};
@@ -158,11 +172,11 @@ class SceneRows {
  public:
   // `known`: the print as all points of the scene saw it before, by their places in the cloud; may
   // be null.
-  SceneRows(const SceneMeasurements& input, int scene, const BlurredPrint& print,
-            const ModelState& state, const SceneNoise& noise, ReturnEffects& effects,
-            const std::vector<LocalPrint>* known)
+  SceneRows(const KeptScene& input, int scene, const BlurredPrint& print, const ModelState& state,
+            const SceneNoise& noise, ReturnEffects& effects, const std::vector<LocalPrint>* known)
       : known_(known),
-        input_(input),
+        input_(input.measured),
+        velocities_(input.scan_rad_s),
         scene_(scene),
         print_(print),
         levels_(state.levels[static_cast<std::size_t>(scene)]),
@@ -181,16 +195,18 @@ class SceneRows {
     return out;
   }
 
-  // `white`, `log_contrast`: the usual ones of all scenes, to which darkness refers.
-  void add_rows(MeasurementTable& table, std::size_t most) {
-    for (Return& r : returns_) r.beam.darkness = ReturnEffects::darkness(table, r.plain_level);
+  // `usual`: has the levels of all scenes, to which darkness refers.
+  [[nodiscard]] TableRows rows(const MeasurementTable& usual, std::size_t most) {
+    for (Return& r : returns_) r.beam.darkness = ReturnEffects::darkness(usual, r.plain_level);
+    TableRows out;
     for (const std::size_t k : thinned([](const Return&) { return true; }, most))
-      add_range(returns_[k], table);
-    if (!has_intensity_) return;
+      out.range.push_back(range_row(returns_[k]));
+    if (!has_intensity_) return out;
     for (const std::size_t k : thinned([](const Return& r) { return r.is_edge(); }, most))
-      add_edge(returns_[k], table);
+      out.boundary.push_back(edge_row(returns_[k]));
     for (const std::size_t k : thinned([](const Return& r) { return r.is_plain(); }, most))
-      add_intensity(returns_[k], table);
+      out.intensity.push_back(intensity_row(returns_[k]));
+    return out;
   }
 
  private:
@@ -200,7 +216,6 @@ class SceneRows {
     const BoardReturns kept = select_returns(cloud, print_, geometry_.lidar_from_board(), beam,
                                              std::max(noise.range_white_m, noise.range_black_m));
     has_intensity_ = kept.has_intensity;
-    const std::vector<Eigen::Vector2d> velocities = scan_velocities(cloud);
     const BoardPredictor predictor(print_, geometry_.lidar_from_board(), levels_, beam);
     for (std::size_t k = 0; k < kept.size(); ++k) {
       const std::uint32_t i = kept.index[k];
@@ -215,7 +230,7 @@ class SceneRows {
       if (!p || !geometry_.describe(direction, r.beam)) continue;
       if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
       if (cloud.has_line()) r.beam.line = cloud.line[i];
-      if (!velocities.empty()) r.beam.scan_rad_s = velocities[i];
+      if (!velocities_.empty()) r.beam.scan_rad_s = velocities_[i];
       // What an edge grown by effects does to the spot is seen as by the print displaced.
       const double beside = beside_edge(*p, beam);
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
@@ -332,7 +347,7 @@ class SceneRows {
     return out;
   }
 
-  void add_range(const Return& r, MeasurementTable& table) const {
+  [[nodiscard]] RangeRow range_row(const Return& r) const {
     RangeRow row;
     row.beam = r.beam;
     row.measured_m = r.measured_m;
@@ -341,7 +356,7 @@ class SceneRows {
     row.sigma_m = robust_sigma(noise_between(noise_.range_m[0], noise_.range_m[1], r.white),
                                r.range_residual_m);
     row.seen = r.seen;
-    table.range.push_back(row);
+    return row;
   }
 
   [[nodiscard]] double intensity_sigma(const Return& r) const {
@@ -349,7 +364,7 @@ class SceneRows {
     return robust_sigma(std::hypot(plain, r.jitter), r.intensity - r.predicted);
   }
 
-  void add_edge(const Return& r, MeasurementTable& table) const {
+  [[nodiscard]] BoundaryRow edge_row(const Return& r) const {
     BoundaryRow row;
     row.beam = r.beam;
     row.psi_rad = r.beam.edge->psi_rad;
@@ -364,22 +379,23 @@ class SceneRows {
         continue;
       row.node = node.id;
     }
-    table.boundary.push_back(row);
+    return row;
   }
 
-  void add_intensity(const Return& r, MeasurementTable& table) const {
+  [[nodiscard]] IntensityRow intensity_row(const Return& r) const {
     const double sigma = intensity_sigma(r);
     // Told as a logarithm as far as there is one.
     const double unit = std::max(r.predicted, 3.0 * sigma);
-    table.intensity.push_back({r.beam,
-                               r.surface() == 0 ? Print::kWhite : Print::kBlack,
-                               std::log(std::max(r.intensity, 1e-3 * unit)),
-                               sigma / unit,
-                               {r.intensity, unit, r.moved}});
+    return {r.beam,
+            r.surface() == 0 ? Print::kWhite : Print::kBlack,
+            std::log(std::max(r.intensity, 1e-3 * unit)),
+            sigma / unit,
+            {r.intensity, unit, r.moved}};
   }
 
   const std::vector<LocalPrint>* known_;
   const SceneMeasurements& input_;
+  const std::vector<Eigen::Vector2d>& velocities_;
   int scene_;
   const BlurredPrint& print_;
   BoardLevels levels_;
@@ -416,8 +432,13 @@ struct FirstTable {
   std::vector<std::vector<LocalPrint>> seen;
 };
 
+template <class Row>
+void append(const std::vector<Row>& rows, std::vector<Row>& to) {
+  to.insert(to.end(), rows.begin(), rows.end());
+}
+
 // `like`: the first table if another replaces it. `first`: where the first one is kept.
-MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
+MeasurementTable make_table(const std::vector<KeptScene>& scenes,
                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
                             const ModelState& state, const ForwardNoise& noise, double sigma_px,
                             const TableOptions& options, const RunContext& context,
@@ -433,9 +454,9 @@ MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
   bool has_line = !scenes.empty();
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     const double last = std::max<double>(1.0, static_cast<double>(scenes.size()) - 1.0);
-    table.scenes.push_back({scenes[s].name, {}, static_cast<double>(s) / last});
-    table.has_time = table.has_time && scenes[s].board_points->has_time();
-    has_line = has_line && scenes[s].board_points->has_line();
+    table.scenes.push_back({scenes[s].measured.name, {}, static_cast<double>(s) / last});
+    table.has_time = table.has_time && scenes[s].cloud.has_time();
+    has_line = has_line && scenes[s].cloud.has_line();
   }
   if (like != nullptr) {
     table.level = like->table.level;
@@ -465,11 +486,18 @@ MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
       table.log_contrast = std::log(table.level[0] / table.level[1]);
     }
   }
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    add_corners(scenes[s], static_cast<int>(s), state, sigma_px, table);
-    rows[s]->add_rows(table, static_cast<std::size_t>(options.max_rows_per_scene));
-    if (first != nullptr) first->seen.push_back(rows[s]->seen());
+  std::vector<TableRows> lidar(scenes.size());
+  if (first != nullptr) first->seen.resize(scenes.size());
+  parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
+    lidar[s] = rows[s]->rows(table, static_cast<std::size_t>(options.max_rows_per_scene));
+    if (first != nullptr) first->seen[s] = rows[s]->seen();
     rows[s].reset();
+  });
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    add_corners(scenes[s].measured, static_cast<int>(s), state, sigma_px, table);
+    append(lidar[s].range, table.range);
+    append(lidar[s].boundary, table.boundary);
+    append(lidar[s].intensity, table.intensity);
   }
   const double noise_px = corner_noise(table, state, sigma_px);
   for (CornerRow& row : table.corner) row.sigma_px = noise_px;
@@ -480,12 +508,6 @@ MeasurementTable make_table(const std::vector<SceneMeasurements>& scenes,
   }
   return table;
 }
-
-// What a table is made of, for as long as it may be made again.
-struct KeptScenes {
-  std::vector<SceneMeasurements> scenes;
-  std::vector<Cloud> clouds;
-};
 
 }  // namespace
 
@@ -517,14 +539,16 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
                              const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
                              const ModelState& state, const ForwardNoise& noise, double sigma_px,
                              const TableOptions& options, const RunContext& context) {
-  const auto kept = std::make_shared<KeptScenes>();
-  kept->scenes = scenes;
-  for (const SceneMeasurements& scene : scenes) kept->clouds.push_back(*scene.board_points);
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    kept->scenes[s].board_points = &kept->clouds[s];
-  }
+  const auto kept = std::make_shared<std::vector<KeptScene>>(scenes.size());
+  parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
+    KeptScene& scene = (*kept)[s];
+    scene.measured = scenes[s];
+    scene.cloud = *scenes[s].board_points;
+    scene.measured.board_points = &scene.cloud;
+    scene.scan_rad_s = scan_velocities(scene.cloud);
+  });
   const auto first = std::make_shared<FirstTable>();
-  MeasurementTable table = make_table(kept->scenes, print, camera, state, noise, sigma_px, options,
+  MeasurementTable table = make_table(*kept, print, camera, state, noise, sigma_px, options,
                                       context, nullptr, first.get(), {});
   if (context.stopped()) return table;
   first->table.level = table.level;
@@ -533,8 +557,8 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
   first->table.has_intensity = table.has_intensity;
   table.again = [=](const ModelState& at, const std::vector<EffectInUse>& in_use,
                     const RunContext& now) {
-    return make_table(kept->scenes, print, camera, at, noise, sigma_px, options, now, first.get(),
-                      nullptr, in_use);
+    return make_table(*kept, print, camera, at, noise, sigma_px, options, now, first.get(), nullptr,
+                      in_use);
   };
   return table;
 }
