@@ -159,6 +159,36 @@ void EffectSearch::move_blur(const Eigen::Vector3d& step) {
   }
 }
 
+// Structure that the calibration did not find may come to light once an effect is explained. The
+// clearest kind enters; the others are asked again with it in.
+bool EffectSearch::admit_structure() {
+  constexpr double kChance = 0.01;  // As in the joint solve.
+  bool any = false;
+  while (!context_.stopped()) {
+    const auto scores = group_scores(linear_, reference_.fit);
+    std::size_t best = kVarianceGroups;
+    double largest = 1.0;
+    for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+      const GroupScore& score = scores[k];
+      if (score.effective < 1.0 || !(score.determined > 0.0)) continue;
+      const double ratio = score.squares / (variances_.group[k] * score.determined);
+      const double gate = chi_square_gate(static_cast<int>(std::lround(score.effective)), kChance) /
+                          score.effective;
+      if (ratio / gate > largest) {
+        largest = ratio / gate;
+        best = k;
+      }
+    }
+    if (best == kVarianceGroups) return any;
+    any = true;
+    // From where half of it would be told.
+    variances_.group[best] *= scores[best].effective / scores[best].determined;
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+    variances_ = reference_.fit.variances;
+  }
+  return any;
+}
+
 // Weights and classes of rows follow the model, until both stand still.
 void EffectSearch::remake() {
   if (!base_->again || (in_use_.empty() && table_ == base_)) return;
@@ -172,6 +202,8 @@ void EffectSearch::remake() {
     remade_ = std::move(next);
     table_ = remade_.get();
     refit();
+    if (admit_structure()) refit();
+    if (context_.stopped()) return;
     // A twentieth of a standard deviation: what is left is far below what is known.
     constexpr double kStands = 0.05;
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().head<6>().cwiseSqrt();

@@ -89,6 +89,8 @@ class EffectSearch {
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
 
  private:
+  // Lets groups of random effects in that were absent and that the residuals show.
+  bool admit_structure();
   void move_levels();
   void move_blur(const Eigen::Vector3d& step);
   // Judges promising candidates again after a full refit, until one is accepted.

@@ -62,6 +62,18 @@ Blocks blocks_of(const SceneProducts& scene, const Indices& at,
   return out;
 }
 
+// The scene's own unknowns with what is believed of them beforehand.
+void add_priors(const LocalLayout& layout, const ModelVariances& variances, Blocks& b) {
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+    const auto [first, count] = layout.columns_of(static_cast<VarianceGroup>(k));
+    for (int c = first; c < first + count; ++c) b.local(c, c) += 1.0 / variances.group[k];
+  }
+  // What this scene does not measure (levels without intensity) must not make it singular.
+  for (int c = 0; c < LocalLayout::kFixed; ++c) {
+    if (b.local(c, c) <= 0.0) b.local(c, c) = 1.0;
+  }
+}
+
 // A channel's products on the joint unknowns of a scene, times a vector or traced with a matrix.
 double squares_of(const Eigen::MatrixXd& m, const Indices& at, const Eigen::VectorXd& local,
                   const Eigen::VectorXd& global) {
@@ -149,14 +161,10 @@ class Fitter {
     const SceneProducts& scene = linear_.scenes[s];
     Blocks b = blocks_of(scene, indices_[s], fit_.variances.channel);
     double log_prior = 0.0;
+    add_priors(scene.layout, fit_.variances, b);
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-      const auto [first, count] = scene.layout.columns_of(static_cast<VarianceGroup>(k));
-      for (int c = first; c < first + count; ++c) b.local(c, c) += 1.0 / fit_.variances.group[k];
+      const int count = scene.layout.columns_of(static_cast<VarianceGroup>(k)).second;
       log_prior -= 0.5 * count * std::log(fit_.variances.group[k]);
-    }
-    // What this scene does not measure (levels without intensity) must not make it singular.
-    for (int c = 0; c < LocalLayout::kFixed; ++c) {
-      if (b.local(c, c) <= 0.0) b.local(c, c) = 1.0;
     }
     Eigen::LLT<Eigen::MatrixXd> llt(b.local);
     SceneTerm term;
@@ -257,17 +265,44 @@ ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
 SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
                      const ModelVariances& variances) {
   Blocks b = blocks_of(products, indices_of(products, subset), variances.channel);
-  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-    const auto [first, count] = products.layout.columns_of(static_cast<VarianceGroup>(k));
-    for (int c = first; c < first + count; ++c) b.local(c, c) += 1.0 / variances.group[k];
-  }
-  for (int c = 0; c < LocalLayout::kFixed; ++c) {
-    if (b.local(c, c) <= 0.0) b.local(c, c) = 1.0;
-  }
+  add_priors(products.layout, variances, b);
   SceneTerm out;
   const Eigen::LLT<Eigen::MatrixXd> llt(b.local);
   out.information = b.global - b.cross.transpose() * llt.solve(b.cross);
   out.gradient = b.global_gradient - b.cross.transpose() * llt.solve(b.local_gradient);
+  return out;
+}
+
+std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear,
+                                                     const ModelFit& fit) {
+  std::array<GroupScore, kVarianceGroups> out{};
+  std::array<double, kVarianceGroups> second{};
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+    const SceneProducts& scene = linear.scenes[s];
+    const Indices at = indices_of(scene, fit.subset);
+    Blocks b = blocks_of(scene, at, fit.variances.channel);
+    add_priors(scene.layout, fit.variances, b);
+    const Eigen::LLT<Eigen::MatrixXd> llt(b.local);
+    const Eigen::MatrixXd x = llt.solve(b.cross);
+    for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+      const double v = fit.variances.group[k];
+      const auto [first, count] = scene.layout.columns_of(static_cast<VarianceGroup>(k));
+      if (v > kAbsentVariance[k] || count == 0) continue;
+      // What the rows tell of these: I − C/v, C their covariance.
+      const Eigen::MatrixXd own =
+          llt.solve(Eigen::MatrixXd::Identity(at.local, at.local).middleCols(first, count))
+              .middleRows(first, count);
+      const Eigen::MatrixXd rows = x.middleRows(first, count);
+      const Eigen::MatrixXd told = Eigen::MatrixXd::Identity(count, count) -
+                                   (own + rows * fit.covariance * rows.transpose()) / v;
+      out[k].squares += fit.local[s].segment(first, count).squaredNorm();
+      out[k].determined += told.trace();
+      second[k] += told.squaredNorm();
+    }
+  }
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+    if (second[k] > 0.0) out[k].effective = out[k].determined * out[k].determined / second[k];
+  }
   return out;
 }
 

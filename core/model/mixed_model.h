@@ -70,6 +70,17 @@ ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
 SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
                      const ModelVariances& variances);
 
+/// What the data say of a group of random effects that is held absent: with a variance v near
+/// nothing, squares/(v·determined) is one on average if there is none of it, and `effective` times
+/// that about χ² with as many degrees of freedom (score test).
+struct GroupScore {
+  double squares = 0.0;
+  double determined = 0.0;
+  double effective = 0.0;
+};
+std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear,
+                                                     const ModelFit& fit);
+
 /// Log of the density that the other scenes predict for a scene, given the fit's variances.
 double predictive_log_density(const ModelFit& fit, std::size_t scene);
 
