@@ -54,12 +54,22 @@ int index_in(const std::vector<int>& list, int value) {
   return at == list.end() ? -1 : static_cast<int>(at - list.begin());
 }
 
-// Accumulates one scene.
+LocalLayout layout_of(const MeasurementTable& table, std::size_t scene) {
+  LocalLayout layout;
+  layout.patches = BoardPatches(table.print->outline(), kPatch_m);
+  layout.lines = table.lines.size() > 1 ? static_cast<int>(table.lines.size()) : 0;
+  layout.corner_groups = table.target.has_tags()
+                             ? static_cast<int>(table.scenes[scene].features.size())
+                             : layout.patches.count();
+  return layout;
+}
+
+// Accumulates one channel of one scene.
 class SceneAccumulator {
  public:
   SceneAccumulator(const MeasurementTable& table, const ModelState& state,
                    const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                   std::size_t scene)
+                   const LocalLayout& layout, std::size_t scene)
       : table_(table),
         scene_(static_cast<int>(scene)),
         geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
@@ -69,51 +79,47 @@ class SceneAccumulator {
         in_use_columns_(columns_in_use(in_use, table)),
         used_rows_(table, in_use_columns_.list()),
         candidate_rows_(table, columns.list()),
-        print_(table, state, scene, in_use) {
-    LocalLayout& layout = out_.layout;
-    layout.patches = BoardPatches(table.print->outline(), kPatch_m);
-    layout.lines = table.lines.size() > 1 ? static_cast<int>(table.lines.size()) : 0;
-    layout.corner_groups = table.target.has_tags()
-                               ? static_cast<int>(table.scenes[scene].features.size())
-                               : layout.patches.count();
-    extrinsic_ = out_.layout.size();
+        print_(table, state, scene, in_use),
+        layout_(layout) {
+    extrinsic_ = layout_.size();
     effects_ = extrinsic_ + 6;
     residual_ = effects_ + columns.columns();
-    for (auto& m : out_.products) m.setZero(residual_ + 1, residual_ + 1);
-    for (auto& v : out_.fourth_powers) v.setZero(columns.columns());
+    products_.setZero(residual_ + 1, residual_ + 1);
+    fourth_powers_.setZero(columns.columns());
   }
 
-  SceneProducts run(const ChannelMask& channels) {
-    const auto wanted = [&](Channel channel) {
-      return channels[static_cast<std::size_t>(channel)];
-    };
-    if (wanted(Channel::kRange)) {
-      for (const RangeRow& row : table_.range) {
-        if (row.beam.scene == scene_) range(row);
-      }
+  // Sums the rows of one channel into its place.
+  void run(Channel channel, SceneProducts& out) {
+    switch (channel) {
+      case Channel::kRange:
+        for (const RangeRow& row : table_.range) {
+          if (row.beam.scene == scene_) range(row);
+        }
+        break;
+      case Channel::kBoundary:
+        for (const BoundaryRow& row : table_.boundary) {
+          if (row.beam.scene != scene_) continue;
+          const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+          reading({row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
+        }
+        break;
+      case Channel::kCorner:
+        for (const CornerRow& row : table_.corner) {
+          if (row.scene == scene_) corner(row);
+        }
+        break;
+      case Channel::kIntensity:
+        for (const IntensityRow& row : table_.intensity) {
+          if (row.beam.scene == scene_) reading(row, nullptr);
+        }
+        break;
     }
-    if (wanted(Channel::kBoundary)) {
-      for (const BoundaryRow& row : table_.boundary) {
-        if (row.beam.scene != scene_) continue;
-        const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
-        reading(Channel::kBoundary, {row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
-      }
-    }
-    if (wanted(Channel::kCorner)) {
-      for (const CornerRow& row : table_.corner) {
-        if (row.scene == scene_) corner(row);
-      }
-    }
-    if (wanted(Channel::kIntensity)) {
-      for (const IntensityRow& row : table_.intensity) {
-        if (row.beam.scene == scene_) reading(Channel::kIntensity, row, nullptr);
-      }
-    }
-    for (auto& m : out_.products) m.triangularView<Eigen::StrictlyLower>() = m.transpose();
-    for (const Channel channel : {Channel::kRange, Channel::kBoundary, Channel::kIntensity}) {
-      if (wanted(channel)) fill_what_follows_from_the_pose(channel);
-    }
-    return std::move(out_);
+    products_.triangularView<Eigen::StrictlyLower>() = products_.transpose();
+    if (channel != Channel::kCorner) fill_what_follows_from_the_pose();
+    const auto at = static_cast<std::size_t>(channel);
+    out.products[at] = std::move(products_);
+    out.fourth_powers[at] = std::move(fourth_powers_);
+    out.rows[at] = rows_;
   }
 
  private:
@@ -123,22 +129,21 @@ class SceneAccumulator {
   // What the LiDAR measures depends on the extrinsic and on the board's motion through the board's
   // pose in its frame alone: these columns are the pose's, transformed, and need no sums of their
   // own.
-  void fill_what_follows_from_the_pose(Channel channel) {
-    Eigen::MatrixXd& m = out_.products[static_cast<std::size_t>(channel)];
-    const int board = out_.layout.board_column();
+  void fill_what_follows_from_the_pose() {
+    Eigen::MatrixXd& m = products_;
+    const int board = layout_.board_column();
     const Matrix6d motion = print_.board_motion_by_pose();
     m.middleRows<6>(extrinsic_) = -m.topRows<6>();
     m.middleRows<6>(board) = motion * m.topRows<6>();
     m.middleCols<6>(extrinsic_) = -m.leftCols<6>();
     m.middleCols<6>(board) = m.leftCols<6>() * motion.transpose();
   }
-  void finish(Channel channel, double residual, double sigma) {
+  void finish(double residual, double sigma) {
     row_.set(residual_, residual);
-    const auto at = static_cast<std::size_t>(channel);
     const double weight = 1.0 / (sigma * sigma);
-    row_.add_to(out_.products[at], weight);
-    row_.add_fourth_powers(out_.fourth_powers[at], effects_, weight);
-    ++out_.rows[at];
+    row_.add_to(products_, weight);
+    row_.add_fourth_powers(fourth_powers_, effects_, weight);
+    ++rows_;
   }
 
   void set_effect(const EffectColumns& c, std::span<const double> by) {
@@ -155,11 +160,11 @@ class SceneAccumulator {
     for (int k = 0; k < LocalLayout::kRangeTerms; ++k)
       row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(3 + k)]);
     const int line = line_of(r.beam);
-    if (line >= 0) row_.set(out_.layout.line_column() + line, 1.0);
+    if (line >= 0) row_.set(layout_.line_column() + line, 1.0);
     candidate_rows_.range(
         r, geometry_.range_row(r.beam.direction), rotation_,
         [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
-    finish(Channel::kRange, row->residual, r.sigma_m);
+    finish(row->residual, r.sigma_m);
   }
 
   void begin(const PrintRow& row) {
@@ -169,29 +174,29 @@ class SceneAccumulator {
       row_.set(LocalLayout::kPose + k, row.by_levels(k));
   }
   [[nodiscard]] int line_of(const BeamPoint& beam) const {
-    return out_.layout.lines > 0 ? index_in(table_.lines, beam.line) : -1;
+    return layout_.lines > 0 ? index_in(table_.lines, beam.line) : -1;
   }
   [[nodiscard]] int patch_of(const Eigen::Vector2d& board_m) const {
-    return out_.layout.patches.of(table_.print->outline(), board_m);
+    return layout_.patches.of(table_.print->outline(), board_m);
   }
 
-  void reading(Channel channel, const IntensityRow& r, const BoundaryRow* edge) {
+  void reading(const IntensityRow& r, const BoundaryRow* edge) {
     const auto row = edge != nullptr ? print_.edge(*edge) : print_.intensity(r);
     if (!row) return;
     begin(*row);
-    const int patch = out_.layout.patch_column() + 2 * patch_of(r.beam.board_m);
+    const int patch = layout_.patch_column() + 2 * patch_of(r.beam.board_m);
     row_.set(patch, row->print.by_shift(0));
     row_.set(patch + 1, row->print.by_shift(1));
     const int line = line_of(r.beam);
     if (line >= 0)
-      row_.set(out_.layout.line_column() + out_.layout.lines + line, row->print.by_log_intensity);
+      row_.set(layout_.line_column() + layout_.lines + line, row->print.by_log_intensity);
     const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction, edge);
     candidate_rows_.reading(
         r, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
           for (std::size_t k = 0; k < by.shift_m.size(); ++k)
             row_.set(effects_ + c.first + static_cast<int>(k), row->print.of(by, k));
         });
-    finish(channel, row->residual, r.sigma);
+    finish(row->residual, r.sigma);
   }
 
   void corner(const CornerRow& r) {
@@ -213,13 +218,13 @@ class SceneAccumulator {
     for (int axis = 0; axis < 2; ++axis) {
       row_.clear();
       set_pose(p->by_pose.row(axis).transpose());
-      row_.set(out_.layout.corner_column() + 2 * group + axis, 1.0);
+      row_.set(layout_.corner_column() + 2 * group + axis, 1.0);
       candidate_rows_.corner(r, p->normalized, p->by_board_move,
                              [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
                                for (std::size_t k = 0; k < by.size(); ++k)
                                  row_.set(effects_ + c.first + static_cast<int>(k), by[k](axis));
                              });
-      finish(Channel::kCorner, residual(axis), r.sigma_px);
+      finish(residual(axis), r.sigma_px);
     }
   }
 
@@ -233,7 +238,10 @@ class SceneAccumulator {
   EffectRows used_rows_;
   EffectRows candidate_rows_;
   PrintRows print_;
-  SceneProducts out_;
+  const LocalLayout& layout_;
+  Eigen::MatrixXd products_;
+  Eigen::VectorXd fourth_powers_;
+  int rows_ = 0;
   SparseRow row_;
   int extrinsic_ = 0;
   int effects_ = 0;
@@ -309,10 +317,26 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
   Linearization out;
   out.columns = columns;
   out.scenes.resize(table.scenes.size());
-  parallel_for(table.scenes.size(), context.thread_count(), [&](std::size_t s) {
-    if (!context.stopped())
-      out.scenes[s] = SceneAccumulator(table, state, in_use, columns, s).run(channels);
+  for (std::size_t s = 0; s < out.scenes.size(); ++s) {
+    out.scenes[s].layout = layout_of(table, s);
+    const int size = out.scenes[s].layout.size() + 6 + columns.columns() + 1;
+    for (const Channel channel : kAllChannels) {
+      const auto at = static_cast<std::size_t>(channel);
+      if (channels[at]) continue;
+      out.scenes[s].products[at].setZero(size, size);
+      out.scenes[s].fourth_powers[at].setZero(columns.columns());
+    }
+  }
+  // Scene by scene and channel by channel, so that few scenes fill all threads.
+  parallel_for(table.scenes.size() * kChannels, context.thread_count(), [&](std::size_t task) {
+    const std::size_t s = task / kChannels;
+    const std::size_t channel = task % kChannels;
+    if (context.stopped() || !channels[channel]) return;
+    SceneProducts& scene = out.scenes[s];
+    SceneAccumulator(table, state, in_use, columns, scene.layout, s)
+        .run(kAllChannels[channel], scene);
   });
+  if (context.stopped()) out.scenes.assign(table.scenes.size(), {});
   return out;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include <Eigen/Geometry>
+
 namespace lvcalib {
 namespace {
 
@@ -55,10 +57,11 @@ class CoveredCells {
   bool any_ = false;
 };
 
-// Board coordinates and intensity of one return, for the search.
-struct Sample {
-  Eigen::Vector2d board_m;
-  double intensity;
+// Returns for the search: places on the board from its middle, intensities less their mean.
+struct Samples {
+  std::vector<Eigen::Vector2d> from_center_m;
+  std::vector<float> intensity;
+  double squares = 0.0;
 };
 
 struct Trial {
@@ -66,29 +69,6 @@ struct Trial {
   double turn_rad = 0.0;
   double correlation = 0.0;
 };
-
-// Correlation of the samples with the print when the board is shifted and turned about its middle.
-double correlation(const std::vector<Sample>& samples, const BlurredPrint::Coarse& print,
-                   const Eigen::Vector2d& center, const Trial& trial) {
-  const double c = std::cos(trial.turn_rad);
-  const double s = std::sin(trial.turn_rad);
-  double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
-  for (const Sample& sample : samples) {
-    const Eigen::Vector2d d = sample.board_m - center - trial.shift_m;
-    const Eigen::Vector2d p =
-        center + Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
-    const double white = print.at(p);
-    n += 1;
-    a += white;
-    i += sample.intensity;
-    aa += white * white;
-    ii += sample.intensity * sample.intensity;
-    ai += white * sample.intensity;
-  }
-  const double va = aa - a * a / n;
-  const double vi = ii - i * i / n;
-  return va > 0.0 && vi > 0.0 ? (ai - a * i / n) / std::sqrt(va * vi) : 0.0;
-}
 
 // Steps and ceiling of the intensities.
 void describe_numbers(BoardReturns& returns) {
@@ -213,8 +193,63 @@ bool better(const Trial& a, const Trial& b) {
   return a.correlation > b.correlation;
 }
 
+Samples samples_of(const BoardReturns& returns, const BoardPredictor& predictor,
+                   const Eigen::Vector2d& center_m, std::size_t most) {
+  Samples out;
+  const std::size_t stride = std::max<std::size_t>(1, returns.size() / most);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < returns.size(); k += stride) {
+    const auto hit = predictor.hit(returns.point_m(k).normalized());
+    if (!hit) continue;
+    out.from_center_m.push_back(hit->board_m - center_m);
+    out.intensity.push_back(static_cast<float>(returns.intensity(k)));
+    sum += returns.intensity(k);
+  }
+  const auto mean = static_cast<float>(sum / static_cast<double>(out.intensity.size()));
+  for (float& i : out.intensity) {
+    i -= mean;
+    out.squares += static_cast<double>(i) * static_cast<double>(i);
+  }
+  return out;
+}
+
+// Samples turned about the board's middle, as places on the raster of a blurred print.
+struct TurnedSamples {
+  TurnedSamples(const Samples& samples, const BlurredPrint::Coarse& print,
+                const Eigen::Vector2d& center_m, double turn_rad) {
+    turn = Eigen::Rotation2Dd(-turn_rad).toRotationMatrix();
+    const Eigen::Vector2f center = print.in_samples(center_m).cast<float>();
+    const Eigen::Matrix2f to_raster = (print.per_m() * turn).cast<float>();
+    for (const Eigen::Vector2d& p : samples.from_center_m) {
+      const Eigen::Vector2f at = center + to_raster * p.cast<float>();
+      column.push_back(at.x());
+      row.push_back(at.y());
+    }
+  }
+  Eigen::Matrix2d turn;
+  std::vector<float> column, row;
+};
+
+// Correlation of the samples with the print when the board is shifted and turned.
+double correlation(const Samples& samples, const TurnedSamples& turned,
+                   const BlurredPrint::Coarse& print, const Eigen::Vector2d& shift_m) {
+  const Eigen::Vector2f shift = (print.per_m() * (turned.turn * shift_m)).cast<float>();
+  double a = 0.0;
+  double aa = 0.0;
+  double ai = 0.0;
+  for (std::size_t k = 0; k < samples.intensity.size(); ++k) {
+    const double white = static_cast<double>(
+        print.at_sample(turned.column[k] - shift.x(), turned.row[k] - shift.y()));
+    a += white;
+    aa += white * white;
+    ai += white * static_cast<double>(samples.intensity[k]);
+  }
+  const double va = aa - a * a / static_cast<double>(samples.intensity.size());
+  return va > 0.0 && samples.squares > 0.0 ? ai / std::sqrt(va * samples.squares) : 0.0;
+}
+
 // All shifts and turns about a pose, by steps; best first.
-std::vector<Trial> trials_about(const Trial& from, const std::vector<Sample>& samples,
+std::vector<Trial> trials_about(const Trial& from, const Samples& samples,
                                 const BlurredPrint& print, double sigma_m, double reach_m,
                                 double turns_rad, double step_m, double turn_rad) {
   const int n = static_cast<int>(std::ceil(reach_m / step_m));
@@ -222,13 +257,14 @@ std::vector<Trial> trials_about(const Trial& from, const std::vector<Sample>& sa
   const BlurredPrint::Coarse blurred = print.coarse(sigma_m);
   const Eigen::Vector2d center = print.outline().center_m();
   std::vector<Trial> tried;
-  for (int ix = -n; ix <= n; ++ix) {
-    for (int iy = -n; iy <= n; ++iy) {
-      for (int it = -m; it <= m; ++it) {
-        Trial t = from;
-        t.shift_m += step_m * Eigen::Vector2d(ix, iy);
-        t.turn_rad += turn_rad * it;
-        t.correlation = correlation(samples, blurred, center, t);
+  for (int it = -m; it <= m; ++it) {
+    Trial t = from;
+    t.turn_rad += turn_rad * it;
+    const TurnedSamples turned(samples, blurred, center, t.turn_rad);
+    for (int ix = -n; ix <= n; ++ix) {
+      for (int iy = -n; iy <= n; ++iy) {
+        t.shift_m = from.shift_m + step_m * Eigen::Vector2d(ix, iy);
+        t.correlation = correlation(samples, turned, blurred, t.shift_m);
         tried.push_back(t);
       }
     }
@@ -258,12 +294,8 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   constexpr double kLeastCorrelation = 0.3;
   if (!returns.has_intensity || returns.size() < kFewest) return {};
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
-  std::vector<Sample> samples;
-  const std::size_t stride = std::max<std::size_t>(1, returns.size() / search.samples);
-  for (std::size_t k = 0; k < returns.size(); k += stride) {
-    const auto hit = predictor.hit(returns.point_m(k).normalized());
-    if (hit) samples.push_back({hit->board_m, returns.intensity(k)});
-  }
+  const Samples samples =
+      samples_of(returns, predictor, print.outline().center_m(), search.samples);
   // Coarse to fine: the first blur joins what a step parts. Maxima that lie elsewhere are followed
   // by themselves, so that the best can be told from the second best.
   const double radius = 0.5 * print.outline().size_m().norm();
@@ -272,11 +304,13 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   std::vector<Trial> best = distinct(trials_about({}, samples, print, kCoarse_m, search.reach_m,
                                                   search.turn_rad, kCoarse_m, turn_of(kCoarse_m)),
                                      kOtherPlace_m, search.places);
-  // Down to a millimetre: a place is worse than another by its step otherwise.
-  for (const double sigma : {0.008, 0.004, 0.002, 0.001}) {
+  // Down to a millimetre: a place is worse than another by its step otherwise. No beam sees finer
+  // than the last blur.
+  constexpr double kFinest_m = 0.004;
+  for (const double step : {0.008, 0.004, 0.002, 0.001}) {
     for (Trial& t : best) {
-      t = trials_about(t, samples, print, sigma, 2.0 * sigma, turn_of(2.0 * sigma), sigma,
-                       turn_of(sigma))
+      t = trials_about(t, samples, print, std::max(step, kFinest_m), 2.0 * step,
+                       turn_of(2.0 * step), step, turn_of(step))
               .front();
     }
   }
@@ -291,7 +325,7 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
     const Eigen::Vector3d shifted = middle + Eigen::Vector3d(t.shift_m.x(), t.shift_m.y(), 0.0);
     const Eigen::Matrix3d spin = so3_exp({0.0, 0.0, t.turn_rad}).toRotationMatrix();
     out.push_back({lidar_from_board * Rigid3::from_matrix(spin, shifted - spin * middle),
-                   t.correlation, log_likelihood(t.correlation, samples.size())});
+                   t.correlation, log_likelihood(t.correlation, samples.intensity.size())});
   }
   return out;
 }

@@ -140,9 +140,26 @@ struct Accumulator {
   std::array<double, 4> cut_squares{};  // range white, black; intensity white, black
   std::array<double, 4> cut_rows{};
   double weight = 0.0, sum = 0.0, squares = 0.0, residual_squares = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, kRangeFaults> by_faults;
+  Eigen::Matrix<double, kRangeFaults, kRangeFaults> faults;
 
   explicit Accumulator(Eigen::Index size)
-      : normal(Eigen::MatrixXd::Zero(size, size)), gradient(Eigen::VectorXd::Zero(size)) {}
+      : normal(Eigen::MatrixXd::Zero(size, size)),
+        gradient(Eigen::VectorXd::Zero(size)),
+        by_faults(size, kRangeFaults) {
+    by_faults.setZero();
+    faults.setZero();
+  }
+
+  // What an offset and a scale of the ranges do to a row of one.
+  void add_faults(const SparseRow& row, double range_m, double row_weight) {
+    const Eigen::RowVector2d by(1.0, range_m);
+    for (int a = 0; a < row.count; ++a) {
+      const auto ia = static_cast<std::size_t>(a);
+      by_faults.row(row.at[ia]) += row_weight * row.value[ia] * by;
+    }
+    faults += row_weight * by.transpose() * by;
+  }
 
   void add(const SparseRow& row, double residual, double weight) {
     for (int a = 0; a < row.count; ++a) {
@@ -160,6 +177,8 @@ struct Accumulator {
   void merge(const Accumulator& other) {
     normal += other.normal;
     gradient += other.gradient;
+    by_faults += other.by_faults;
+    faults += other.faults;
     fit.range_rows += other.fit.range_rows;
     fit.intensity_rows += other.fit.intensity_rows;
     fit.range_squares += other.fit.range_squares;
@@ -247,7 +266,9 @@ class LidarRows {
     const double z = e / sigma;
     range_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
-    out.add(row, e, robust / (sigma * sigma * noise_.range_inflation));
+    const double weight = robust / (sigma * sigma * noise_.range_inflation);
+    out.add(row, e, weight);
+    if (options_.range_faults) out.add_faults(row, returns_.point_m(k).norm(), weight);
     out.fit.range_squares += robust * z * z;
     ++out.fit.range_rows;
     note_noise(p.white, e, sigma, 0, out);
@@ -482,29 +503,38 @@ SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
   const Eigen::Index shared = layout.size - kLidarFixed;
   const Eigen::Index globals = kGlobals + sensor;
   const Eigen::Index size = globals + kLocals + shared;
-  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(lidar_size, size);
-  map.block<6, 6>(0, 0) = -ad;
-  map.block<6, 6>(0, globals) = ad;
-  map.block<3, 3>(6, 6).setIdentity();
-  map.block<4, 4>(9, globals + 6).setIdentity();
-  for (Eigen::Index i = kLidarFixed; i < own_size; ++i)
-    map(i, globals + kLocals + i - kLidarFixed) = 1.0;
-  for (Eigen::Index i = 0; i < sensor; ++i) map(own_size + i, kGlobals + i) = 1.0;
+  // The board's pose in the LiDAR frame (6) by both poses and by the board's own motion; everything
+  // else only changes its place.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> pose = Eigen::MatrixXd::Zero(6, size);
+  pose.leftCols<6>() = -ad;
+  pose.middleCols<6>(globals) = ad;
   if (layout.board >= 0) {
-    map.block<6, kBoardTerms>(0, globals + kLocals + layout.board - kLidarFixed) =
+    pose.middleCols<kBoardTerms>(globals + kLocals + layout.board - kLidarFixed) =
         board_motion(state.lidar_from_board(index), print.outline().center_m());
   }
+  const auto place = [&](Eigen::Index i) {
+    if (i < 6 + kBlurParameters) return i;
+    if (i < kLidarFixed) return globals + i - kBlurParameters;
+    if (i < own_size) return globals + kLocals + i - kLidarFixed;
+    return kGlobals + i - own_size;
+  };
+  const auto placed = [&](const Eigen::MatrixXd& rows_in) {
+    Eigen::MatrixXd moved = pose.transpose() * rows_in.topRows<6>();
+    for (Eigen::Index i = 6; i < lidar_size; ++i) moved.row(place(i)) += rows_in.row(i);
+    return moved;
+  };
   SceneEquations out;
   out.globals = globals;
   out.columns = layout.columns;
   out.shared = index < state.shared.size() && state.shared[index].size() == shared
                    ? state.shared[index]
                    : Eigen::VectorXd(Eigen::VectorXd::Zero(shared));
-  // Only the first six rows of the map are dense.
-  Eigen::MatrixXd half = Eigen::MatrixXd::Zero(lidar_size, size);
-  half.noalias() = sums.normal * map;
-  out.normal.noalias() = map.transpose() * half;
-  out.gradient.noalias() = map.transpose() * sums.gradient;
+  out.normal = placed(placed(sums.normal).transpose());
+  out.gradient = placed(sums.gradient);
+  if (options.range_faults) {
+    out.by_range_faults = placed(sums.by_faults);
+    out.range_faults = sums.faults;
+  }
   for (Eigen::Index i = 0; i < 2; ++i) {
     const Eigen::Index at = globals + 6 + 2 + i;
     out.normal(at, at) += 1.0 / (kSlopeSigma * kSlopeSigma);

@@ -153,6 +153,9 @@ struct SharedErrorColumns {
   Eigen::Index total = 0;
 };
 
+/// An offset and a scale of all ranges.
+inline constexpr int kRangeFaults = 2;
+
 /// Normal equations of one scene about the current state, in the order: globals, locals, shared
 /// errors (whose prior 1/D is not in yet). N x = g.
 struct SceneEquations {
@@ -161,6 +164,11 @@ struct SceneEquations {
   Eigen::VectorXd gradient;
   SharedErrorColumns columns;
   Eigen::VectorXd shared;  ///< The shared errors at the linearization; x holds their change.
+  /// If asked for: by how much the gradient changes with errors that all ranges share (an offset in
+  /// m, a scale), and what the ranges say of these.
+  Eigen::Matrix<double, Eigen::Dynamic, kRangeFaults> by_range_faults;
+  Eigen::Matrix<double, kRangeFaults, kRangeFaults> range_faults =
+      Eigen::Matrix<double, kRangeFaults, kRangeFaults>::Zero();
 };
 
 /// How well the rows of one scene fit at the state of the linearization.
@@ -180,6 +188,7 @@ struct LinearizationOptions {
   std::size_t stride = 1;         ///< Every how many-th return; 1 at the end.
   double robust_threshold = 3.0;  ///< Huber's, in σ.
   double patch_m = 0.2;
+  bool range_faults = false;  ///< Fill SceneEquations::by_range_faults.
 };
 
 /// Linearizes corners, ranges and intensities of one scene at a state, in parallel. `seen`: one

@@ -12,74 +12,18 @@
 namespace lvcalib {
 namespace {
 
-constexpr Eigen::Index kFaults = 2;  // Range offset (m) and scale (1).
-// Ranges are moved by this to see how the normal equations answer: far above rounding of the
-// cloud's single precision (0.2 µm at 4 m), far below what robust weights notice.
-constexpr double kProbe_m = 2e-4;
-
 // What one scene says about the faults, its own unknowns eliminated.
 struct FaultTerm {
-  Eigen::Matrix<double, Eigen::Dynamic, kFaults> coupling;  // By the globals.
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, kRangeFaults> coupling;  // By the globals.
+  Eigen::Matrix<double, kRangeFaults, kRangeFaults> information =
+      Eigen::Matrix<double, kRangeFaults, kRangeFaults>::Zero();
 };
-
-double fault_at(Eigen::Index fault, double range_m) {
-  return fault == 0 ? 1.0 : range_m;
-}
-
-// Σ w x xᵀ over the range rows, x the faults' effect on a range.
-Eigen::Matrix2d squared_effects(const BoardReturns& returns, const BlurredPrint& print,
-                                const ForwardSolution& solution, std::size_t s) {
-  const BoardPredictor predictor(print, solution.state.lidar_from_board(s),
-                                 solution.state.levels[s], solution.state.beam);
-  const SceneNoise& noise = solution.noise.scenes[s];
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (std::size_t k = 0; k < returns.size(); ++k) {
-    const Eigen::Vector3d point = returns.point_m(k);
-    const double range = point.norm();
-    const auto p = predictor.predict(point / range);
-    if (!p) continue;
-    const double sigma = std::exp(p->white * std::log(noise.range_white_m) +
-                                  (1.0 - p->white) * std::log(noise.range_black_m));
-    const Eigen::Vector2d x(1.0, range);
-    sum += x * x.transpose() / (sigma * sigma * noise.range_inflation);
-  }
-  return sum;
-}
-
-// How the scene's gradient answers to ranges moved by a fault of unit size.
-Eigen::MatrixXd gradient_by_faults(const ForwardScene& scene, std::size_t s,
-                                   const BoardReturns& returns, const BlurredPrint& print,
-                                   const ForwardSolution& solution, const LinearizationOptions& how,
-                                   const SceneEquations& at, std::vector<LocalPrint>& seen) {
-  Eigen::MatrixXd out(at.gradient.size(), kFaults);
-  for (Eigen::Index fault = 0; fault < kFaults; ++fault) {
-    Cloud moved = *returns.cloud;
-    double mean = 0.0;
-    for (const std::uint32_t i : returns.index)
-      mean += static_cast<double>(moved.points_m[i].norm());
-    mean /= static_cast<double>(std::max<std::size_t>(1, returns.size()));
-    const double unit = kProbe_m / fault_at(fault, mean);
-    for (const std::uint32_t i : returns.index) {
-      const Eigen::Vector3d p = moved.points_m[i].cast<double>();
-      const double range = p.norm();
-      moved.points_m[i] = (p * (1.0 + unit * fault_at(fault, range) / range)).cast<float>();
-    }
-    BoardReturns shifted = returns;
-    shifted.cloud = &moved;
-    SceneFit fit;
-    const SceneEquations there = linearize_scene(scene, s, shifted, print, solution.state,
-                                                 solution.noise, how, 1, fit, &seen);
-    out.col(fault) = (there.gradient - at.gradient) / unit;
-  }
-  return out;
-}
 
 FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrint& print,
                      const ForwardSolution& solution, const ForwardOptions& options) {
   const Eigen::Index globals = solution.prior.sigma.size();
   FaultTerm out;
-  out.coupling = Eigen::MatrixXd::Zero(globals, kFaults);
+  out.coupling = Eigen::MatrixXd::Zero(globals, kRangeFaults);
   const SceneNoise& noise = solution.noise.scenes[s];
   const BoardReturns returns = select_returns(
       *scene.board_points, print, solution.state.lidar_from_board(s), solution.state.beam,
@@ -88,10 +32,10 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   LinearizationOptions how;
   how.robust_threshold = options.robust_threshold;
   how.patch_m = options.patch_m;
+  how.range_faults = true;
   SceneFit fit;
-  std::vector<LocalPrint> seen(returns.size());
   const SceneEquations at =
-      linearize_scene(scene, s, returns, print, solution.state, solution.noise, how, 1, fit, &seen);
+      linearize_scene(scene, s, returns, print, solution.state, solution.noise, how, 1, fit);
   const Eigen::Index n = at.normal.rows() - globals;
   Eigen::MatrixXd own = at.normal.bottomRightCorner(n, n);
   for (std::size_t k = 0; k < kSceneErrors; ++k) {
@@ -105,11 +49,10 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(own);
   if (factor.info() != Eigen::Success) return out;
-  const Eigen::MatrixXd by = gradient_by_faults(scene, s, returns, print, solution, how, at, seen);
+  const Eigen::MatrixXd& by = at.by_range_faults;
   const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
-  const FaultTerm term{
-      by.topRows(globals) - at.normal.topRightCorner(globals, n) * eliminated,
-      squared_effects(returns, print, solution, s) - by.bottomRows(n).transpose() * eliminated};
+  const FaultTerm term{by.topRows(globals) - at.normal.topRightCorner(globals, n) * eliminated,
+                       at.range_faults - by.bottomRows(n).transpose() * eliminated};
   return term.coupling.allFinite() && term.information.allFinite() ? term : out;
 }
 
@@ -124,7 +67,7 @@ Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const Blurred
     if (solution.terms[s].usable) faults[s] = fault_term(scenes[s], s, print, solution, options);
   });
   const Eigen::Index globals = solution.prior.sigma.size();
-  const Eigen::Index all = globals + kFaults;
+  const Eigen::Index all = globals + kRangeFaults;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(all);
   Eigen::VectorXd sigma = Eigen::VectorXd::Zero(all);
@@ -133,19 +76,19 @@ Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const Blurred
     double& s = sigma(kFirstIntrinsic + k);
     if (!(s > 0.0)) s = sizes.intrinsics(k);
   }
-  sigma.tail<kFaults>() << sizes.range_offset_m, sizes.range_scale;
+  sigma.tail<kRangeFaults>() << sizes.range_offset_m, sizes.range_scale;
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (!solution.terms[s].usable) continue;
     information.topLeftCorner(globals, globals) += solution.terms[s].information;
     gradient.head(globals) += solution.terms[s].gradient;
-    information.topRightCorner(globals, kFaults) += faults[s].coupling;
-    information.bottomRightCorner<kFaults, kFaults>() += faults[s].information;
+    information.topRightCorner(globals, kRangeFaults) += faults[s].coupling;
+    information.bottomRightCorner<kRangeFaults, kRangeFaults>() += faults[s].information;
   }
   information.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) +=
       solution.prior.evidence;
   gradient.segment<kIntrinsics>(kFirstIntrinsic) += solution.prior.evidence_gradient;
-  information.bottomLeftCorner(kFaults, globals) =
-      information.topRightCorner(globals, kFaults).transpose();
+  information.bottomLeftCorner(kRangeFaults, globals) =
+      information.topRightCorner(globals, kRangeFaults).transpose();
   // In units of what each may be; the extrinsic in metres and radians.
   Eigen::VectorXd unit = sigma;
   unit.head<6>().setOnes();

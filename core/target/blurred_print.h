@@ -73,6 +73,19 @@ class BlurredPrint {
   class Coarse {
    public:
     [[nodiscard]] double at(const Eigen::Vector2d& board_m) const;
+    /// The same in two steps, for many places moved together: in samples from the first one, and
+    /// what is there.
+    [[nodiscard]] Eigen::Vector2d in_samples(const Eigen::Vector2d& board_m) const {
+      return (board_m - origin_) * per_step_;
+    }
+    [[nodiscard]] double per_m() const { return per_step_; }
+    [[nodiscard]] float at_sample(float column, float row) const {
+      const auto nearest = [](float at, int count) {
+        return static_cast<int>(std::clamp(at + 0.5F, 0.0F, static_cast<float>(count) - 1.0F));
+      };
+      return first_[4 * (static_cast<std::ptrdiff_t>(nearest(row, rows_)) * columns_ +
+                         nearest(column, columns_))];
+    }
 
    private:
     friend class BlurredPrint;
