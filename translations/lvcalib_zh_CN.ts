@@ -650,10 +650,6 @@ were saved. Take them up again?</source>
         <translation>相关性更高的效应无法区分。</translation>
     </message>
     <message>
-        <source>A size that matters must stand so many standard deviations above zero.</source>
-        <translation>有意义的大小必须高出零这么多个标准差。</translation>
-    </message>
-    <message>
         <source>Share of the held-out variance from which structure is named.</source>
         <translation>结构被指出所需占留出方差的比例。</translation>
     </message>
@@ -1438,14 +1434,6 @@ were saved. Take them up again?</source>
         <translation>拟合最好的数值不可能出现：%1，而任何设备都不会小于 %2；起作用的是其他因素。</translation>
     </message>
     <message>
-        <source>These scenes could not show it: %1; they keep %2 % of its effect after the poses adapt, and it would move the extrinsic by %3 mm and %4 mrad. To see it: %5.</source>
-        <translation>这些场景无法显示它：%1；位姿适应之后只保留其影响的 %2 %，而它会使外参移动 %3 mm 和 %4 mrad。要看到它需要：%5。</translation>
-    </message>
-    <message>
-        <source>Undecided: %1 is neither excluded nor confirmed by scenes held out; at its limit it would move the extrinsic by %2 mm and %3 mrad. To decide: %4.</source>
-        <translation>尚无定论：%1 既未被留出场景排除，也未被证实；在其上限处，它会使外参移动 %2 mm 和 %3 mrad。要判定需要：%4。</translation>
-    </message>
-    <message>
         <source>Not testable: %1.</source>
         <translation>无法检验：%1。</translation>
     </message>
@@ -1654,10 +1642,6 @@ were saved. Take them up again?</source>
         <translation>作数阈值</translation>
     </message>
     <message>
-        <source>testable</source>
-        <translation>可检验阈值</translation>
-    </message>
-    <message>
         <source>Where it fits best it predicts scenes held out worse: %1; too few of them show it. To decide: %2.</source>
         <translation>在拟合最好的取值下，它对留出场景的预测反而更差：%1；能显示它的场景太少。要判定需要：%2。</translation>
     </message>
@@ -1784,10 +1768,6 @@ were saved. Take them up again?</source>
     <message>
         <source>the board is not found in any cloud, but it is if the clouds are %1</source>
         <translation>在任何点云中都找不到标定板，但若点云为%1则能找到</translation>
-    </message>
-    <message>
-        <source>Not there: %1; it moves the extrinsic by %2 mm and %3 mrad at most.</source>
-        <translation>不存在：%1；至多使外参移动 %2 mm 和 %3 mrad。</translation>
     </message>
     <message>
         <source>Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at most.</source>
@@ -2300,6 +2280,18 @@ were saved. Take them up again?</source>
     <message>
         <source>let the device run before the scan; boards beside the middle, where motion looks different</source>
         <translation>扫描前让设备先运行一段时间；把标定板放在视场中央两侧，那里运动的表现与之不同</translation>
+    </message>
+    <message>
+        <source>Not there as far as it matters: %1; it moves the extrinsic by %2 mm and %3 mrad at most.</source>
+        <translation>就其影响而言不存在：%1；它最多使外参移动 %2 mm 和 %3 mrad。</translation>
+    </message>
+    <message>
+        <source>Cannot be told from these scenes: %1; it may move the extrinsic by %2 mm and %3 mrad. To see it: %4.</source>
+        <translation>这些场景无法判断：%1；它可能使外参移动 %2 mm 和 %3 mrad。要看到它：%4。</translation>
+    </message>
+    <message>
+        <source>Undecided: %1 is neither excluded nor confirmed by scenes held out; it may move the extrinsic by %2 mm and %3 mrad. To decide: %4.</source>
+        <translation>未定：%1 既未被留出的场景排除，也未被证实；它可能使外参移动 %2 mm 和 %3 mrad。要判定：%4。</translation>
     </message>
 </context>
 <context>

@@ -134,7 +134,7 @@ ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values
 }
 
 // The move is M θ; over θ̂ + L z with |z|² at its 95 % quantile it is at most |M θ̂| + q |M L|.
-ExtrinsicMove move_limit(const ModelFit& fit, Eigen::Index p) {
+MoveLimit move_limit(const ModelFit& fit, Eigen::Index p) {
   Eigen::MatrixXd h = fit.prior.information;
   h.bottomRightCorner(p, p).setZero();
   for (const SceneTerm& scene : fit.scenes) h += scene.information;
@@ -144,12 +144,15 @@ ExtrinsicMove move_limit(const ModelFit& fit, Eigen::Index p) {
   const Eigen::VectorXd theta = fit.solution.tail(p);
   const Eigen::MatrixXd root = fit.covariance.bottomRightCorner(p, p).llt().matrixL();
   const double quantile = p == 1 ? kUpper95 : std::sqrt(chi_square_gate(static_cast<int>(p), 0.05));
-  const auto most = [&](const Eigen::MatrixXd& rows) {
+  const auto unknown = [&](const Eigen::MatrixXd& rows) {
     const Eigen::MatrixXd spread = rows * root;
-    return (rows * theta).norm() +
-           quantile * Eigen::JacobiSVD<Eigen::MatrixXd>(spread).singularValues()(0);
+    return quantile * Eigen::JacobiSVD<Eigen::MatrixXd>(spread).singularValues()(0);
   };
-  return {most(by.topRows<3>()), most(by.middleRows<3>(3))};
+  MoveLimit out;
+  out.unknown = {unknown(by.topRows<3>()), unknown(by.middleRows<3>(3))};
+  out.most = {(by.topRows<3>() * theta).norm() + out.unknown.translation_m,
+              (by.middleRows<3>(3) * theta).norm() + out.unknown.rotation_rad};
+  return out;
 }
 
 double Candidate::total_gain() const {

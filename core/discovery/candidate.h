@@ -25,9 +25,12 @@ ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit);
 ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values,
                               double* kept = nullptr);
 
-/// How far the extrinsic may move (upper 95 % limit over the joint confidence region of the values)
-/// if the last p unknowns of a fit are left out.
-ExtrinsicMove move_limit(const ModelFit& fit, Eigen::Index p);
+/// How far the extrinsic may move if the last p unknowns of a fit are left out.
+struct MoveLimit {
+  ExtrinsicMove most;     ///< Upper 95 % limit over the joint confidence region of the values.
+  ExtrinsicMove unknown;  ///< The same if the estimate were zero: what the data cannot exclude.
+};
+MoveLimit move_limit(const ModelFit& fit, Eigen::Index p);
 
 /// One effect at one shape number, tried in addition to the model.
 struct Candidate {
@@ -43,7 +46,7 @@ struct Candidate {
   std::array<double, kChannels> acting_share{1.0, 1.0, 1.0, 1.0};
   double p_value = 1.0;
   double extrinsic_move_sigmas = 0.0;
-  ExtrinsicMove limit;      ///< Of the extrinsic, at most (95 %), if the effect is left out.
+  MoveLimit limit;          ///< Of the extrinsic if the effect is left out.
   ExtrinsicMove tolerance;  ///< What such a move has to exceed to matter.
   /// The channel that has to show it: of an effect that changes intensities these. Edges alone
   /// cannot tell it from what else moves edges.

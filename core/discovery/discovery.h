@@ -64,7 +64,6 @@ struct DiscoveryOptions {
   double speaking_nats = 0.5;         ///< … of those whose log-density changes by so much.
   double min_explained = 0.2;         ///< Of what a channel misses by, if that exceeds its noise.
   double alias_correlation = 0.95;    ///< Candidates correlated higher cannot be told apart.
-  double testable = 3.0;              ///< A material size must stand so many σ above zero.
   double min_structure = 0.02;        ///< Held-out share of variance worth a mention, or …
   double min_sure_structure = 0.01;   ///< … where the scenes agree that it is no chance.
   double min_height = 0.1;            ///< Least height (in σ of one range) of something local.

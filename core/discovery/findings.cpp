@@ -208,12 +208,12 @@ class Judge {
     f.p_value = c.p_value;
     f.criteria =
         criteria_of(c, search_.candidates().size(), search_.table().scenes.size(), options_);
-    f.matters = c.limit.exceeds(c.tolerance);
+    f.matters = c.limit.most.exceeds(c.tolerance);
     const Eigen::Index p = columns.count();
     const Eigen::VectorXd theta = c.fit.solution.tail(p);
     const Eigen::MatrixXd covariance = c.fit.covariance.bottomRightCorner(p, p);
     set_parameters(columns, theta, covariance, f);
-    judge_size(columns, c, f);
+    judge_other(columns, c, f);
     for (const Selection& s : selected_) {
       if (std::find(s.aliases.begin(), s.aliases.end(), f.id) == s.aliases.end()) continue;
       f.verdict = EffectVerdict::kAliased;
@@ -226,28 +226,27 @@ class Judge {
     out_.push_back(std::move(f));
   }
 
-  // Absent if everything that would matter is excluded; not testable if it could not be seen.
-  void judge_size(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
-    const Eigen::Index p = columns.count();
-    Eigen::VectorXd limit(p);
-    // Smallness is no excuse: what may move the extrinsic by more than the tolerance is not absent.
-    bool excluded = !f.matters;
-    bool visible = true;
-    for (Eigen::Index k = 0; k < p; ++k) {
-      const ParameterEstimate& e = f.parameters[static_cast<std::size_t>(k)];
-      const double material = columns.parameters[static_cast<std::size_t>(k)].material;
-      limit(k) = std::max(material, std::abs(e.value) + kUpper95 * e.sigma);
-      excluded = excluded && std::abs(e.value) + kUpper95 * e.sigma < material;
-      visible = visible && material > options_.testable * e.sigma;
+  // Whether the data say more of it than what is believable beforehand: a third of that, or less.
+  static bool is_told(const EffectColumns& columns, const EffectFinding& f) {
+    constexpr double kTold = 1.0 / 3.0;
+    for (std::size_t k = 0; k < f.parameters.size(); ++k) {
+      if (f.parameters[k].sigma > kTold * columns.parameters[k].prior_sigma) return false;
     }
-    set_move(move_if_omitted(c.fit, limit, &f.kept), f);
-    const std::string moved = " would move the extrinsic by " + move_text(f);
-    if (excluded) {
+    return true;
+  }
+
+  // Absent if at its limit it would not move the extrinsic by more than is tolerated. Not testable
+  // if the data could not exclude that even where they saw nothing of it, or hardly see it at all.
+  void judge_other(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
+    static_cast<void>(move_if_omitted(c.fit, c.fit.solution.tail(columns.count()), &f.kept));
+    set_move(c.limit.most, f);
+    const bool told = is_told(columns, f);
+    if (!f.matters && told) {
       f.verdict = EffectVerdict::kAbsent;
-      set_move(c.limit, f);
-      f.explanation = (is_sure(c, search_.candidates().size(), options_) ? "Too small to matter: "
-                                                                         : "Not there: ") +
-                      values_text(f) + "; it moves the extrinsic by " + move_text(f) + " at most.";
+      f.explanation =
+          (is_sure(c, search_.candidates().size(), options_) ? "Too small to matter: "
+                                                             : "Not there as far as it matters: ") +
+          values_text(f) + "; it moves the extrinsic by " + move_text(f) + " at most.";
       return;
     }
     f.verdict = EffectVerdict::kNotTestable;
@@ -274,15 +273,15 @@ class Judge {
                                 100.0 * std::max(0.0, c.explained_share)) +
                       std::string(name_of(c.explained_in)) + " channel: " + values_text(f) +
                       "; something else is at work there.";
-    } else if (!visible) {
-      f.explanation = "These scenes could not show it: " + values_text(f) +
-                      formatted("; they keep %.1f %% of its effect after the poses adapt, and it",
-                                100.0 * f.kept) +
-                      moved + ". To see it: " + columns.effect->info().breaker + ".";
+    } else if (!told || c.limit.unknown.exceeds(c.tolerance)) {
+      f.explanation = "Cannot be told from these scenes: " + values_text(f) +
+                      "; it may move the extrinsic by " + move_text(f) +
+                      ". To see it: " + columns.effect->info().breaker + ".";
     } else {
       f.explanation = "Undecided: " + values_text(f) +
-                      " is neither excluded nor confirmed by scenes held out; at its limit it" +
-                      moved + ". To decide: " + columns.effect->info().breaker + ".";
+                      " is neither excluded nor confirmed by scenes held out; it may move the "
+                      "extrinsic by " +
+                      move_text(f) + ". To decide: " + columns.effect->info().breaker + ".";
     }
   }
 

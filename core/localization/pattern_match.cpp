@@ -124,24 +124,28 @@ std::vector<Eigen::Vector2d> promising_centers(const SampleGrid& grid,
                                                const RunContext& context) {
   constexpr double kLively = 2.0;
   const int reach = static_cast<int>(std::ceil(range.slack_m / range.step_m));
+  std::vector<Eigen::Vector2d> all;
+  for (int iy = -reach; iy <= reach; ++iy) {
+    for (int ix = -reach; ix <= reach; ++ix)
+      all.emplace_back(range.center_m + range.step_m * Eigen::Vector2d(ix, iy));
+  }
+  // A board changes what is seen from centres up to a diagonal away.
+  const auto touched_all = [&](std::size_t tried) {
+    const double touched_m2 = 16.0 * grid.radius_m() * grid.radius_m();
+    return static_cast<double>(tried) * range.step_m * range.step_m < touched_m2;
+  };
+  if (touched_all(all.size())) return all;
   std::vector<Eigen::Vector2d> centers;
   std::vector<double> spreads;
   std::vector<LocalSample> near;
-  for (int iy = -reach; iy <= reach; ++iy) {
+  for (const Eigen::Vector2d& center : all) {
     if (context.stopped()) return {};
-    for (int ix = -reach; ix <= reach; ++ix) {
-      const Eigen::Vector2d center = range.center_m + range.step_m * Eigen::Vector2d(ix, iy);
-      grid.about(center.cast<float>(), count, near);
-      if (near.size() < kMinInside) continue;
-      centers.push_back(center);
-      spreads.push_back(spread(near));
-    }
+    grid.about(center.cast<float>(), count, near);
+    if (near.size() < kMinInside) continue;
+    centers.push_back(center);
+    spreads.push_back(spread(near));
   }
-  // A board changes what is seen from centres up to a diagonal away.
-  const double touched_m2 = 16.0 * grid.radius_m() * grid.radius_m();
-  if (static_cast<double>(centers.size()) * range.step_m * range.step_m < touched_m2) {
-    return centers;
-  }
+  if (touched_all(centers.size())) return centers;
   const double plain = quantile(spreads, 0.25);
   std::vector<Eigen::Vector2d> lively;
   for (std::size_t k = 0; k < centers.size(); ++k) {

@@ -46,8 +46,9 @@ inline constexpr const char* kModelPatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "Explains the same as %1, which is in the model: these scenes cannot tell "
                       "the two apart. To tell: %2."),
-    QT_TRANSLATE_NOOP("Core",
-                      "Not there: %1; it moves the extrinsic by %2 mm and %3 mrad at most."),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "Not there as far as it matters: %1; it moves the extrinsic by %2 mm and %3 mrad at most."),
     QT_TRANSLATE_NOOP(
         "Core", "Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at most."),
     QT_TRANSLATE_NOOP("Core",
@@ -68,11 +69,11 @@ inline constexpr const char* kModelPatterns[] = {
                       "something else is at work."),
     QT_TRANSLATE_NOOP(
         "Core",
-        "These scenes could not show it: %1; they keep %2 % of its effect after the poses adapt, "
-        "and it would move the extrinsic by %3 mm and %4 mrad. To see it: %5."),
+        "Cannot be told from these scenes: %1; it may move the extrinsic by %2 mm and %3 mrad. To "
+        "see it: %4."),
     QT_TRANSLATE_NOOP("Core",
-                      "Undecided: %1 is neither excluded nor confirmed by scenes held out; at its "
-                      "limit it would move the extrinsic by %2 mm and %3 mrad. To decide: %4."),
+                      "Undecided: %1 is neither excluded nor confirmed by scenes held out; it may "
+                      "move the extrinsic by %2 mm and %3 mrad. To decide: %4."),
     QT_TRANSLATE_NOOP("Core", "Not testable: %1."),
     // Why an effect cannot be tested or used.
     QT_TRANSLATE_NOOP("Core", "no time in these clouds"),

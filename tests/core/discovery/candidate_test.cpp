@@ -57,7 +57,7 @@ TEST_F(Candidates, ASureButTinyEffectIsThereAndDoesNotMatter) {
   EXPECT_LT(bias.p_value, 1e-3);
   EXPECT_TRUE(is_sure(bias, 1, options_));
   EXPECT_TRUE(is_accepted(bias, 1, 6, options_));
-  EXPECT_FALSE(bias.limit.exceeds(bias.tolerance));
+  EXPECT_FALSE(bias.limit.most.exceeds(bias.tolerance));
 }
 
 // Boards at which range and incidence go together, so that n and p act alike: neither is known, but
