@@ -139,7 +139,8 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   out.range_m = r + pull.dot(log_power) + curved;
   const Eigen::Matrix2d log_power_slope =
       contrast / power * print.hessian_per_m2 - log_power * log_power.transpose();
-  out.range_by_pose = hit_range_by_pose + pull * log_power_slope * hit_by_pose;
+  out.range_by_shift = -pull * log_power_slope;
+  out.range_by_pose = hit_range_by_pose - out.range_by_shift * hit_by_pose;
   return out;
 }
 

@@ -48,6 +48,7 @@ struct ReturnPrediction {
   Eigen::Matrix<double, 1, kLevelParameters> intensity_by_levels;
   Eigen::Matrix<double, 1, kBlurParameters> intensity_by_blur;  ///< By blur_rad2: hh, hv, vv.
   Eigen::RowVector2d intensity_by_shift;  ///< By a shift of the print on the board, 1/m.
+  Eigen::RowVector2d range_by_shift;      ///< The same of the range: the pull of the footprint.
   Eigen::RowVector2d intensity_by_angle;  ///< By the beam's two angles, 1/rad.
 };
 

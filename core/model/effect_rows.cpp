@@ -3,6 +3,22 @@
 
 namespace lvcalib {
 
+double log_contrast(const BoardLevels& levels) {
+  constexpr double kLeastShare = 0.01;
+  const double white = std::max(levels.white, 1e-12);
+  return std::log(white / std::max(levels.black, kLeastShare * white));
+}
+
+std::optional<BoundaryRow> edge_beside(const BeamPoint& beam, double log_contrast) {
+  if (!beam.edge) return std::nullopt;
+  BoundaryRow edge;
+  edge.beam = beam;
+  edge.psi_rad = beam.edge->psi_rad;
+  edge.transition_m = beam.edge->transition_m;
+  edge.log_contrast = log_contrast;
+  return edge;
+}
+
 EffectColumnsList columns_in_use(const std::vector<EffectInUse>& in_use,
                                  const MeasurementTable& table) {
   EffectColumnsList out;

@@ -42,6 +42,8 @@ struct PrintSensitivity {
       const double growth = edge->beam.edge ? edge->beam.edge->growth : 1.0;
       outward = growth * Eigen::Vector2d(std::cos(edge->psi_rad), std::sin(edge->psi_rad));
     }
+    Moves(const SceneGeometry&, Eigen::Matrix3d&&, const Eigen::Vector3d&,
+          const BoundaryRow*) = delete;  // The rotation is referred to, not kept.
     const Eigen::Matrix3d& rotation;
     Eigen::Matrix<double, 2, 3> shift_by_move;
     Eigen::Vector2d outward = Eigen::Vector2d::Zero();
@@ -62,25 +64,35 @@ class EffectRows {
     scalars_.resize(most);
   }
 
-  /// Movements of a beam's measured point and of the board under it, projected on the row.
+  /// What one unit of each parameter of an effect does to a range: by itself, and by displacing the
+  /// print whose edges pull the range.
+  struct RangeChange {
+    std::span<const double> range_m;
+    std::span<const Eigen::Vector2d> shift_m;
+  };
+  /// Movements of a beam's measured point and of the board under it, projected on the row. `edge`:
+  /// that in whose blur the return is, if any. What moves the light alone leaves the range.
   template <class Sink>
-  void range(const RangeRow& r, const Eigen::Vector3d& row, const Eigen::Matrix3d& lidar_from_board,
-             Sink&& sink) {
-    std::vector<double> further;
+  void range(const RangeRow& r, const Eigen::Vector3d& row, const PrintSensitivity::Moves& moves,
+             const BoundaryRow* edge, Sink&& sink) {
     for (const EffectColumns& c : columns_) {
       const std::size_t n = c.parameters.size();
       reset(n);
-      further.assign(n, 0.0);
+      further_.assign(n, 0.0);
+      outward_.assign(n, 0.0);
+      shift_.assign(n, Eigen::Vector2d::Zero());
       c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
-      c.effect->range(r, table_, c.shape, further);
+      c.effect->range(r, table_, c.shape, further_);
       c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
                       std::span(board_).first(n));
+      if (edge != nullptr && !c.print_contrast) c.effect->edge(*edge, table_, c.shape, outward_);
       const double sign = c.print_contrast && r.print != Print::kWhite ? -1.0 : 1.0;
       for (std::size_t k = 0; k < n; ++k) {
-        scalars_[k] =
-            sign * (row.dot(moves_[k]) + row.dot(lidar_from_board * board_[k]) + further[k]);
+        const Eigen::Vector3d move = moves_[k] + moves.rotation * board_[k];
+        scalars_[k] = sign * (row.dot(move) + further_[k]);
+        if (!c.print_contrast) shift_[k] = shift_of(move, outward_[k], moves);
       }
-      sink(c, std::span(scalars_).first(n));
+      sink(c, RangeChange{std::span(scalars_).first(n), shift_});
     }
   }
 
@@ -127,11 +139,7 @@ class EffectRows {
         c.effect->blur(r.beam, table_, c.shape, blur_);
         if (edge != nullptr) c.effect->edge(*edge, table_, c.shape, outward_);
         for (std::size_t k = 0; k < n; ++k) {
-          const Eigen::Vector3d move = moves_[k] + moves.rotation * board_[k];
-          shift_[k] = moves.shift_by_move * move;
-          // What is left of a move along the ray is rounding.
-          if (shift_[k].squaredNorm() < 1e-18 * move.squaredNorm()) shift_[k].setZero();
-          shift_[k] += outward_[k] * moves.outward;
+          shift_[k] = shift_of(moves_[k] + moves.rotation * board_[k], outward_[k], moves);
         }
       }
       sink(c, PrintSensitivity::Change{shift_, blur_, std::span(scalars_).first(n)});
@@ -139,6 +147,14 @@ class EffectRows {
   }
 
  private:
+  static Eigen::Vector2d shift_of(const Eigen::Vector3d& move, double outward_m,
+                                  const PrintSensitivity::Moves& moves) {
+    Eigen::Vector2d shift = moves.shift_by_move * move;
+    // What is left of a move along the ray is rounding.
+    if (shift.squaredNorm() < 1e-18 * move.squaredNorm()) shift.setZero();
+    return shift + outward_m * moves.outward;
+  }
+
   void reset(std::size_t n) {
     for (std::size_t k = 0; k < n; ++k) {
       moves_[k].setZero();
@@ -154,6 +170,7 @@ class EffectRows {
   std::vector<Eigen::Vector2d> pixels_;
   std::vector<double> scalars_;
   std::vector<double> outward_;
+  std::vector<double> further_;
   std::vector<Eigen::Vector3d> blur_;
   std::vector<Eigen::Vector3d> spot_;
   std::vector<Eigen::Vector2d> shift_;
@@ -170,6 +187,13 @@ struct CornerPrediction {
 /// Measured minus predicted; nothing if the camera cannot image the corner.
 std::optional<CornerPrediction> predict(const CornerRow& row, const Camera& camera,
                                         const Rigid3& camera_from_board);
+
+/// ln(white / black) of a scene's levels. Black that returns next to nothing has no logarithm: a
+/// hundredth of white stands for it.
+double log_contrast(const BoardLevels& levels);
+
+/// The edge in whose blur a return is, as the hooks of effects see it; its reading is left empty.
+std::optional<BoundaryRow> edge_beside(const BeamPoint& beam, double log_contrast);
 
 /// The columns of effects in use, in their order.
 EffectColumnsList columns_in_use(const std::vector<EffectInUse>& in_use,

@@ -80,6 +80,7 @@ class SceneAccumulator {
         used_rows_(table, in_use_columns_.list()),
         candidate_rows_(table, columns.list()),
         print_(table, state, scene, in_use),
+        log_contrast_(log_contrast(state.levels[scene])),
         layout_(layout) {
     extrinsic_ = layout_.size();
     effects_ = extrinsic_ + 6;
@@ -146,11 +147,6 @@ class SceneAccumulator {
     ++rows_;
   }
 
-  void set_effect(const EffectColumns& c, std::span<const double> by) {
-    for (std::size_t k = 0; k < by.size(); ++k)
-      row_.set(effects_ + c.first + static_cast<int>(k), by[k]);
-  }
-
   void range(const RangeRow& r) {
     const auto row = print_.range(r);
     if (!row) return;
@@ -161,9 +157,16 @@ class SceneAccumulator {
       row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(3 + k)]);
     const int line = line_of(r.beam);
     if (line >= 0) row_.set(layout_.line_column() + line, 1.0);
-    candidate_rows_.range(
-        r, geometry_.range_row(r.beam.direction), rotation_,
-        [&](const EffectColumns& c, std::span<const double> by) { set_effect(c, by); });
+    const auto edge = edge_beside(r.beam, log_contrast_);
+    const BoundaryRow* const beside = edge ? &*edge : nullptr;
+    const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction, beside);
+    candidate_rows_.range(r, geometry_.range_row(r.beam.direction), moves, beside,
+                          [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
+                            for (std::size_t k = 0; k < by.range_m.size(); ++k) {
+                              row_.set(effects_ + c.first + static_cast<int>(k),
+                                       by.range_m[k] + row->range_by_shift.dot(by.shift_m[k]));
+                            }
+                          });
     finish(row->residual, r.sigma_m);
   }
 
@@ -238,6 +241,7 @@ class SceneAccumulator {
   EffectRows used_rows_;
   EffectRows candidate_rows_;
   PrintRows print_;
+  double log_contrast_;
   const LocalLayout& layout_;
   Eigen::MatrixXd products_;
   Eigen::VectorXd fourth_powers_;

@@ -12,6 +12,7 @@ PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std
       geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
       rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
       predictor_(*table.print, geometry_.lidar_from_board(), state.levels[scene], state.beam),
+      log_contrast_(log_contrast(state.levels[scene])),
       motion_(board_motion(geometry_.lidar_from_board(), table.print->outline().center_m())) {}
 
 void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
@@ -26,15 +27,24 @@ Matrix6d PrintRows::board_motion_by_pose() const {
 }
 
 std::optional<PrintRow> PrintRows::range(const RangeRow& row) {
-  const auto p = predictor_.predict(row.beam.direction, Eigen::Vector2d::Zero(), &row.seen);
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  double further = 0.0;
+  const auto edge = edge_beside(row.beam, log_contrast_);
+  const BoundaryRow* const beside = edge ? &*edge : nullptr;
+  const PrintSensitivity::Moves moves(geometry_, rotation_, row.beam.direction, beside);
+  rows_.range(row, geometry_.range_row(row.beam.direction), moves, beside,
+              [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
+                for (std::size_t k = 0; k < by.range_m.size(); ++k) {
+                  further += value(c, k) * by.range_m[k];
+                  shift += value(c, k) * by.shift_m[k];
+                }
+              });
+  const auto p = predictor_.predict(row.beam.direction, shift, &row.seen);
   if (!p) return std::nullopt;
   PrintRow out;
-  out.residual = row.measured_m - p->range_m;
+  out.residual = row.measured_m - p->range_m - further;
+  out.range_by_shift = p->range_by_shift;
   set_pose(p->range_by_pose.transpose(), out);
-  const Eigen::Vector3d a = geometry_.range_row(row.beam.direction);
-  rows_.range(row, a, rotation_, [&](const EffectColumns& c, std::span<const double> by) {
-    for (std::size_t k = 0; k < by.size(); ++k) out.residual -= by[k] * value(c, k);
-  });
   return out;
 }
 

@@ -20,6 +20,7 @@ struct PrintRow {
   Eigen::Matrix<double, kLevelParameters, 1> by_levels =
       Eigen::Matrix<double, kLevelParameters, 1>::Zero();
   PrintSensitivity print;
+  Eigen::RowVector2d range_by_shift = Eigen::RowVector2d::Zero();  ///< Of a range (1).
 };
 
 /// Rows of one scene of a table with a print, predicted by BoardPredictor with effects in use: the
@@ -59,6 +60,7 @@ class PrintRows {
   SceneGeometry geometry_;
   Eigen::Matrix3d rotation_;
   BoardPredictor predictor_;
+  double log_contrast_;
   Matrix6d motion_;  // Left perturbation of T_lidar_board by the board's motion.
 };
 

@@ -43,7 +43,8 @@ struct Return {
   PrintView::Kind print = PrintView::Kind::kPlain;
   double jitter = 0.0;  // Standard deviation that the jitter gives the intensity.
   LocalPrint seen;      // The print at the place that the ray meets,
-  LocalPrint moved;     // and at the one that effects displace under it.
+  LocalPrint moved;     // at the one that effects displace under its light,
+  LocalPrint ranged;    // and under what is ranged.
 
   [[nodiscard]] bool is_plain() const { return print == PrintView::Kind::kPlain; }
   [[nodiscard]] bool is_edge() const { return print == PrintView::Kind::kEdge; }
@@ -99,26 +100,21 @@ class ReturnEffects {
   ReturnEffects& operator=(const ReturnEffects&) = delete;
 
   struct Sum {
-    Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();
+    Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();        // Of the print under the light,
+    Eigen::Vector2d range_shift_m = Eigen::Vector2d::Zero();  // and under what is ranged.
     double log_intensity = 0.0;
     double range_m = 0.0;
   };
-  // `edge`: which the spot sees, if any.
+  // `near`: the edge that the spot sees, if any.
   Sum of(const SceneGeometry& geometry, const Eigen::Matrix3d& rotation, BeamPoint beam,
          double predicted, const std::optional<NearEdge>& near, double log_contrast) {
     Sum out;
     if (in_use_.empty()) return out;
     beam.darkness = darkness(table_, predicted);
     const Print side = beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
-    BoundaryRow edge;
-    if (near) {
-      beam.edge = near;
-      edge.beam = beam;
-      edge.psi_rad = near->psi_rad;
-      edge.transition_m = near->transition_m;
-      edge.log_contrast = log_contrast;
-    }
-    const BoundaryRow* seen = near ? &edge : nullptr;
+    if (near) beam.edge = near;
+    const auto edge = edge_beside(beam, log_contrast);
+    const BoundaryRow* seen = edge ? &*edge : nullptr;
     const PrintSensitivity::Moves moves(geometry, rotation, beam.direction, seen);
     rows_.reading({beam, side, 0.0, 1.0, {}}, seen, moves,
                   [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
@@ -131,9 +127,12 @@ class ReturnEffects {
     range.beam = beam;
     range.print = side;
     range.intensity = predicted;
-    rows_.range(range, geometry.range_row(beam.direction), rotation,
-                [&](const EffectColumns& c, std::span<const double> by) {
-                  for (std::size_t k = 0; k < by.size(); ++k) out.range_m += value(c, k) * by[k];
+    rows_.range(range, geometry.range_row(beam.direction), moves, seen,
+                [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
+                  for (std::size_t k = 0; k < by.range_m.size(); ++k) {
+                    out.range_m += value(c, k) * by.range_m[k];
+                    out.range_shift_m += value(c, k) * by.shift_m[k];
+                  }
                 });
     return out;
   }
@@ -234,10 +233,18 @@ class SceneRows {
       // What an edge grown by effects does to the spot is seen as by the print displaced.
       const double beside = beside_edge(*p, beam);
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
-                                                near_edge(*p, beam, beside), log_contrast());
-      r.moved = r.seen;
-      if (!sum.shift_m.isZero()) p = predictor.predict(direction, sum.shift_m, &r.moved, &r.moved);
-      r.range_residual_m = r.measured_m - p->range_m - sum.range_m;
+                                                near_edge(*p, beam, beside), log_contrast(levels_));
+      r.ranged = r.moved = r.seen;
+      auto ranged = p;
+      if (!sum.range_shift_m.isZero())
+        ranged = predictor.predict(direction, sum.range_shift_m, &r.ranged, &r.ranged);
+      if ((sum.shift_m - sum.range_shift_m).isZero(1e-9)) {
+        r.moved = r.ranged;
+        p = ranged;
+      } else if (!sum.shift_m.isZero()) {
+        p = predictor.predict(direction, sum.shift_m, &r.moved, &r.moved);
+      }
+      r.range_residual_m = r.measured_m - ranged->range_m - sum.range_m;
       r.white = p->white;
       r.plain_level = p->intensity;
       if (has_intensity_)
@@ -251,11 +258,6 @@ class SceneRows {
     };
     std::sort(returns_.begin(), returns_.end(),
               [&](const Return& a, const Return& b) { return key(a) < key(b); });
-  }
-
-  [[nodiscard]] double log_contrast() const {
-    const double white = std::max(levels_.white, 1e-12);
-    return std::log(white / std::max(levels_.black, kLeastShare * white));
   }
 
   // What edges beside the nearest add to the intensity that growing black takes, per metre.
@@ -355,7 +357,7 @@ class SceneRows {
     row.print = r.surface() == 0 ? Print::kWhite : Print::kBlack;
     row.sigma_m = robust_sigma(noise_between(noise_.range_m[0], noise_.range_m[1], r.white),
                                r.range_residual_m);
-    row.seen = r.seen;
+    row.seen = r.ranged;
     return row;
   }
 
@@ -369,7 +371,7 @@ class SceneRows {
     row.beam = r.beam;
     row.psi_rad = r.beam.edge->psi_rad;
     row.transition_m = r.beam.edge->transition_m;
-    row.log_contrast = log_contrast();
+    row.log_contrast = log_contrast(levels_);
     row.sigma_m = intensity_sigma(r) / r.slope;
     row.edge_normal_rad = edge_normal(geometry_, r.beam, row.psi_rad);
     row.reading = {r.intensity, -r.slope, r.moved};

@@ -66,9 +66,10 @@ TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
     effect_->lidar(row.beam, table, columns().shape, point);
     effect_->board({row.beam.board_m, Eigen::Vector2d::Zero()}, table.target, columns().shape,
                    board);
-    rows.range(row, g.range_row(row.beam.direction),
-               g.lidar_from_board().rotation.toRotationMatrix(),
-               [&](const EffectColumns&, std::span<const double> by) {
+    const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
+    const PrintSensitivity::Moves moves(g, rotation, row.beam.direction, nullptr);
+    rows.range(row, g.range_row(row.beam.direction), moves, nullptr,
+               [&](const EffectColumns&, const EffectRows::RangeChange& by) {
                  for (std::size_t k = 0; k < n; ++k) {
                    // Steps of a micrometre at most, whatever the parameter's unit.
                    const double size = std::max(1.0, point[k].norm() + board[k].norm());
@@ -77,14 +78,14 @@ TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
                        (range_residual(g, row.beam, step * point[k], step * board[k].z()) -
                         range_residual(g, row.beam, -step * point[k], -step * board[k].z())) /
                        (2.0 * step);
-                   EXPECT_NEAR(by[k], numeric, 1e-5 * (size + std::abs(numeric)));
+                   EXPECT_NEAR(by.range_m[k], numeric, 1e-5 * (size + std::abs(numeric)));
                  }
                });
   }
 }
 
 // In the blur of an edge: how far the print moves under the beam, and how the beam and its power
-// change.
+// change; a range sees the same print move.
 TEST_P(EveryEffect, ReadingsSeeThePrintMoveUnderTheBeam) {
   const MeasurementTable& table = made_.table;
   EffectRows rows(table, columns_.list());
@@ -128,6 +129,22 @@ TEST_P(EveryEffect, ReadingsSeeThePrintMoveUnderTheBeam) {
                      EXPECT_EQ(by.log_intensity[k], log_intensity[k]);
                    }
                  });
+    // What is ranged is displaced by all but what moves the light alone.
+    RangeRow ranged;
+    ranged.beam = row.beam;
+    rows.range(ranged, g.range_row(row.beam.direction), moves, &row,
+               [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
+                 if (c.print_contrast) return;
+                 for (std::size_t k = 0; k < n; ++k) {
+                   const Eigen::Vector3d move = point[k] + rotation * board[k];
+                   const double size = std::max(1.0, move.norm());
+                   const double step = kStep / size;
+                   const Eigen::Vector2d numeric =
+                       (seen(step * move) - seen(-step * move)) / (2.0 * step) +
+                       outward[k] * Eigen::Vector2d(std::cos(row.psi_rad), std::sin(row.psi_rad));
+                   EXPECT_LT((by.shift_m[k] - numeric).norm(), 1e-4 * (size + numeric.norm()));
+                 }
+               });
   }
 }
 
