@@ -103,40 +103,68 @@ void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape)
 }
 
 void EffectSearch::refit() {
-  // A print is seen through a blur of millimetres: far from linear in what moves it.
-  constexpr int kSteps = 10;
+  constexpr int kSteps = 15;
   joint_covariance_.reset();
   shape_sigmas_.clear();
   ranked_ = false;
+  linear_ = linearize(table(), state_, model(), own_columns(), context_);
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
-    const EffectColumnsList columns = own_columns();
-    linear_ = linearize(table(), state_, model(), columns, context_);
-    if (context_.stopped()) return;
-    reference_ = make_reference(linear_, own_subset(columns), variances_, {});
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
     variances_ = reference_.fit.variances;
-    const Eigen::VectorXd& x = reference_.fit.solution;
-    std::vector<Vector6d> boards;
-    for (const Eigen::VectorXd& local : reference_.fit.local) boards.push_back(local.head<6>());
     // A displacement of a tenth of the standard deviations leaves a hundredth of itself to the
     // next.
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
-    const bool settled = (x.cwiseAbs().array() <= 0.1 * sigma.array()).all();
-    state_ = moved(state_, x.head<6>(), boards);
-    move_levels();
-    Eigen::Index at = 6;
-    for (EffectInUse& use : in_use_) {
-      use.values += x.segment(at, use.values.size());
-      at += use.values.size();
+    if ((reference_.fit.solution.cwiseAbs().array() <= 0.1 * sigma.array()).all()) {
+      move(1.0);
+      return;
     }
-    if (sees_print()) move_blur(x.segment<3>(at));
-    if (settled) break;
+    if (!descend()) return;
   }
+  if (!context_.stopped())
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
 }
 
-void EffectSearch::move_levels() {
+// A print is seen through a blur of millimetres: far from linear in what moves it. Steps that do
+// not lower what is fitted are halved.
+bool EffectSearch::descend() {
+  constexpr double kLeastShare = 0.01;
+  const ModelState state = state_;
+  const std::vector<EffectInUse> in_use = in_use_;
+  const double before = misfit(linear_, reference_.subset, variances_);
+  for (double share = 1.0; share > kLeastShare; share *= 0.5) {
+    move(share);
+    Linearization next = linearize(table(), state_, model(), own_columns(), context_);
+    if (context_.stopped()) return false;
+    if (misfit(next, own_subset(next.columns), variances_) < before) {
+      linear_ = std::move(next);
+      return true;
+    }
+    state_ = state;
+    in_use_ = in_use;
+  }
+  return false;
+}
+
+// By a share of the reference's solution.
+void EffectSearch::move(double share) {
+  const Eigen::VectorXd x = share * reference_.fit.solution;
+  std::vector<Vector6d> boards;
+  for (const Eigen::VectorXd& local : reference_.fit.local)
+    boards.push_back(share * local.head<6>());
+  state_ = moved(state_, x.head<6>(), boards);
+  move_levels(share);
+  Eigen::Index at = 6;
+  for (EffectInUse& use : in_use_) {
+    use.values += x.segment(at, use.values.size());
+    at += use.values.size();
+  }
+  if (sees_print()) move_blur(x.segment<3>(at));
+}
+
+void EffectSearch::move_levels(double share) {
   for (std::size_t s = 0; s < state_.levels.size(); ++s) {
     const Eigen::VectorXd step =
-        reference_.fit.local[s].segment<kLevelParameters>(LocalLayout::kPose);
+        share * reference_.fit.local[s].segment<kLevelParameters>(LocalLayout::kPose);
     BoardLevels& levels = state_.levels[s];
     levels.white += step(0);
     levels.black += step(1);

@@ -91,7 +91,9 @@ class EffectSearch {
  private:
   // Lets groups of random effects in that were absent and that the residuals show.
   bool admit_structure();
-  void move_levels();
+  bool descend();
+  void move(double share);
+  void move_levels(double share);
   void move_blur(const Eigen::Vector3d& step);
   // Judges promising candidates again after a full refit, until one is accepted.
   void refit_promising();

@@ -262,6 +262,22 @@ ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
   return Fitter(linear, subset, start, options).run();
 }
 
+double misfit(const Linearization& linear, const ColumnSubset& subset,
+              const ModelVariances& variances) {
+  double out = 0.0;
+  for (std::size_t k = 0; k < subset.columns.size(); ++k)
+    out += std::pow(subset.prior_mean[k] / subset.prior_sigma[k], 2);
+  for (const SceneProducts& scene : linear.scenes) {
+    Blocks b = blocks_of(scene, indices_of(scene, subset), variances.channel);
+    add_priors(scene.layout, variances, b);
+    const Eigen::Index random = b.local.rows() - LocalLayout::kFixed;
+    const Eigen::VectorXd gradient = b.local_gradient.tail(random);
+    out +=
+        b.squares - gradient.dot(b.local.bottomRightCorner(random, random).llt().solve(gradient));
+  }
+  return out;
+}
+
 SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
                      const ModelVariances& variances) {
   Blocks b = blocks_of(products, indices_of(products, subset), variances.channel);

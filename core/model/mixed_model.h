@@ -65,6 +65,12 @@ struct MixedModelOptions {
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options);
 
+/// How badly the state itself fits, all increments of extrinsic, poses, levels and columns zero and
+/// the random effects fitted: minus twice the log-posterior up to a constant of the variances. What
+/// a step of Gauss and Newton has to lower.
+double misfit(const Linearization& linear, const ColumnSubset& subset,
+              const ModelVariances& variances);
+
 /// What a scene's rows would say about extrinsic and columns with given variances; for scenes that
 /// are only planned. Their residuals may be anything: only `information` is of use.
 SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
