@@ -20,6 +20,7 @@
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
 #include "modelling/model_page.h"
+#include "pages/threshold_pane.h"
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
@@ -39,6 +40,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       demo_(demo_options()),
       workspace_(std::make_unique<Workspace>(settings.data_folder())),
       model_work_(std::make_unique<ModelWork>(*workspace_)),
+      preview_(std::make_unique<PreviewWork>(*workspace_)),
       actions_(new MainActions(*this, workspace_->undo_stack())),
       scenes_(new ScenesDock(model_, this)),
       parameters_(new ParametersDock(this)),
@@ -64,6 +66,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   connect_docks();
   connect_workspace();
   connect_pages();
+  connect_preview();
   connect_results();
   connect_model();
   connect_import();
@@ -131,6 +134,7 @@ void MainWindow::connect_actions() {
   on(actions_->cancel, [this] {
     workspace_->cancel();
     model_work_->cancel();
+    preview_->cancel();
     results_->cancel();
   });
   on(actions_->use_crops, [this](bool use) { workspace_->set_use_crops(use); });
@@ -176,7 +180,9 @@ void MainWindow::connect_workspace() {
     const Decisions& decisions = workspace_->decisions();
     model_.set_decisions(decisions);
     parameters_->set_options(decisions.options);
-    pages_->set_crop_box(decision_of(decisions, scene_.toStdString()).crop);
+    const SceneDecision decision = decision_of(decisions, scene_.toStdString());
+    pages_->set_crop_box(decision.crop);
+    pages_->set_edits(decision.edits);
     actions_->use_crops->setChecked(decisions.use_crops);
     status_->show_quality(final_result(), workspace_->up_to_date());
     update_actions();
@@ -219,12 +225,52 @@ void MainWindow::connect_pages() {
           [this](int scene, const std::optional<CropBox>& box) {
             workspace_->set_crop(scene_name(scene), box);
           });
+  connect(pages_, &PageStack::edits_wanted, this, [this](int scene, const SceneEdits& edits) {
+    workspace_->set_edits({{scene_name(scene), edits}});
+  });
+  connect(pages_, &PageStack::keep_wanted, this, [this](const QString& scene, bool tag, int id) {
+    SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+    (tag ? edits.kept_tags : edits.kept_circles).push_back(id);
+    workspace_->set_edits({{scene, edits}});
+  });
+  connect(pages_, &PageStack::patch_excluded, this,
+          [this](const std::vector<Eigen::Vector2d>& patch) {
+            std::map<QString, SceneEdits> edits;
+            for (const SceneFiles& files : workspace_->dataset().scenes) {
+              SceneEdits& edit = edits[QString::fromStdString(files.name)];
+              edit = decision_of(workspace_->decisions(), files.name).edits;
+              edit.patches_m.push_back(patch);
+            }
+            workspace_->set_edits(edits);
+          });
   connect(pages_, &PageStack::insist_wanted, this,
           [this](int scene) { workspace_->set_insist({scene_name(scene)}, true); });
   connect(pages_, &PageStack::scene_wanted, this,
           [this](int scene) { scenes_->select(scene_name(scene)); });
   connect(pages_, &PageStack::failed, this,
           [this](const QString& message) { show_error(Error::output(message.toStdString())); });
+}
+
+// Thresholds of the solve: looked at first, then decided.
+void MainWindow::connect_preview() {
+  ThresholdPane* pane = pages_->thresholds();
+  connect(pane, &ThresholdPane::previewWanted, this, [this, pane](double gate) {
+    Decisions decisions = workspace_->decisions();
+    decisions.options.extrinsic.rejection_gate = gate;
+    preview_->request(decisions);
+    pane->setBusy();
+  });
+  connect(pane, &ThresholdPane::previewDropped, preview_.get(), &PreviewWork::cancel);
+  connect(pane, &ThresholdPane::gateWanted, this, [this](double gate) {
+    preview_->cancel();
+    for (const OptionDeclaration& option : option_declarations()) {
+      if (option.key == "extrinsic.rejection_gate") workspace_->set_option(option, gate);
+    }
+  });
+  connect(
+      preview_.get(), &PreviewWork::ready, pane,
+      [pane](const auto& present, const auto& preview) { pane->setPreview(*present, *preview); });
+  connect(preview_.get(), &PreviewWork::failed, pane, &ThresholdPane::setError);
 }
 
 void MainWindow::connect_results() {
@@ -285,7 +331,9 @@ void MainWindow::look_at(const QString& scene) {
   const int index = scene_index(scene);
   if (index < 0 || scene == scene_) return;
   scene_ = scene;
-  pages_->set_scene(index, decision_of(workspace_->decisions(), scene.toStdString()).crop);
+  const SceneDecision decision = decision_of(workspace_->decisions(), scene.toStdString());
+  pages_->set_scene(index, decision.crop);
+  pages_->set_edits(decision.edits);
   loader_.load(workspace_->dataset().scenes[static_cast<std::size_t>(index)]);
 }
 

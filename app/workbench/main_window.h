@@ -10,6 +10,7 @@
 #include "models/scene_model.h"
 #include "recording/import.h"
 #include "runner/model_work.h"
+#include "runner/preview_work.h"
 #include "runner/scene_data.h"
 #include "runner/workspace.h"
 #include "start/app_settings.h"
@@ -57,6 +58,7 @@ class MainWindow : public QMainWindow {
   void connect_docks();
   void connect_workspace();
   void connect_pages();
+  void connect_preview();
   void connect_results();
   void connect_model();
   void connect_import();
@@ -83,6 +85,7 @@ class MainWindow : public QMainWindow {
   simulation::SimulationOptions demo_;
   std::unique_ptr<Workspace> workspace_;
   std::unique_ptr<ModelWork> model_work_;
+  std::unique_ptr<PreviewWork> preview_;
   SceneLoader loader_;
   SceneModel model_;
   QString scene_;  // The one looked at.

@@ -2,9 +2,13 @@
 #include "pipeline/refusals.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
+
+#include <Eigen/Cholesky>
 
 #include "base/text.h"
 #include "solve/board_returns.h"
@@ -95,6 +99,39 @@ std::vector<Refusal> refusals(const CalibrationResult& result) {
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Refusal& a, const Refusal& b) { return a.scene < b.scene; });
+  return out;
+}
+
+std::vector<GateDistance> gate_distances(const CalibrationResult& result) {
+  std::vector<GateDistance> out;
+  const ExtrinsicSolution& x = result.extrinsic;
+  const double floor_m = result.options.extrinsic.node_sigma_floor_m;
+  for (const SceneSolution& solved : x.scenes) {
+    const auto scene = std::find_if(result.scenes.begin(), result.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == solved.name; });
+    if (!solved.used || scene == result.scenes.end() || !scene->refinement) continue;
+    std::map<int, GateDistance> tags;
+    for (const CornerResidual& corner : solved.corners) {
+      GateDistance& tag = tags[corner.feature_id];
+      const double sigmas = corner.residual_px.norm() / std::max(x.sigma_px, 1e-12);
+      tag = {solved.name, What::kTag, corner.feature_id, std::max(tag.sigmas, sigmas), corner.used};
+    }
+    for (auto& [id, tag] : tags) out.push_back(std::move(tag));
+    const BoardRefinement& refined = *scene->refinement;
+    for (std::size_t k = 0; k < solved.nodes.size() && k < refined.nodes.size(); ++k) {
+      if (!refined.nodes[k].valid) continue;
+      const Eigen::Vector3d in_lidar =
+          refined.lidar_from_board.rotation * solved.nodes[k].residual_m;
+      const Eigen::Vector2d in_plane(refined.plane.axis_u.dot(in_lidar),
+                                     refined.plane.axis_v.dot(in_lidar));
+      const Eigen::Matrix2d covariance =
+          x.node_scale * x.node_scale *
+          (refined.nodes[k].covariance_m2 + floor_m * floor_m * Eigen::Matrix2d::Identity());
+      const double chi2 = in_plane.dot(covariance.ldlt().solve(in_plane));
+      out.push_back({solved.name, What::kCircle, solved.nodes[k].id, std::sqrt(std::max(0.0, chi2)),
+                     solved.nodes[k].used});
+    }
+  }
   return out;
 }
 

@@ -35,6 +35,19 @@ bool can_be_insisted_on(const SceneResult& scene);
 /// scene that is refused as a whole nothing else is listed.
 std::vector<Refusal> refusals(const CalibrationResult& result);
 
+/// How far a tag (its worst corner) or a circle that takes part misses the board's pose, in
+/// standard deviations: what the gate is held against.
+struct GateDistance {
+  std::string scene;
+  Refusal::What what = Refusal::What::kTag;  ///< Or kCircle.
+  int id = 0;
+  double sigmas = 0.0;
+  bool used = true;
+};
+
+/// Of every tag and circle of the scenes in use, refused ones included, at the result's solution.
+std::vector<GateDistance> gate_distances(const CalibrationResult& result);
+
 /// Places in a scene's board_points of the returns that the solve refused (Refusal::What::kPoints);
 /// empty without a forward solution. Ascending.
 std::vector<std::uint32_t> refused_returns(const CalibrationResult& result, std::size_t scene);

@@ -18,6 +18,7 @@ class CategoryPlot;
 class CloudSceneBuilder;
 class CloudView;
 class MethodsPane;
+class ThresholdPane;
 class UncertaintyPane;
 
 /// The extrinsic: the pose with its standard deviations, weak directions, quality and warnings;
@@ -35,6 +36,7 @@ class ExtrinsicPage : public QWidget {
   void setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image);
 
   [[nodiscard]] CloudView* cloudView() const { return cloud_; }
+  [[nodiscard]] ThresholdPane* thresholds() const { return thresholds_; }
 
  Q_SIGNALS:
   /// A scene was clicked in a plot; index into the result's scenes.
@@ -62,6 +64,7 @@ class ExtrinsicPage : public QWidget {
   QTextBrowser* pose_ = nullptr;
   UncertaintyPane* uncertainty_ = nullptr;
   MethodsPane* methods_ = nullptr;
+  ThresholdPane* thresholds_ = nullptr;
   QTabWidget* tabs_ = nullptr;
   BarPlot* bars_px_ = nullptr;
   BarPlot* bars_mm_ = nullptr;

@@ -25,6 +25,17 @@ ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& s
 /// thinning.
 void add_points(ImageOverlay& overlay, const CloudScene& cloud);
 
+/// Points on the board that are not used: refused by the solve, and left out by the user.
+struct UnusedPoints {
+  std::vector<Eigen::Vector3f> refused_m;
+  std::vector<Eigen::Vector3f> left_out_m;
+};
+UnusedPoints unused_points(const CalibrationResult& result, const SceneResult& scene);
+
+/// Puts them on the image, and small crosses across their rays into the cloud.
+void add_unused(ImageOverlay& overlay, const CalibrationResult& result, const UnusedPoints& points);
+std::vector<CloudLine> unused_marks(const UnusedPoints& points);
+
 /// Lines of the cloud view: the board as the LiDAR sees it (orange), and as camera and extrinsic
 /// predict it (blue).
 std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene);
