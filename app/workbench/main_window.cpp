@@ -32,6 +32,19 @@
 #include "workbench/status_line.h"
 
 namespace lvcalib::widgets {
+namespace {
+
+// Files and folders of this machine; none if anything else is among them.
+QStringList dropped_paths(const QMimeData& data) {
+  QStringList paths;
+  for (const QUrl& url : data.urls()) {
+    if (!url.isLocalFile()) return {};
+    paths << url.toLocalFile();
+  }
+  return paths;
+}
+
+}  // namespace
 
 MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
     : QMainWindow(parent),
@@ -113,7 +126,7 @@ void MainWindow::connect_actions() {
     demo_opening_ = true;
     workspace_->open_demo(demo_);
   };
-  const auto guide = [this] { (new GuideDialog(this))->show(); };
+  const auto guide = [this] { (new GuideDialog(pages_->tab() + 1, this))->show(); };
   on(actions_->open_dataset, open_dataset);
   on(actions_->open_project, open_project);
   on(actions_->demo, demo);
@@ -159,14 +172,18 @@ void MainWindow::connect_docks() {
   connect(scenes_, &ScenesDock::uncrop_wanted, this, [this](const QStringList& scenes) {
     for (const QString& scene : scenes) workspace_->set_crop(scene, std::nullopt);
   });
-  connect(scenes_, &ScenesDock::add_wanted, this, [this] {
-    const QStringList folders = choices_.scenes_to_add(this, settings_.last_folder());
-    if (folders.isEmpty()) return;
-    if (Status s = workspace_->add_scene_folders(folders); !s) show_error(s.error());
-  });
+  connect(scenes_, &ScenesDock::note_wanted, workspace_.get(), &Workspace::set_note);
+  connect(scenes_, &ScenesDock::order_wanted, workspace_.get(), &Workspace::set_scene_order);
+  connect(scenes_, &ScenesDock::add_wanted, this,
+          [this] { add_scenes(choices_.scenes_to_add(this, settings_.last_folder())); });
   connect(parameters_, &ParametersDock::option_wanted, workspace_.get(), &Workspace::set_option);
   connect(parameters_, &ParametersDock::reset_all_wanted, workspace_.get(),
           &Workspace::reset_options);
+}
+
+void MainWindow::add_scenes(const QStringList& folders) {
+  if (folders.isEmpty()) return;
+  if (Status s = workspace_->add_scene_folders(folders); !s) show_error(s.error());
 }
 
 void MainWindow::connect_workspace() {
@@ -296,6 +313,7 @@ void MainWindow::take_opened() {
   loader_.load_thumbnails(dataset.scenes);
   scene_.clear();
   pages_->start(dataset.target);
+  read_truth_of(dataset);
   pages_->show_pages();
   if (!dataset.scenes.empty()) scenes_->select(scene_name(0));
   if (std::exchange(demo_opening_, false)) {
@@ -306,6 +324,21 @@ void MainWindow::take_opened() {
   update_title();
   update_actions();
   if (std::exchange(run_when_opened_, false)) workspace_->run();
+}
+
+void MainWindow::read_truth_of(const Dataset& dataset) {
+  std::filesystem::path path = truth_path_.toStdString();
+  std::error_code code;
+  if (path.empty()) {
+    path = dataset.path;
+    path += "-truth.json";
+    if (!std::filesystem::exists(path, code)) return pages_->model_page()->setTruth(std::nullopt);
+  }
+  const auto truth = read_truth(path);
+  pages_->model_page()->setTruth(truth ? std::optional(*truth) : std::nullopt);
+  log_->append(truth ? tr("The distance to the truth is shown on the Model page: %1")
+                           .arg(QString::fromStdString(path.string()))
+                     : core_text(truth.error()));
 }
 
 void MainWindow::take_result() {
@@ -438,15 +471,21 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  const auto urls = event->mimeData()->urls();
-  if (urls.size() == 1 && urls.first().isLocalFile()) event->acceptProposedAction();
+  const QStringList paths = dropped_paths(*event->mimeData());
+  // Several are scenes for what is open.
+  if (paths.size() == 1 || (paths.size() > 1 && workspace_->is_open()))
+    event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const auto urls = event->mimeData()->urls();
-  if (urls.size() != 1 || !urls.first().isLocalFile()) return;
+  const QStringList paths = dropped_paths(*event->mimeData());
+  if (paths.isEmpty()) return;
   event->acceptProposedAction();
-  open(urls.first().toLocalFile());
+  if (paths.size() == 1) {
+    open(paths.first());
+  } else if (workspace_->is_open()) {
+    add_scenes(paths);
+  }
 }
 
 void MainWindow::changeEvent(QEvent* event) {

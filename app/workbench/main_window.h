@@ -39,6 +39,9 @@ class MainWindow : public QMainWindow {
   /// Opens a dataset folder or a project file, after asking about unsaved decisions; of a recording
   /// the dialog that makes a dataset of it.
   void open(const QString& path);
+  /// The truth of a simulation, for whatever is opened; without it, NAME-truth.json beside a
+  /// dataset NAME is taken where it is there.
+  void set_truth(const QString& path) { truth_path_ = path; }
   /// What the demo simulates; tests take something smaller.
   void set_demo(const simulation::SimulationOptions& options) { demo_ = options; }
   /// Offers decisions that an earlier program did not save.
@@ -64,6 +67,8 @@ class MainWindow : public QMainWindow {
   void connect_import();
   void import_recording(const QString& path);
   void take_imported(const QString& dataset, const ImportSummary& summary);
+  void read_truth_of(const Dataset& dataset);
+  void add_scenes(const QStringList& folders);
   void start_tour();
   void restore_window();
   bool may_drop_decisions();
@@ -89,6 +94,7 @@ class MainWindow : public QMainWindow {
   SceneLoader loader_;
   SceneModel model_;
   QString scene_;  // The one looked at.
+  QString truth_path_;
   MainActions* actions_ = nullptr;
   ScenesDock* scenes_;
   ParametersDock* parameters_;

@@ -99,6 +99,10 @@ void PageStack::show_tab(int tab) {
   tabs_->setCurrentIndex(tab);
 }
 
+int PageStack::tab() const {
+  return currentWidget() == tabs_ ? tabs_->currentIndex() : -1;
+}
+
 int PageStack::tab_count() const {
   return tabs_->count();
 }

@@ -41,6 +41,8 @@ class PageStack : public QStackedWidget {
   void show_pages();
   void show_tab(int tab);
   [[nodiscard]] int tab_count() const;
+  /// The tab in view; −1 on the welcome page.
+  [[nodiscard]] int tab() const;
 
   /// Another dataset: nothing of the one before stays.
   void start(const Target& target);

@@ -15,6 +15,7 @@
 #include "pages/scene_overlay.h"
 #include "pages/threshold_pane.h"
 #include "pages/uncertainty_pane.h"
+#include "pages/world_pane.h"
 #include "style/texts.h"
 #include "views/category_plots.h"
 #include "views/cloud_scene_builder.h"
@@ -61,6 +62,10 @@ ExtrinsicPage::ExtrinsicPage(QWidget* parent) : QWidget(parent) {
   connect(uncertainty_, &UncertaintyPane::failed, this, &ExtrinsicPage::failed);
   tabs_->addTab(uncertainty_, {});
   tabs_->addTab(thresholds_, {});
+  world_ = new WorldPane(tabs_);
+  connect(world_, &WorldPane::sceneActivated, this, &ExtrinsicPage::activate);
+  connect(world_, &WorldPane::failed, this, &ExtrinsicPage::failed);
+  tabs_->addTab(world_, {});
   tabs_->addTab(createCloud(), {});
   splitter->addWidget(pose_);
   splitter->addWidget(tabs_);
@@ -95,8 +100,12 @@ QWidget* ExtrinsicPage::createPlots() {
 
 void ExtrinsicPage::retranslate() {
   pose_->setAccessibleName(tr("Pose and quality"));
-  const QStringList titles = {tr("Residuals and influence"), tr("Methods"), tr("Uncertainty"),
-                              tr("Thresholds"), tr("Coloured cloud")};
+  const QStringList titles = {tr("Residuals and influence"),
+                              tr("Methods"),
+                              tr("Uncertainty"),
+                              tr("Thresholds"),
+                              tr("All scenes"),
+                              tr("Coloured cloud")};
   for (int k = 0; k < titles.size(); ++k) tabs_->setTabText(k, titles[k]);
   bars_px_->setValueLabel(tr("corner RMS (px)"), "rms_px");
   bars_mm_->setValueLabel(tr("LiDAR RMS (mm)"), "rms_mm");
@@ -144,6 +153,7 @@ void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   methods_->setResult(result_.get());
   uncertainty_->setResult(result_.get());
   thresholds_->setResult(result_);
+  world_->setResult(result_);
   fillPlots();
   fillInfluence();
   colourise();

@@ -19,6 +19,7 @@ class CloudSceneBuilder;
 class CloudView;
 class MethodsPane;
 class ThresholdPane;
+class WorldPane;
 class UncertaintyPane;
 
 /// The extrinsic: the pose with its standard deviations, weak directions, quality and warnings;
@@ -36,6 +37,7 @@ class ExtrinsicPage : public QWidget {
   void setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image);
 
   [[nodiscard]] CloudView* cloudView() const { return cloud_; }
+  [[nodiscard]] WorldPane* world() const { return world_; }
   [[nodiscard]] ThresholdPane* thresholds() const { return thresholds_; }
 
  Q_SIGNALS:
@@ -72,6 +74,7 @@ class ExtrinsicPage : public QWidget {
   BoxPlot* boxes_mm_ = nullptr;
   BarPlot* influence_mm_ = nullptr;
   BarPlot* influence_mrad_ = nullptr;
+  WorldPane* world_ = nullptr;
   CloudView* cloud_ = nullptr;
   CloudSceneBuilder* builder_ = nullptr;
 };

@@ -124,6 +124,13 @@ void add_circles(ImageOverlay& overlay, const CalibrationResult& result, const S
   }
 }
 
+std::vector<CloudLine> lidar_axes(double length_m) {
+  const Eigen::Vector3d o = Eigen::Vector3d::Zero();
+  return {{{o, length_m * Eigen::Vector3d::UnitX()}, {0.9, 0.15, 0.15}, false},
+          {{o, length_m * Eigen::Vector3d::UnitY()}, {0.1, 0.65, 0.1}, false},
+          {{o, length_m * Eigen::Vector3d::UnitZ()}, {0.2, 0.35, 1.0}, false}};
+}
+
 void add_board(std::vector<CloudLine>& lines, const Target& target, const Rigid3& lidar_from_board,
                const std::array<double, 3>& color, const std::set<int>& refused = {}) {
   const BoardWireframe wire = board_wireframe(target, lidar_from_board);
@@ -233,11 +240,53 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
   return lines;
 }
 
+Cloud all_boards(const CalibrationResult& result) {
+  Cloud out;
+  const bool intensity =
+      std::all_of(result.scenes.begin(), result.scenes.end(), [](const SceneResult& s) {
+        return s.board_points.size() == 0 || s.board_points.has_intensity();
+      });
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    const Cloud& board = result.scenes[s].board_points;
+    out.points_m.insert(out.points_m.end(), board.points_m.begin(), board.points_m.end());
+    out.line.insert(out.line.end(), board.size(), static_cast<std::uint16_t>(s + 1));
+    if (intensity)
+      out.intensity.insert(out.intensity.end(), board.intensity.begin(), board.intensity.end());
+  }
+  return out;
+}
+
+std::vector<Eigen::Vector3d> camera_pyramid(const CalibrationResult& result) {
+  constexpr double kDepth_m = 0.4;
+  const Rigid3 lidar_from_camera = result.extrinsic.camera_from_lidar.transform.inverse();
+  const double right = result.camera.width_px - 0.5;
+  const double bottom = result.camera.height_px - 0.5;
+  std::vector<Eigen::Vector3d> out = {lidar_from_camera.translation};
+  for (const Eigen::Vector2d& pixel :
+       {Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(right, -0.5), Eigen::Vector2d(right, bottom),
+        Eigen::Vector2d(-0.5, bottom)}) {
+    const auto ray = result.camera.unproject(pixel);
+    if (ray) out.emplace_back(lidar_from_camera * Eigen::Vector3d(kDepth_m * *ray));
+  }
+  return out;
+}
+
+std::vector<CloudLine> world_lines(const CalibrationResult& result) {
+  std::vector<CloudLine> lines = lidar_axes(0.4);
+  for (const SceneResult& scene : result.scenes) {
+    for (CloudLine& line : cloud_lines(result, scene)) lines.push_back(std::move(line));
+  }
+  if (!has_extrinsic(result)) return lines;
+  const auto pyramid = camera_pyramid(result);
+  for (std::size_t k = 1; k < pyramid.size(); ++k)
+    lines.push_back({{pyramid[0], pyramid[k]}, kCameraColor, false});
+  if (pyramid.size() > 2)
+    lines.push_back({{pyramid.begin() + 1, pyramid.end()}, kCameraColor, true});
+  return lines;
+}
+
 std::vector<CloudLine> axes_and_grid(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {
-  const Eigen::Vector3d o = Eigen::Vector3d::Zero();
-  std::vector<CloudLine> lines = {{{o, Eigen::Vector3d::UnitX()}, {0.9, 0.15, 0.15}, false},
-                                  {{o, Eigen::Vector3d::UnitY()}, {0.1, 0.65, 0.1}, false},
-                                  {{o, Eigen::Vector3d::UnitZ()}, {0.2, 0.35, 1.0}, false}};
+  std::vector<CloudLine> lines = lidar_axes(1.0);
   constexpr double kMostLines = 40.0;
   const double reach = std::max(high_m.x() - low_m.x(), high_m.y() - low_m.y());
   if (!(reach > 0.0) || !std::isfinite(reach)) return lines;

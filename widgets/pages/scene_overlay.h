@@ -40,6 +40,17 @@ std::vector<CloudLine> unused_marks(const UnusedPoints& points);
 /// predict it (blue).
 std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene);
 
+/// The points about the boards of all scenes as one cloud in the LiDAR's frame; in place of a line
+/// number each has that of its scene, counted from 1.
+Cloud all_boards(const CalibrationResult& result);
+
+/// Every board as the LiDAR (orange) and as the camera with the extrinsic (blue) sees it, the
+/// LiDAR's axes, and the camera as the pyramid of its view.
+std::vector<CloudLine> world_lines(const CalibrationResult& result);
+
+/// The pyramid of the camera's view in the LiDAR's frame: its tip, then the image's corners.
+std::vector<Eigen::Vector3d> camera_pyramid(const CalibrationResult& result);
+
 /// The LiDAR's axes, a metre each (x red, y green, z blue), and a grid of round spacing under a
 /// box.
 std::vector<CloudLine> axes_and_grid(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);

@@ -15,6 +15,7 @@
 #include "pages/image_pane.h"
 #include "pages/scene_overlay.h"
 #include "pages/selection_bar.h"
+#include "style/edits_text.h"
 #include "style/texts.h"
 #include "views/cloud_view.h"
 #include "views/image_view.h"
@@ -456,10 +457,8 @@ void ScenePage::select(SceneSelection selection, bool add) {
   QStringList parts;
   if (!selection.points_m.empty())
     parts << tr("%n points about the board", nullptr, static_cast<int>(selection.points_m.size()));
-  if (!selection.tags.empty())
-    parts << tr("%n tags", nullptr, static_cast<int>(selection.tags.size()));
-  if (!selection.circles.empty())
-    parts << tr("%n circles", nullptr, static_cast<int>(selection.circles.size()));
+  if (!selection.tags.empty()) parts << tr("tags %1").arg(ids_text(selection.tags));
+  if (!selection.circles.empty()) parts << tr("circles %1").arg(ids_text(selection.circles));
   selection_->setText(parts.isEmpty() ? tr("Nothing is selected.")
                                       : tr("Selected: %1").arg(parts.join(QStringLiteral(", "))));
   selection_->setSelection(std::move(selection), result_.get(), current());

@@ -13,10 +13,6 @@
 namespace lvcalib::widgets {
 namespace {
 
-struct SelectionText {
-  Q_DECLARE_TR_FUNCTIONS(SelectionText)
-};
-
 void add_ids(std::vector<int>& to, const std::vector<int>& ids) {
   for (const int id : ids) {
     if (!contains_id(to, id)) to.push_back(id);
@@ -49,12 +45,6 @@ std::vector<std::uint32_t> left_out_of(const std::vector<Eigen::Vector3f>& point
   if (points_m.empty() || !scene.refinement) return {};
   return left_out_points(cloud_of(points_m), edits, result.target,
                          scene.refinement->lidar_from_board);
-}
-
-QString ids_text(const std::vector<int>& ids) {
-  QStringList texts;
-  for (const int id : ids) texts << QString::number(id);
-  return texts.join(QStringLiteral(", "));
 }
 
 }  // namespace
@@ -217,26 +207,6 @@ void SelectionBar::keep(bool kept) {
     add_ids(edits.kept_circles, circles);
   }
   Q_EMIT editsWanted(edits);
-}
-
-QString edits_text(const SceneResult& scene) {
-  const SceneEdits& edits = scene.edits;
-  QStringList out;
-  if (scene.left_out_points.size() > 0) {
-    out << SelectionText::tr("%n points", nullptr, static_cast<int>(scene.left_out_points.size()));
-  }
-  if (!edits.tags.empty()) out << SelectionText::tr("tags %1").arg(ids_text(edits.tags));
-  if (!edits.circles.empty()) out << SelectionText::tr("circles %1").arg(ids_text(edits.circles));
-  QStringList all;
-  if (!out.isEmpty())
-    all << SelectionText::tr("Left out by hand: %1.").arg(out.join(QStringLiteral(", ")));
-  QStringList kept;
-  if (!edits.kept_tags.empty()) kept << SelectionText::tr("tags %1").arg(ids_text(edits.kept_tags));
-  if (!edits.kept_circles.empty())
-    kept << SelectionText::tr("circles %1").arg(ids_text(edits.kept_circles));
-  if (!kept.isEmpty())
-    all << SelectionText::tr("Used all the same: %1.").arg(kept.join(QStringLiteral(", ")));
-  return all.join(QLatin1Char(' '));
 }
 
 }  // namespace lvcalib::widgets

@@ -65,8 +65,4 @@ class SelectionBar : public QWidget {
   QAction* patch_everywhere_;
 };
 
-/// "312 points, tags 3 and 7": what the user left out of a scene by hand, or uses all the same;
-/// empty if nothing.
-QString edits_text(const SceneResult& scene);
-
 }  // namespace lvcalib::widgets

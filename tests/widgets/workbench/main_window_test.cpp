@@ -375,6 +375,35 @@ TEST_F(MainWindowTest, OneBadFileCostsOneScene) {
   })) << "what a dataset is";
 }
 
+// Several folders dropped on the window are scenes for what is open; notes and the list's order are
+// decisions that run nothing.
+TEST_F(MainWindowTest, ScenesAreDroppedNotedAndOrdered) {
+  open();
+  QStringList folders;
+  QList<QUrl> urls;
+  for (const char* name : {"X", "Y"}) {
+    const QString folder = folder_.filePath(QString::fromLatin1(name));
+    std::filesystem::copy(dataset().toStdString() + "/scenes/A", folder.toStdString());
+    urls << QUrl::fromLocalFile(folder);
+  }
+  QMimeData data;
+  data.setUrls(urls);
+  QDropEvent drop(QPointF(20, 20), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  static_cast<QObject*>(window_.get())->event(&drop);
+  ASSERT_EQ(workspace().dataset().scenes.size(), 5U);
+  QSignalSpy started(&workspace(), &Workspace::run_started);
+  auto* dock = window_->findChild<widgets::ScenesDock*>();
+  Q_EMIT dock->note_wanted("Y", "by the door");
+  Q_EMIT dock->order_wanted({"Y", "X", "A", "B", "C"});
+  QTest::qWait(2 * Workspace::kSettleMs);
+  EXPECT_EQ(started.count(), 0);
+  EXPECT_EQ(cell(*window_, "Y", SceneModel::kNote), "by the door");
+  EXPECT_TRUE(workspace().dirty());
+  workspace().undo_stack().undo();
+  workspace().undo_stack().undo();
+  EXPECT_EQ(cell(*window_, "Y", SceneModel::kNote), "");
+}
+
 // Left out on the Scene page, solved again, undone, done again, saved and opened.
 TEST_F(MainWindowTest, WhatIsLeftOutByHandIsUndoneAndKept) {
   run();
