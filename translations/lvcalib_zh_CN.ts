@@ -20,10 +20,6 @@
         <translation>保存项目</translation>
     </message>
     <message>
-        <source>Add a scene folder (image and cloud)</source>
-        <translation>添加场景文件夹（图像和点云）</translation>
-    </message>
-    <message>
         <source>Export the result</source>
         <translation>导出结果</translation>
     </message>
@@ -111,6 +107,10 @@ were saved. Take them up again?</source>
         <source>Results and truths (*.json)</source>
         <translation>结果和真值 (*.json)</translation>
     </message>
+    <message>
+        <source>Add scene folders (image and cloud each)</source>
+        <translation>添加场景文件夹（各含图像与点云）</translation>
+    </message>
 </context>
 <context>
     <name>CloudSceneText</name>
@@ -185,6 +185,10 @@ were saved. Take them up again?</source>
     <message>
         <source>time (ms)</source>
         <translation>时间 (ms)</translation>
+    </message>
+    <message>
+        <source>scene, counted as in the dataset</source>
+        <translation>场景（按数据集中的次序编号）</translation>
     </message>
 </context>
 <context>
@@ -2282,6 +2286,18 @@ were saved. Take them up again?</source>
         <translation>扫描前让设备先运行一段时间；把标定板放在视场中央两侧，那里运动的表现与之不同</translation>
     </message>
     <message>
+        <source>left out by the user</source>
+        <translation>用户手动排除</translation>
+    </message>
+    <message>
+        <source>too few tags: the others are left out by the user</source>
+        <translation>标签太少：其余标签已被用户排除</translation>
+    </message>
+    <message>
+        <source>there is no calibration yet</source>
+        <translation>尚无标定结果</translation>
+    </message>
+    <message>
         <source>Not there as far as it matters: %1; it moves the extrinsic by %2 mm and %3 mrad at most.</source>
         <translation>就其影响而言不存在：%1；它最多使外参移动 %2 mm 和 %3 mrad。</translation>
     </message>
@@ -2340,6 +2356,18 @@ were saved. Take them up again?</source>
         <source>no longer use %1 all the same</source>
         <translation>不再强制采用 %1</translation>
     </message>
+    <message>
+        <source>choose measurements of %1</source>
+        <translation>选择 %1 的测量</translation>
+    </message>
+    <message>
+        <source>note on %1</source>
+        <translation>为 %1 写备注</translation>
+    </message>
+    <message>
+        <source>order scenes</source>
+        <translation>排列场景</translation>
+    </message>
 </context>
 <context>
     <name>Docks</name>
@@ -2350,6 +2378,31 @@ were saved. Take them up again?</source>
     <message>
         <source>Hide</source>
         <translation>隐藏</translation>
+    </message>
+</context>
+<context>
+    <name>EditsText</name>
+    <message numerus="yes">
+        <source>%n points</source>
+        <translation>
+            <numerusform>%n 个点</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>tags %1</source>
+        <translation>标签 %1</translation>
+    </message>
+    <message>
+        <source>circles %1</source>
+        <translation>圆 %1</translation>
+    </message>
+    <message>
+        <source>Left out by hand: %1.</source>
+        <translation>手动排除：%1。</translation>
+    </message>
+    <message>
+        <source>Used all the same: %1.</source>
+        <translation>仍然采用：%1。</translation>
     </message>
 </context>
 <context>
@@ -3073,6 +3126,18 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <source>Error beyond the noise, every channel on its own scale: red unexplained, green explained by effects, grey what noise alone may leave; diamonds: scenes held out. Click to go to a step.</source>
         <translation>噪声以上的误差，每个通道用各自的比例：红色为未解释部分，绿色为效应已解释部分，灰色为仅由噪声也可能留下的部分；菱形：留出的场景。点击可转到某一步。</translation>
     </message>
+    <message>
+        <source>distance to the truth</source>
+        <translation>与真值的距离</translation>
+    </message>
+    <message>
+        <source>%1 mm, %2 mrad</source>
+        <translation>%1 mm，%2 mrad</translation>
+    </message>
+    <message>
+        <source>Step %1, %2: %3 mm (left bar) and %4 mrad (right bar) from the truth</source>
+        <translation>第 %1 步，%2：与真值相差 %3 mm（左柱）和 %4 mrad（右柱）</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::CloudPane</name>
@@ -3171,6 +3236,22 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Size of the points</source>
         <translation>点的大小</translation>
+    </message>
+    <message>
+        <source>Left out</source>
+        <translation>未采用</translation>
+    </message>
+    <message>
+        <source>Mark the points on the board that are not used: refused by the program (red crosses), left out by hand (violet crosses)</source>
+        <translation>标出标定板上未采用的点：被程序拒绝的（红叉）、手动排除的（紫叉）</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a line about points to select them, at whatever depth. With Shift they are added to those selected (L)</source>
+        <translation>圈住要选中的点，不论远近。按住 Shift 则加入已选中的点（L）</translation>
     </message>
 </context>
 <context>
@@ -3344,6 +3425,93 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Close</source>
         <translation>关闭</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CompareStepsDialog</name>
+    <message>
+        <source>Compare steps</source>
+        <translation>比较步骤</translation>
+    </message>
+    <message>
+        <source>&amp;From</source>
+        <translation>从(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;To</source>
+        <translation>到(&amp;T)</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>In the camera&apos;s axes</source>
+        <translation>沿相机坐标轴</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>差异</translation>
+    </message>
+    <message>
+        <source>± from</source>
+        <translation>± 起</translation>
+    </message>
+    <message>
+        <source>± to</source>
+        <translation>± 止</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>px from</source>
+        <translation>px 起</translation>
+    </message>
+    <message>
+        <source>px to</source>
+        <translation>px 止</translation>
+    </message>
+    <message>
+        <source>mm from</source>
+        <translation>mm 起</translation>
+    </message>
+    <message>
+        <source>mm to</source>
+        <translation>mm 止</translation>
+    </message>
+    <message>
+        <source>Being compared …</source>
+        <translation>正在比较……</translation>
+    </message>
+    <message>
+        <source>The pose moves by %1 mm and %2 mrad. Both steps rest on the same measurements: what differs is the model.</source>
+        <translation>位姿移动 %1 mm 和 %2 mrad。两步基于相同的测量，不同之处在于模型。</translation>
+    </message>
+    <message>
+        <source>translation x, mm</source>
+        <translation>平移 x，mm</translation>
+    </message>
+    <message>
+        <source>translation y, mm</source>
+        <translation>平移 y，mm</translation>
+    </message>
+    <message>
+        <source>translation z, mm</source>
+        <translation>平移 z，mm</translation>
+    </message>
+    <message>
+        <source>rotation about x, mrad</source>
+        <translation>绕 x 旋转，mrad</translation>
+    </message>
+    <message>
+        <source>rotation about y, mrad</source>
+        <translation>绕 y 旋转，mrad</translation>
+    </message>
+    <message>
+        <source>rotation about z, mrad</source>
+        <translation>绕 z 旋转，mrad</translation>
     </message>
 </context>
 <context>
@@ -3693,6 +3861,14 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <source>Methods</source>
         <translation>方法</translation>
     </message>
+    <message>
+        <source>Thresholds</source>
+        <translation>阈值</translation>
+    </message>
+    <message>
+        <source>All scenes</source>
+        <translation>全部场景</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::FigureActions</name>
@@ -3733,38 +3909,78 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     </message>
     <message>
         <source># From the board to a result
-1. **Print the board** at 1:1 with `lvcalib target target.yaml -o board.pdf`, glue it on something flat and measure a tag.
-2. **Take three to ten scenes**: an image and a cloud each, the board at 2–4 m, turned differently each time, seen whole by both sensors.
-3. **Lay out the folder**: `target.yaml`, `camera.yaml`, `scenes/NAME/image.png` and `scenes/NAME/cloud.pcd`.
-4. **Open it and press F5.** No rough guess is needed.
+1. **Print the board** at 1:1 with *Tools › Print the board…*, glue it on something flat and measure a tag.
+2. **Take three to ten scenes**: the board at 2–4 m, turned differently each time, seen whole by both sensors.
+3. **Open them**: *File › New from recording…* makes a dataset of a bag; or lay out a folder with `target.yaml`, `camera.yaml`, `scenes/NAME/image.png` and `scenes/NAME/cloud.pcd` and open that.
+4. **Press F5.** No rough guess is needed.
 5. **Look**: every scene should be *used*; a scene whose px, mm or influence stands out deserves a look on the Scene page. Untick it and the result follows at once.
-6. **Export** with Ctrl+E.
-
-# Pages
-- **Scene**: cloud and image of the scene that is selected in the list, with what was found in them. A crop box helps where the board is not found.
-- **Refinement**: how each circle&apos;s centre was found, bin by bin.
-- **Extrinsic**: the pose, its standard deviations, how the scenes agree, and the same scenes solved by other methods.
-- **Boundary response**: how returns scatter at the circles&apos; edges.
-
-# Keys
-F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.
+6. **Ask what is missing** on the Model page.
+7. **Export** with Ctrl+E.
 </source>
         <translation># 从标定板到结果
-1. **打印标定板**：用 `lvcalib target target.yaml -o board.pdf` 按 1:1 打印，贴在平整的板上，并测量一个标签的尺寸。
-2. **采集三到十个场景**：每个场景一幅图像和一个点云，标定板距离 2–4 m，每次朝向不同，两个传感器都能看到整块板。
-3. **整理文件夹**：`target.yaml`、`camera.yaml`、`scenes/NAME/image.png` 和 `scenes/NAME/cloud.pcd`。
-4. **打开并按 F5。** 无需初值。
-5. **检查**：每个场景都应为 *已使用*；若某场景的 px、mm 或影响明显偏大，请在场景页查看。取消勾选后结果立即更新。
-6. 按 Ctrl+E **导出**。
+1. **打印标定板**：用“工具 › 打印标定板…”按 1:1 打印，贴在平整的板上，并量一个标签的边长。
+2. **拍摄三到十个场景**：标定板在 2–4 m 处，每次朝向不同，两个传感器都能看到整块板。
+3. **打开它们**：“文件 › 从记录新建…”可由录制包生成数据集；或者按 `target.yaml`、`camera.yaml`、`scenes/NAME/image.png` 和 `scenes/NAME/cloud.pcd` 整理文件夹后打开。
+4. **按 F5。** 不需要初始估计。
+5. **查看**：每个场景都应为“采用”；px、mm 或影响突出的场景值得在“场景”页上细看。取消勾选后结果立即更新。
+6. 在“模型”页上**查看缺少什么**。
+7. 用 Ctrl+E **导出**。
+</translation>
+    </message>
+    <message>
+        <source># Scene
+Cloud and image of the scene that is selected in the list, with what was found in them. A click in one view shows the same thing in the other.
 
-# 页面
-- **场景**：列表中所选场景的点云和图像，以及其中找到的内容。找不到标定板时可使用裁剪框。
-- **精化**：逐个角度区间展示各圆心是如何求得的。
-- **外参**：位姿、标准差、各场景的一致程度，以及用其他方法求解同样场景的结果。
-- **边界响应**：回波在圆边缘处的散布。
+- **Brush** (L): draw a line about points, tags or circles to select them; Shift adds. *Exclude these* leaves them out, and *Take back* brings them back. A patch of the board can be left out of every scene: a stain, a screw, a bent corner.
+- What is not used is hatched and crossed out: red where the program refused it, violet where you did. *Use it all the same* overrules the program.
+- **Crop…** (C) helps where the board is not found.
+</source>
+        <translation># 场景
+列表中所选场景的点云和图像，以及在其中找到的内容。在一个视图中单击，另一个视图显示同一处。
 
-# 按键
-F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面，Ctrl+J 剔除、Ctrl+U 采用所选场景，空格键勾选或取消勾选。
+- **刷选**（L）：圈住点、标签或圆即可选中；按住 Shift 则追加。“排除所选”不再采用它们，“恢复”则重新采用。标定板的某一块可在所有场景中排除：污渍、螺钉、翘角。
+- 未采用的内容以阴影线和叉号标出：被程序拒绝的为红色，您排除的为紫色。“仍然采用”可推翻程序的决定。
+- **裁剪…**（C）在找不到标定板时有帮助。
+</translation>
+    </message>
+    <message>
+        <source># Refinement
+How each circle&apos;s centre was found, bin by bin: marks where the intensity crosses its middle level, and the fitted wave. A centred circle has a flat line at zero. A click enlarges a circle and says why bins were refused.
+</source>
+        <translation># 精化
+各圆心如何逐个角度区间求得：标记为强度越过中间水平之处，曲线为拟合的波。居中的圆在零处为一条平线。单击可放大一个圆，并说明为何拒绝某些区间。
+</translation>
+    </message>
+    <message>
+        <source># Extrinsic
+The pose, its standard deviations and the verdict. *Residuals and influence* has a column for each scene; *Methods* solves the same scenes in other ways; *Thresholds* shows what tags and circles miss the board&apos;s pose by, with the gate as a line to drag: what would be refused and where the extrinsic would go is told before it is decided. *All scenes* shows every board about the rig.
+</source>
+        <translation># 外参
+位姿、其标准差与结论。“残差与影响”中每个场景一列；“方法”用其他方法求解同样的场景；“阈值”显示标签和圆偏离标定板位姿的程度，门限是一条可拖动的竖线：决定之前即可看到哪些会被拒绝、外参会移到哪里。“全部场景”显示传感器周围的所有标定板。
+</translation>
+    </message>
+    <message>
+        <source># Boundary response
+How returns scatter at the circles&apos; edges: the transition of the intensity, pitch and yaw with their ellipse, and ranges off the plane. The table has the numbers for all scenes and each one. *Left out* lists what the program refused, with its reasons.
+</source>
+        <translation># 边界响应
+回波在圆的边缘如何散布：强度的过渡、俯仰与偏航及其椭圆，以及偏离平面的距离。表格给出全部场景和各个场景的数值。“未采用”列出程序拒绝的内容及原因。
+</translation>
+    </message>
+    <message>
+        <source># Model
+What the model misses, and what it does to the pose. Bars on top: the error beyond the noise after each step, red where it is unexplained. On the right, what is missing, with the evidence; *Add* takes it into the model, *Find all* goes on until nothing is missing. *Compare steps…* tells how far the pose moved. Where the truth of a simulation is known, the distance to it stands beside the bars.
+</source>
+        <translation># 模型
+模型缺少什么，对位姿有何影响。上方的柱：每一步之后超出噪声的误差，未解释的部分为红色。右侧是缺少的内容及其证据；“添加”将其纳入模型，“全部查找”一直进行到不再缺少为止。“比较步骤…”给出位姿移动了多少。若已知仿真的真值，与真值的距离显示在柱旁。
+</translation>
+    </message>
+    <message>
+        <source># Keys
+F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks, Alt+Up and Alt+Down move them in the list, F1 opens this guide at the page in view.
+</source>
+        <translation># 快捷键
+F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页面，Ctrl+J 拒绝、Ctrl+U 接受所选场景，空格键勾选或取消勾选，Alt+上、Alt+下 在列表中移动场景，F1 在当前页面对应的章节打开本指南。
 </translation>
     </message>
 </context>
@@ -3857,6 +4073,22 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Pixel under the cursor (x, y) and its grey value</source>
         <translation>光标处的像素 (x, y) 及其灰度值</translation>
+    </message>
+    <message>
+        <source>Left out</source>
+        <translation>未采用</translation>
+    </message>
+    <message>
+        <source>LiDAR points on the board that are not used: refused by the program (red crosses), left out by hand (violet crosses)</source>
+        <translation>标定板上未采用的激光雷达点：被程序拒绝的（红叉）、手动排除的（紫叉）</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a line about what is to be selected: the tags, circles and points that are shown. With Shift it is added to what is selected (L)</source>
+        <translation>圈住要选中的内容：所显示的标签、圆和点。按住 Shift 则加入已选中的内容（L）</translation>
     </message>
 </context>
 <context>
@@ -4264,6 +4496,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>Imported into %1: %2 of %3 still stretches are scenes.</source>
         <translation>已导入到 %1：%3 个静止时段中有 %2 个是场景。</translation>
     </message>
+    <message>
+        <source>The distance to the truth is shown on the Model page: %1</source>
+        <translation>与真值的距离显示在“模型”页：%1</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::MethodsPane</name>
@@ -4558,6 +4794,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>within noise</source>
         <translation>噪声以内</translation>
+    </message>
+    <message>
+        <source>Compare steps…</source>
+        <translation>比较步骤…</translation>
+    </message>
+    <message>
+        <source>How far the pose moved between two steps, and the residuals of every scene at both</source>
+        <translation>两步之间位姿移动了多少，以及各场景在两步的残差</translation>
     </message>
 </context>
 <context>
@@ -5247,6 +5491,18 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>used all the same: %1</source>
         <translation>仍被采用：%1</translation>
     </message>
+    <message>
+        <source>Left out: how it fits what the other scenes give.</source>
+        <translation>未采用：它与其他场景所得结果的符合程度。</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>备注</translation>
+    </message>
+    <message>
+        <source>Your own words about the scene; kept in the project.</source>
+        <translation>您对该场景的备注；保存在项目中。</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ScenePage</name>
@@ -5352,6 +5608,44 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <source>, left out: %1</source>
         <translation>，未采用：%1</translation>
     </message>
+    <message>
+        <source>As the program would have it</source>
+        <translation>恢复程序的选择</translation>
+    </message>
+    <message>
+        <source>None of these points is about the board: they play no part anyway.</source>
+        <translation>这些点都不在标定板附近：它们本来就不参与计算。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n points about the board</source>
+        <translation>
+            <numerusform>标定板附近的 %n 个点</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Nothing is selected.</source>
+        <translation>未选中任何内容。</translation>
+    </message>
+    <message>
+        <source>Selected: %1</source>
+        <translation>已选中：%1</translation>
+    </message>
+    <message>
+        <source>, left out by hand</source>
+        <translation>，手动排除</translation>
+    </message>
+    <message>
+        <source>, used all the same</source>
+        <translation>，仍然采用</translation>
+    </message>
+    <message>
+        <source>tags %1</source>
+        <translation>标签 %1</translation>
+    </message>
+    <message>
+        <source>circles %1</source>
+        <translation>圆 %1</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ScenesDock</name>
@@ -5396,16 +5690,83 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
         <translation>添加场景…</translation>
     </message>
     <message>
-        <source>Add scene folders from elsewhere</source>
-        <translation>从其他位置添加场景文件夹</translation>
-    </message>
-    <message>
         <source>Use it all the same</source>
         <translation>仍然采用</translation>
     </message>
     <message>
         <source>Use the selected scenes although the program refused them</source>
         <translation>采用所选场景，尽管程序拒绝了它们</translation>
+    </message>
+    <message>
+        <source>Note…</source>
+        <translation>备注…</translation>
+    </message>
+    <message>
+        <source>Write a note on the scene</source>
+        <translation>为该场景写备注</translation>
+    </message>
+    <message>
+        <source>Move up</source>
+        <translation>上移</translation>
+    </message>
+    <message>
+        <source>Move the selected scenes up in the list</source>
+        <translation>在列表中上移所选场景</translation>
+    </message>
+    <message>
+        <source>Move down</source>
+        <translation>下移</translation>
+    </message>
+    <message>
+        <source>Move the selected scenes down in the list</source>
+        <translation>在列表中下移所选场景</translation>
+    </message>
+    <message>
+        <source>Add scene folders from elsewhere, several at once</source>
+        <translation>从别处添加场景文件夹，可一次添加多个</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::SelectionBar</name>
+    <message>
+        <source>Exclude these</source>
+        <translation>排除所选</translation>
+    </message>
+    <message>
+        <source>Leave out what is selected, and solve again</source>
+        <translation>不采用所选内容并重新求解</translation>
+    </message>
+    <message>
+        <source>Exclude this patch of the board</source>
+        <translation>排除标定板的这一块</translation>
+    </message>
+    <message>
+        <source>Leave out every return on the part of the board that holds the points</source>
+        <translation>不采用标定板上包含这些点的区域内的全部回波</translation>
+    </message>
+    <message>
+        <source>Exclude this patch of the board in every scene</source>
+        <translation>在所有场景中排除标定板的这一块</translation>
+    </message>
+    <message>
+        <source>For a stain, a screw or a bent corner: it is there always</source>
+        <translation>用于污渍、螺钉或翘角：它在每个场景中都存在</translation>
+    </message>
+    <message>
+        <source>Take back</source>
+        <translation>恢复</translation>
+    </message>
+    <message>
+        <source>Use again what was left out of the selection by hand</source>
+        <translation>重新采用所选内容中手动排除的部分</translation>
+    </message>
+    <message>
+        <source>Use it all the same</source>
+        <translation>仍然采用</translation>
+    </message>
+    <message>
+        <source>Use the selected tags and circles although they miss the board&apos;s pose by more than the gate</source>
+        <translation>即使所选标签和圆偏离标定板位姿超过门限，也仍然采用</translation>
     </message>
 </context>
 <context>
@@ -5575,6 +5936,82 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Take the chosen effect out of the model</source>
         <translation>把所选效应移出模型</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ThresholdPane</name>
+    <message>
+        <source>What tags and circles miss the board&apos;s pose by, in standard deviations. Those beyond the line are left out. Drag it (or use the arrow keys) to see what another place would do.</source>
+        <translation>标签和圆偏离标定板位姿的程度，以标准差计。超出竖线者不采用。拖动竖线（或用方向键）可查看换一个位置的效果。</translation>
+    </message>
+    <message>
+        <source>a tag&apos;s worst corner (σ)</source>
+        <translation>标签最差的角点 (σ)</translation>
+    </message>
+    <message>
+        <source>a circle&apos;s centre (σ)</source>
+        <translation>圆心 (σ)</translation>
+    </message>
+    <message>
+        <source>Red: left out at this place of the line</source>
+        <translation>红色：竖线在此处时不采用</translation>
+    </message>
+    <message>
+        <source>Use this threshold</source>
+        <translation>采用此阈值</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>还原</translation>
+    </message>
+    <message>
+        <source>Run the calibration first.</source>
+        <translation>请先运行标定。</translation>
+    </message>
+    <message>
+        <source>No circles are in use.</source>
+        <translation>没有采用任何圆。</translation>
+    </message>
+    <message>
+        <source>Solving with %1 σ …</source>
+        <translation>正在以 %1 σ 求解……</translation>
+    </message>
+    <message>
+        <source>%1: tag %2</source>
+        <translation>%1：标签 %2</translation>
+    </message>
+    <message>
+        <source>%1: circle %2</source>
+        <translation>%1：圆 %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n more</source>
+        <translation>
+            <numerusform>另有 %n 个</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>With %1 σ, %2 tags and circles are left out (now %3).</source>
+        <translation>取 %1 σ 时，有 %2 个标签和圆不采用（现为 %3 个）。</translation>
+    </message>
+    <message>
+        <source>Newly left out: %1.</source>
+        <translation>新排除：%1。</translation>
+    </message>
+    <message>
+        <source>Used again: %1.</source>
+        <translation>重新采用：%1。</translation>
+    </message>
+    <message>
+        <source>The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 mrad.</source>
+        <translation>外参将移动 %1 mm 和 %2 mrad；其不确定度为 %3 mm 和 %4 mrad。</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ThresholdPlot</name>
+    <message>
+        <source>how many</source>
+        <translation>个数</translation>
     </message>
 </context>
 <context>
@@ -5908,6 +6345,33 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::WorldPane</name>
+    <message>
+        <source>Scene</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>Intensity</source>
+        <translation>强度</translation>
+    </message>
+    <message>
+        <source>Range</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>Colour of the points</source>
+        <translation>点的颜色</translation>
+    </message>
+    <message>
+        <source>What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the camera sees it (blue), the LiDAR&apos;s axes (x red, y green, z blue), the camera&apos;s view (pyramid). A click on a board goes to its scene.</source>
+        <translation>点的颜色所表示的量。线条：激光雷达所见（橙色）与相机所见（蓝色）的各标定板、激光雷达坐标轴（x 红、y 绿、z 蓝）、相机视野（棱锥）。单击标定板可转到其场景。</translation>
+    </message>
+    <message>
+        <source>run the calibration first</source>
+        <translation>请先运行标定</translation>
+    </message>
+</context>
+<context>
     <name>main</name>
     <message>
         <source>LiDAR-camera calibration with a printed board</source>
@@ -5920,6 +6384,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 … 切换页面�
     <message>
         <source>Dataset folder or project.</source>
         <translation>数据集文件夹或项目。</translation>
+    </message>
+    <message>
+        <source>Truth of a simulated dataset, to show the distance to it.</source>
+        <translation>仿真数据集的真值，用于显示与它的距离。</translation>
     </message>
 </context>
 </TS>

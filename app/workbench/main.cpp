@@ -35,6 +35,12 @@ int run(QApplication& application) {
       QCoreApplication::translate("main", "Folder for settings and data, instead of the user's."),
       QStringLiteral("folder"));
   parser.addOption(settings_option);
+  const QCommandLineOption truth_option(
+      QStringLiteral("truth"),
+      QCoreApplication::translate("main",
+                                  "Truth of a simulated dataset, to show the distance to it."),
+      QStringLiteral("file"));
+  parser.addOption(truth_option);
   parser.addPositionalArgument(QStringLiteral("path"),
                                QCoreApplication::translate("main", "Dataset folder or project."),
                                QStringLiteral("[DATASET|PROJECT]"));
@@ -46,6 +52,7 @@ int run(QApplication& application) {
   use_language(settings->language());
   Choices choices;
   MainWindow window(*settings, choices);
+  if (parser.isSet(truth_option)) window.set_truth(parser.value(truth_option));
   window.show();
   QTimer::singleShot(0, &window, [&] {
     if (!parser.positionalArguments().isEmpty()) {

@@ -20,6 +20,7 @@
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
 #include "modelling/model_page.h"
+#include "pages/threshold_pane.h"
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
@@ -31,6 +32,19 @@
 #include "workbench/status_line.h"
 
 namespace lvcalib::widgets {
+namespace {
+
+// Files and folders of this machine; none if anything else is among them.
+QStringList dropped_paths(const QMimeData& data) {
+  QStringList paths;
+  for (const QUrl& url : data.urls()) {
+    if (!url.isLocalFile()) return {};
+    paths << url.toLocalFile();
+  }
+  return paths;
+}
+
+}  // namespace
 
 MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
     : QMainWindow(parent),
@@ -39,6 +53,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       demo_(demo_options()),
       workspace_(std::make_unique<Workspace>(settings.data_folder())),
       model_work_(std::make_unique<ModelWork>(*workspace_)),
+      preview_(std::make_unique<PreviewWork>(*workspace_)),
       actions_(new MainActions(*this, workspace_->undo_stack())),
       scenes_(new ScenesDock(model_, this)),
       parameters_(new ParametersDock(this)),
@@ -64,6 +79,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   connect_docks();
   connect_workspace();
   connect_pages();
+  connect_preview();
   connect_results();
   connect_model();
   connect_import();
@@ -110,7 +126,7 @@ void MainWindow::connect_actions() {
     demo_opening_ = true;
     workspace_->open_demo(demo_);
   };
-  const auto guide = [this] { (new GuideDialog(this))->show(); };
+  const auto guide = [this] { (new GuideDialog(pages_->tab() + 1, this))->show(); };
   on(actions_->open_dataset, open_dataset);
   on(actions_->open_project, open_project);
   on(actions_->demo, demo);
@@ -131,6 +147,7 @@ void MainWindow::connect_actions() {
   on(actions_->cancel, [this] {
     workspace_->cancel();
     model_work_->cancel();
+    preview_->cancel();
     results_->cancel();
   });
   on(actions_->use_crops, [this](bool use) { workspace_->set_use_crops(use); });
@@ -155,14 +172,18 @@ void MainWindow::connect_docks() {
   connect(scenes_, &ScenesDock::uncrop_wanted, this, [this](const QStringList& scenes) {
     for (const QString& scene : scenes) workspace_->set_crop(scene, std::nullopt);
   });
-  connect(scenes_, &ScenesDock::add_wanted, this, [this] {
-    const QStringList folders = choices_.scenes_to_add(this, settings_.last_folder());
-    if (folders.isEmpty()) return;
-    if (Status s = workspace_->add_scene_folders(folders); !s) show_error(s.error());
-  });
+  connect(scenes_, &ScenesDock::note_wanted, workspace_.get(), &Workspace::set_note);
+  connect(scenes_, &ScenesDock::order_wanted, workspace_.get(), &Workspace::set_scene_order);
+  connect(scenes_, &ScenesDock::add_wanted, this,
+          [this] { add_scenes(choices_.scenes_to_add(this, settings_.last_folder())); });
   connect(parameters_, &ParametersDock::option_wanted, workspace_.get(), &Workspace::set_option);
   connect(parameters_, &ParametersDock::reset_all_wanted, workspace_.get(),
           &Workspace::reset_options);
+}
+
+void MainWindow::add_scenes(const QStringList& folders) {
+  if (folders.isEmpty()) return;
+  if (Status s = workspace_->add_scene_folders(folders); !s) show_error(s.error());
 }
 
 void MainWindow::connect_workspace() {
@@ -176,7 +197,9 @@ void MainWindow::connect_workspace() {
     const Decisions& decisions = workspace_->decisions();
     model_.set_decisions(decisions);
     parameters_->set_options(decisions.options);
-    pages_->set_crop_box(decision_of(decisions, scene_.toStdString()).crop);
+    const SceneDecision decision = decision_of(decisions, scene_.toStdString());
+    pages_->set_crop_box(decision.crop);
+    pages_->set_edits(decision.edits);
     actions_->use_crops->setChecked(decisions.use_crops);
     status_->show_quality(final_result(), workspace_->up_to_date());
     update_actions();
@@ -219,12 +242,52 @@ void MainWindow::connect_pages() {
           [this](int scene, const std::optional<CropBox>& box) {
             workspace_->set_crop(scene_name(scene), box);
           });
+  connect(pages_, &PageStack::edits_wanted, this, [this](int scene, const SceneEdits& edits) {
+    workspace_->set_edits({{scene_name(scene), edits}});
+  });
+  connect(pages_, &PageStack::keep_wanted, this, [this](const QString& scene, bool tag, int id) {
+    SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+    (tag ? edits.kept_tags : edits.kept_circles).push_back(id);
+    workspace_->set_edits({{scene, edits}});
+  });
+  connect(pages_, &PageStack::patch_excluded, this,
+          [this](const std::vector<Eigen::Vector2d>& patch) {
+            std::map<QString, SceneEdits> edits;
+            for (const SceneFiles& files : workspace_->dataset().scenes) {
+              SceneEdits& edit = edits[QString::fromStdString(files.name)];
+              edit = decision_of(workspace_->decisions(), files.name).edits;
+              edit.patches_m.push_back(patch);
+            }
+            workspace_->set_edits(edits);
+          });
   connect(pages_, &PageStack::insist_wanted, this,
           [this](int scene) { workspace_->set_insist({scene_name(scene)}, true); });
   connect(pages_, &PageStack::scene_wanted, this,
           [this](int scene) { scenes_->select(scene_name(scene)); });
   connect(pages_, &PageStack::failed, this,
           [this](const QString& message) { show_error(Error::output(message.toStdString())); });
+}
+
+// Thresholds of the solve: looked at first, then decided.
+void MainWindow::connect_preview() {
+  ThresholdPane* pane = pages_->thresholds();
+  connect(pane, &ThresholdPane::previewWanted, this, [this, pane](double gate) {
+    Decisions decisions = workspace_->decisions();
+    decisions.options.extrinsic.rejection_gate = gate;
+    preview_->request(decisions);
+    pane->setBusy();
+  });
+  connect(pane, &ThresholdPane::previewDropped, preview_.get(), &PreviewWork::cancel);
+  connect(pane, &ThresholdPane::gateWanted, this, [this](double gate) {
+    preview_->cancel();
+    for (const OptionDeclaration& option : option_declarations()) {
+      if (option.key == "extrinsic.rejection_gate") workspace_->set_option(option, gate);
+    }
+  });
+  connect(
+      preview_.get(), &PreviewWork::ready, pane,
+      [pane](const auto& present, const auto& preview) { pane->setPreview(*present, *preview); });
+  connect(preview_.get(), &PreviewWork::failed, pane, &ThresholdPane::setError);
 }
 
 void MainWindow::connect_results() {
@@ -250,6 +313,7 @@ void MainWindow::take_opened() {
   loader_.load_thumbnails(dataset.scenes);
   scene_.clear();
   pages_->start(dataset.target);
+  read_truth_of(dataset);
   pages_->show_pages();
   if (!dataset.scenes.empty()) scenes_->select(scene_name(0));
   if (std::exchange(demo_opening_, false)) {
@@ -260,6 +324,21 @@ void MainWindow::take_opened() {
   update_title();
   update_actions();
   if (std::exchange(run_when_opened_, false)) workspace_->run();
+}
+
+void MainWindow::read_truth_of(const Dataset& dataset) {
+  std::filesystem::path path = truth_path_.toStdString();
+  std::error_code code;
+  if (path.empty()) {
+    path = dataset.path;
+    path += "-truth.json";
+    if (!std::filesystem::exists(path, code)) return pages_->model_page()->setTruth(std::nullopt);
+  }
+  const auto truth = read_truth(path);
+  pages_->model_page()->setTruth(truth ? std::optional(*truth) : std::nullopt);
+  log_->append(truth ? tr("The distance to the truth is shown on the Model page: %1")
+                           .arg(QString::fromStdString(path.string()))
+                     : core_text(truth.error()));
 }
 
 void MainWindow::take_result() {
@@ -285,7 +364,9 @@ void MainWindow::look_at(const QString& scene) {
   const int index = scene_index(scene);
   if (index < 0 || scene == scene_) return;
   scene_ = scene;
-  pages_->set_scene(index, decision_of(workspace_->decisions(), scene.toStdString()).crop);
+  const SceneDecision decision = decision_of(workspace_->decisions(), scene.toStdString());
+  pages_->set_scene(index, decision.crop);
+  pages_->set_edits(decision.edits);
   loader_.load(workspace_->dataset().scenes[static_cast<std::size_t>(index)]);
 }
 
@@ -390,15 +471,21 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  const auto urls = event->mimeData()->urls();
-  if (urls.size() == 1 && urls.first().isLocalFile()) event->acceptProposedAction();
+  const QStringList paths = dropped_paths(*event->mimeData());
+  // Several are scenes for what is open.
+  if (paths.size() == 1 || (paths.size() > 1 && workspace_->is_open()))
+    event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const auto urls = event->mimeData()->urls();
-  if (urls.size() != 1 || !urls.first().isLocalFile()) return;
+  const QStringList paths = dropped_paths(*event->mimeData());
+  if (paths.isEmpty()) return;
   event->acceptProposedAction();
-  open(urls.first().toLocalFile());
+  if (paths.size() == 1) {
+    open(paths.first());
+  } else if (workspace_->is_open()) {
+    add_scenes(paths);
+  }
 }
 
 void MainWindow::changeEvent(QEvent* event) {

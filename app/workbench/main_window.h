@@ -10,6 +10,7 @@
 #include "models/scene_model.h"
 #include "recording/import.h"
 #include "runner/model_work.h"
+#include "runner/preview_work.h"
 #include "runner/scene_data.h"
 #include "runner/workspace.h"
 #include "start/app_settings.h"
@@ -38,6 +39,9 @@ class MainWindow : public QMainWindow {
   /// Opens a dataset folder or a project file, after asking about unsaved decisions; of a recording
   /// the dialog that makes a dataset of it.
   void open(const QString& path);
+  /// The truth of a simulation, for whatever is opened; without it, NAME-truth.json beside a
+  /// dataset NAME is taken where it is there.
+  void set_truth(const QString& path) { truth_path_ = path; }
   /// What the demo simulates; tests take something smaller.
   void set_demo(const simulation::SimulationOptions& options) { demo_ = options; }
   /// Offers decisions that an earlier program did not save.
@@ -57,11 +61,14 @@ class MainWindow : public QMainWindow {
   void connect_docks();
   void connect_workspace();
   void connect_pages();
+  void connect_preview();
   void connect_results();
   void connect_model();
   void connect_import();
   void import_recording(const QString& path);
   void take_imported(const QString& dataset, const ImportSummary& summary);
+  void read_truth_of(const Dataset& dataset);
+  void add_scenes(const QStringList& folders);
   void start_tour();
   void restore_window();
   bool may_drop_decisions();
@@ -83,9 +90,11 @@ class MainWindow : public QMainWindow {
   simulation::SimulationOptions demo_;
   std::unique_ptr<Workspace> workspace_;
   std::unique_ptr<ModelWork> model_work_;
+  std::unique_ptr<PreviewWork> preview_;
   SceneLoader loader_;
   SceneModel model_;
   QString scene_;  // The one looked at.
+  QString truth_path_;
   MainActions* actions_ = nullptr;
   ScenesDock* scenes_;
   ParametersDock* parameters_;

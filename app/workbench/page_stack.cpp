@@ -38,7 +38,10 @@ PageStack::PageStack(QWidget* parent)
           [this](int scene, const CropBox& box) { Q_EMIT crop_wanted(scene, box); });
   connect(scene_, &ScenePage::cropCleared, this,
           [this](int scene) { Q_EMIT crop_wanted(scene, std::nullopt); });
+  connect(scene_, &ScenePage::editsChanged, this, &PageStack::edits_wanted);
+  connect(scene_, &ScenePage::patchExcluded, this, &PageStack::patch_excluded);
   connect(scene_, &ScenePage::insistWanted, this, &PageStack::insist_wanted);
+  connect(response_, &ResponsePage::keepWanted, this, &PageStack::keep_wanted);
   connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {
     for (std::size_t s = 0; result_ && s < result_->scenes.size(); ++s) {
       if (result_->scenes[s].name == name.toStdString()) Q_EMIT insist_wanted(static_cast<int>(s));
@@ -80,6 +83,10 @@ void PageStack::show_samples() {
     scene_->selectSamples(at->second.points_in_lidar_m, at->second.pixels);
 }
 
+ThresholdPane* PageStack::thresholds() const {
+  return extrinsic_->thresholds();
+}
+
 void PageStack::show_welcome() {
   setCurrentWidget(welcome_);
 }
@@ -90,6 +97,10 @@ void PageStack::show_pages() {
 
 void PageStack::show_tab(int tab) {
   tabs_->setCurrentIndex(tab);
+}
+
+int PageStack::tab() const {
+  return currentWidget() == tabs_ ? tabs_->currentIndex() : -1;
 }
 
 int PageStack::tab_count() const {
@@ -125,6 +136,10 @@ void PageStack::set_crop_box(const std::optional<CropBox>& box) {
   if (box == crop_) return;
   crop_ = box;
   scene_->setCropBox(box);
+}
+
+void PageStack::set_edits(const SceneEdits& edits) {
+  scene_->setEdits(edits);
 }
 
 void PageStack::set_scene_data(const SceneData& data) {

@@ -22,6 +22,7 @@ class ModelWork;
 class RefinementPage;
 class ResponsePage;
 class ScenePage;
+class ThresholdPane;
 class WelcomePage;
 
 /// The middle of the window: the welcome page, or the pages of what is open, one per tab.
@@ -34,11 +35,14 @@ class PageStack : public QStackedWidget {
   /// Adds the Model page; `work` must outlive this.
   void add_model_page(ModelWork& work);
   [[nodiscard]] ModelPage* model_page() const { return model_; }
+  [[nodiscard]] ThresholdPane* thresholds() const;
   [[nodiscard]] WelcomePage& welcome() const { return *welcome_; }
   void show_welcome();
   void show_pages();
   void show_tab(int tab);
   [[nodiscard]] int tab_count() const;
+  /// The tab in view; −1 on the welcome page.
+  [[nodiscard]] int tab() const;
 
   /// Another dataset: nothing of the one before stays.
   void start(const Target& target);
@@ -46,6 +50,7 @@ class PageStack : public QStackedWidget {
   void set_scene(int scene, const std::optional<CropBox>& box);
   /// The box in force; a box that is being edited stays unless this one is another than before.
   void set_crop_box(const std::optional<CropBox>& box);
+  void set_edits(const SceneEdits& edits);
   /// Of the scene last set.
   void set_scene_data(const SceneData& data);
   void show_board_points(int scene, const std::shared_ptr<const Cloud>& board_points);
@@ -55,6 +60,11 @@ class PageStack : public QStackedWidget {
  Q_SIGNALS:
   /// A scene that the program refused is to be used all the same.
   void insist_wanted(int scene);
+  void edits_wanted(int scene, const lvcalib::SceneEdits& edits);
+  /// A tag, or else a circle, that the program refused is to be used all the same.
+  void keep_wanted(const QString& scene, bool tag, int id);
+  /// A patch of the board is to be left out of every scene.
+  void patch_excluded(const std::vector<Eigen::Vector2d>& patch_m);
   void crop_wanted(int scene, const std::optional<lvcalib::CropBox>& box);
   void scene_wanted(int scene);
   void failed(const QString& message);

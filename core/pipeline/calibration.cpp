@@ -44,6 +44,7 @@ class Calibration {
     const auto start = Clock::now();
     if (Status s = prepare(); !s) return s.error();
     if (Status s = load_scenes(dataset_, request_, context_, result_, cache_); !s) return s.error();
+    take_out_tags();
     if (Status s = some_view(); !s) return s.error();
     if (Status s = load_extra_images(dataset_, request_, context_, result_, cache_); !s)
       return s.error();
@@ -80,6 +81,8 @@ class Calibration {
       }
       scene.insisted = std::find(request_.insisted.begin(), request_.insisted.end(), files.name) !=
                        request_.insisted.end();
+      if (const auto edits = request_.edits.find(files.name); edits != request_.edits.end())
+        scene.edits = edits->second;
       result_.scenes.push_back(std::move(scene));
     }
     const auto same = same_files(dataset_, request_.use_crops, context_);
@@ -96,6 +99,18 @@ class Calibration {
         return Error::usage("there is no scene '" + name + "' to reject", dataset_.path.string());
     }
     return Done{};
+  }
+
+  // What the user left out of the images, before anything is made of it.
+  void take_out_tags() {
+    for (SceneResult& scene : result_.scenes) {
+      if (!scene.view || scene.edits.tags.empty()) continue;
+      scene.left_out_corners = take_out(*scene.view, scene.edits);
+      constexpr std::size_t kFewest = 4;
+      if (scene.view->corners.size() >= kFewest) continue;
+      scene.view.reset();
+      if (scene.reason.empty()) scene.reason = "too few tags: the others are left out by the user";
+    }
   }
 
   // The board must be seen in at least one image that has a cloud.
@@ -375,6 +390,7 @@ class Calibration {
       if (refinement) {
         scene.refinement = std::move(*refinement);
         scene.paper_nodes = std::move(paper_nodes);
+        take_out_circles(scene);
         judge_refinement(scene);
       } else {
         scene.reason = refinement.error().text();
@@ -392,6 +408,16 @@ class Calibration {
     if (any) return Done{};
     // What was taken for the board was not: on the board some circles would be found.
     return not_found();
+  }
+
+  static void take_out_circles(SceneResult& scene) {
+    for (auto* nodes : {&scene.refinement->nodes, &scene.paper_nodes}) {
+      for (RefinedNode& node : *nodes) {
+        if (!contains_id(scene.edits.circles, node.id)) continue;
+        node.valid = false;
+        node.reason = kLeftOutByUser;
+      }
+    }
   }
 
   // Where most scenes, three at least, agree on the print's place and too few circles can be
@@ -423,12 +449,14 @@ class Calibration {
     const BoardCandidate& candidate = scene.search->candidates[*scene.chosen];
     scene.board_points = std::move(scene.search->patch_points[candidate.patch]);
     scene.search->patch_points.clear();
+    scene.left_out_points = take_out(scene.board_points, scene.edits, result_.target,
+                                     candidate.lidar_from_board.transform);
     std::string key;
     StageCache* const cache = scene.no_contrast ? nullptr : cache_;
     if (cache != nullptr) {
       const SceneStages& stages = cache_->scene(scene.name);
       const std::string& search = looked_twice_[s] ? stages.second_look.key : stages.search.key;
-      key = refinement_key(search, *scene.chosen, request_.options);
+      key = refinement_key(search, *scene.chosen, request_.options) + refinement_key(scene.edits);
       if (const auto* kept = stages.refinement.find(key)) return *kept;
     }
     if (observer_.board_points) observer_.board_points(s, scene.board_points);

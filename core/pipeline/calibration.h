@@ -17,6 +17,7 @@
 #include "pipeline/input_hashes.h"
 #include "pipeline/intrinsics_stage.h"
 #include "pipeline/options.h"
+#include "pipeline/scene_edits.h"
 #include "pipeline/stage_cache.h"
 #include "response/boundary_response.h"
 #include "solve/forward_solver.h"
@@ -37,6 +38,7 @@ struct SceneResult {
   std::string reason;       ///< Why it is not used, in words.
   bool unreadable = false;  ///< Left out because of its files, not of what they show.
   bool insisted = false;    ///< The user wants it used, whatever speaks against it.
+  SceneEdits edits;         ///< What the user left out by hand, or wants used.
   /// Insisted on: what spoke against it.
   std::string objection;
   bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
@@ -44,10 +46,14 @@ struct SceneResult {
   /// The LiDAR sees the board but not its print: `search` goes by the outline, and the intensity of
   /// `board_points` is left out.
   bool no_contrast = false;
-  std::optional<BoardView> view;
+  std::optional<BoardView> view;                    ///< Without the corners below.
+  std::vector<CornerObservation> left_out_corners;  ///< Of tags that the user left out.
+  /// Of tags that the program refused for good, since others that it refused are used all the same.
+  std::vector<CornerObservation> refused_corners;
   std::optional<BoardSearchResult> search;
   std::optional<std::size_t> chosen;  ///< Candidate that all scenes agree on.
   Cloud board_points;                 ///< Full-density points about the board.
+  Cloud left_out_points;              ///< Of them, those that the user left out.
   std::optional<BoardRefinement> refinement;
   /// The circles refined exactly as the paper prints it, for the method joint_paper; empty where
   /// `refinement` has none.
@@ -128,6 +134,8 @@ struct CalibrationRequest {
   /// image or cloud cannot be used all the same.
   std::vector<std::string> insisted;
   UnusableScenes unusable = UnusableScenes::kRefuse;
+  /// By scene: what the user left out by hand, or wants used.
+  std::map<std::string, SceneEdits> edits;
   /// By scene: only the cloud's points inside the box are looked at.
   std::map<std::string, CropBox> crop_boxes;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <system_error>
 
@@ -16,10 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string number(double value) {
+// The shortest text that reads back as the same number.
+template <class Number>
+std::string number(Number value) {
   char text[40];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
+
+constexpr std::pair<const char*, std::vector<int> SceneEdits::*> kIdLists[] = {
+    {"tags", &SceneEdits::tags},
+    {"circles", &SceneEdits::circles},
+    {"kept_tags", &SceneEdits::kept_tags},
+    {"kept_circles", &SceneEdits::kept_circles}};
 
 void emit_list(YAML::Emitter& out, const char* key, const Eigen::Ref<const Eigen::VectorXd>& v) {
   out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
@@ -43,11 +52,43 @@ void emit_options(YAML::Emitter& out, const CalibrationOptions& options) {
   out << YAML::EndMap;
 }
 
+void emit_ids(YAML::Emitter& out, const char* key, const std::vector<int>& ids) {
+  if (ids.empty()) return;
+  out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const int id : ids) out << id;
+  out << YAML::EndSeq;
+}
+
+void emit_edits(YAML::Emitter& out, const SceneEdits& edits) {
+  out << YAML::Key << "edits" << YAML::Value << YAML::BeginMap;
+  for (const auto& [key, ids] : kIdLists) emit_ids(out, key, edits.*ids);
+  if (!edits.points_m.empty()) {
+    out << YAML::Key << "points_m" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const Eigen::Vector3f& p : edits.points_m) {
+      for (const float x : p) out << number(x);
+    }
+    out << YAML::EndSeq;
+  }
+  if (!edits.patches_m.empty()) {
+    out << YAML::Key << "patches_m" << YAML::Value << YAML::BeginSeq;
+    for (const auto& patch : edits.patches_m) {
+      out << YAML::Flow << YAML::BeginSeq;
+      for (const Eigen::Vector2d& p : patch) out << number(p.x()) << number(p.y());
+      out << YAML::EndSeq;
+    }
+    out << YAML::EndSeq;
+  }
+  out << YAML::EndMap;
+}
+
 void emit_scenes(YAML::Emitter& out, const Decisions& decisions) {
   out << YAML::Key << "scenes" << YAML::Value << YAML::BeginMap;
   for (const auto& [name, scene] : decisions.scenes) {
     out << YAML::Key << name << YAML::Value << YAML::BeginMap;
     out << YAML::Key << "use" << YAML::Value << (scene.use ? "true" : "false");
+    if (!scene.note.empty())
+      out << YAML::Key << "note" << YAML::Value << YAML::DoubleQuoted << scene.note << YAML::Auto;
+    if (!scene.edits.empty()) emit_edits(out, scene.edits);
     if (scene.insist) out << YAML::Key << "insist" << YAML::Value << "true";
     if (scene.crop) {
       out << YAML::Key << "crop" << YAML::Value << YAML::BeginMap;
@@ -94,6 +135,47 @@ Result<CropBox> crop_box(const YamlFile& file) {
   return box;
 }
 
+// The numbers of a list, which come in groups of `together`; none if it is not there.
+Result<std::vector<double>> grouped(const YamlFile& file, const YamlValue* list,
+                                    const std::string& key, std::size_t together) {
+  if (list == nullptr) return std::vector<double>();
+  auto numbers = file.flatten(*list, key);
+  if (numbers && numbers->size() % together != 0) {
+    return file.error_at(
+        *list, "'" + key + "' must hold " + std::to_string(together) + " numbers for each place");
+  }
+  return numbers;
+}
+
+Result<SceneEdits> scene_edits(const YamlFile& file) {
+  SceneEdits edits;
+  for (const auto& [key, ids] : kIdLists) {
+    auto numbers = grouped(file, file.root().find(key), key, 1);
+    if (!numbers) return numbers.error();
+    for (const double x : *numbers) {
+      if (x != std::floor(x) || std::abs(x) > 1e9)
+        return file.error_at(*file.root().find(key), std::string("'") + key + "' must hold ids");
+      (edits.*ids).push_back(static_cast<int>(x));
+    }
+  }
+  auto points = grouped(file, file.root().find("points_m"), "points_m", 3);
+  if (!points) return points.error();
+  for (std::size_t k = 0; k < points->size(); k += 3)
+    edits.points_m.emplace_back(Eigen::Vector3d(points->data() + k).cast<float>());
+  const YamlValue* patches = file.root().find("patches_m");
+  if (patches == nullptr) return edits;
+  if (patches->kind != YamlValue::Kind::kList)
+    return file.error_at(*patches, "'patches_m' must be a list of polygons");
+  for (const YamlValue& item : patches->list) {
+    auto numbers = grouped(file, &item, "patches_m", 2);
+    if (!numbers) return numbers.error();
+    auto& patch = edits.patches_m.emplace_back();
+    for (std::size_t k = 0; k < numbers->size(); k += 2)
+      patch.emplace_back((*numbers)[k], (*numbers)[k + 1]);
+  }
+  return edits;
+}
+
 constexpr std::pair<ModelChange, const char*> kChanges[] = {
     {ModelChange::kAdd, "add"},       {ModelChange::kRemove, "remove"},
     {ModelChange::kSwitchOff, "off"}, {ModelChange::kSwitchOn, "on"},
@@ -137,8 +219,9 @@ class Reader {
                             &Reader::scenes, &Reader::model}) {
       if (Status s = (this->*step)(); !s) return s.error();
     }
-    auto unknown = file_.unknown_keys({"format", "version", "dataset", "use_crops", "guess",
-                                       "options", "added_scenes", "scenes", "model"});
+    auto unknown =
+        file_.unknown_keys({"format", "version", "dataset", "use_crops", "guess", "options",
+                            "added_scenes", "scene_order", "scenes", "model"});
     out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
     return std::move(out_);
   }
@@ -167,16 +250,28 @@ class Reader {
     auto crops = flag(file_, "use_crops", false);
     if (!crops) return crops.error();
     decisions().use_crops = *crops;
-    const YamlValue* added = file_.root().find("added_scenes");
-    if (added == nullptr || added->kind == YamlValue::Kind::kNull) return Done{};
-    if (added->kind != YamlValue::Kind::kList)
-      return file_.error_at(*added, "'added_scenes' must be a list of folders");
-    for (const YamlValue& item : added->list) {
-      if (item.kind != YamlValue::Kind::kScalar || item.scalar.empty())
-        return file_.error_at(item, "'added_scenes' must be a list of folders");
-      decisions().added_scenes.push_back(absolute(item.scalar));
-    }
+    auto added = texts("added_scenes", "folders");
+    if (!added) return added.error();
+    for (const std::string& path : *added) decisions().added_scenes.push_back(absolute(path));
+    auto order = texts("scene_order", "scenes");
+    if (!order) return order.error();
+    decisions().scene_order = std::move(*order);
     return Done{};
+  }
+
+  // A list of texts; none if it is not there.
+  Result<std::vector<std::string>> texts(const char* key, const char* what) {
+    std::vector<std::string> out;
+    const YamlValue* list = map_or_null(key);
+    if (list == nullptr) return out;
+    const std::string expected = std::string("'") + key + "' must be a list of " + what;
+    if (list->kind != YamlValue::Kind::kList) return file_.error_at(*list, expected);
+    for (const YamlValue& item : list->list) {
+      if (item.kind != YamlValue::Kind::kScalar || item.scalar.empty())
+        return file_.error_at(item, expected);
+      out.push_back(item.scalar);
+    }
+    return out;
   }
 
   Status guess() {
@@ -218,7 +313,21 @@ class Reader {
       if (!use) return use.error();
       auto insist = flag(*section, "insist", false);
       if (!insist) return insist.error();
-      SceneDecision decision{*use, *insist, {}};
+      SceneDecision decision;
+      decision.use = *use;
+      decision.insist = *insist;
+      if (section->has("note")) {
+        auto note = section->string("note");
+        if (!note) return note.error();
+        decision.note = *note;
+      }
+      if (section->has("edits")) {
+        auto inner = section->section("edits");
+        if (!inner) return inner.error();
+        auto edits = scene_edits(*inner);
+        if (!edits) return edits.error();
+        decision.edits = std::move(*edits);
+      }
       if (section->has("crop")) {
         auto inner = section->section("crop");
         if (!inner) return inner.error();
@@ -226,7 +335,7 @@ class Reader {
         if (!box) return box.error();
         decision.crop = *box;
       }
-      const auto unknown = section->unknown_keys({"use", "insist", "crop"});
+      const auto unknown = section->unknown_keys({"use", "insist", "crop", "note", "edits"});
       out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
       decisions().scenes[entry.first] = decision;
     }
@@ -297,6 +406,11 @@ std::string project_as_text(const Project& project, const fs::path& folder) {
   for (const fs::path& path : d.added_scenes)
     out << YAML::DoubleQuoted << relative_path(path, folder) << YAML::Auto;
   out << YAML::EndSeq;
+  if (!d.scene_order.empty()) {
+    out << YAML::Key << "scene_order" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const std::string& name : d.scene_order) out << YAML::DoubleQuoted << name << YAML::Auto;
+    out << YAML::EndSeq;
+  }
   emit_scenes(out, d);
   emit_model(out, project.model);
   out << YAML::EndMap;

@@ -2,8 +2,16 @@
 #include "pipeline/refusals.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <Eigen/Cholesky>
 
 #include "base/text.h"
+#include "solve/board_returns.h"
 
 namespace lvcalib {
 namespace {
@@ -14,23 +22,28 @@ using What = Refusal::What;
 void refuse_features(const SceneSolution& solved, const SceneResult* found,
                      std::vector<Refusal>& out) {
   for (const NodeResidual& node : solved.nodes) {
-    if (node.used) continue;
+    if (node.used || (found != nullptr && contains_id(found->edits.circles, node.id))) continue;
+    bool measured = true;
     std::string reason = formatted("misses the board's pose by %.1f mm, more than the gate",
                                    1e3 * node.residual_m.norm());
     if (found != nullptr && found->refinement) {
       for (const RefinedNode& refined : found->refinement->nodes) {
-        if (refined.id == node.id && !refined.valid && !refined.reason.empty())
-          reason = refined.reason;
+        if (refined.id != node.id || refined.valid) continue;
+        measured = false;
+        if (!refined.reason.empty()) reason = refined.reason;
       }
     }
-    out.push_back({solved.name, What::kCircle, node.id, 0, reason});
+    out.push_back({solved.name, What::kCircle, node.id, 0, reason, measured});
   }
-  int last = -1;
+  std::set<int> tags;
   for (const CornerResidual& corner : solved.corners) {
-    if (corner.used || corner.feature_id == last) continue;
-    last = corner.feature_id;
-    out.push_back({solved.name, What::kTag, corner.feature_id, 0,
-                   "misses the board's pose by more than the gate"});
+    if (!corner.used) tags.insert(corner.feature_id);
+  }
+  for (std::size_t k = 0; found != nullptr && k < found->refused_corners.size(); ++k)
+    tags.insert(found->refused_corners[k].feature_id);
+  for (const int id : tags) {
+    out.push_back(
+        {solved.name, What::kTag, id, 0, "misses the board's pose by more than the gate", true});
   }
 }
 
@@ -74,16 +87,83 @@ std::vector<Refusal> refusals(const CalibrationResult& result) {
   };
   for (const SceneResponse& scene : result.response.scenes) {
     if (refused_whole(scene.name)) continue;
+    const auto found = std::find_if(result.scenes.begin(), result.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == scene.name; });
     if (!scene.reason.empty()) out.push_back({scene.name, What::kResponse, -1, 0, scene.reason});
     for (const NodeResponse& node : scene.nodes) {
       if (node.state == NodeResponseState::kUsed || contains_circle(out, scene.name, node.id))
         continue;
+      if (found != result.scenes.end() && contains_id(found->edits.circles, node.id)) continue;
       out.push_back({scene.name, What::kResponse, node.id, 0, node.reason});
     }
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Refusal& a, const Refusal& b) { return a.scene < b.scene; });
   return out;
+}
+
+std::vector<GateDistance> gate_distances(const CalibrationResult& result) {
+  std::vector<GateDistance> out;
+  const ExtrinsicSolution& x = result.extrinsic;
+  const double floor_m = result.options.extrinsic.node_sigma_floor_m;
+  for (const SceneSolution& solved : x.scenes) {
+    const auto scene = std::find_if(result.scenes.begin(), result.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == solved.name; });
+    if (!solved.used || scene == result.scenes.end() || !scene->refinement) continue;
+    std::map<int, GateDistance> tags;
+    for (const CornerResidual& corner : solved.corners) {
+      GateDistance& tag = tags[corner.feature_id];
+      const double sigmas = corner.residual_px.norm() / std::max(x.sigma_px, 1e-12);
+      tag = {solved.name, What::kTag, corner.feature_id, std::max(tag.sigmas, sigmas), corner.used};
+    }
+    for (auto& [id, tag] : tags) out.push_back(std::move(tag));
+    const BoardRefinement& refined = *scene->refinement;
+    for (std::size_t k = 0; k < solved.nodes.size() && k < refined.nodes.size(); ++k) {
+      if (!refined.nodes[k].valid) continue;
+      const Eigen::Vector3d in_lidar =
+          refined.lidar_from_board.rotation * solved.nodes[k].residual_m;
+      const Eigen::Vector2d in_plane(refined.plane.axis_u.dot(in_lidar),
+                                     refined.plane.axis_v.dot(in_lidar));
+      const Eigen::Matrix2d covariance =
+          x.node_scale * x.node_scale *
+          (refined.nodes[k].covariance_m2 + floor_m * floor_m * Eigen::Matrix2d::Identity());
+      const double chi2 = in_plane.dot(covariance.ldlt().solve(in_plane));
+      out.push_back({solved.name, What::kCircle, solved.nodes[k].id, std::sqrt(std::max(0.0, chi2)),
+                     solved.nodes[k].used});
+    }
+  }
+  return out;
+}
+
+std::vector<std::uint32_t> refused_returns(const CalibrationResult& result, std::size_t scene) {
+  if (!result.forward || !result.print || scene >= result.scenes.size()) return {};
+  const SceneResult& from = result.scenes[scene];
+  const ForwardState& state = result.forward->state;
+  std::size_t place = 0;
+  for (const SceneSolution& solved : result.extrinsic.scenes) {
+    if (!solved.used) continue;
+    if (solved.name != from.name) {
+      ++place;
+      continue;
+    }
+    if (place >= result.forward->noise.scenes.size()) return {};
+    const SceneNoise& noise = result.forward->noise.scenes[place];
+    const double range_sigma_m = std::max(noise.range_white_m, noise.range_black_m);
+    const ReturnSelection& usual = result.options.forward.selection;
+    ReturnSelection open = usual;
+    open.range_gate = std::numeric_limits<double>::infinity();
+    const auto select = [&](const ReturnSelection& selection) {
+      return select_returns(from.board_points, *result.print, state.lidar_from_board(place),
+                            state.beam, range_sigma_m, selection)
+          .index;
+    };
+    const auto kept = select(usual);
+    const auto all = select(open);
+    std::vector<std::uint32_t> out;
+    std::set_difference(all.begin(), all.end(), kept.begin(), kept.end(), std::back_inserter(out));
+    return out;
+  }
+  return {};
 }
 
 }  // namespace lvcalib

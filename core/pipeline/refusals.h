@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct Refusal {
   int id = -1;
   std::size_t points = 0;  ///< How many, of kPoints.
   std::string reason;      ///< In words.
-  /// The user can insist on it (CalibrationRequest::insisted).
+  /// The user can insist on it (CalibrationRequest::insisted, SceneEdits).
   bool can_be_used = false;
 };
 
@@ -33,5 +34,22 @@ bool can_be_insisted_on(const SceneResult& scene);
 /// Everything that the program refused, by scene. What the user left out is not in it, and of a
 /// scene that is refused as a whole nothing else is listed.
 std::vector<Refusal> refusals(const CalibrationResult& result);
+
+/// How far a tag (its worst corner) or a circle that takes part misses the board's pose, in
+/// standard deviations: what the gate is held against.
+struct GateDistance {
+  std::string scene;
+  Refusal::What what = Refusal::What::kTag;  ///< Or kCircle.
+  int id = 0;
+  double sigmas = 0.0;
+  bool used = true;
+};
+
+/// Of every tag and circle of the scenes in use, refused ones included, at the result's solution.
+std::vector<GateDistance> gate_distances(const CalibrationResult& result);
+
+/// Places in a scene's board_points of the returns that the solve refused (Refusal::What::kPoints);
+/// empty without a forward solution. Ascending.
+std::vector<std::uint32_t> refused_returns(const CalibrationResult& result, std::size_t scene);
 
 }  // namespace lvcalib

@@ -2,6 +2,7 @@
 // The part of the calibration that is done again when scenes are ticked or unticked.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "pipeline/ablation.h"
@@ -84,15 +85,75 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
   return Done{};
 }
 
-// The extrinsic by nodes and planes. Scenes that the user insists on stay in, whatever it says
-// against them; then those that it refused otherwise are out for good, and nothing more is refused:
-// `observations` and `options` become what was solved.
+bool corners_before(const CornerObservation& a, const CornerObservation& b) {
+  return a.feature_id != b.feature_id ? a.feature_id < b.feature_id : a.corner < b.corner;
+}
+
+// Corners that were set aside for the sake of others are judged anew.
+void take_back_refused(CalibrationResult& result) {
+  for (SceneResult& scene : result.scenes) {
+    if (!scene.view || scene.refused_corners.empty()) continue;
+    auto& corners = scene.view->corners;
+    corners.insert(corners.end(), scene.refused_corners.begin(), scene.refused_corners.end());
+    std::stable_sort(corners.begin(), corners.end(), corners_before);
+    scene.refused_corners.clear();
+  }
+}
+
+// True if a solution refuses a tag or circle that the user wants used all the same. A circle whose
+// centre could not be measured cannot be.
+bool refuses_kept(const SceneEdits& edits, const SceneObservations& observed,
+                  const SceneSolution& solved) {
+  for (const CornerResidual& corner : solved.corners) {
+    if (!corner.used && contains_id(edits.kept_tags, corner.feature_id)) return true;
+  }
+  for (std::size_t k = 0; k < solved.nodes.size(); ++k) {
+    if (!solved.nodes[k].used && observed.nodes[k].valid &&
+        contains_id(edits.kept_circles, solved.nodes[k].id))
+      return true;
+  }
+  return false;
+}
+
+// Takes what a solution refused, but for what the user wants used, out for good.
+void set_refused_aside(SceneResult& scene, SceneObservations& observed,
+                       const SceneSolution& solved) {
+  std::vector<CornerObservation> rest;
+  for (std::size_t k = 0; k < solved.corners.size(); ++k) {
+    const CornerObservation& corner = observed.corners[k];
+    const bool stays =
+        solved.corners[k].used || contains_id(scene.edits.kept_tags, corner.feature_id);
+    (stays ? rest : scene.refused_corners).push_back(corner);
+  }
+  scene.view->corners = rest;
+  observed.corners = std::move(rest);
+  for (std::size_t k = 0; k < solved.nodes.size(); ++k) {
+    if (!solved.nodes[k].used && !contains_id(scene.edits.kept_circles, solved.nodes[k].id))
+      observed.nodes[k].valid = false;
+  }
+}
+
+// The extrinsic by nodes and planes. Scenes, tags and circles that the user insists on stay in,
+// whatever it says against them; then those that it refused otherwise are out for good, and nothing
+// more of their kind is refused: `observations` and `options` become what was solved.
 Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const Target& target,
                                               const std::vector<std::size_t>& index,
                                               std::vector<SceneObservations>& observations,
                                               ExtrinsicOptions& options) {
   auto solution = solve_extrinsic(observations, result.camera, target, options);
   if (!solution) return solution;
+  bool kept = false;
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    kept = kept || (solution->scenes[k].used && refuses_kept(result.scenes[index[k]].edits,
+                                                             observations[k], solution->scenes[k]));
+  }
+  if (kept) {
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      if (solution->scenes[k].used)
+        set_refused_aside(result.scenes[index[k]], observations[k], solution->scenes[k]);
+    }
+    options.rejection_gate = std::numeric_limits<double>::infinity();
+  }
   bool any = false;
   for (std::size_t k = 0; k < index.size(); ++k) {
     SceneResult& scene = result.scenes[index[k]];
@@ -100,7 +161,7 @@ Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const T
     scene.objection = solution->scenes[k].reason;
     any = true;
   }
-  if (!any) return solution;
+  if (!any && !kept) return solution;
   for (std::size_t k = 0; k < index.size(); ++k) {
     SceneResult& scene = result.scenes[index[k]];
     if (!observations[k].use || solution->scenes[k].used || scene.insisted) continue;
@@ -132,6 +193,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   result.modelled_print_scale.setZero();
   result.modelled_range_misfit = 0.0;
   result.unexplained.clear();
+  take_back_refused(result);
   std::vector<std::size_t> index;
   auto observations = observations_of(result, use, index);
   const Target target = target_in_use(result, observations);

@@ -32,7 +32,7 @@ bool solving_is_enough(const Dataset& dataset, const CalibrationRequest& request
   const CalibrationRequest& last = state.request;
   if (!same_options(last.options, request.options) || !same_guess(last.guess, request.guess) ||
       last.use_crops != request.use_crops || last.crop_boxes != request.crop_boxes ||
-      last.insisted != request.insisted) {
+      last.insisted != request.insisted || last.edits != request.edits) {
     return false;
   }
   return std::all_of(last.rejected.begin(), last.rejected.end(),
@@ -40,7 +40,8 @@ bool solving_is_enough(const Dataset& dataset, const CalibrationRequest& request
 }
 
 Result<CalibrationResult> solve_again(const CalibrationRequest& request,
-                                      const CalibrationResult& whole) {
+                                      const CalibrationResult& whole,
+                                      const RunContext& context = {}) {
   CalibrationResult result = whole;
   std::vector<bool> use;
   for (SceneResult& scene : result.scenes) {
@@ -53,7 +54,7 @@ Result<CalibrationResult> solve_again(const CalibrationRequest& request,
       scene.reason.clear();  // The solve says anew whether it contradicts the others.
     }
   }
-  return resolve_calibration(std::move(result), use, request.options);
+  return resolve_calibration(std::move(result), use, request.options, context);
 }
 
 }  // namespace
@@ -62,6 +63,18 @@ bool same_options(const CalibrationOptions& a, const CalibrationOptions& b) {
   const auto& all = option_declarations();
   return std::all_of(all.begin(), all.end(),
                      [&](const OptionDeclaration& d) { return d.get(a) == d.get(b); });
+}
+
+bool same_calibration(const Decisions& a, const Decisions& b) {
+  const auto wordless = [](const Decisions& decisions) {
+    auto scenes = decisions.scenes;
+    for (auto& entry : scenes) entry.second.note.clear();
+    std::erase_if(scenes, [](const auto& entry) { return entry.second == SceneDecision{}; });
+    return scenes;
+  };
+  return wordless(a) == wordless(b) && same_options(a.options, b.options) &&
+         same_guess(a.guess, b.guess) && a.use_crops == b.use_crops &&
+         a.added_scenes == b.added_scenes;
 }
 
 SceneDecision decision_of(const Decisions& decisions, const std::string& scene) {
@@ -98,8 +111,15 @@ CalibrationRequest request_of(const Dataset& dataset, const Decisions& decisions
     if (!decision.use) request.rejected.push_back(files.name);
     if (decision.use && decision.insist) request.insisted.push_back(files.name);
     if (decision.crop) request.crop_boxes[files.name] = *decision.crop;
+    if (!decision.edits.empty()) request.edits[files.name] = decision.edits;
   }
   return request;
+}
+
+Result<CalibrationResult> preview_session(const Dataset& dataset, const Decisions& decisions,
+                                          const SessionState& state, const RunContext& context) {
+  if (!state.whole) return Error::usage("there is no calibration yet");
+  return solve_again(request_of(dataset, decisions), *state.whole, context);
 }
 
 SessionRun run_session(const Dataset& dataset, const Decisions& decisions, SessionState state,

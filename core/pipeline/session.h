@@ -17,6 +17,8 @@ struct SceneDecision {
   bool use = true;
   bool insist = false;  ///< Used though it contradicts the others or shows too few circles.
   std::optional<CropBox> crop;
+  SceneEdits edits;  ///< What of it is left out by hand.
+  std::string note;  ///< The user's own words about it.
   bool operator==(const SceneDecision&) const = default;
 };
 
@@ -27,10 +29,16 @@ struct Decisions {
   std::optional<Rigid3> guess;  ///< Rough T_camera_lidar; takes the place of rig.yaml's.
   bool use_crops = false;       ///< Take board.pcd instead of cloud.pcd where present.
   std::vector<std::filesystem::path> added_scenes;  ///< Scene folders besides the dataset's own.
+  /// In which order scenes are listed; those that are not in it follow by name.
+  std::vector<std::string> scene_order;
 };
 
 /// True if two sets of options have the same values.
 bool same_options(const CalibrationOptions& a, const CalibrationOptions& b);
+
+/// True if two sets of decisions ask for the same calibration: notes and the order of the list are
+/// words about it.
+bool same_calibration(const Decisions& a, const Decisions& b);
 
 /// The scene's decision, or the default one.
 SceneDecision decision_of(const Decisions& decisions, const std::string& scene);
@@ -57,6 +65,12 @@ struct SessionRun {
   std::optional<Error> error;
   bool solved_only = false;  ///< Only the joint solve was run.
 };
+
+/// What run_session() would give with these decisions from the features of the last whole run, for
+/// a look at options of the solve before they are taken. Errors as resolve_calibration(); kUsage
+/// before the first whole run.
+Result<CalibrationResult> preview_session(const Dataset& dataset, const Decisions& decisions,
+                                          const SessionState& state, const RunContext& context);
 
 /// Brings the result up to date with the decisions, running what they touch and nothing else:
 /// scenes taken out or back in → the joint solve from kept features; a crop box → that scene's

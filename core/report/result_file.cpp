@@ -78,6 +78,16 @@ ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
   }
   j["rms_px"] = solution != nullptr ? solution->rms_px : 0.0;
   j["rms_mm"] = solution != nullptr ? solution->rms_mm : 0.0;
+  const SceneEdits& edits = scene.edits;
+  if (!edits.empty()) {
+    j["by_hand"] = {
+        {"left_out",
+         {{"points", scene.left_out_points.size()},
+          {"patches", edits.patches_m.size()},
+          {"tags", edits.tags},
+          {"circles", edits.circles}}},
+        {"used_all_the_same", {{"tags", edits.kept_tags}, {"circles", edits.kept_circles}}}};
+  }
   if (scene.refinement) {
     j["refinement"] = refinement_json(*scene.refinement);
     j["nodes"] = nodes_json(*scene.refinement, solution);

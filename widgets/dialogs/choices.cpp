@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dialogs/choices.h"
 
+#include <QAbstractItemView>
 #include <QCoreApplication>
 #include <QFileDialog>
 #include <QMessageBox>
@@ -38,9 +39,18 @@ QString Choices::project_to_save(QWidget* parent, const QString& suggestion) {
 }
 
 QStringList Choices::scenes_to_add(QWidget* parent, const QString& folder) {
-  const QString path = QFileDialog::getExistingDirectory(
-      parent, words(QT_TRANSLATE_NOOP("Choices", "Add a scene folder (image and cloud)")), folder);
-  return path.isEmpty() ? QStringList() : QStringList{path};
+  QFileDialog dialog(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Add scene folders (image and cloud each)")),
+      folder);
+  dialog.setFileMode(QFileDialog::Directory);
+  // The systems' own dialogs let one choose a single folder only.
+  dialog.setOption(QFileDialog::DontUseNativeDialog);
+  for (QAbstractItemView* view : dialog.findChildren<QAbstractItemView*>()) {
+    if (view->objectName() == QLatin1String("listView") ||
+        view->objectName() == QLatin1String("treeView"))
+      view->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  }
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles() : QStringList();
 }
 
 QString Choices::file_to_export(QWidget* parent, const QString& suggestion, const QString& filter) {

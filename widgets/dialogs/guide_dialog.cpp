@@ -2,48 +2,92 @@
 #include "dialogs/guide_dialog.h"
 
 #include <QDialogButtonBox>
+#include <QScrollBar>
+#include <QTextBlock>
 #include <QTextBrowser>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
 
-GuideDialog::GuideDialog(QWidget* parent) : QDialog(parent) {
+GuideDialog::GuideDialog(int chapter, QWidget* parent)
+    : QDialog(parent), browser_(new QTextBrowser(this)), chapter_(chapter) {
   setAttribute(Qt::WA_DeleteOnClose);
   setObjectName(QStringLiteral("guide_dialog"));
-  resize(640, 560);
-  auto* browser = new QTextBrowser(this);
-  follow_language(this, [this, browser] {
-    setWindowTitle(tr("Guide"));
-    browser->setMarkdown(tr(
-        "# From the board to a result\n"
-        "1. **Print the board** at 1:1 with `lvcalib target target.yaml -o board.pdf`, glue it "
-        "on something flat and measure a tag.\n"
-        "2. **Take three to ten scenes**: an image and a cloud each, the board at 2–4 m, turned "
-        "differently each time, seen whole by both sensors.\n"
-        "3. **Lay out the folder**: `target.yaml`, `camera.yaml`, "
-        "`scenes/NAME/image.png` and `scenes/NAME/cloud.pcd`.\n"
-        "4. **Open it and press F5.** No rough guess is needed.\n"
-        "5. **Look**: every scene should be *used*; a scene whose px, mm or influence stands out "
-        "deserves a look on the Scene page. Untick it and the result follows at once.\n"
-        "6. **Export** with Ctrl+E.\n\n"
-        "# Pages\n"
-        "- **Scene**: cloud and image of the scene that is selected in the list, with what was "
-        "found in them. A crop box helps where the board is not found.\n"
-        "- **Refinement**: how each circle's centre was found, bin by bin.\n"
-        "- **Extrinsic**: the pose, its standard deviations, how the scenes agree, and the same "
-        "scenes solved by other methods.\n"
-        "- **Boundary response**: how returns scatter at the circles' edges.\n\n"
-        "# Keys\n"
-        "F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J "
-        "rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks.\n"));
-  });
+  resize(680, 600);
+  browser_->setObjectName(QStringLiteral("guide_text"));
+  follow_language(this, [this] { retranslate(); });
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);
-  layout->addWidget(browser);
+  layout->addWidget(browser_);
   layout->addWidget(buttons);
+}
+
+// A chapter per heading of the first level, in the order of the pages.
+void GuideDialog::retranslate() {
+  setWindowTitle(tr("Guide"));
+  const QStringList chapters = {
+      tr("# From the board to a result\n"
+         "1. **Print the board** at 1:1 with *Tools › Print the board…*, glue it on something flat "
+         "and measure a tag.\n"
+         "2. **Take three to ten scenes**: the board at 2–4 m, turned differently each time, seen "
+         "whole by both sensors.\n"
+         "3. **Open them**: *File › New from recording…* makes a dataset of a bag; or lay out a "
+         "folder with `target.yaml`, `camera.yaml`, `scenes/NAME/image.png` and "
+         "`scenes/NAME/cloud.pcd` and open that.\n"
+         "4. **Press F5.** No rough guess is needed.\n"
+         "5. **Look**: every scene should be *used*; a scene whose px, mm or influence stands out "
+         "deserves a look on the Scene page. Untick it and the result follows at once.\n"
+         "6. **Ask what is missing** on the Model page.\n"
+         "7. **Export** with Ctrl+E.\n"),
+      tr("# Scene\n"
+         "Cloud and image of the scene that is selected in the list, with what was found in them. "
+         "A click in one view shows the same thing in the other.\n\n"
+         "- **Brush** (L): draw a line about points, tags or circles to select them; Shift adds. "
+         "*Exclude these* leaves them out, and *Take back* brings them back. A patch of the board "
+         "can be left out of every scene: a stain, a screw, a bent corner.\n"
+         "- What is not used is hatched and crossed out: red where the program refused it, violet "
+         "where you did. *Use it all the same* overrules the program.\n"
+         "- **Crop…** (C) helps where the board is not found.\n"),
+      tr("# Refinement\n"
+         "How each circle's centre was found, bin by bin: marks where the intensity crosses its "
+         "middle level, and the fitted wave. A centred circle has a flat line at zero. A click "
+         "enlarges a circle and says why bins were refused.\n"),
+      tr("# Extrinsic\n"
+         "The pose, its standard deviations and the verdict. *Residuals and influence* has a "
+         "column for each scene; *Methods* solves the same scenes in other ways; *Thresholds* "
+         "shows what tags and circles miss the board's pose by, with the gate as a line to drag: "
+         "what would be refused and where the extrinsic would go is told before it is decided. "
+         "*All scenes* shows every board about the rig.\n"),
+      tr("# Boundary response\n"
+         "How returns scatter at the circles' edges: the transition of the intensity, pitch and "
+         "yaw with their ellipse, and ranges off the plane. The table has the numbers for all "
+         "scenes and each one. *Left out* lists what the program refused, with its reasons.\n"),
+      tr("# Model\n"
+         "What the model misses, and what it does to the pose. Bars on top: the error beyond the "
+         "noise after each step, red where it is unexplained. On the right, what is missing, with "
+         "the evidence; *Add* takes it into the model, *Find all* goes on until nothing is "
+         "missing. *Compare steps…* tells how far the pose moved. Where the truth of a simulation "
+         "is known, the distance to it stands beside the bars.\n"),
+      tr("# Keys\n"
+         "F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J "
+         "rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks, Alt+Up and "
+         "Alt+Down move them in the list, F1 opens this guide at the page in view.\n")};
+  browser_->setMarkdown(chapters.join(QLatin1Char('\n')));
+  int heading = -1;
+  for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
+    if (block.blockFormat().headingLevel() != 1 || ++heading != chapter_) continue;
+    // To the top of the view, not just into sight.
+    browser_->moveCursor(QTextCursor::End);
+    browser_->setTextCursor(QTextCursor(block));
+    QTimer::singleShot(0, browser_, [this] {
+      browser_->verticalScrollBar()->setValue(browser_->verticalScrollBar()->value() +
+                                              browser_->cursorRect().top());
+    });
+  }
 }
 
 }  // namespace lvcalib::widgets

@@ -8,6 +8,7 @@
 #include <QToolBar>
 #include <QTreeView>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "models/scene_model.h"
 #include "style/texts.h"
@@ -45,7 +46,12 @@ void ScenesDock::make_view(SceneModel& model) {
   view_->setAllColumnsShowFocus(true);
   view_->setAlternatingRowColors(true);
   view_->setSortingEnabled(true);
-  view_->sortByColumn(SceneModel::kName, Qt::AscendingOrder);
+  // At first in the user's order; a third click on a heading brings it back.
+  view_->header()->setSortIndicatorClearable(true);
+  view_->sortByColumn(-1, Qt::AscendingOrder);
+  view_->setDragDropMode(QAbstractItemView::InternalMove);
+  view_->setDropIndicatorShown(true);
+  view_->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::SelectedClicked);
   view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   view_->setIconSize(QSize(48, 30));
   view_->setContextMenuPolicy(Qt::ActionsContextMenu);
@@ -56,6 +62,10 @@ void ScenesDock::make_view(SceneModel& model) {
   header->setMinimumSectionSize(28);
   header->setSectionResizeMode(SceneModel::kState, QHeaderView::Stretch);
   header->moveSection(SceneModel::kState, 1);
+  view_->setColumnHidden(SceneModel::kNote, true);
+  connect(header, &QHeaderView::sortIndicatorChanged, this, &ScenesDock::update_actions);
+  connect(&model, &SceneModel::note_wanted, this, &ScenesDock::note_wanted);
+  connect(&model, &SceneModel::order_wanted, this, &ScenesDock::order_wanted);
   connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
           &ScenesDock::update_actions);
   connect(&model, &QAbstractItemModel::modelReset, this, &ScenesDock::update_actions);
@@ -84,7 +94,13 @@ void ScenesDock::make_actions() {
   run_again_ = add_action("run_again", QKeySequence(Qt::SHIFT | Qt::Key_F5));
   uncrop_ = add_action("uncrop", {});
   add_ = add_action("add_scenes", QKeySequence(Qt::CTRL | Qt::Key_I));
-  bar_->removeAction(uncrop_);
+  note_ = add_action("note", {});
+  up_ = add_action("scene_up", QKeySequence(Qt::ALT | Qt::Key_Up));
+  down_ = add_action("scene_down", QKeySequence(Qt::ALT | Qt::Key_Down));
+  for (QAction* action : {uncrop_, note_, up_, down_}) bar_->removeAction(action);
+  connect(note_, &QAction::triggered, this, &ScenesDock::edit_note);
+  connect(up_, &QAction::triggered, this, [this] { move(-1); });
+  connect(down_, &QAction::triggered, this, [this] { move(1); });
   connect(accept_, &QAction::triggered, this, [this] { Q_EMIT use_wanted(selected(), true); });
   connect(reject_, &QAction::triggered, this, [this] { Q_EMIT use_wanted(selected(), false); });
   connect(insist_, &QAction::triggered, this,
@@ -113,8 +129,36 @@ void ScenesDock::select(const QString& scene) {
   if (row >= 0) view_->setCurrentIndex(sorted_->mapFromSource(model_.index(row, 0)));
 }
 
+// Past the row before the first selected one, or after the last.
+void ScenesDock::move(int by) {
+  int first = model_.rowCount();
+  int last = -1;
+  for (const QString& scene : selected()) {
+    first = std::min(first, model_.row_of(scene));
+    last = std::max(last, model_.row_of(scene));
+  }
+  const int row = by < 0 ? first - 1 : last + 2;
+  if (last >= 0 && row >= 0 && row <= model_.rowCount())
+    Q_EMIT order_wanted(model_.moved(selected(), row));
+}
+
+void ScenesDock::edit_note() {
+  const QModelIndex current = view_->currentIndex();
+  if (!current.isValid()) return;
+  view_->setColumnHidden(SceneModel::kNote, false);
+  const QModelIndex cell = current.siblingAtColumn(SceneModel::kNote);
+  view_->scrollTo(cell);
+  view_->edit(cell);
+}
+
 void ScenesDock::update_actions() {
   const bool any = !selected().isEmpty();
+  if (model_.has_notes()) view_->setColumnHidden(SceneModel::kNote, false);
+  // In another order than the user's there are no places to drag to.
+  const bool own_order = view_->header()->sortIndicatorSection() < 0;
+  view_->setDragEnabled(own_order);
+  note_->setEnabled(any);
+  for (QAction* action : {up_, down_}) action->setEnabled(any && own_order);
   for (QAction* action : {accept_, reject_, run_again_, uncrop_}) action->setEnabled(any);
   add_->setEnabled(model_.rowCount() > 0);
   // Only beside what the program refused is there something to overrule.
@@ -149,7 +193,10 @@ void ScenesDock::retranslate() {
            tr("Use the selected scenes although the program refused them"));
   describe(run_again_, tr("Run again"), tr("Run all stages of the selected scenes again"));
   describe(uncrop_, tr("Remove crop box"), tr("Search the whole clouds of the selected scenes"));
-  describe(add_, tr("Add scenes…"), tr("Add scene folders from elsewhere"));
+  describe(note_, tr("Note…"), tr("Write a note on the scene"));
+  describe(up_, tr("Move up"), tr("Move the selected scenes up in the list"));
+  describe(down_, tr("Move down"), tr("Move the selected scenes down in the list"));
+  describe(add_, tr("Add scenes…"), tr("Add scene folders from elsewhere, several at once"));
 }
 
 }  // namespace lvcalib::widgets

@@ -33,6 +33,9 @@ class ScenesDock : public QDockWidget {
   void run_again_wanted(const QStringList& scenes);
   void uncrop_wanted(const QStringList& scenes);
   void add_wanted();
+  void note_wanted(const QString& scene, const QString& note);
+  /// All scenes in the order that the user dragged them into.
+  void order_wanted(const QStringList& scenes);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -42,6 +45,8 @@ class ScenesDock : public QDockWidget {
   void make_actions();
   void retranslate();
   void update_actions();
+  void move(int by);
+  void edit_note();
 
   SceneModel& model_;
   QSortFilterProxyModel* sorted_;
@@ -52,6 +57,9 @@ class ScenesDock : public QDockWidget {
   QAction* reject_;
   QAction* run_again_;
   QAction* uncrop_;
+  QAction* note_;
+  QAction* up_;
+  QAction* down_;
   QAction* add_;
 };
 

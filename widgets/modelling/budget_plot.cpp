@@ -71,6 +71,17 @@ void BudgetPlot::setSteps(std::vector<ModelStepPtr> steps, std::size_t current) 
   rebuild();
 }
 
+void BudgetPlot::setTruth(const std::optional<Rigid3>& camera_from_lidar) {
+  truth_ = camera_from_lidar;
+  rebuild();
+}
+
+BudgetPlot::Distance BudgetPlot::toTruth(const ModelStep& step) const {
+  const Rigid3& found = step.state.camera_from_lidar;
+  return {1e3 * translation_distance_m(found, *truth_),
+          1e3 * rotation_distance_rad(found, *truth_)};
+}
+
 // Columns: the steps of the first channel, a gap, those of the next one, …
 int BudgetPlot::stepAt(double x) const {
   const int block = static_cast<int>(steps_.size()) + kGap;
@@ -113,6 +124,17 @@ void BudgetPlot::rebuild() {
     writeFigures(base, middle);
     ++channel;
   }
+  if (truth_) {
+    ticker->addTick(channel * block + 0.5 * (block - kGap - 1), tr("distance to the truth"));
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      if (!steps_[k]) continue;
+      const Distance d = toTruth(*steps_[k]);
+      rows.push_back({QString::number(k), "truth_mm", csv_number(d.mm), {}, {}, {}});
+      rows.push_back({QString::number(k), "truth_mrad", csv_number(d.mrad), {}, {}, {}});
+    }
+    drawTruth(channel * block);
+    ++channel;
+  }
   xAxis->setTicker(ticker);
   xAxis->setTickLength(0, 0);
   setTable({"step", "channel", "rms", "noise_floor", "unexplained", "heldout_rms"},
@@ -146,12 +168,7 @@ void BudgetPlot::drawChannel(const ChannelSummary& base, int first) {
     const double top = std::max(base.unexplained, error.unexplained);
     bar(0.0, error.unexplained, error.is_chance() ? noiseColor(colors()) : colors().refused);
     if (!beyond_noise(base).is_chance()) bar(error.unexplained, top, explainedColor(colors()));
-    if (k == current_) {
-      auto* frame = new QCPItemRect(this);
-      frame->topLeft->setCoords(x - 0.46, std::max(top / scale, 0.04));
-      frame->bottomRight->setCoords(x + 0.46, 0.0);
-      frame->setPen(QPen(colors().mark, 1.6));
-    }
+    if (k == current_) frameStep(x, top / scale);
     held_x.push_back(x);
     held_y.push_back(std::min(error.heldout / scale, kTop));
   }
@@ -175,6 +192,11 @@ void BudgetPlot::writeFigures(const ChannelSummary& base, double middle) {
   const QString then = now != nullptr && current_ > 0 ? figure(*now) : text;
   if (then != text) text += QStringLiteral(" → ") + then;
   if (base.channel != Channel::kIntensity) text += QStringLiteral(" ") + unit_text(base.channel);
+  const bool wrong = !beyond_noise(now != nullptr ? *now : base).is_chance();
+  writeFigure(middle, text, wrong ? colors().refused : colors().text);
+}
+
+void BudgetPlot::writeFigure(double middle, const QString& text, const QColor& color) {
   auto* label = new QCPItemText(this);
   label->position->setCoords(middle, kFigures);
   label->setText(text);
@@ -182,8 +204,51 @@ void BudgetPlot::writeFigures(const ChannelSummary& base, double middle) {
   large.setPointSizeF(1.25 * large.pointSizeF());
   large.setBold(true);
   label->setFont(large);
-  const bool wrong = !beyond_noise(now != nullptr ? *now : base).is_chance();
-  label->setColor(wrong ? colors().refused : colors().text);
+  label->setColor(color);
+}
+
+// About the bars of the step that is shown.
+void BudgetPlot::frameStep(double x, double top) {
+  auto* frame = new QCPItemRect(this);
+  frame->topLeft->setCoords(x - 0.46, std::max(top, 0.04));
+  frame->bottomRight->setCoords(x + 0.46, 0.0);
+  frame->setPen(QPen(colors().mark, 1.6));
+}
+
+void BudgetPlot::drawTruth(int first) {
+  Distance scale;
+  for (const ModelStepPtr& step : steps_) {
+    if (!step) continue;
+    const Distance d = toTruth(*step);
+    scale = {std::max(scale.mm, d.mm), std::max(scale.mrad, d.mrad)};
+  }
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    if (!steps_[k]) continue;
+    const Distance d = toTruth(*steps_[k]);
+    const double x = first + static_cast<double>(k);
+    const auto bar = [&](double from, double to, double height, QColor color) {
+      auto* rect = new QCPItemRect(this);
+      rect->topLeft->setCoords(x + from, height);
+      rect->bottomRight->setCoords(x + to, 0.0);
+      if (k > current_) color.setAlpha(70);
+      rect->setBrush(color);
+      rect->setPen(Qt::NoPen);
+    };
+    const double mm = d.mm / std::max(scale.mm, 1e-12);
+    const double mrad = d.mrad / std::max(scale.mrad, 1e-12);
+    bar(-0.42, -0.02, mm, colors().series(0));
+    bar(0.02, 0.42, mrad, colors().series(1));
+    if (k == current_) frameStep(x, std::max(mm, mrad));
+  }
+  const ModelStepPtr shown = current_ < steps_.size() ? steps_[current_] : nullptr;
+  const Distance before = toTruth(*steps_.front());
+  const Distance now = shown ? toTruth(*shown) : before;
+  const auto pair = [](const Distance& d) {
+    return tr("%1 mm, %2 mrad").arg(d.mm, 0, 'g', 2).arg(d.mrad, 0, 'g', 2);
+  };
+  QString text = pair(before);
+  if (current_ > 0 && pair(now) != text) text += QStringLiteral(" → ") + pair(now);
+  writeFigure(first + 0.5 * (static_cast<double>(steps_.size()) - 1.0), text, colors().text);
 }
 
 void BudgetPlot::showTip(const QPoint& place) {
@@ -199,6 +264,14 @@ void BudgetPlot::showTip(const QPoint& place) {
   const int block = static_cast<int>(steps_.size()) + kGap;
   const auto channel = static_cast<std::size_t>(std::lround(x)) / static_cast<std::size_t>(block);
   const ModelStep& shown = *steps_[static_cast<std::size_t>(step)];
+  if (channel == steps_.front()->channels.size() && truth_) {
+    const Distance d = toTruth(shown);
+    setToolTip(tr("Step %1, %2: %3 mm (left bar) and %4 mrad (right bar) from the truth")
+                   .arg(step)
+                   .arg(step_text(shown))
+                   .arg(d.mm, 0, 'g', 3)
+                   .arg(d.mrad, 0, 'g', 3));
+  }
   if (channel >= steps_.front()->channels.size()) return;
   const ChannelSummary* c = summary_of(shown, steps_.front()->channels[channel].channel);
   if (c == nullptr) return;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "base/rigid3.h"
 #include "discovery/model_session.h"
 #include "views/plot_view.h"
 
@@ -18,6 +20,9 @@ class BudgetPlot : public PlotView {
   explicit BudgetPlot(QWidget* parent = nullptr);
   /// Steps from the base model; null ones are left out.
   void setSteps(std::vector<ModelStepPtr> steps, std::size_t current);
+  /// The true T_camera_lidar, as of a simulation: the distance of every step to it stands beside
+  /// the channels, mm (left bar) and mrad (right bar), each on its own scale.
+  void setTruth(const std::optional<Rigid3>& camera_from_lidar);
 
   /// A channel's error beyond its noise floor, display units.
   struct BeyondNoise {
@@ -39,11 +44,20 @@ class BudgetPlot : public PlotView {
  private:
   void drawChannel(const ChannelSummary& base, int first);
   void writeFigures(const ChannelSummary& base, double middle);
+  struct Distance {
+    double mm = 0.0;
+    double mrad = 0.0;
+  };
+  [[nodiscard]] Distance toTruth(const ModelStep& step) const;
+  void drawTruth(int first);
+  void frameStep(double x, double top);
+  void writeFigure(double middle, const QString& text, const QColor& color);
   void showTip(const QPoint& place);
   [[nodiscard]] int stepAt(double x) const;
 
   std::vector<ModelStepPtr> steps_;
   std::size_t current_ = 0;
+  std::optional<Rigid3> truth_;
 };
 
 }  // namespace lvcalib::widgets

@@ -2,13 +2,17 @@
 #include "modelling/model_page.h"
 
 #include <QEvent>
+#include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QSplitter>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <map>
 
 #include "modelling/add_effect_dialog.h"
 #include "modelling/budget_plot.h"
+#include "modelling/compare_steps_dialog.h"
 #include "modelling/missing_pane.h"
 #include "modelling/model_text.h"
 #include "modelling/term_list.h"
@@ -22,6 +26,7 @@ ModelPage::ModelPage(ModelWork& work, QWidget* parent)
       work_(work),
       title_(new QLabel(this)),
       legend_(new QLabel(this)),
+      compare_(new QPushButton(this)),
       budget_(new BudgetPlot(this)),
       terms_(new TermList(this)),
       what_if_(new WhatIfPane(this)),
@@ -64,7 +69,11 @@ void ModelPage::createLayout() {
   auto* history = new QVBoxLayout(top);
   history->setContentsMargins(0, 0, 0, 0);
   history->setSpacing(0);
-  history->addWidget(legend_);
+  compare_->setObjectName(QStringLiteral("compare_steps"));
+  auto* head = new QHBoxLayout;
+  head->addWidget(legend_, 1);
+  head->addWidget(compare_, 0, Qt::AlignTop);
+  history->addLayout(head);
   history->addWidget(budget_, 1);
   rows->addWidget(top);
   rows->addWidget(columns);
@@ -81,6 +90,7 @@ void ModelPage::createLayout() {
 }
 
 void ModelPage::connectParts() {
+  connect(compare_, &QPushButton::clicked, this, &ModelPage::compareSteps);
   connect(budget_, &BudgetPlot::stepClicked, this, [this](int step) {
     if (!work_.busy()) work_.go_to(static_cast<std::size_t>(step));
   });
@@ -144,6 +154,15 @@ void ModelPage::setReason(const QString& reason) {
   takeSteps();
 }
 
+void ModelPage::setTruth(const std::optional<Rigid3>& camera_from_lidar) {
+  budget_->setTruth(camera_from_lidar);
+}
+
+void ModelPage::compareSteps() {
+  if (work_.source() == nullptr) return;
+  (new CompareStepsDialog(work_.source(), work_.steps(), work_.current(), this))->show();
+}
+
 void ModelPage::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   work_.start();
@@ -155,6 +174,9 @@ void ModelPage::takeSteps() {
   title_->setText(step ? QString() : reason_);
   title_->setVisible(!title_->text().isEmpty());
   budget_->setSteps(work_.steps(), work_.current());
+  const auto& steps = work_.steps();
+  compare_->setVisible(std::count_if(steps.begin(), steps.end(),
+                                     [](const ModelStepPtr& s) { return s != nullptr; }) > 1);
   describeSteps();
   if (step != shown_ || !step) {
     shown_ = step;
@@ -248,6 +270,9 @@ void ModelPage::changeEvent(QEvent* event) {
 }
 
 void ModelPage::retranslate() {
+  compare_->setText(tr("Compare steps…"));
+  compare_->setToolTip(
+      tr("How far the pose moved between two steps, and the residuals of every scene at both"));
   setReason({});
 }
 

@@ -3,11 +3,13 @@
 
 #include <QWidget>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "modelling/where_pane.h"
 
 class QLabel;
+class QPushButton;
 
 namespace lvcalib::widgets {
 
@@ -30,6 +32,8 @@ class ModelPage : public QWidget {
 
   /// Why there is no model; empty if there may be one.
   void setReason(const QString& reason);
+  /// The true T_camera_lidar, where it is known: how far from it the steps are is shown as well.
+  void setTruth(const std::optional<Rigid3>& camera_from_lidar);
 
  Q_SIGNALS:
   /// Measurements were selected; scenes by name.
@@ -52,6 +56,7 @@ class ModelPage : public QWidget {
   void describeSteps();
   void openDialog(const QString& covariate, std::optional<Channel> channel,
                   const QString& second = {});
+  void compareSteps();
   void forward(const std::vector<SelectedSample>& samples);
 
   ModelWork& work_;
@@ -62,6 +67,7 @@ class ModelPage : public QWidget {
   bool follow_pattern_ = false;      // Until the user looks elsewhere.
   QLabel* title_;
   QLabel* legend_;
+  QPushButton* compare_;
   BudgetPlot* budget_;
   TermList* terms_;
   WhatIfPane* what_if_;

@@ -2,10 +2,13 @@
 #include "models/scene_model.h"
 
 #include <QGuiApplication>
+#include <QMimeData>
 #include <QPalette>
 #include <algorithm>
+#include <tuple>
 
 #include "pipeline/refusals.h"
+#include "style/edits_text.h"
 #include "style/texts.h"
 #include "style/theme.h"
 
@@ -16,6 +19,8 @@ template <class T>
 QVariant number_or_nothing(const std::optional<T>& value) {
   return value ? QVariant::fromValue(*value) : QVariant();
 }
+
+constexpr const char* kSceneNames = "application/x-lvcalib-scenes";
 
 QVariant fixed(const std::optional<double>& value, int decimals) {
   return value ? QVariant(QString::number(*value, 'f', decimals)) : QVariant();
@@ -50,7 +55,26 @@ void SceneModel::set_scenes(const Dataset& dataset, const QStringList& missing) 
 
 void SceneModel::set_decisions(const Decisions& decisions) {
   decisions_ = decisions;
+  put_in_order();
   refill();
+}
+
+// As the user has them; scenes that no order names follow by name, missing ones at the end.
+void SceneModel::put_in_order() {
+  const auto& order = decisions_.scene_order;
+  const auto place = [&](const Row& row) {
+    const auto found = std::find(order.begin(), order.end(), row.name.toStdString());
+    return std::tuple(row.missing, found - order.begin(), row.name.toStdString());
+  };
+  const auto before = [&](const Row& a, const Row& b) { return place(a) < place(b); };
+  if (std::is_sorted(rows_.begin(), rows_.end(), before)) return;
+  Q_EMIT layoutAboutToBeChanged();
+  QStringList names;
+  for (const Row& row : rows_) names << row.name;
+  std::stable_sort(rows_.begin(), rows_.end(), before);
+  for (const QModelIndex& old : persistentIndexList())
+    changePersistentIndex(old, index(row_of(names[old.row()]), old.column()));
+  Q_EMIT layoutChanged();
 }
 
 void SceneModel::set_result(const std::shared_ptr<const CalibrationResult>& result) {
@@ -65,6 +89,7 @@ void SceneModel::refill() {
     row.missing = old.missing;
     const SceneDecision decision = decision_of(decisions_, row.name.toStdString());
     row.use = decision.use;
+    row.note = QString::fromStdString(decision.note);
     row.cropped = decision.crop.has_value();
     row.insisted = decision.insist;
     if (result_) fill_result(row, *result_);
@@ -82,13 +107,15 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     row.ran = scene.view || !scene.reason.empty();
     row.used = scene.used;
     row.can_be_insisted_on = lvcalib::can_be_insisted_on(scene);
+    row.edited = edits_text(scene);
     row.objection = QString::fromStdString(scene.objection);
     row.reason = QString::fromStdString(scene.reason);
     if (scene.view && result.target.has_tags()) row.tags = scene.view->tag_count;
     if (scene.refinement) row.points = static_cast<int>(scene.refinement->board_points);
   }
   for (const SceneSolution& solved : result.extrinsic.scenes) {
-    if (solved.name != name || !solved.used) continue;
+    // Also of one that is left out: how it fits what the others give.
+    if (solved.name != name) continue;
     row.rms_px = solved.rms_px;
     row.rms_mm = solved.rms_mm;
   }
@@ -176,9 +203,13 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
     case Qt::ForegroundRole:
       if (index.column() == kState && mark_of(row) == Mark::kBad)
         return state_colors(QGuiApplication::palette()).bad;
+      if (!row.used && (index.column() == kPixels || index.column() == kMillimetres))
+        return QGuiApplication::palette().color(QPalette::Disabled, QPalette::Text);
       return {};
+    case Qt::EditRole:
+      return index.column() == kNote ? QVariant(row.note) : QVariant();
     case Qt::TextAlignmentRole:
-      if (index.column() != kName && index.column() != kState)
+      if (index.column() != kName && index.column() != kState && index.column() != kNote)
         return QVariant(Qt::AlignRight | Qt::AlignVCenter);
       return {};
     default:
@@ -202,6 +233,8 @@ QVariant SceneModel::text(const Row& row, int column) const {
       return fixed(row.influence_mm, 2);
     case kState:
       return state_words(row);
+    case kNote:
+      return row.note;
     default:
       return {};
   }
@@ -258,8 +291,16 @@ QString SceneModel::tool_tip(const Row& row, int column) const {
       return tr("Without this scene the result moves by %1 mm and %2 mrad.")
           .arg(*row.influence_mm, 0, 'f', 3)
           .arg(*row.influence_mrad, 0, 'f', 3);
+    case kPixels:
+    case kMillimetres:
+      if (row.used || !row.rms_px) break;
+      return tr("Left out: how it fits what the other scenes give.");
     case kState:
-      return state_words(row);
+      return row.edited.isEmpty() ? state_words(row)
+                                  : state_words(row) + QLatin1Char('\n') + row.edited;
+    case kNote:
+      if (row.note.isEmpty()) break;
+      return row.note;
     default:
       break;
   }
@@ -285,6 +326,8 @@ QVariant SceneModel::headerData(int section, Qt::Orientation orientation, int ro
         return {tr("mm"), tr("Root mean square distance of LiDAR nodes to the board's, mm.")};
       case kInfluence:
         return {tr("Infl."), tr("Influence: how far the result moves without this scene, mm.")};
+      case kNote:
+        return {tr("Note"), tr("Your own words about the scene; kept in the project.")};
       default:
         return {tr("State"), tr("Whether the scene is used, and why not.")};
     }
@@ -295,17 +338,66 @@ QVariant SceneModel::headerData(int section, Qt::Orientation orientation, int ro
 }
 
 Qt::ItemFlags SceneModel::flags(const QModelIndex& index) const {
-  if (!index.isValid()) return Qt::NoItemFlags;
-  Qt::ItemFlags flags = Qt::ItemIsSelectable | Qt::ItemIsEnabled;
+  if (!index.isValid()) return Qt::ItemIsDropEnabled;  // Between rows, not on them.
+  Qt::ItemFlags flags = Qt::ItemIsSelectable | Qt::ItemIsEnabled | Qt::ItemIsDragEnabled;
+  if (index.column() == kNote && !is_missing(index.row())) flags |= Qt::ItemIsEditable;
   if (index.column() == kName && !is_missing(index.row())) flags |= Qt::ItemIsUserCheckable;
   return flags;
 }
 
 bool SceneModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+  if (role == Qt::EditRole && index.column() == kNote && !is_missing(index.row())) {
+    Q_EMIT note_wanted(scene_at(index.row()), value.toString().trimmed());
+    return true;
+  }
   if (role != Qt::CheckStateRole || index.column() != kName || is_missing(index.row()))
     return false;
   Q_EMIT use_wanted(scene_at(index.row()), value.toInt() == Qt::Checked);
   return true;
+}
+
+bool SceneModel::has_notes() const {
+  return std::any_of(rows_.begin(), rows_.end(),
+                     [](const Row& row) { return !row.note.isEmpty(); });
+}
+
+QStringList SceneModel::mimeTypes() const {
+  return {QString::fromLatin1(kSceneNames)};
+}
+
+QMimeData* SceneModel::mimeData(const QModelIndexList& indexes) const {
+  QStringList names;
+  for (const QModelIndex& index : indexes) {
+    const QString name = scene_at(index.row());
+    if (!names.contains(name)) names << name;
+  }
+  auto* data = new QMimeData;
+  data->setData(QString::fromLatin1(kSceneNames), names.join(QLatin1Char('\n')).toUtf8());
+  return data;
+}
+
+bool SceneModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int row, int /*column*/,
+                              const QModelIndex& parent) {
+  if (action != Qt::MoveAction || !data->hasFormat(QString::fromLatin1(kSceneNames))) return false;
+  const QStringList names =
+      QString::fromUtf8(data->data(QString::fromLatin1(kSceneNames))).split(QLatin1Char('\n'));
+  const int before = row >= 0 ? row : parent.isValid() ? parent.row() : rowCount();
+  Q_EMIT order_wanted(moved(names, before));
+  // The rows are put in their places by the decision; the view must not take any away.
+  return false;
+}
+
+QStringList SceneModel::moved(const QStringList& scenes, int row) const {
+  QStringList out;
+  for (int k = 0; k <= rowCount(); ++k) {
+    if (k == row) {
+      for (const Row& r : rows_) {
+        if (scenes.contains(r.name)) out << r.name;
+      }
+    }
+    if (k < rowCount() && !scenes.contains(scene_at(k))) out << scene_at(k);
+  }
+  return out;
 }
 
 }  // namespace lvcalib::widgets

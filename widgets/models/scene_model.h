@@ -20,7 +20,7 @@ class SceneModel : public QAbstractTableModel {
   Q_OBJECT
 
  public:
-  enum Column { kName, kTags, kPoints, kPixels, kMillimetres, kInfluence, kState, kColumns };
+  enum Column { kName, kTags, kPoints, kPixels, kMillimetres, kInfluence, kState, kNote, kColumns };
   /// Sorting by number, not by text.
   static constexpr int kSortRole = Qt::UserRole;
 
@@ -31,6 +31,8 @@ class SceneModel : public QAbstractTableModel {
   void set_decisions(const Decisions& decisions);
   /// Null: nothing has run yet.
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
+  /// True if some scene has a note.
+  [[nodiscard]] bool has_notes() const;
   /// Tells views that titles and words are in another language.
   void retranslate();
   void set_thumbnail(const QString& scene, const QImage& image);
@@ -55,15 +57,26 @@ class SceneModel : public QAbstractTableModel {
                                     int role) const override;
   [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
   bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+  [[nodiscard]] Qt::DropActions supportedDropActions() const override { return Qt::MoveAction; }
+  [[nodiscard]] QStringList mimeTypes() const override;
+  [[nodiscard]] QMimeData* mimeData(const QModelIndexList& indexes) const override;
+  bool dropMimeData(const QMimeData* data, Qt::DropAction action, int row, int column,
+                    const QModelIndex& parent) override;
+  /// All scenes with these moved before row `row`.
+  [[nodiscard]] QStringList moved(const QStringList& scenes, int row) const;
 
  Q_SIGNALS:
   void use_wanted(const QString& scene, bool use);
+  void note_wanted(const QString& scene, const QString& note);
+  /// Scenes were dragged: all of them in their new order.
+  void order_wanted(const QStringList& scenes);
 
  private:
   struct Row {
     QString name;
     bool missing = false;
     bool use = true;
+    QString note;
     bool cropped = false;
     // From the result; empty until there is one.
     std::optional<int> tags;
@@ -77,10 +90,12 @@ class SceneModel : public QAbstractTableModel {
     bool insisted = false;
     bool can_be_insisted_on = false;
     QString reason;
+    QString edited;     // What is left out by hand, in words.
     QString objection;  // What speaks against a scene that the user insists on.
   };
   void fill_result(Row& row, const CalibrationResult& result) const;
   void refill();
+  void put_in_order();
   [[nodiscard]] QVariant text(const Row& row, int column) const;
   [[nodiscard]] QVariant number(const Row& row, int column) const;
   [[nodiscard]] QString tool_tip(const Row& row, int column) const;

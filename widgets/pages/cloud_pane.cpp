@@ -59,6 +59,17 @@ void CloudPane::createToolBar() {
   axes_action_ = bar_->newTool();
   axes_action_->setObjectName("cloud-axes");
   axes_action_->setCheckable(true);
+  unused_action_ = bar_->newTool();
+  unused_action_->setObjectName("cloud-unused");
+  unused_action_->setCheckable(true);
+  unused_action_->setChecked(true);
+  brush_action_ = bar_->newTool();
+  brush_action_->setObjectName("cloud-brush");
+  brush_action_->setCheckable(true);
+  brush_action_->setShortcut(QKeySequence(Qt::Key_L));
+  brush_action_->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  brush_action_->setEnabled(view_->hasOpenGl());
+  view_->addAction(brush_action_);
   size_ = new QDoubleSpinBox(bar_);
   size_->setObjectName("cloud-point-size");
   size_->setRange(0.5, 12.0);
@@ -73,6 +84,8 @@ void CloudPane::createToolBar() {
   bar_->addWidget(count_);
   connect(size_, &QDoubleSpinBox::valueChanged, view_, &CloudView::setPointSize);
   connect(axes_action_, &QAction::toggled, this, &CloudPane::showLines);
+  connect(unused_action_, &QAction::toggled, this, &CloudPane::showLines);
+  connect(brush_action_, &QAction::toggled, view_, &CloudView::setBrushing);
   // Another quantity has another range.
   connect(color_, &QComboBox::currentIndexChanged, this, [this] {
     range_.reset();
@@ -111,6 +124,14 @@ void CloudPane::retranslate() {
   axes_action_->setText(tr("Axes"));
   axes_action_->setToolTip(
       tr("Show the LiDAR's axes (x red, y green, z blue) and a grid under the points"));
+  unused_action_->setText(tr("Left out"));
+  unused_action_->setToolTip(
+      tr("Mark the points on the board that are not used: refused by the program (red crosses), "
+         "left out by hand (violet crosses)"));
+  brush_action_->setText(tr("Brush"));
+  brush_action_->setToolTip(
+      tr("Draw a line about points to select them, at whatever depth. With Shift they are added to "
+         "those selected (L)"));
   size_->setToolTip(tr("Size of the points on the screen, px"));
   size_->setAccessibleName(tr("Size of the points"));
   count_->setToolTip(tr("Number of points shown"));
@@ -143,6 +164,11 @@ void CloudPane::setInput(CloudSceneInput input, std::vector<CloudLine> lines) {
   input_ = std::move(input);
   lines_ = std::move(lines);
   rebuild();
+}
+
+void CloudPane::setUnused(std::vector<CloudLine> marks) {
+  unused_ = std::move(marks);
+  showLines();
 }
 
 void CloudPane::setCrop(const std::optional<CropBox>& box) {
@@ -189,6 +215,7 @@ void CloudPane::display(const std::shared_ptr<const CloudScene>& scene) {
 void CloudPane::showLines() {
   std::vector<CloudLine> lines = lines_;
   const auto& scene = view_->scene();
+  if (unused_action_->isChecked()) lines.insert(lines.end(), unused_.begin(), unused_.end());
   if (axes_action_->isChecked() && scene && scene->size() > 0) {
     for (CloudLine& line : axes_and_grid(scene->low_m, scene->high_m))
       lines.push_back(std::move(line));

@@ -31,6 +31,8 @@ class CloudPane : public QWidget {
 
   /// What to show; colour, filter and crop box are the pane's own and are filled in.
   void setInput(CloudSceneInput input, std::vector<CloudLine> lines);
+  /// Marks at points on the board that are not used; shown if the user wants them.
+  void setUnused(std::vector<CloudLine> marks);
   /// The crop box in force; none: not cropped.
   void setCrop(const std::optional<CropBox>& box);
   /// The box to begin with when there is none.
@@ -62,6 +64,7 @@ class CloudPane : public QWidget {
 
   CloudSceneInput input_;
   std::vector<CloudLine> lines_;
+  std::vector<CloudLine> unused_;
   std::optional<CropBox> crop_;    ///< In force.
   std::optional<CropBox> edited_;  ///< Shown with handles.
   CropBox suggested_;
@@ -74,6 +77,8 @@ class CloudPane : public QWidget {
   QComboBox* filter_ = nullptr;
   QAction* crop_action_ = nullptr;
   QAction* axes_action_ = nullptr;
+  QAction* brush_action_ = nullptr;
+  QAction* unused_action_ = nullptr;
   QDoubleSpinBox* size_ = nullptr;
   QLabel* count_ = nullptr;
 };

@@ -13,7 +13,9 @@
 #include "pages/methods_pane.h"
 #include "pages/pose_text.h"
 #include "pages/scene_overlay.h"
+#include "pages/threshold_pane.h"
 #include "pages/uncertainty_pane.h"
+#include "pages/world_pane.h"
 #include "style/texts.h"
 #include "views/category_plots.h"
 #include "views/cloud_scene_builder.h"
@@ -51,12 +53,19 @@ ExtrinsicPage::ExtrinsicPage(QWidget* parent) : QWidget(parent) {
   tabs_ = new QTabWidget(splitter);
   tabs_->setDocumentMode(true);
   tabs_->addTab(createPlots(), {});
+  thresholds_ = new ThresholdPane(tabs_);
+  connect(thresholds_, &ThresholdPane::failed, this, &ExtrinsicPage::failed);
   methods_ = new MethodsPane(tabs_);
   connect(methods_, &MethodsPane::failed, this, &ExtrinsicPage::failed);
   tabs_->addTab(methods_, {});
   uncertainty_ = new UncertaintyPane(tabs_);
   connect(uncertainty_, &UncertaintyPane::failed, this, &ExtrinsicPage::failed);
   tabs_->addTab(uncertainty_, {});
+  tabs_->addTab(thresholds_, {});
+  world_ = new WorldPane(tabs_);
+  connect(world_, &WorldPane::sceneActivated, this, &ExtrinsicPage::activate);
+  connect(world_, &WorldPane::failed, this, &ExtrinsicPage::failed);
+  tabs_->addTab(world_, {});
   tabs_->addTab(createCloud(), {});
   splitter->addWidget(pose_);
   splitter->addWidget(tabs_);
@@ -91,7 +100,11 @@ QWidget* ExtrinsicPage::createPlots() {
 
 void ExtrinsicPage::retranslate() {
   pose_->setAccessibleName(tr("Pose and quality"));
-  const QStringList titles = {tr("Residuals and influence"), tr("Methods"), tr("Uncertainty"),
+  const QStringList titles = {tr("Residuals and influence"),
+                              tr("Methods"),
+                              tr("Uncertainty"),
+                              tr("Thresholds"),
+                              tr("All scenes"),
                               tr("Coloured cloud")};
   for (int k = 0; k < titles.size(); ++k) tabs_->setTabText(k, titles[k]);
   bars_px_->setValueLabel(tr("corner RMS (px)"), "rms_px");
@@ -139,6 +152,8 @@ void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   fillTexts();
   methods_->setResult(result_.get());
   uncertainty_->setResult(result_.get());
+  thresholds_->setResult(result_);
+  world_->setResult(result_);
   fillPlots();
   fillInfluence();
   colourise();

@@ -18,6 +18,8 @@ class CategoryPlot;
 class CloudSceneBuilder;
 class CloudView;
 class MethodsPane;
+class ThresholdPane;
+class WorldPane;
 class UncertaintyPane;
 
 /// The extrinsic: the pose with its standard deviations, weak directions, quality and warnings;
@@ -35,6 +37,8 @@ class ExtrinsicPage : public QWidget {
   void setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image);
 
   [[nodiscard]] CloudView* cloudView() const { return cloud_; }
+  [[nodiscard]] WorldPane* world() const { return world_; }
+  [[nodiscard]] ThresholdPane* thresholds() const { return thresholds_; }
 
  Q_SIGNALS:
   /// A scene was clicked in a plot; index into the result's scenes.
@@ -62,6 +66,7 @@ class ExtrinsicPage : public QWidget {
   QTextBrowser* pose_ = nullptr;
   UncertaintyPane* uncertainty_ = nullptr;
   MethodsPane* methods_ = nullptr;
+  ThresholdPane* thresholds_ = nullptr;
   QTabWidget* tabs_ = nullptr;
   BarPlot* bars_px_ = nullptr;
   BarPlot* bars_mm_ = nullptr;
@@ -69,6 +74,7 @@ class ExtrinsicPage : public QWidget {
   BoxPlot* boxes_mm_ = nullptr;
   BarPlot* influence_mm_ = nullptr;
   BarPlot* influence_mrad_ = nullptr;
+  WorldPane* world_ = nullptr;
   CloudView* cloud_ = nullptr;
   CloudSceneBuilder* builder_ = nullptr;
 };

@@ -56,7 +56,15 @@ void ImagePane::createToolBar() {
   bar_->addWidget(factor_);
   circles_ = addToggle("show-circles", true);
   points_ = addToggle("show-points", false);
+  unused_ = addToggle("show-unused", true);
   bar_->addSeparator();
+  brush_ = bar_->newTool();
+  brush_->setObjectName("image-brush");
+  brush_->setCheckable(true);
+  brush_->setShortcut(QKeySequence(Qt::Key_L));
+  brush_->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  view_->addAction(brush_);
+  connect(brush_, &QAction::toggled, view_, &ImageView::setBrushing);
   fit_ = bar_->newTool();
   connect(fit_, &QAction::triggered, view_, &ImageView::fit);
   one_to_one_ = bar_->newTool();
@@ -117,6 +125,12 @@ void ImagePane::retranslate() {
            tr("Board outline, circles and their centres as the LiDAR sees them, "
               "projected with the extrinsic (orange)"));
   describe(points_, tr("Points"), tr("The points of the cloud view, projected with the extrinsic"));
+  describe(unused_, tr("Left out"),
+           tr("LiDAR points on the board that are not used: refused by the program (red crosses), "
+              "left out by hand (violet crosses)"));
+  describe(brush_, tr("Brush"),
+           tr("Draw a line about what is to be selected: the tags, circles and points that are "
+              "shown. With Shift it is added to what is selected (L)"));
   describe(fit_, tr("Fit"), tr("Show the whole image (F)"));
   one_to_one_->setToolTip(tr("One image pixel per screen pixel (1)"));
   level_bar_->setAccessibleName(tr("Levels"));
@@ -136,8 +150,8 @@ void ImagePane::setOverlay(ImageOverlay overlay) {
 }
 
 void ImagePane::updateParts() {
-  view_->overlay().setParts(
-      {tags_->isChecked(), residuals_->isChecked(), circles_->isChecked(), points_->isChecked()});
+  view_->overlay().setParts({tags_->isChecked(), residuals_->isChecked(), circles_->isChecked(),
+                             points_->isChecked(), unused_->isChecked()});
 }
 
 void ImagePane::updateLevels() {

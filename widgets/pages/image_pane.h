@@ -42,6 +42,8 @@ class ImagePane : public QWidget {
   QAction* residuals_ = nullptr;
   QAction* circles_ = nullptr;
   QAction* points_ = nullptr;
+  QAction* unused_ = nullptr;
+  QAction* brush_ = nullptr;
   QAction* fit_ = nullptr;
   QAction* one_to_one_ = nullptr;
   QAction* automatic_ = nullptr;

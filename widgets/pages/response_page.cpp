@@ -76,8 +76,16 @@ QWidget* ResponsePage::createTables() {
   reasons_ = new QTextBrowser(tabs_);
   reasons_->setObjectName("response-reasons");
   reasons_->setOpenLinks(false);
-  connect(reasons_, &QTextBrowser::anchorClicked, this, [this](const QUrl& scene) {
-    Q_EMIT insistWanted(QUrl::fromPercentEncoding(scene.path().toUtf8()));
+  connect(reasons_, &QTextBrowser::anchorClicked, this, [this](const QUrl& what) {
+    // "scene:NAME", "tag:ID/NAME" or "circle:ID/NAME"
+    const QString path = what.path(QUrl::FullyEncoded);
+    const QString name = QUrl::fromPercentEncoding(path.section('/', -1).toUtf8());
+    if (what.scheme() == QLatin1String("scene")) {
+      Q_EMIT insistWanted(name);
+    } else {
+      Q_EMIT keepWanted(name, what.scheme() == QLatin1String("tag"),
+                        path.section('/', 0, 0).toInt());
+    }
   });
   for (QWidget* page : std::initializer_list<QWidget*>{scenes_, classes_, reasons_})
     tabs_->addTab(page, {});
@@ -174,10 +182,13 @@ void ResponsePage::fillReasons() {
       html += "<li>" + describe(refusal).toHtmlEscaped() + " " +
               core_text(refusal.reason).toHtmlEscaped();
       if (refusal.can_be_used) {
-        const QString scene = QString::fromStdString(refusal.scene);
-        html +=
-            QStringLiteral(" <a href=\"scene:%1\">%2</a>")
-                .arg(QString::fromUtf8(QUrl::toPercentEncoding(scene)), tr("Use it all the same"));
+        const QString what = refusal.what == Refusal::What::kScene ? QStringLiteral("scene:")
+                             : refusal.what == Refusal::What::kTag
+                                 ? QStringLiteral("tag:%1/").arg(refusal.id)
+                                 : QStringLiteral("circle:%1/").arg(refusal.id);
+        const QByteArray scene = QUrl::toPercentEncoding(QString::fromStdString(refusal.scene));
+        html += QStringLiteral(" <a href=\"%1%2\">%3</a>")
+                    .arg(what, QString::fromUtf8(scene), tr("Use it all the same"));
       }
       html += "</li>";
     }

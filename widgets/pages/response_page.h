@@ -35,6 +35,8 @@ class ResponsePage : public QWidget {
   void failed(const QString& message);
   /// A scene that the program refused is to be used all the same.
   void insistWanted(const QString& scene);
+  /// A tag, or else a circle, that the program refused is to be used all the same.
+  void keepWanted(const QString& scene, bool tag, int id);
 
  protected:
   void showEvent(QShowEvent* event) override;

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/refusals.h"
 #include "target/wireframe.h"
 
 namespace lvcalib::widgets {
@@ -14,6 +15,7 @@ namespace {
 constexpr std::array<double, 3> kLidarColor{1.0, 0.6, 0.0};
 constexpr std::array<double, 3> kCameraColor{0.15, 0.55, 1.0};
 constexpr std::array<double, 3> kRefusedColor{1.0, 0.2, 0.2};
+constexpr std::array<double, 3> kLeftOutColor3d{0.75, 0.43, 1.0};
 
 QPointF as_point(const Eigen::Vector2d& p) {
   return {p.x(), p.y()};
@@ -72,6 +74,21 @@ void add_tags(ImageOverlay& overlay, const CalibrationResult& result) {
   for (auto& [id, tag] : tags) overlay.tags.push_back(std::move(tag));
 }
 
+// Tags of which the solve knows nothing: the user left them out, or the program did for good.
+void add_unused_tags(ImageOverlay& overlay, const CalibrationResult& result,
+                     const std::vector<CornerObservation>& corners, bool left_out) {
+  std::map<int, ImageOverlay::Tag> tags;
+  for (const CornerObservation& c : corners) {
+    ImageOverlay::Tag& tag = tags[c.feature_id];
+    tag.id = c.feature_id;
+    tag.used = false;
+    tag.left_out = left_out;
+    tag.corners.push_back(as_point(c.pixel));
+  }
+  if (!result.target.has_tags()) return;
+  for (auto& [id, tag] : tags) overlay.tags.push_back(std::move(tag));
+}
+
 // Circles of a scene that the refinement or the solve does not use.
 std::set<int> refused_circles(const CalibrationResult& result, const SceneResult& scene) {
   std::set<int> out;
@@ -101,10 +118,17 @@ void add_circles(ImageOverlay& overlay, const CalibrationResult& result, const S
     const auto center = result.camera.project(
         camera_from_lidar * (node->valid ? node->center_lidar_m : node->raw_lidar_m));
     if (!center) continue;
-    overlay.circles.push_back({shape.id,
-                               projected(shape.points_m, result.camera, camera_from_lidar),
-                               as_point(*center), !refused.contains(shape.id)});
+    overlay.circles.push_back(
+        {shape.id, projected(shape.points_m, result.camera, camera_from_lidar), as_point(*center),
+         !refused.contains(shape.id), contains_id(scene.edits.circles, shape.id)});
   }
+}
+
+std::vector<CloudLine> lidar_axes(double length_m) {
+  const Eigen::Vector3d o = Eigen::Vector3d::Zero();
+  return {{{o, length_m * Eigen::Vector3d::UnitX()}, {0.9, 0.15, 0.15}, false},
+          {{o, length_m * Eigen::Vector3d::UnitY()}, {0.1, 0.65, 0.1}, false},
+          {{o, length_m * Eigen::Vector3d::UnitZ()}, {0.2, 0.35, 1.0}, false}};
 }
 
 void add_board(std::vector<CloudLine>& lines, const Target& target, const Rigid3& lidar_from_board,
@@ -134,9 +158,55 @@ ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& s
   if (scene.view) {
     add_corners(overlay, result, scene);
     add_tags(overlay, result);
+    add_unused_tags(overlay, result, scene.left_out_corners, true);
+    add_unused_tags(overlay, result, scene.refused_corners, false);
   }
   if (scene.refinement && has_extrinsic(result)) add_circles(overlay, result, scene);
   return overlay;
+}
+
+UnusedPoints unused_points(const CalibrationResult& result, const SceneResult& scene) {
+  UnusedPoints out;
+  out.left_out_m = scene.left_out_points.points_m;
+  const auto index = static_cast<std::size_t>(&scene - result.scenes.data());
+  for (const std::uint32_t i : refused_returns(result, index))
+    out.refused_m.push_back(scene.board_points.points_m[i]);
+  return out;
+}
+
+void add_unused(ImageOverlay& overlay, const CalibrationResult& result,
+                const UnusedPoints& points) {
+  if (!has_extrinsic(result)) return;
+  const Rigid3& camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
+  const auto add = [&](const std::vector<Eigen::Vector3f>& from, std::vector<QPointF>& to) {
+    to.clear();
+    for (const Eigen::Vector3f& p : from) {
+      if (const auto pixel = result.camera.project(camera_from_lidar * p.cast<double>()))
+        to.push_back(as_point(*pixel));
+    }
+  };
+  add(points.refused_m, overlay.refused_points);
+  add(points.left_out_m, overlay.left_out_points);
+}
+
+std::vector<CloudLine> unused_marks(const UnusedPoints& points) {
+  constexpr double kHalf = 0.0012;  // Of the range.
+  constexpr std::size_t kMost = 5000;
+  std::vector<CloudLine> lines;
+  const auto add = [&](const std::vector<Eigen::Vector3f>& from,
+                       const std::array<double, 3>& color) {
+    const std::size_t step = 1 + from.size() / kMost;
+    for (std::size_t i = 0; i < from.size(); i += step) {
+      const Eigen::Vector3d p = from[i].cast<double>();
+      const Eigen::Vector3d side = p.unitOrthogonal() * kHalf * p.norm();
+      const Eigen::Vector3d other = p.normalized().cross(side);
+      lines.push_back({{p - side - other, p + side + other}, color, false});
+      lines.push_back({{p - side + other, p + side - other}, color, false});
+    }
+  };
+  add(points.refused_m, kRefusedColor);
+  add(points.left_out_m, kLeftOutColor3d);
+  return lines;
 }
 
 void add_points(ImageOverlay& overlay, const CloudScene& cloud) {
@@ -170,11 +240,53 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
   return lines;
 }
 
+Cloud all_boards(const CalibrationResult& result) {
+  Cloud out;
+  const bool intensity =
+      std::all_of(result.scenes.begin(), result.scenes.end(), [](const SceneResult& s) {
+        return s.board_points.size() == 0 || s.board_points.has_intensity();
+      });
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    const Cloud& board = result.scenes[s].board_points;
+    out.points_m.insert(out.points_m.end(), board.points_m.begin(), board.points_m.end());
+    out.line.insert(out.line.end(), board.size(), static_cast<std::uint16_t>(s + 1));
+    if (intensity)
+      out.intensity.insert(out.intensity.end(), board.intensity.begin(), board.intensity.end());
+  }
+  return out;
+}
+
+std::vector<Eigen::Vector3d> camera_pyramid(const CalibrationResult& result) {
+  constexpr double kDepth_m = 0.4;
+  const Rigid3 lidar_from_camera = result.extrinsic.camera_from_lidar.transform.inverse();
+  const double right = result.camera.width_px - 0.5;
+  const double bottom = result.camera.height_px - 0.5;
+  std::vector<Eigen::Vector3d> out = {lidar_from_camera.translation};
+  for (const Eigen::Vector2d& pixel :
+       {Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(right, -0.5), Eigen::Vector2d(right, bottom),
+        Eigen::Vector2d(-0.5, bottom)}) {
+    const auto ray = result.camera.unproject(pixel);
+    if (ray) out.emplace_back(lidar_from_camera * Eigen::Vector3d(kDepth_m * *ray));
+  }
+  return out;
+}
+
+std::vector<CloudLine> world_lines(const CalibrationResult& result) {
+  std::vector<CloudLine> lines = lidar_axes(0.4);
+  for (const SceneResult& scene : result.scenes) {
+    for (CloudLine& line : cloud_lines(result, scene)) lines.push_back(std::move(line));
+  }
+  if (!has_extrinsic(result)) return lines;
+  const auto pyramid = camera_pyramid(result);
+  for (std::size_t k = 1; k < pyramid.size(); ++k)
+    lines.push_back({{pyramid[0], pyramid[k]}, kCameraColor, false});
+  if (pyramid.size() > 2)
+    lines.push_back({{pyramid.begin() + 1, pyramid.end()}, kCameraColor, true});
+  return lines;
+}
+
 std::vector<CloudLine> axes_and_grid(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {
-  const Eigen::Vector3d o = Eigen::Vector3d::Zero();
-  std::vector<CloudLine> lines = {{{o, Eigen::Vector3d::UnitX()}, {0.9, 0.15, 0.15}, false},
-                                  {{o, Eigen::Vector3d::UnitY()}, {0.1, 0.65, 0.1}, false},
-                                  {{o, Eigen::Vector3d::UnitZ()}, {0.2, 0.35, 1.0}, false}};
+  std::vector<CloudLine> lines = lidar_axes(1.0);
   constexpr double kMostLines = 40.0;
   const double reach = std::max(high_m.x() - low_m.x(), high_m.y() - low_m.y());
   if (!(reach > 0.0) || !std::isfinite(reach)) return lines;

@@ -25,9 +25,31 @@ ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& s
 /// thinning.
 void add_points(ImageOverlay& overlay, const CloudScene& cloud);
 
+/// Points on the board that are not used: refused by the solve, and left out by the user.
+struct UnusedPoints {
+  std::vector<Eigen::Vector3f> refused_m;
+  std::vector<Eigen::Vector3f> left_out_m;
+};
+UnusedPoints unused_points(const CalibrationResult& result, const SceneResult& scene);
+
+/// Puts them on the image, and small crosses across their rays into the cloud.
+void add_unused(ImageOverlay& overlay, const CalibrationResult& result, const UnusedPoints& points);
+std::vector<CloudLine> unused_marks(const UnusedPoints& points);
+
 /// Lines of the cloud view: the board as the LiDAR sees it (orange), and as camera and extrinsic
 /// predict it (blue).
 std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene);
+
+/// The points about the boards of all scenes as one cloud in the LiDAR's frame; in place of a line
+/// number each has that of its scene, counted from 1.
+Cloud all_boards(const CalibrationResult& result);
+
+/// Every board as the LiDAR (orange) and as the camera with the extrinsic (blue) sees it, the
+/// LiDAR's axes, and the camera as the pyramid of its view.
+std::vector<CloudLine> world_lines(const CalibrationResult& result);
+
+/// The pyramid of the camera's view in the LiDAR's frame: its tip, then the image's corners.
+std::vector<Eigen::Vector3d> camera_pyramid(const CalibrationResult& result);
 
 /// The LiDAR's axes, a metre each (x red, y green, z blue), and a grid of round spacing under a
 /// box.

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QSplitter>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,9 +14,12 @@
 #include "pages/cloud_pane.h"
 #include "pages/image_pane.h"
 #include "pages/scene_overlay.h"
+#include "pages/selection_bar.h"
+#include "style/edits_text.h"
 #include "style/texts.h"
 #include "views/cloud_view.h"
 #include "views/image_view.h"
+#include "views/lasso.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -65,6 +69,15 @@ ScenePage::ScenePage(QWidget* parent) : QWidget(parent) {
     if (scene_ >= 0) Q_EMIT insistWanted(scene_);
   });
   layout->addWidget(refusal_);
+  edits_ = new QLabel(this);
+  edits_->setObjectName("scene-edits");
+  edits_->setWordWrap(true);
+  edits_->setTextFormat(Qt::RichText);
+  edits_->hide();
+  connect(edits_, &QLabel::linkActivated, this, [this] {
+    if (scene_ >= 0) Q_EMIT editsChanged(scene_, {});
+  });
+  layout->addWidget(edits_);
   auto* splitter = new QSplitter(Qt::Horizontal, this);
   splitter->setChildrenCollapsible(false);
   cloud_ = new CloudPane(splitter);
@@ -75,10 +88,7 @@ ScenePage::ScenePage(QWidget* parent) : QWidget(parent) {
   splitter->setStretchFactor(1, 1);
   splitter->setSizes({1000, 1000});
   layout->addWidget(splitter, 1);
-  selection_ = new QLabel(this);
-  selection_->setObjectName("selection");
-  selection_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  selection_->setWordWrap(true);
+  selection_ = new SelectionBar(this);
   layout->addWidget(selection_);
   connectPanes();
   follow_language(this, [this] {
@@ -102,6 +112,12 @@ void ScenePage::connectPanes() {
   connect(cloud_, &CloudPane::cropCleared, this, [this] {
     if (scene_ >= 0) Q_EMIT cropCleared(scene_);
   });
+  connect(cloud_->view(), &CloudView::pointsBrushed, this, &ScenePage::brushPoints);
+  connect(image_->view(), &ImageView::brushed, this, &ScenePage::brushImage);
+  connect(selection_, &SelectionBar::editsWanted, this, [this](const SceneEdits& edits) {
+    if (scene_ >= 0) Q_EMIT editsChanged(scene_, edits);
+  });
+  connect(selection_, &SelectionBar::patchEverywhereWanted, this, &ScenePage::patchExcluded);
   connect(image_->view(), &ImageView::pixelClicked, this, &ScenePage::selectPixel);
   connect(image_->view(), &ImageView::tagClicked, this, &ScenePage::selectTag);
   connect(image_->view(), &ImageView::circleClicked, this, &ScenePage::selectCircle);
@@ -151,6 +167,10 @@ void ScenePage::setCropBox(const std::optional<CropBox>& box) {
   cloud_->setCrop(box);
 }
 
+void ScenePage::setEdits(const SceneEdits& edits) {
+  selection_->setEdits(edits);
+}
+
 void ScenePage::refresh() {
   const SceneResult* scene = current();
   CloudSceneInput input;
@@ -168,6 +188,8 @@ void ScenePage::refresh() {
     }
     lines = cloud_lines(*result_, *scene);
   }
+  unused_ = scene != nullptr ? unused_points(*result_, *scene) : UnusedPoints();
+  cloud_->setUnused(unused_marks(unused_));
   const Eigen::Vector3d middle =
       cloud_->view()->scene() ? cloud_->view()->scene()->center_m : Eigen::Vector3d::UnitX();
   cloud_->setSuggestedBox(box_about_board(result_.get(), scene, middle));
@@ -185,6 +207,10 @@ void ScenePage::refresh() {
 // What the program refused says so where it is looked at, and how to overrule it.
 void ScenePage::showRefusal() {
   const SceneResult* scene = current();
+  const QString edits = scene != nullptr ? edits_text(*scene) : QString();
+  edits_->setVisible(!edits.isEmpty());
+  edits_->setText(QStringLiteral("%1 <a href=\"undo\">%2</a>")
+                      .arg(edits.toHtmlEscaped(), tr("As the program would have it")));
   const bool refused = scene != nullptr && !scene->used && !scene->reason.empty() &&
                        scene->reason != kRejectedByUser;
   refusal_->setVisible(refused);
@@ -200,6 +226,7 @@ void ScenePage::showRefusal() {
 void ScenePage::refreshOverlay() {
   const SceneResult* scene = current();
   ImageOverlay overlay = scene != nullptr ? image_overlay(*result_, *scene) : ImageOverlay();
+  if (scene != nullptr) add_unused(overlay, *result_, unused_);
   if (const auto& cloud = cloud_->view()->scene()) add_points(overlay, *cloud);
   image_->setOverlay(std::move(overlay));
 }
@@ -224,6 +251,7 @@ void ScenePage::selectPoint(std::uint32_t point) {
   picked_ = point;
   cloud_->view()->setHighlights(points);
   selection_->setText(text);
+  selection_->setSelection({aboutBoard({point}), {}, {}}, result_.get(), current());
   std::vector<QPointF> places;
   if (point < scene->pixels.size() && std::isfinite(scene->pixels[point].x())) {
     const Eigen::Vector2d pixel = scene->pixels[point].cast<double>();
@@ -279,6 +307,7 @@ void ScenePage::selectPixel(const QPointF& pixel) {
   cloud_->view()->setHighlights(near);
   image_->view()->overlay().setHighlights(std::move(places), -1);
   selection_->setText(text);
+  selection_->setSelection({}, nullptr, nullptr);
 }
 
 void ScenePage::selectTag(int id) {
@@ -312,6 +341,7 @@ void ScenePage::selectTag(int id) {
   if (!residuals.isEmpty()) text += tr(": corner residuals %1 px").arg(residuals.join(", "));
   if (!inside.empty()) text += tr("; LiDAR points on it: %1").arg(inside.size());
   selection_->setText(text);
+  selection_->setSelection({{}, {id}, {}}, result_.get(), current());
 }
 
 void ScenePage::selectCircle(int id) {
@@ -328,6 +358,110 @@ void ScenePage::selectCircle(int id) {
   }
   image_->view()->overlay().setHighlights({center}, -1);
   selection_->setText(text);
+  selection_->setSelection({{}, {}, {id}}, result_.get(), scene);
+}
+
+std::vector<Eigen::Vector3f> ScenePage::aboutBoard(const std::vector<std::uint32_t>& points) const {
+  const SceneResult* scene = current();
+  const auto& shown = cloud_->view()->scene();
+  std::vector<Eigen::Vector3f> out;
+  if (scene == nullptr || !shown || !shown->cloud) return out;
+  const auto key = [](const Eigen::Vector3f& p) {
+    return std::array<float, 3>{p.x(), p.y(), p.z()};
+  };
+  std::set<std::array<float, 3>> wanted;
+  for (const std::uint32_t i : points) {
+    if (i < shown->cloud->size()) wanted.insert(key(shown->cloud->points_m[i]));
+  }
+  for (const Cloud* part : {&scene->board_points, &scene->left_out_points}) {
+    for (const Eigen::Vector3f& p : part->points_m) {
+      if (wanted.contains(key(p))) out.push_back(p);
+    }
+  }
+  return out;
+}
+
+void ScenePage::brushPoints(const std::vector<std::uint32_t>& points, bool add) {
+  SceneSelection selection{aboutBoard(points), {}, {}};
+  const bool beside = selection.empty() && !points.empty();
+  select(std::move(selection), add);
+  if (beside && selection_->selection().empty())
+    selection_->setText(tr("None of these points is about the board: they play no part anyway."));
+}
+
+// What is shown is selected: tags and circles that lie within the line, and points.
+void ScenePage::brushImage(const QPolygonF& line, bool add) {
+  const ImageOverlay& overlay = image_->view()->overlay().overlay();
+  const OverlayParts& parts = image_->view()->overlay().parts();
+  const auto inside = [&](const QPointF& p) { return line.containsPoint(p, Qt::OddEvenFill); };
+  SceneSelection selection;
+  for (const ImageOverlay::Tag& tag : overlay.tags) {
+    if (parts.tags && std::all_of(tag.corners.begin(), tag.corners.end(), inside))
+      selection.tags.push_back(tag.id);
+  }
+  for (const ImageOverlay::Circle& circle : overlay.circles) {
+    if (parts.circles && std::all_of(circle.edge.begin(), circle.edge.end(), inside))
+      selection.circles.push_back(circle.id);
+  }
+  const auto& scene = cloud_->view()->scene();
+  if (parts.points && scene) {
+    std::vector<std::uint32_t> points;
+    const LassoMask mask(line);
+    for (std::size_t i = 0; i < scene->pixels.size(); ++i) {
+      if (mask.contains(static_cast<double>(scene->pixels[i].x()),
+                        static_cast<double>(scene->pixels[i].y())))
+        points.push_back(static_cast<std::uint32_t>(i));
+    }
+    selection.points_m = aboutBoard(points);
+  }
+  select(std::move(selection), add);
+}
+
+void ScenePage::select(SceneSelection selection, bool add) {
+  if (add) {
+    const SceneSelection before = selection_->selection();
+    const auto join = [](auto& to, const auto& more) {
+      for (const auto& item : more) {
+        if (std::find(to.begin(), to.end(), item) == to.end()) to.push_back(item);
+      }
+    };
+    join(selection.tags, before.tags);
+    join(selection.circles, before.circles);
+    selection.points_m.insert(selection.points_m.end(), before.points_m.begin(),
+                              before.points_m.end());
+  }
+  picked_.reset();
+  sample_points_m_.clear();
+  sample_pixels_.clear();
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& p : selection.points_m) points.push_back(p.cast<double>());
+  std::vector<std::uint32_t> found;
+  const auto& shown = cloud_->view()->scene();
+  if (shown && shown->cloud && !points.empty()) found = same_directions(*shown->cloud, points);
+  cloud_->view()->setHighlights(found);
+  std::vector<QPointF> places;
+  const std::size_t stride = 1 + found.size() / kMostRings;
+  for (std::size_t k = 0; k < found.size(); k += stride) {
+    if (found[k] >= shown->pixels.size() || !std::isfinite(shown->pixels[found[k]].x())) continue;
+    places.emplace_back(static_cast<double>(shown->pixels[found[k]].x()),
+                        static_cast<double>(shown->pixels[found[k]].y()));
+  }
+  const ImageOverlay& overlay = image_->view()->overlay().overlay();
+  for (const ImageOverlay::Tag& tag : overlay.tags) {
+    if (contains_id(selection.tags, tag.id)) places.push_back(tag.corners.boundingRect().center());
+  }
+  for (const ImageOverlay::Circle& circle : overlay.circles) {
+    if (contains_id(selection.circles, circle.id)) places.push_back(circle.center);
+  }
+  image_->view()->overlay().setHighlights(std::move(places), -1);
+  QStringList parts;
+  if (!selection.points_m.empty())
+    parts << tr("%n points about the board", nullptr, static_cast<int>(selection.points_m.size()));
+  if (!selection.tags.empty()) parts << tr("tags %1").arg(ids_text(selection.tags));
+  if (!selection.circles.empty()) parts << tr("circles %1").arg(ids_text(selection.circles));
+  selection_->setText(parts.isEmpty() ? tr("Nothing is selected.")
+                                      : tr("Selected: %1").arg(parts.join(QStringLiteral(", "))));
+  selection_->setSelection(std::move(selection), result_.get(), current());
 }
 
 // ", left out: …" of a feature of the current scene; empty if it is used.
@@ -338,6 +472,11 @@ QString ScenePage::refusalOf(Refusal::What what, int id) const {
     if (refusal.scene == scene->name && refusal.what == what && refusal.id == id)
       return tr(", left out: %1").arg(core_text(refusal.reason));
   }
+  const auto& left_out = what == Refusal::What::kTag ? scene->edits.tags : scene->edits.circles;
+  const auto& kept =
+      what == Refusal::What::kTag ? scene->edits.kept_tags : scene->edits.kept_circles;
+  if (contains_id(left_out, id)) return tr(", left out by hand");
+  if (contains_id(kept, id)) return tr(", used all the same");
   return {};
 }
 
@@ -371,6 +510,7 @@ void ScenePage::showSamples() {
   image_->view()->overlay().setHighlights(std::move(places), -1);
   selection_->setText(
       tr("%n measurements selected on the Model page", nullptr, static_cast<int>(count)));
+  selection_->setSelection({aboutBoard(found), {}, {}}, result_.get(), current());
 }
 
 void ScenePage::clearSelection() {
@@ -380,6 +520,7 @@ void ScenePage::clearSelection() {
   cloud_->view()->setHighlights({});
   image_->view()->overlay().setHighlights({}, -1);
   selection_->setText(tr("Click a point, a pixel or a tag to see its values in both views."));
+  selection_->setSelection({}, nullptr, nullptr);
 }
 
 }  // namespace lvcalib::widgets

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "pages/scene_overlay.h"
 #include "pipeline/calibration.h"
 #include "pipeline/crop_box.h"
 #include "pipeline/refusals.h"
@@ -18,6 +19,8 @@ namespace lvcalib::widgets {
 
 class CloudPane;
 class ImagePane;
+class SelectionBar;
+struct SceneSelection;
 
 /// One scene: its cloud on the left, its image on the right, and what was found in both. What is
 /// selected in one is highlighted in the other.
@@ -40,6 +43,9 @@ class ScenePage : public QWidget {
   /// The crop box in force for the current scene, or none.
   void setCropBox(const std::optional<CropBox>& box);
 
+  /// What is decided about the current scene's measurements.
+  void setEdits(const SceneEdits& edits);
+
   /// Highlights measurements of the current scene: LiDAR points (by their directions) and pixels.
   void selectSamples(const std::vector<Eigen::Vector3d>& points_in_lidar_m,
                      const std::vector<Eigen::Vector2d>& pixels);
@@ -51,6 +57,10 @@ class ScenePage : public QWidget {
   /// The user wants this scene cropped (box in the LiDAR frame), or no longer.
   void cropChanged(int scene, const lvcalib::CropBox& box);
   void cropCleared(int scene);
+  /// What of this scene is left out by hand, or used all the same.
+  void editsChanged(int scene, const lvcalib::SceneEdits& edits);
+  /// A patch of the board is to be left out of every scene.
+  void patchExcluded(const std::vector<Eigen::Vector2d>& patch_m);
   /// The program refused this scene; the user wants it used all the same.
   void insistWanted(int scene);
   /// A figure could not be saved, in words.
@@ -64,6 +74,13 @@ class ScenePage : public QWidget {
   void selectPixel(const QPointF& pixel);
   void selectTag(int id);
   void selectCircle(int id);
+  void brushPoints(const std::vector<std::uint32_t>& points, bool add);
+  void brushImage(const QPolygonF& line, bool add);
+  /// Makes this the selection, or adds it; shows it in both views and says so.
+  void select(SceneSelection selection, bool add);
+  /// The points of the scene's cloud that are about the board: what can be decided about.
+  [[nodiscard]] std::vector<Eigen::Vector3f> aboutBoard(
+      const std::vector<std::uint32_t>& points) const;
   void showRefusal();
   [[nodiscard]] QString refusalOf(Refusal::What what, int id) const;
   void clearSelection();
@@ -81,9 +98,11 @@ class ScenePage : public QWidget {
   int scene_ = -1;
   CloudPane* cloud_ = nullptr;
   ImagePane* image_ = nullptr;
+  UnusedPoints unused_;
   std::optional<std::uint32_t> picked_;  // In the cloud shown; the one before is measured from.
   QLabel* refusal_ = nullptr;
-  QLabel* selection_ = nullptr;
+  QLabel* edits_ = nullptr;
+  SelectionBar* selection_ = nullptr;
 };
 
 }  // namespace lvcalib::widgets

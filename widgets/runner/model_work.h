@@ -42,6 +42,10 @@ class ModelWork : public QObject {
 
   /// The calibration with the effects shown in its model; null if there are none.
   [[nodiscard]] std::shared_ptr<const CalibrationResult> result() const { return result_; }
+  /// The calibration that the steps were made from; null before the first fit.
+  [[nodiscard]] std::shared_ptr<const CalibrationResult> source() const {
+    return steps_.empty() ? nullptr : source_;
+  }
   /// The steps up to the one shown and what is missing, for the report; null before the first fit.
   [[nodiscard]] std::shared_ptr<const Discovery> discovery() const;
 

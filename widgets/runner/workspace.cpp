@@ -243,6 +243,36 @@ void Workspace::set_insist(const QStringList& scenes, bool insist) {
          std::move(after));
 }
 
+void Workspace::set_edits(const std::map<QString, SceneEdits>& edits) {
+  Decisions after = decisions_;
+  QStringList changed;
+  for (const auto& [scene, edit] : edits) {
+    if (decision_of(decisions_, scene.toStdString()).edits == edit) continue;
+    after.scenes[scene.toStdString()].edits = edit;
+    changed << scene;
+  }
+  if (changed.isEmpty()) return;
+  decide({QT_TRANSLATE_NOOP("Decisions", "choose measurements of %1"),
+          changed.join(QStringLiteral(", "))},
+         std::move(after));
+}
+
+void Workspace::set_note(const QString& scene, const QString& note) {
+  if (decision_of(decisions_, scene.toStdString()).note == note.toStdString()) return;
+  Decisions after = decisions_;
+  after.scenes[scene.toStdString()].note = note.toStdString();
+  decide({QT_TRANSLATE_NOOP("Decisions", "note on %1"), scene}, std::move(after),
+         QStringLiteral("note ") + scene);
+}
+
+void Workspace::set_scene_order(const QStringList& scenes) {
+  Decisions after = decisions_;
+  after.scene_order.clear();
+  for (const QString& scene : scenes) after.scene_order.push_back(scene.toStdString());
+  if (after.scene_order == decisions_.scene_order) return;
+  decide({QT_TRANSLATE_NOOP("Decisions", "order scenes"), {}}, std::move(after));
+}
+
 void Workspace::set_crop(const QString& scene, const std::optional<CropBox>& box) {
   if (box) {
     if (Status s = check(*box); !s) {
@@ -310,7 +340,12 @@ void Workspace::decide(DecisionCommand::Words words, Decisions after, const QStr
 void Workspace::apply(const Decisions& decisions) {
   const bool options_changed = !same_options(decisions.options, decisions_.options);
   const bool scenes_added = decisions.added_scenes != decisions_.added_scenes;
+  const bool words_only = same_calibration(decisions, decisions_);
   decisions_ = decisions;
+  if (words_only) {
+    Q_EMIT decisions_changed();
+    return;
+  }
   if (scenes_added) {
     auto dataset = open_project_dataset(project());
     if (dataset && !dataset->dataset_moved) dataset_ = std::move(dataset->dataset);

@@ -6,6 +6,7 @@
 #include <QTimer>
 #include <QUndoStack>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -39,6 +40,8 @@ class Workspace : public QObject {
   [[nodiscard]] const QStringList& missing_scenes() const { return missing_; }
   /// Null before the first run.
   [[nodiscard]] std::shared_ptr<const CalibrationResult> result() const { return state_.latest; }
+  /// What the last runs left, for looks ahead.
+  [[nodiscard]] const SessionState& state() const { return state_; }
   /// True if the result answers the present decisions.
   [[nodiscard]] bool up_to_date() const { return up_to_date_; }
   [[nodiscard]] QString project_path() const { return project_path_; }
@@ -69,6 +72,12 @@ class Workspace : public QObject {
   void set_use(const QStringList& scenes, bool use);
   /// Uses scenes that the program refused all the same, or no longer.
   void set_insist(const QStringList& scenes, bool insist);
+  /// What is left out by hand, or used all the same, of these scenes.
+  void set_edits(const std::map<QString, SceneEdits>& edits);
+  /// Words about a scene, which change no result.
+  void set_note(const QString& scene, const QString& note);
+  /// In which order scenes are listed; changes no result.
+  void set_scene_order(const QStringList& scenes);
   void set_crop(const QString& scene, const std::optional<CropBox>& box);
   /// The value must lie in the option's range.
   void set_option(const OptionDeclaration& option, double value);

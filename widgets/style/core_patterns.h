@@ -272,6 +272,9 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "holds no extrinsic; expected T_camera_lidar (a result) or T_CL (a truth)"),
     QT_TRANSLATE_NOOP("Core", "give the result.json of a calibration"),
+    QT_TRANSLATE_NOOP("Core", "left out by the user"),
+    QT_TRANSLATE_NOOP("Core", "too few tags: the others are left out by the user"),
+    QT_TRANSLATE_NOOP("Core", "there is no calibration yet"),
     // Scenes named before anything else that is said of them.
     QT_TRANSLATE_NOOP("Core", "scene %1: %2"),
 };

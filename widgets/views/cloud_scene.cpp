@@ -136,6 +136,10 @@ class Builder {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
+    for (const Eigen::Vector3d& p : in_.landmarks_m) {
+      low = low.cwiseMin(p.cast<float>());
+      high = high.cwiseMax(p.cast<float>());
+    }
     if (scene_->order.empty()) return;
     scene_->low_m = low.cast<double>();
     scene_->high_m = high.cast<double>();
@@ -201,7 +205,7 @@ class Builder {
           CloudSceneText::tr("The board's plane is not known in this scene; range is shown.");
       color = CloudColor::kRange;
     }
-    if (color == CloudColor::kLine && !cloud.has_line()) {
+    if ((color == CloudColor::kLine || color == CloudColor::kScene) && !cloud.has_line()) {
       scene_->notice = CloudSceneText::tr("This cloud has no line numbers; range is shown.");
       color = CloudColor::kRange;
     }
@@ -222,6 +226,9 @@ class Builder {
         break;
       case CloudColor::kLine:
         scene_->quantity = CloudSceneText::tr("scan line");
+        break;
+      case CloudColor::kScene:
+        scene_->quantity = CloudSceneText::tr("scene, counted as in the dataset");
         break;
       case CloudColor::kTime:
         scene_->quantity = CloudSceneText::tr("time (ms)");
@@ -247,6 +254,7 @@ class Builder {
                                                           : kNan;
       }
       case CloudColor::kLine:
+      case CloudColor::kScene:
         return static_cast<float>(cloud.line[i]);
       case CloudColor::kTime:
         return static_cast<float>(1e3 * static_cast<double>(cloud.time_s[i]));

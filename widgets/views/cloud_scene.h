@@ -23,7 +23,16 @@
 namespace lvcalib::widgets {
 
 /// What the colour of a point tells.
-enum class CloudColor { kIntensity, kHeight, kRange, kPlaneResidual, kCameraColor, kLine, kTime };
+enum class CloudColor {
+  kIntensity,
+  kHeight,
+  kRange,
+  kPlaneResidual,
+  kCameraColor,
+  kLine,
+  kTime,
+  kScene
+};
 
 /// Which points are shown.
 enum class CloudFilter {
@@ -46,6 +55,8 @@ struct CloudSceneInput {
   std::optional<Rigid3> camera_from_lidar;  ///< For pixels and camera colours.
   QImage image;
   std::optional<std::pair<double, double>> range;  ///< Of the colours; none: by the values.
+  /// Places that are to be in sight with the points, such as the sensors.
+  std::vector<Eigen::Vector3d> landmarks_m = {};
   QString problem;  ///< Why there is no full cloud and will be none; empty: it may still come.
 };
 

@@ -10,9 +10,11 @@
 #include <QMouseEvent>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
+#include <QTransform>
 
 #include "style/texts.h"
 #include "views/color_bar.h"
+#include "views/lasso.h"
 #include "views/point_picking.h"
 
 namespace lvcalib::widgets {
@@ -94,6 +96,8 @@ void CloudView::createCanvas() {
     canvas_->setAccessibleName(tr("Point cloud"));
   });
   setFocusProxy(canvas_);
+  lasso_ = new Lasso(canvas_);
+  connect(lasso_, &Lasso::drawn, this, &CloudView::brush);
   connect(canvas_, &CloudCanvas::clicked, this, &CloudView::pickAt);
   connect(canvas_, &CloudCanvas::boxEdited, this, &CloudView::boxEdited);
   connect(canvas_, &CloudCanvas::completed, this, &CloudView::completed);
@@ -170,6 +174,10 @@ void CloudView::setPointSize(double size_px) {
   if (canvas_ == nullptr) return;
   canvas_->pipeline().setPointSize(size_px);
   canvas_->redraw();
+}
+
+void CloudView::setBrushing(bool on) {
+  if (lasso_ != nullptr) lasso_->setOn(on);
 }
 
 void CloudView::look(CloudViewpoint viewpoint) {
@@ -252,6 +260,18 @@ void CloudView::pickAt(const QPointF& place) {
   } else {
     Q_EMIT nothingPicked();
   }
+}
+
+void CloudView::brush(const QPolygonF& line, bool add) {
+  if (!scene_) return;
+  const double ratio = canvas_->devicePixelRatioF();
+  const QSize size = canvas_->deviceSize();
+  const LassoMask mask(QTransform::fromScale(ratio, ratio).map(line));
+  std::vector<std::uint32_t> points;
+  for (const std::size_t k : points_inside(scene_->xyz_m, canvas_->pipeline().clipFromWorld(),
+                                           Eigen::Vector2d(size.width(), size.height()), mask))
+    points.push_back(scene_->order[k]);
+  Q_EMIT pointsBrushed(points, add);
 }
 
 void CloudView::updateLegend() {

@@ -17,6 +17,7 @@ class QLabel;
 namespace lvcalib::widgets {
 
 class ColorBar;
+class Lasso;
 
 /// A LiDAR cloud in space: drag turns, Shift-drag or the middle button moves, wheel or the right
 /// button zooms, a click picks a point; R, T, S and B reset, look from the top, from the sensor, at
@@ -40,6 +41,8 @@ class CloudView : public QWidget {
   void setBox(const std::optional<CropBox>& box, bool editable);
   /// Of the points, in logical pixels.
   void setPointSize(double size_px);
+  /// On: a drag draws a line about points and selects them instead of turning.
+  void setBrushing(bool on);
   /// The legend, at which the range of the colours is chosen.
   [[nodiscard]] ColorBar* legend() const { return legend_; }
   /// Points the viewer there.
@@ -57,6 +60,8 @@ class CloudView : public QWidget {
   void pointPicked(std::uint32_t point);
   /// A click beside all points.
   void nothingPicked();
+  /// Points inside a line that was drawn about them; `add` to those selected already.
+  void pointsBrushed(const std::vector<std::uint32_t>& points, bool add);
   void boxEdited(const lvcalib::CropBox& box);
   /// All points are in the picture.
   void completed();
@@ -70,11 +75,13 @@ class CloudView : public QWidget {
   void createCanvas();
   void createActions();
   void pickAt(const QPointF& place);
+  void brush(const QPolygonF& line, bool add);
   void updateLegend();
   void showMenu(const QPoint& place);
 
   std::shared_ptr<const CloudScene> scene_;
   CloudCanvas* canvas_ = nullptr;
+  Lasso* lasso_ = nullptr;
   ColorBar* legend_ = nullptr;
   QLabel* notice_ = nullptr;
   FigureActions* figure_actions_ = nullptr;

@@ -16,6 +16,7 @@ const QColor kUnusedColor(255, 70, 70);
 const QColor kResidualColor(255, 60, 160);
 const QColor kCircleColor(255, 170, 0);
 const QColor kChosenColor(0, 190, 255);
+const QColor kLeftOutColor(190, 110, 255);
 
 // More dots cannot be told apart and make painting slow.
 constexpr std::size_t kMostPoints = 60'000;
@@ -59,6 +60,22 @@ void draw_arrow(QPainter& painter, const QPointF& from, const QPointF& to, doubl
   painter.drawLine(to, to - head * u - 0.5 * head * n);
 }
 
+// Fills a shape with lines in the colour of why it is not used, and strikes it through.
+void strike(QPainter& painter, const QPolygonF& shape, bool left_out) {
+  const QColor color = left_out ? kLeftOutColor : kUnusedColor;
+  QBrush hatch(color, Qt::BDiagPattern);
+  // Lines as far apart on the screen whatever the zoom.
+  hatch.setTransform(painter.worldTransform().inverted());
+  painter.setBrush(hatch);
+  painter.setPen(cosmetic(color, 1.6));
+  painter.drawPolygon(shape);
+  painter.setBrush(Qt::NoBrush);
+  const qsizetype half = shape.size() / 2;
+  if (half < 1) return;
+  painter.drawLine(shape[0], shape[half]);
+  painter.drawLine(shape[half / 2], shape[half + half / 2]);
+}
+
 }  // namespace
 
 void OverlayItem::setOverlay(ImageOverlay overlay) {
@@ -92,6 +109,7 @@ void OverlayItem::paint(QPainter* painter, const QStyleOptionGraphicsItem* optio
   const double scale = option->levelOfDetailFromTransform(painter->worldTransform());
   painter->setRenderHint(QPainter::Antialiasing);
   if (parts_.points) paintPoints(*painter, option->exposedRect);
+  if (parts_.unused) paintUnusedPoints(*painter, scale);
   if (parts_.circles) paintCircles(*painter, scale);
   if (parts_.tags) paintTags(*painter, scale);
   if (parts_.residuals) paintResiduals(*painter, scale);
@@ -122,12 +140,30 @@ void OverlayItem::paintPoints(QPainter& painter, const QRectF& visible) const {
   painter.setRenderHint(QPainter::Antialiasing);
 }
 
+void OverlayItem::paintUnusedPoints(QPainter& painter, double scale) const {
+  const double half = 2.0 / scale;
+  const auto crosses = [&](const std::vector<QPointF>& places, const QColor& color) {
+    QList<QLineF> lines;
+    const std::size_t step = 1 + places.size() / kMostPoints;
+    for (std::size_t i = 0; i < places.size(); i += step) {
+      lines << QLineF(places[i] - QPointF(half, half), places[i] + QPointF(half, half))
+            << QLineF(places[i] - QPointF(half, -half), places[i] + QPointF(half, -half));
+    }
+    painter.setPen(cosmetic(color, 1.0));
+    painter.drawLines(lines);
+  };
+  crosses(overlay_.refused_points, kUnusedColor);
+  crosses(overlay_.left_out_points, kLeftOutColor);
+}
+
 void OverlayItem::paintTags(QPainter& painter, double scale) const {
   painter.setBrush(Qt::NoBrush);
   for (const ImageOverlay::Tag& tag : overlay_.tags) {
     const QColor color = tag.id == highlighted_tag_ ? kChosenColor
+                         : tag.left_out             ? kLeftOutColor
                          : tag.used                 ? kTagColor
                                                     : kUnusedColor;
+    if (!tag.used || tag.left_out) strike(painter, tag.corners, tag.left_out);
     painter.setPen(cosmetic(color, tag.id == highlighted_tag_ ? 3.0 : 1.6));
     painter.drawPolygon(tag.corners);
     const QRectF box = tag.corners.boundingRect();
@@ -161,7 +197,11 @@ void OverlayItem::paintCircles(QPainter& painter, double scale) const {
   painter.setPen(cosmetic(kCircleColor, 1.4));
   if (!overlay_.outline.isEmpty()) painter.drawPolygon(overlay_.outline);
   for (const ImageOverlay::Circle& circle : overlay_.circles) {
-    QPen pen = cosmetic(circle.valid ? kCircleColor : kUnusedColor, 1.6);
+    if (!circle.valid) strike(painter, circle.edge, circle.left_out);
+    QPen pen = cosmetic(circle.valid      ? kCircleColor
+                        : circle.left_out ? kLeftOutColor
+                                          : kUnusedColor,
+                        1.6);
     if (!circle.valid) pen.setStyle(Qt::DashLine);
     painter.setPen(pen);
     painter.drawPolygon(circle.edge);

@@ -16,6 +16,7 @@ struct ImageOverlay {
     int id = 0;
     QPolygonF corners;  ///< Detected, from the lower left.
     bool used = true;
+    bool left_out = false;  ///< Not used because the user does not want it.
   };
   struct Corner {
     int feature_id = 0;
@@ -30,6 +31,7 @@ struct ImageOverlay {
     QPolygonF edge;  ///< Projected with the current extrinsic.
     QPointF center;  ///< Of the refined LiDAR node.
     bool valid = true;
+    bool left_out = false;  ///< Not valid because the user does not want it.
   };
   std::vector<Tag> tags;
   std::vector<Corner> corners;
@@ -37,6 +39,9 @@ struct ImageOverlay {
   QPolygonF outline;               ///< The board's edge as the LiDAR sees it.
   std::vector<QPointF> points;     ///< LiDAR points.
   std::vector<QRgb> point_colors;  ///< As many as points.
+  /// LiDAR points that the program refused, and that the user left out; drawn as crosses.
+  std::vector<QPointF> refused_points;
+  std::vector<QPointF> left_out_points;
 };
 
 /// Which parts of an overlay are shown.
@@ -45,6 +50,7 @@ struct OverlayParts {
   bool residuals = true;
   bool circles = true;
   bool points = false;
+  bool unused = true;  ///< LiDAR points that are not used.
 };
 
 /// Draws an overlay; its scene coordinates are image pixels. Lines keep their width on the screen.
@@ -69,6 +75,7 @@ class OverlayItem : public QGraphicsItem {
 
  private:
   void paintPoints(QPainter& painter, const QRectF& visible) const;
+  void paintUnusedPoints(QPainter& painter, double scale) const;
   void paintTags(QPainter& painter, double scale) const;
   void paintResiduals(QPainter& painter, double scale) const;
   void paintCircles(QPainter& painter, double scale) const;

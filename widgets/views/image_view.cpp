@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "style/texts.h"
+#include "views/lasso.h"
 #include "views/plot_view.h"
 
 namespace lvcalib::widgets {
@@ -43,6 +44,10 @@ ImageView::ImageView(QWidget* parent) : QGraphicsView(parent) {
   setViewportUpdateMode(QGraphicsView::FullViewportUpdate);
   setMouseTracking(true);
   viewport()->setCursor(Qt::CrossCursor);
+  lasso_ = new Lasso(viewport());
+  connect(lasso_, &Lasso::drawn, this, [this](const QPolygonF& line, bool add) {
+    if (!image_.isNull()) Q_EMIT brushed(viewportTransform().inverted().map(line), add);
+  });
   setMinimumSize(160, 120);
   setFrameShape(QFrame::NoFrame);
   follow_language(this, [this] {
@@ -82,6 +87,10 @@ void ImageView::setMessage(const QString& message) {
 void ImageView::showImage() {
   pixmap_->setPixmap(QPixmap::fromImage(apply_levels(image_, levels_)));
   viewport()->update();
+}
+
+void ImageView::setBrushing(bool on) {
+  lasso_->setOn(on);
 }
 
 double ImageView::zoom() const {

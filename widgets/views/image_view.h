@@ -10,6 +10,8 @@
 
 namespace lvcalib::widgets {
 
+class Lasso;
+
 /// An image with what was found in it: the wheel zooms at the cursor, dragging pans, F fits, 1
 /// shows one pixel per pixel, + and − zoom; a click names the pixel or the tag. Passive.
 class ImageView : public QGraphicsView {
@@ -31,6 +33,9 @@ class ImageView : public QGraphicsView {
   [[nodiscard]] OverlayItem& overlay() { return *overlay_; }
   [[nodiscard]] FigureActions* figureActions() const { return actions_; }
 
+  /// On: a drag draws a line about what is to be selected instead of moving the image.
+  void setBrushing(bool on);
+
   /// Screen pixels per image pixel.
   [[nodiscard]] double zoom() const;
   /// Zooms about a place of the viewport.
@@ -46,6 +51,8 @@ class ImageView : public QGraphicsView {
   void pixelClicked(const QPointF& pixel);
   void tagClicked(int id);
   void circleClicked(int id);
+  /// A line was drawn, in image pixels; `add` to what is selected already.
+  void brushed(const QPolygonF& line, bool add);
   /// The cursor moved over the image; value is the grey value at the pixel (0…255 or 0…65535).
   void hovered(const QPointF& pixel, int value);
   void left();
@@ -71,6 +78,7 @@ class ImageView : public QGraphicsView {
   QGraphicsPixmapItem* pixmap_ = nullptr;
   OverlayItem* overlay_ = nullptr;
   FigureActions* actions_ = nullptr;
+  Lasso* lasso_ = nullptr;
   QString message_;
   QPoint pressed_;
   bool fitted_ = true;

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
+
+#include "views/lasso.h"
 
 namespace lvcalib::widgets {
 
@@ -17,5 +20,11 @@ std::optional<std::size_t> pick_point(std::span<const float> xyz,
                                       const Eigen::Matrix4d& clip_from_world,
                                       const Eigen::Vector2d& viewport_px,
                                       const Eigen::Vector2d& place_px, double radius_px);
+
+/// The drawn points that appear inside a closed line on the screen, at whatever depth, as places in
+/// `xyz`.
+std::vector<std::size_t> points_inside(std::span<const float> xyz,
+                                       const Eigen::Matrix4d& clip_from_world,
+                                       const Eigen::Vector2d& viewport_px, const LassoMask& mask);
 
 }  // namespace lvcalib::widgets

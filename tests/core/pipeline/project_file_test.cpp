@@ -26,7 +26,15 @@ Project example(const fs::path& dataset) {
   CropBox box;
   box.center_m = {1.1, 2.2, 3.3};
   box.half_size_m = {0.7, 0.8, 1e-3};
-  project.decisions.scenes["a: \"strange\" name"] = {true, true, box};
+  SceneDecision& odd = project.decisions.scenes["a: \"strange\" name"];
+  odd = {true, true, box, {}, "a note: \"it rained\"\nall day #3"};
+  odd.edits.points_m = {{1.1F, -2.7e-5F, 3.3F}, {0.1F, 0.2F, 0.3F}};
+  odd.edits.patches_m = {{{0.1, 0.2}, {0.3, 0.1 + 0.2}, {0.0, 1e-7}}, {{0, 0}, {1, 0}, {1, 1}}};
+  odd.edits.tags = {3, 7};
+  odd.edits.circles = {0};
+  odd.edits.kept_tags = {5};
+  odd.edits.kept_circles = {2, 8};
+  project.decisions.scene_order = {"C", "a: \"strange\" name"};
   project.decisions.added_scenes = {dataset.parent_path() / "more" / "X"};
   project.model = {{ModelChange::kAdd, "range_walk", {}},
                    {ModelChange::kAdd, "formula:range:a*sin(2*\"x\")", {}},
@@ -51,6 +59,7 @@ TEST(ProjectFile, ReadsBackExactlyAsWritten) {
   EXPECT_EQ(d.guess->rotation.coeffs(), written.decisions.guess->rotation.coeffs());
   EXPECT_EQ(d.scenes, written.decisions.scenes);
   EXPECT_EQ(d.added_scenes, written.decisions.added_scenes);
+  EXPECT_EQ(d.scene_order, written.decisions.scene_order);
   EXPECT_EQ(read->project.model, written.model);
 }
 
@@ -66,6 +75,21 @@ TEST(ProjectFile, AModelThatMakesNoSenseIsRefusedWithItsLine) {
     ASSERT_FALSE(read.ok()) << text;
     EXPECT_THAT(read.error().text(), HasSubstr(expected));
     EXPECT_THAT(read.error().text(), HasSubstr("p.lvcalib:"));
+  }
+}
+
+TEST(ProjectFile, EditsThatMakeNoSenseAreRefusedWithTheirLine) {
+  const std::string head =
+      "format: lvcalib-project\nversion: 1\ndataset: d\nscenes:\n  A:\n    edits:\n      ";
+  const std::pair<const char*, const char*> cases[] = {{"points_m: [1, 2]\n", "3 numbers"},
+                                                       {"patches_m: [[1, 2, 3]]\n", "2 numbers"},
+                                                       {"tags: [0.5]\n", "ids"},
+                                                       {"circles: x\n", "circles"}};
+  for (const auto& [text, expected] : cases) {
+    const auto read = project_from_text(head + text, "p.lvcalib");
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_THAT(read.error().text(), HasSubstr(expected));
+    EXPECT_THAT(read.error().text(), HasSubstr("p.lvcalib:7"));
   }
 }
 
@@ -93,7 +117,7 @@ TEST(ProjectFile, ANewerVersionIsRefusedUntouched) {
 TEST(ProjectFile, UnknownKeysAndOptionsAreWarnedAbout) {
   const auto read = project_from_text(
       "format: lvcalib-project\nversion: 1\ndataset: d\ncolour: red\n"
-      "options: {refinement.max_bin: 3}\nscenes: {A: {use: true, note: x}}\n",
+      "options: {refinement.max_bin: 3}\nscenes: {A: {use: true, remark: x}}\n",
       "/tmp/p.lvcalib");
   ASSERT_TRUE(read.ok()) << read.error().text();
   ASSERT_EQ(read->warnings.size(), 3U);

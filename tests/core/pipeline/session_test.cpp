@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/session.h"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <set>
@@ -8,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/refusals.h"
 #include "support/pose_matchers.h"
 #include "support/simulated_dataset.h"
 #include "support/temporary_folder.h"
@@ -132,6 +134,109 @@ TEST_F(Session, ACropBoxRunsThatSceneAlone) {
   ASSERT_FALSE(lost.run.error) << lost.run.error->text();
   EXPECT_FALSE(lost.run.state.latest->scenes[2].used);
   EXPECT_THAT(lost.run.state.latest->scenes[2].reason, HasSubstr("crop box holds no points"));
+}
+
+TEST_F(Session, WhatIsLeftOutByHandTakesNoPart) {
+  const SceneResult& before = first_.state.latest->scenes[1];
+  const RefinedNode& circle = before.refinement->nodes[4];
+  const int tag = before.view->corners.front().feature_id;
+  Decisions decisions;
+  SceneEdits& edits = decisions.scenes["B"].edits;
+  edits.tags = {tag};
+  edits.circles = {circle.id};
+  edits.points_m = {before.board_points.points_m[10], before.board_points.points_m[20]};
+  const Watched out = watch(decisions, first_.state);
+  ASSERT_FALSE(out.run.error) << out.run.error->text();
+  EXPECT_EQ(out.refined, std::set<std::size_t>{1});
+  const CalibrationResult& result = *out.run.state.latest;
+  const SceneResult& scene = result.scenes[1];
+  EXPECT_EQ(scene.view->tag_count, before.view->tag_count - 1);
+  EXPECT_EQ(scene.left_out_corners.size(), 4U);
+  EXPECT_EQ(scene.view->corners.size() + 4, before.view->corners.size());
+  EXPECT_GT(scene.left_out_points.size(), 30U);
+  EXPECT_EQ(scene.board_points.size() + scene.left_out_points.size(), before.board_points.size());
+  for (const RefinedNode& node : scene.refinement->nodes)
+    EXPECT_EQ(node.reason == kLeftOutByUser, node.id == circle.id) << node.id << node.reason;
+  // It is the user's decision, not the program's.
+  for (const Refusal& refusal : refusals(result)) {
+    EXPECT_FALSE(refusal.scene == "B" && refusal.id == circle.id &&
+                 refusal.what != Refusal::What::kTag)
+        << refusal.reason;
+  }
+  EXPECT_NE(pose(out.run), pose(first_));
+  EXPECT_THAT(result.extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(first_.state.latest->extrinsic.camera_from_lidar.transform, 5, 2));
+  const Watched back = watch({}, out.run.state);
+  EXPECT_EQ(pose(back.run), pose(first_));
+}
+
+TEST(Decisions, NotesAndTheOrderOfTheListAreNoCalibration) {
+  Decisions a;
+  a.scenes["A"].crop = CropBox{};
+  Decisions b = a;
+  b.scenes["A"].note = "windy";
+  b.scenes["B"].note = "calm";
+  b.scene_order = {"B", "A"};
+  EXPECT_TRUE(same_calibration(a, b));
+  b.scenes["B"].edits.tags = {1};
+  EXPECT_FALSE(same_calibration(a, b));
+}
+
+TEST_F(Session, WithoutTagsASceneSaysSo) {
+  Decisions decisions;
+  for (const CornerObservation& corner : first_.state.latest->scenes[1].view->corners)
+    decisions.scenes["B"].edits.tags.push_back(corner.feature_id);
+  const Watched out = watch(decisions, first_.state);
+  ASSERT_FALSE(out.run.error) << out.run.error->text();
+  EXPECT_FALSE(out.run.state.latest->scenes[1].used);
+  EXPECT_THAT(out.run.state.latest->scenes[1].reason, HasSubstr("left out by the user"));
+}
+
+// A gate that refuses about every tag; what the user keeps stays in, and nothing else.
+TEST_F(Session, WhatIsKeptByHandIsUsedAllTheSame) {
+  Decisions decisions;
+  decisions.options.extrinsic.rejection_gate = 2.0;
+  const Watched strict = watch(decisions, first_.state);
+  ASSERT_FALSE(strict.run.error) << strict.run.error->text();
+  const auto refused = refusals(*strict.run.state.latest);
+  const auto tag = std::find_if(refused.begin(), refused.end(), [](const Refusal& r) {
+    return r.what == Refusal::What::kTag && r.can_be_used;
+  });
+  ASSERT_NE(tag, refused.end());
+  decisions.scenes[tag->scene].edits.kept_tags = {tag->id};
+  const Watched kept = watch(decisions, strict.run.state);
+  ASSERT_FALSE(kept.run.error) << kept.run.error->text();
+  const auto still = refusals(*kept.run.state.latest);
+  const auto tags = [](const std::vector<Refusal>& all) {
+    std::set<std::pair<std::string, int>> out;
+    for (const Refusal& r : all) {
+      if (r.what == Refusal::What::kTag) out.insert({r.scene, r.id});
+    }
+    return out;
+  };
+  auto expected = tags(refused);
+  expected.erase({tag->scene, tag->id});
+  EXPECT_EQ(tags(still), expected);
+  // Going back judges all of them anew.
+  decisions.scenes.clear();
+  const Watched back = watch(decisions, kept.run.state);
+  EXPECT_EQ(tags(refusals(*back.run.state.latest)), tags(refused));
+}
+
+TEST_F(Session, APreviewIsWhatARunWouldGive) {
+  Decisions decisions;
+  decisions.options.extrinsic.rejection_gate = 2.0;
+  const auto preview = preview_session(dataset_, decisions, first_.state, {});
+  ASSERT_TRUE(preview.ok());
+  EXPECT_EQ(preview->extrinsic.camera_from_lidar.transform.matrix(),
+            pose(watch(decisions, first_.state).run));
+  EXPECT_FALSE(preview_session(dataset_, decisions, {}, {}).ok());
+  std::stop_source stop;
+  stop.request_stop();
+  RunContext context;
+  context.stop = stop.get_token();
+  EXPECT_EQ(preview_session(dataset_, decisions, first_.state, context).error().kind,
+            ErrorKind::kCancelled);
 }
 
 TEST_F(Session, ACancelledRunKeepsWhatItFinished) {

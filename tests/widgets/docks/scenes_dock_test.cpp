@@ -3,9 +3,12 @@
 
 #include <QAction>
 #include <QHeaderView>
+#include <QLineEdit>
+#include <QMimeData>
 #include <QSignalSpy>
 #include <QTest>
 #include <QTreeView>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -122,6 +125,63 @@ TEST_F(ScenesDockTest, SortsByAnyColumn) {
   EXPECT_EQ(view_->model()->index(0, 0).data().toString(), "Z");
   dock_.select("C");
   EXPECT_EQ(dock_.selected(), QStringList{"C"});
+}
+
+TEST_F(ScenesDockTest, ScenesAreMovedByKeysAndBroughtInOrder) {
+  QSignalSpy order(&dock_, &ScenesDock::order_wanted);
+  dock_.select("C");
+  action("scene_up")->trigger();
+  ASSERT_EQ(order.count(), 1);
+  EXPECT_EQ(order[0][0].toStringList(), (QStringList{"A", "C", "B", "Z"}));
+  Decisions decisions;
+  decisions.scene_order = {"C", "A"};
+  model_.set_decisions(decisions);
+  EXPECT_EQ(model_.scene_at(0), "C");
+  EXPECT_EQ(model_.scene_at(2), "B");
+  EXPECT_EQ(model_.scene_at(3), "Z");
+  EXPECT_EQ(dock_.selected(), QStringList{"C"});  // The selection goes with its scene.
+  action("scene_up")->trigger();
+  EXPECT_EQ(order.count(), 1);  // It is the first already.
+  action("scene_down")->trigger();
+  EXPECT_EQ(order[1][0].toStringList(), (QStringList{"A", "C", "B", "Z"}));
+  // Sorted by a column there is no place to move to.
+  view_->sortByColumn(SceneModel::kName, Qt::DescendingOrder);
+  EXPECT_FALSE(action("scene_up")->isEnabled());
+  EXPECT_FALSE(view_->dragEnabled());
+}
+
+TEST_F(ScenesDockTest, ADropAsksForTheOrder) {
+  QSignalSpy order(&dock_, &ScenesDock::order_wanted);
+  const std::unique_ptr<QMimeData> data(model_.mimeData({model_.index(0, 0), model_.index(0, 1)}));
+  EXPECT_TRUE(model_.canDropMimeData(data.get(), Qt::MoveAction, 2, 0, {}));
+  model_.dropMimeData(data.get(), Qt::MoveAction, 2, 0, {});
+  ASSERT_EQ(order.count(), 1);
+  EXPECT_EQ(order[0][0].toStringList(), (QStringList{"B", "A", "C", "Z"}));
+  QMimeData other;
+  other.setText("A");
+  model_.dropMimeData(&other, Qt::MoveAction, 2, 0, {});
+  EXPECT_EQ(order.count(), 1);
+}
+
+TEST_F(ScenesDockTest, ANoteIsWrittenInTheList) {
+  QSignalSpy notes(&dock_, &ScenesDock::note_wanted);
+  EXPECT_TRUE(view_->isColumnHidden(SceneModel::kNote));
+  dock_.select("B");
+  action("note")->trigger();
+  auto* editor = view_->findChild<QLineEdit*>();
+  ASSERT_NE(editor, nullptr);
+  QTest::keyClicks(editor, "wind shook it");
+  QTest::keyClick(editor, Qt::Key_Return);
+  QCoreApplication::processEvents();  // The delegate commits after the key.
+  ASSERT_EQ(notes.count(), 1);
+  EXPECT_EQ(notes[0], (QVariantList{"B", "wind shook it"}));
+  // Notes of an opened project are in sight.
+  view_->setColumnHidden(SceneModel::kNote, true);
+  Decisions decisions;
+  decisions.scenes["B"].note = "wind shook it";
+  model_.set_decisions(decisions);
+  EXPECT_FALSE(view_->isColumnHidden(SceneModel::kNote));
+  EXPECT_EQ(model_.index(1, SceneModel::kNote).data().toString(), "wind shook it");
 }
 
 }  // namespace

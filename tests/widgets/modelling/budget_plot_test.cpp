@@ -53,6 +53,27 @@ TEST(BudgetPlotTest, TheFiguresSayBeforeAndAfter) {
   EXPECT_GT(red, 0.5);
 }
 
+TEST(BudgetPlotTest, TheDistanceToTheTruthStandsBesideTheHistory) {
+  const auto& example = test::model_example();
+  BudgetPlot plot;
+  plot.setSteps({example.base, example.mended}, 1);
+  EXPECT_FALSE(plot.csv().contains("truth"));
+  Rigid3 truth = example.mended->state.camera_from_lidar;
+  truth.translation.x() += 0.003;
+  plot.setTruth(truth);
+  EXPECT_TRUE(plot.csv().contains("\n1,truth_mm,3"))  // To rounding.
+      << plot.csv().toStdString();
+  EXPECT_TRUE(plot.csv().contains("\n0,truth_mrad,"));
+  bool seen = false;
+  for (int k = 0; k < plot.itemCount(); ++k) {
+    if (const auto* text = qobject_cast<QCPItemText*>(plot.item(k)))
+      seen = seen || (text->text().contains("→ 3 mm") && text->text().endsWith("mrad"));
+  }
+  EXPECT_TRUE(seen);
+  plot.setTruth(std::nullopt);
+  EXPECT_FALSE(plot.csv().contains("truth"));
+}
+
 TEST(BudgetPlotTest, AClickOnAColumnGoesToItsStep) {
   const auto& example = test::model_example();
   BudgetPlot plot;

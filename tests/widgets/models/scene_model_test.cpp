@@ -66,6 +66,29 @@ TEST_F(SceneModelTest, SaysWhatIsKnownOfEachScene) {
   EXPECT_EQ(text(0, SceneModel::kState), "not run yet");
 }
 
+// How a scene that is left out fits what the others give: in the colour of what does not count.
+TEST_F(SceneModelTest, ARefusedSceneKeepsItsFigures) {
+  auto changed = std::make_shared<CalibrationResult>(*result());
+  SceneSolution refused;
+  refused.name = "B";
+  refused.rms_px = 0.4;
+  refused.rms_mm = 12.0;
+  changed->extrinsic.scenes.push_back(refused);
+  changed->scenes[1].edits.tags = {3};
+  model_.set_result(changed);
+  EXPECT_EQ(text(1, SceneModel::kMillimetres), "12.00");
+  EXPECT_FALSE(model_.index(1, SceneModel::kMillimetres).data(Qt::ForegroundRole).isNull());
+  EXPECT_TRUE(model_.index(0, SceneModel::kMillimetres).data(Qt::ForegroundRole).isNull());
+  EXPECT_TRUE(model_.index(1, SceneModel::kMillimetres)
+                  .data(Qt::ToolTipRole)
+                  .toString()
+                  .contains("Left out: how it fits"));
+  EXPECT_TRUE(model_.index(1, SceneModel::kState)
+                  .data(Qt::ToolTipRole)
+                  .toString()
+                  .contains("Left out by hand: tags 3."));
+}
+
 TEST_F(SceneModelTest, DecisionsShowAndTicksOnlyAsk) {
   Decisions decisions;
   decisions.scenes["B"].use = false;

@@ -114,7 +114,11 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
   EXPECT_TRUE(list->toPlainText().contains("Scene B, circle 2: misses"));
   EXPECT_TRUE(list->toPlainText().contains("contradicts the others Use it all the same"));
   QSignalSpy insist(&page_, &ResponsePage::insistWanted);
-  Q_EMIT list->anchorClicked(QUrl(list->toHtml().section("href=\"", 1).section('"', 0, 0)));
+  QSignalSpy keep(&page_, &ResponsePage::keepWanted);
+  for (const int link : {1, 2})
+    Q_EMIT list->anchorClicked(QUrl(list->toHtml().section("href=\"", link).section('"', 0, 0)));
+  ASSERT_EQ(keep.count(), 1);
+  EXPECT_EQ(keep.first(), (QVariantList{QString("B"), false, 2}));
   ASSERT_EQ(insist.count(), 1);
   EXPECT_EQ(insist.first().first().toString(), "C");
   page_.setResult(nullptr);

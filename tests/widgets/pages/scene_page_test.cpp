@@ -7,6 +7,8 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolButton>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,7 @@
 #include "pages/scene_overlay.h"
 #include "views/cloud_view.h"
 #include "views/image_view.h"
+#include "views/lasso.h"
 #include "widgets/support/calibrated_demo.h"
 
 namespace lvcalib::widgets::scene_page_test {
@@ -176,6 +179,114 @@ TEST_F(ScenePageTest, ARefusedSceneSaysSoAndCanBeUsedAllTheSame) {
   Q_EMIT label->linkActivated("insist");
   ASSERT_EQ(insist.count(), 1);
   EXPECT_EQ(insist.first().first().toInt(), 1);
+}
+
+// What a line about the image holds is selected as it is shown, and can be left out.
+TEST_F(ScenePageTest, TagsAreBrushedInTheImageAndLeftOut) {
+  load();
+  auto* exclude = page_.findChild<QToolButton*>("exclude");
+  EXPECT_FALSE(exclude->isVisible());
+  page_.findChild<QAction*>("show-circles")->setChecked(false);
+  page_.findChild<QAction*>("image-brush")->setChecked(true);
+  const ImageOverlay::Tag tag = image().overlay().overlay().tags[6];
+  const QRectF box = tag.corners.boundingRect().adjusted(-4, -4, 4, 4);
+  auto* lasso = image().findChild<Lasso*>();
+  const auto at = [&](const QPointF& p) { return image().mapFromScene(p); };
+  QTest::mousePress(lasso, Qt::LeftButton, {}, at(box.topLeft()));
+  for (const QPointF& p : {box.topRight(), box.bottomRight(), box.bottomLeft()})
+    QTest::mouseMove(lasso, at(p));
+  QTest::mouseRelease(lasso, Qt::LeftButton, {}, at(box.topLeft()));
+  EXPECT_TRUE(selection().contains(QString("Selected: tags %1").arg(tag.id)))
+      << selection().toStdString();
+  ASSERT_TRUE(exclude->isVisible());
+  QSignalSpy edits(&page_, &ScenePage::editsChanged);
+  QTest::mouseClick(exclude, Qt::LeftButton, {}, {8, exclude->height() / 2});
+  ASSERT_EQ(edits.count(), 1);
+  EXPECT_EQ(edits[0][0].toInt(), 1);
+  EXPECT_EQ(edits[0][1].value<SceneEdits>().tags, std::vector<int>{tag.id});
+}
+
+// As a result has it that was made with them: struck through, named, and taken back.
+TEST_F(ScenePageTest, WhatIsLeftOutIsShownAndTakenBack) {
+  load();
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  SceneResult& scene = changed->scenes[1];
+  const int tag = scene.view->corners.front().feature_id;
+  scene.edits.tags = {tag};
+  scene.edits.points_m = {scene.board_points.points_m[100], scene.board_points.points_m[200]};
+  scene.left_out_corners = take_out(*scene.view, scene.edits);
+  scene.left_out_points = take_out(scene.board_points, scene.edits, changed->target,
+                                   scene.refinement->lidar_from_board);
+  page_.setResult(changed);
+  page_.setEdits(scene.edits);
+  ASSERT_TRUE(settle());
+  auto* label = page_.findChild<QLabel*>("scene-edits");
+  EXPECT_TRUE(label->isVisible());
+  EXPECT_TRUE(label->text().contains(QString("2 points, tags %1").arg(tag)))
+      << label->text().toStdString();
+  const auto& overlay = image().overlay().overlay();
+  EXPECT_EQ(overlay.left_out_points.size(), 2U);
+  int struck = 0;
+  for (const auto& t : overlay.tags) struck += t.left_out ? 1 : 0;
+  EXPECT_EQ(struck, 1);
+  // One of the points is selected again, and the tag.
+  std::uint32_t place = 0;
+  while (cloud().cloud->points_m[place] != scene.edits.points_m[0]) ++place;
+  Q_EMIT page_.cloudPane()->view()->pointPicked(place);
+  auto* back = page_.findChild<QToolButton*>("take-back");
+  ASSERT_TRUE(back->isVisible());
+  EXPECT_FALSE(page_.findChild<QToolButton*>("exclude")->isVisible());
+  QSignalSpy edits(&page_, &ScenePage::editsChanged);
+  QTest::mouseClick(back, Qt::LeftButton);
+  ASSERT_EQ(edits.count(), 1);
+  EXPECT_EQ(edits[0][1].value<SceneEdits>().points_m,
+            std::vector<Eigen::Vector3f>{scene.edits.points_m[1]});
+  EXPECT_EQ(edits[0][1].value<SceneEdits>().tags, scene.edits.tags);
+  Q_EMIT label->linkActivated("undo");
+  EXPECT_TRUE(edits[1][1].value<SceneEdits>().empty());
+}
+
+TEST_F(ScenePageTest, PointsBrushedInTheCloudAreThoseAboutTheBoard) {
+  load();
+  const SceneResult& scene = demo_.result->scenes[1];
+  std::vector<std::uint32_t> all(cloud().cloud->size());
+  std::iota(all.begin(), all.end(), 0U);
+  CloudView* view = page_.cloudPane()->view();
+  Q_EMIT view->pointsBrushed({0, 1}, false);
+  Q_EMIT view->pointsBrushed(all, false);
+  EXPECT_TRUE(selection().contains(QString("%1 points").arg(scene.board_points.size())))
+      << selection().toStdString();
+  // The patch that holds them all is the board, for every scene.
+  QSignalSpy patches(&page_, &ScenePage::patchExcluded);
+  page_.findChild<QAction*>("exclude-patch-everywhere")->trigger();
+  ASSERT_EQ(patches.count(), 1);
+  SceneEdits edits;
+  edits.patches_m = {patches[0][0].value<std::vector<Eigen::Vector2d>>()};
+  EXPECT_EQ(left_out_points(scene.board_points, edits, demo_.result->target,
+                            scene.refinement->lidar_from_board)
+                .size(),
+            scene.board_points.size());
+}
+
+TEST_F(ScenePageTest, ARefusedTagIsUsedAllTheSame) {
+  load();
+  auto refused = std::make_shared<CalibrationResult>(*demo_.result);
+  const int tag = image().overlay().overlay().tags[6].id;
+  for (CornerResidual& corner : refused->extrinsic.scenes[1].corners)
+    corner.used = corner.used && corner.feature_id != tag;
+  page_.setResult(refused);
+  auto* keep = page_.findChild<QToolButton*>("keep");
+  EXPECT_FALSE(keep->isVisible());
+  QTest::mouseClick(
+      image().viewport(), Qt::LeftButton, {},
+      image().mapFromScene(image().overlay().overlay().tags[6].corners.boundingRect().center()));
+  EXPECT_TRUE(selection().contains("left out: misses")) << selection().toStdString();
+  ASSERT_TRUE(keep->isVisible());
+  EXPECT_FALSE(keep->isChecked());
+  QSignalSpy edits(&page_, &ScenePage::editsChanged);
+  QTest::mouseClick(keep, Qt::LeftButton);
+  ASSERT_EQ(edits.count(), 1);
+  EXPECT_EQ(edits[0][1].value<SceneEdits>().kept_tags, std::vector<int>{tag});
 }
 
 // In a narrow window tools take more lines; none goes away.

@@ -43,6 +43,39 @@ TEST(ImageOverlay, PointsTakeTheirColours) {
   EXPECT_GT(qBlue(strongest(150, 150)), 240);
 }
 
+// The middle of a tag that is not used is hatched, in the colour of who did not want it.
+TEST(ImageOverlay, WhatIsNotUsedIsStruckThrough) {
+  ImageOverlay overlay;
+  overlay.tags.push_back({1, QPolygonF({{50, 150}, {150, 150}, {150, 50}, {50, 50}})});
+  const auto count = [&](auto is_color) {
+    const QImage image = painted(overlay, {true, false, false, false, false});
+    int out = 0;
+    for (int y = 60; y < 90; ++y) {
+      for (int x = 60; x < 140; ++x) out += is_color(image.pixel(x, y)) ? 1 : 0;
+    }
+    return out;
+  };
+  const auto red = [](QRgb c) { return qRed(c) > 150 && qGreen(c) < 90 && qBlue(c) < 110; };
+  const auto violet = [](QRgb c) { return qBlue(c) > 180 && qRed(c) > 100; };
+  EXPECT_EQ(count(red) + count(violet), 0);
+  overlay.tags[0].used = false;
+  EXPECT_GT(count(red), 100);
+  overlay.tags[0].left_out = true;
+  EXPECT_EQ(count(red), 0);
+  EXPECT_GT(count(violet), 100);
+}
+
+TEST(ImageOverlay, UnusedPointsAreCrosses) {
+  ImageOverlay overlay;
+  overlay.refused_points = {{50, 50}};
+  overlay.left_out_points = {{150, 150}};
+  const QImage none = painted(overlay, {false, false, false, false, false});
+  const QImage shown = painted(overlay, {false, false, false, false, true});
+  EXPECT_EQ(none.pixel(50, 50), qRgb(0, 0, 0));
+  EXPECT_GT(qRed(shown.pixel(50, 50)), 100);
+  EXPECT_GT(qBlue(shown.pixel(150, 150)), 100);
+}
+
 TEST(ImageOverlay, InvalidCirclesAreRed) {
   ImageOverlay overlay;
   QPolygonF edge;

@@ -26,6 +26,7 @@
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
 #include "pages/scene_page.h"
+#include "pipeline/project_file.h"
 #include "report/result_file.h"
 #include "support/pose_matchers.h"
 #include "views/cloud_view.h"
@@ -372,6 +373,57 @@ TEST_F(MainWindowTest, OneBadFileCostsOneScene) {
   EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
     return label->text().contains("scenes/NAME/");
   })) << "what a dataset is";
+}
+
+// Several folders dropped on the window are scenes for what is open; notes and the list's order are
+// decisions that run nothing.
+TEST_F(MainWindowTest, ScenesAreDroppedNotedAndOrdered) {
+  open();
+  QStringList folders;
+  QList<QUrl> urls;
+  for (const char* name : {"X", "Y"}) {
+    const QString folder = folder_.filePath(QString::fromLatin1(name));
+    std::filesystem::copy(dataset().toStdString() + "/scenes/A", folder.toStdString());
+    urls << QUrl::fromLocalFile(folder);
+  }
+  QMimeData data;
+  data.setUrls(urls);
+  QDropEvent drop(QPointF(20, 20), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  static_cast<QObject*>(window_.get())->event(&drop);
+  ASSERT_EQ(workspace().dataset().scenes.size(), 5U);
+  QSignalSpy started(&workspace(), &Workspace::run_started);
+  auto* dock = window_->findChild<widgets::ScenesDock*>();
+  Q_EMIT dock->note_wanted("Y", "by the door");
+  Q_EMIT dock->order_wanted({"Y", "X", "A", "B", "C"});
+  QTest::qWait(2 * Workspace::kSettleMs);
+  EXPECT_EQ(started.count(), 0);
+  EXPECT_EQ(cell(*window_, "Y", SceneModel::kNote), "by the door");
+  EXPECT_TRUE(workspace().dirty());
+  workspace().undo_stack().undo();
+  workspace().undo_stack().undo();
+  EXPECT_EQ(cell(*window_, "Y", SceneModel::kNote), "");
+}
+
+// Left out on the Scene page, solved again, undone, done again, saved and opened.
+TEST_F(MainWindowTest, WhatIsLeftOutByHandIsUndoneAndKept) {
+  run();
+  const Eigen::Matrix4d before = pose();
+  SceneEdits edits;
+  edits.tags = {workspace().result()->scenes[0].view->corners.front().feature_id};
+  auto* page = window_->findChild<widgets::ScenePage*>();
+  Q_EMIT page->editsChanged(0, edits);
+  ASSERT_TRUE(wait_until([&] { return workspace().up_to_date() && !workspace().busy(); }));
+  EXPECT_NE(pose(), before);
+  EXPECT_EQ(cell(*window_, "A", SceneModel::kTags), "15");
+  trigger(*window_, "undo");
+  ASSERT_TRUE(wait_until([&] { return workspace().up_to_date() && !workspace().busy(); }));
+  EXPECT_EQ(pose(), before);
+  trigger(*window_, "redo");
+  const QString path = folder_.filePath("edits.lvcalib");
+  ASSERT_TRUE(workspace().save(path).ok());
+  const auto read = read_project(path.toStdString());
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(decision_of(read->project.decisions, "A").edits, edits);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <QUndoStack>
 #include <cstdio>
 
 #include "importing/stretch_list.h"
@@ -78,6 +79,24 @@ void photograph_pages(widgets::MainWindow& window, Photographer& camera, const Q
     }
     if (inner != nullptr) inner->setCurrentIndex(0);
   }
+}
+
+// The Scene page with a tag, a circle and points left out by hand.
+void photograph_left_out(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  const CalibrationResult& result = *window.workspace().result();
+  const SceneResult& scene = result.scenes.front();
+  SceneEdits edits;
+  edits.tags = {scene.view->corners.front().feature_id};
+  if (scene.refinement && !scene.refinement->nodes.empty())
+    edits.circles = {scene.refinement->nodes.back().id};
+  for (std::size_t i = 0; i < scene.board_points.size(); i += 40)
+    edits.points_m.push_back(scene.board_points.points_m[i]);
+  window.workspace().set_edits({{QString::fromStdString(scene.name), edits}});
+  test::wait_until([&] { return window.workspace().up_to_date() && !window.workspace().busy(); });
+  test::find<QTabWidget>(window, "pages")->setCurrentIndex(0);
+  camera.take(QStringLiteral("left-out-") + theme);
+  window.workspace().undo_stack().undo();
+  test::wait_until([&] { return window.workspace().up_to_date() && !window.workspace().busy(); });
 }
 
 void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
@@ -242,6 +261,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
   if (quick) {
     photograph_pages(window, camera, QStringLiteral("light"));
+    photograph_left_out(window, camera, QStringLiteral("light"));
     return 0;
   }
   for (const char* theme : {"light", "dark"}) {
@@ -250,6 +270,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
     tabs->setCurrentIndex(4);
     photograph_model(window, camera, QLatin1String(theme));
     photograph_dialogs(window, camera, QString::fromLatin1(theme));
+    photograph_left_out(window, camera, QString::fromLatin1(theme));
   }
   return 0;
 }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "views/threshold_plot.h"
+
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include "widgets/views/plots_test.h"
+
+namespace lvcalib::widgets::threshold_plot_test {
+namespace {
+
+class ThresholdPlotTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    plot_.resize(500, 250);
+    plot_.setValueLabel("distance (σ)", "distance_sigmas");
+    plot_.setValues({0.5, 1.0, 1.5, 2.0, 4.0, 6.0});
+    plot_.setThreshold(5.0, 1.0, 1000.0);
+    plot_.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&plot_));
+  }
+  [[nodiscard]] QPoint at(double value) const {
+    return {static_cast<int>(std::lround(plot_.xAxis->coordToPixel(value))), 120};
+  }
+  [[nodiscard]] int refused() const {
+    int out = 0;
+    for (const QByteArray& row : test::rows_of(plot_.csv())) out += row.endsWith(",1") ? 1 : 0;
+    return out;
+  }
+  ThresholdPlot plot_;
+};
+
+TEST_F(ThresholdPlotTest, TheLineIsDraggedAndWhatIsBeyondIsRefused) {
+  QSignalSpy moved(&plot_, &ThresholdPlot::thresholdMoved);
+  EXPECT_EQ(refused(), 1);
+  QTest::mousePress(&plot_, Qt::LeftButton, {}, at(5.0));
+  QTest::mouseMove(&plot_, at(3.0));
+  QTest::mouseRelease(&plot_, Qt::LeftButton, {}, at(3.0));
+  EXPECT_NEAR(plot_.threshold(), 3.0, 0.11);
+  EXPECT_EQ(refused(), 2);
+  EXPECT_GE(moved.count(), 1);
+  EXPECT_EQ(moved.last().first().toDouble(), plot_.threshold());
+}
+
+TEST_F(ThresholdPlotTest, ADragElsewhereMovesNoLine) {
+  QTest::mousePress(&plot_, Qt::LeftButton, {}, at(2.0));
+  QTest::mouseMove(&plot_, at(1.0));
+  QTest::mouseRelease(&plot_, Qt::LeftButton, {}, at(1.0));
+  EXPECT_EQ(plot_.threshold(), 5.0);
+}
+
+TEST_F(ThresholdPlotTest, KeysMoveItWithinItsRange) {
+  QTest::keyClick(&plot_, Qt::Key_Right);
+  EXPECT_GT(plot_.threshold(), 5.0);
+  for (int k = 0; k < 200; ++k) QTest::keyClick(&plot_, Qt::Key_Left);
+  EXPECT_EQ(plot_.threshold(), 1.0);
+}
+
+TEST_F(ThresholdPlotTest, WithoutValuesItSaysWhy) {
+  plot_.setValues({}, "no circles");
+  EXPECT_TRUE(plot_.csv().isEmpty());
+  QTest::keyClick(&plot_, Qt::Key_Plus);
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets::threshold_plot_test

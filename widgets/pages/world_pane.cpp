@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pages/world_pane.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QVBoxLayout>
+
+#include "pages/scene_overlay.h"
+#include "style/texts.h"
+#include "views/cloud_scene_builder.h"
+#include "views/cloud_view.h"
+#include "views/tool_row.h"
+
+namespace lvcalib::widgets {
+
+WorldPane::WorldPane(QWidget* parent)
+    : QWidget(parent), view_(new CloudView(this)), builder_(new CloudSceneBuilder(this)) {
+  auto* bar = new ToolRow(this);
+  color_ = new QComboBox(bar);
+  color_->setObjectName(QStringLiteral("world-color"));
+  for (const CloudColor color : {CloudColor::kScene, CloudColor::kIntensity, CloudColor::kRange})
+    color_->addItem({}, static_cast<int>(color));
+  bar->addWidget(color_);
+  bar->addSeparator();
+  for (QAction* action : view_->viewActions()) bar->addTool(action);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 4, 0, 0);
+  layout->setSpacing(2);
+  layout->addWidget(bar);
+  layout->addWidget(view_, 1);
+  connect(color_, &QComboBox::currentIndexChanged, this, &WorldPane::rebuild);
+  connect(builder_, &CloudSceneBuilder::ready, view_, &CloudView::setScene);
+  connect(view_->figureActions(), &FigureActions::failed, this, &WorldPane::failed);
+  connect(view_, &CloudView::pointPicked, this, [this](std::uint32_t point) {
+    if (boards_ && point < boards_->line.size())
+      Q_EMIT sceneActivated(static_cast<int>(boards_->line[point]) - 1);
+  });
+  follow_language(this, [this] { retranslate(); });
+}
+
+bool WorldPane::busy() const {
+  return builder_->busy();
+}
+
+void WorldPane::retranslate() {
+  const QStringList colors = {tr("Scene"), tr("Intensity"), tr("Range")};
+  for (int k = 0; k < colors.size(); ++k) color_->setItemText(k, colors[k]);
+  color_->setAccessibleName(tr("Colour of the points"));
+  color_->setToolTip(
+      tr("What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the "
+         "camera sees it (blue), the LiDAR's axes (x red, y green, z blue), the camera's view "
+         "(pyramid). A click on a board goes to its scene."));
+  rebuild();
+}
+
+void WorldPane::setResult(std::shared_ptr<const CalibrationResult> result) {
+  result_ = std::move(result);
+  boards_ = result_ ? std::make_shared<const Cloud>(all_boards(*result_)) : nullptr;
+  view_->setLines(result_ ? world_lines(*result_) : std::vector<CloudLine>());
+  rebuild();
+}
+
+void WorldPane::rebuild() {
+  CloudSceneInput input;
+  input.color = static_cast<CloudColor>(color_->currentData().toInt());
+  input.full = boards_;
+  input.landmarks_m = {Eigen::Vector3d::Zero()};
+  if (result_) {
+    input.target = result_->target;
+    for (const Eigen::Vector3d& p : camera_pyramid(*result_)) input.landmarks_m.push_back(p);
+  } else {
+    input.problem = tr("run the calibration first");
+  }
+  builder_->request(std::move(input));
+}
+
+}  // namespace lvcalib::widgets

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "pipeline/calibration.h"
+
+class QComboBox;
+
+namespace lvcalib::widgets {
+
+class CloudSceneBuilder;
+class CloudView;
+
+/// All scenes in one world, about the rig that does not move: the boards' points, every board as
+/// either sensor sees it, the LiDAR's axes and the camera's pyramid. A click on a board goes to its
+/// scene.
+class WorldPane : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit WorldPane(QWidget* parent = nullptr);
+
+  /// Null: nothing is known yet.
+  void setResult(std::shared_ptr<const CalibrationResult> result);
+  [[nodiscard]] CloudView* view() const { return view_; }
+  [[nodiscard]] bool busy() const;
+
+ Q_SIGNALS:
+  /// Index into the result's scenes.
+  void sceneActivated(int scene);
+  void failed(const QString& message);
+
+ private:
+  void retranslate();
+  void rebuild();
+
+  std::shared_ptr<const CalibrationResult> result_;
+  std::shared_ptr<const Cloud> boards_;
+  CloudView* view_;
+  CloudSceneBuilder* builder_;
+  QComboBox* color_;
+};
+
+}  // namespace lvcalib::widgets
