@@ -95,7 +95,8 @@ TEST_F(Flow, TheDemosHiddenEffectIsFoundAddedTakenBackAndExported) {
   ASSERT_TRUE(test::wait_until([&] { return work().current() == 1; }));
   ASSERT_TRUE(wait_idle());
   EXPECT_LT(unexplained(Channel::kRange), 0.45 * before);
-  EXPECT_EQ(test::find<BudgetPlot>(window_, "budget_plot")->csv().count("\n1,"), 4);
+  // The four channels, and the distance to the demo's truth in mm and in mrad.
+  EXPECT_EQ(test::find<BudgetPlot>(window_, "budget_plot")->csv().count("\n1,"), 4 + 2);
   // The export holds the effect.
   ASSERT_TRUE(test::wait_until([&] { return work().result() != nullptr; }));
   EXPECT_EQ(work().result()->model.at(0).id, "range_walk");
