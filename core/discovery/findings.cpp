@@ -126,6 +126,10 @@ class Judge {
       if (seen.insert(id).second) add_other(c);
     }
     for (const EffectPtr& effect : effect_catalogue()) {
+      if (effect->is_in_base_model() && search_.measured_blur()) {
+        add_measured(*effect, *search_.measured_blur());
+        continue;
+      }
       const std::string reason = why_not_testable(*effect, search_.table());
       if (!reason.empty()) add_untestable(*effect, reason);
     }
@@ -283,6 +287,35 @@ class Judge {
                       "extrinsic by " +
                       move_text(f) + ". To decide: " + columns.effect->info().breaker + ".";
     }
+  }
+
+  // Part of the beam's blur, which the base model measures: the least squares of what the effect
+  // adds to the three numbers of the blur. It is there if it is beyond what chance makes of none.
+  void add_measured(const Effect& effect, const MeasuredBlur& blur) {
+    constexpr double kChance = 0.001;
+    const std::vector<EffectParameter> parameters = effect.parameters(search_.table());
+    const auto p = static_cast<Eigen::Index>(parameters.size());
+    std::vector<Eigen::Vector3d> by(parameters.size(), Eigen::Vector3d::Zero());
+    effect.blur({}, search_.table(), 0.0, by);
+    Eigen::MatrixXd columns(3, p);
+    for (Eigen::Index k = 0; k < p; ++k) columns.col(k) = by[static_cast<std::size_t>(k)];
+    const Eigen::MatrixXd inverse = columns.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::VectorXd values = inverse * blur.rad2;
+    const Eigen::MatrixXd covariance = inverse * blur.covariance * inverse.transpose();
+    EffectFinding f;
+    f.id = effect.info().id;
+    f.in_base = true;
+    for (Eigen::Index k = 0; k < p; ++k) {
+      const EffectParameter& q = parameters[static_cast<std::size_t>(k)];
+      f.parameters.push_back({q.name, q.unit, q.unit_in_si, values(k),
+                              std::sqrt(std::max(0.0, covariance(k, k)))});
+    }
+    const bool there = values.dot(covariance.ldlt().solve(values)) >
+                       chi_square_gate(static_cast<int>(p), kChance);
+    f.verdict = there ? EffectVerdict::kPresent : EffectVerdict::kAbsent;
+    f.explanation = effect.info().physics +
+                    " Measured with the base model, in every prediction: " + values_text(f) + ".";
+    out_.push_back(std::move(f));
   }
 
   void add_untestable(const Effect& effect, const std::string& reason) {

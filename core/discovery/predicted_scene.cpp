@@ -67,6 +67,7 @@ class ScenePredictor {
         predictor_(*table.print, geometry_.lidar_from_board(), levels_, beam_) {
     scene_info_.name = pose.text();
     scene_info_.clock = 0.5;
+    geometry_.tell_middle(table.target.outline().center_m(), scene_info_);
   }
 
   void run() {

@@ -115,6 +115,9 @@ struct TableScene {
   std::string name;
   std::vector<int> features;  ///< Distinct corner features (tags), in order of appearance.
   double clock = 0.0;         ///< 0…1 over the scenes in their order.
+  /// Of the beam towards the board's middle: where its levels are told.
+  double middle_range_m = 1.0;
+  double middle_incidence_rad = 0.0;
 };
 
 /// State that the measurements are predicted from: the extrinsic, a board pose and levels per

@@ -57,4 +57,12 @@ bool SceneGeometry::describe(const Eigen::Vector3d& direction, BeamPoint& beam) 
   return true;
 }
 
+void SceneGeometry::tell_middle(const Eigen::Vector2d& middle_m, TableScene& scene) const {
+  const Eigen::Vector3d at = lidar_from_board_ * Eigen::Vector3d(middle_m.x(), middle_m.y(), 0.0);
+  BeamPoint beam;
+  if (!describe(at.normalized(), beam)) return;
+  scene.middle_range_m = beam.range_m;
+  scene.middle_incidence_rad = beam.incidence_rad;
+}
+
 }  // namespace lvcalib

@@ -43,6 +43,9 @@ class SceneGeometry {
   /// Fills direction, range, angles, board point, incidence and slope of a beam.
   [[nodiscard]] bool describe(const Eigen::Vector3d& direction, BeamPoint& beam) const;
 
+  /// Fills what a scene says of the beam towards the board's middle, given in the board's frame.
+  void tell_middle(const Eigen::Vector2d& middle_m, TableScene& scene) const;
+
  private:
   Rigid3 lidar_from_board_;
   Matrix6d lidar_by_camera_;  // adjoint of T_lidar_camera

@@ -456,9 +456,14 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
   bool has_line = !scenes.empty();
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     const double last = std::max<double>(1.0, static_cast<double>(scenes.size()) - 1.0);
-    table.scenes.push_back({scenes[s].measured.name, {}, static_cast<double>(s) / last});
+    TableScene scene;
+    scene.name = scenes[s].measured.name;
+    scene.clock = static_cast<double>(s) / last;
+    table.scenes.push_back(std::move(scene));
     table.has_time = table.has_time && scenes[s].cloud.has_time();
     has_line = has_line && scenes[s].cloud.has_line();
+    SceneGeometry(state.camera_from_lidar, state.camera_from_board[s])
+        .tell_middle(table.target.outline().center_m(), table.scenes.back());
   }
   if (like != nullptr) {
     table.level = like->table.level;

@@ -228,7 +228,9 @@ inline void add_table_scene(SyntheticTable& out, int scene, const TableRecipe& r
   out.truth.levels.push_back(
       {table.level_of(Print::kWhite), table.level_of(Print::kBlack), Eigen::Vector2d::Zero()});
   const SceneGeometry geometry(out.truth.camera_from_lidar, camera_from_board);
-  TableScene info{std::string(1, static_cast<char>('A' + scene)), {}, 0.0};
+  TableScene info;
+  info.name = std::string(1, static_cast<char>('A' + scene));
+  geometry.tell_middle(target.outline().center_m(), info);
   info.clock = recipe.scenes > 1 ? scene / (recipe.scenes - 1.0) : 0.0;
   for (int k = 0; k < recipe.range_rows; ++k)
     add_table_return(out, scene, geometry, 2 * k < recipe.range_rows, recipe, wrong, random);

@@ -14,16 +14,15 @@ class FootprintAnisotropy final : public CatalogueEffect {
              .group = "beam",
              .title = "Elliptic footprint",
              .physics = "The footprint is wider along one axis of the LiDAR.",
-             .formula = "A = print * N(0, S), S += diag(γh², γv²)",
+             .formula = "A = print * N(0, S), S += ½ diag(a, −a), a = γh² − γv²",
              .source = "Livox Avia manual",
              .breaker = "circles far away",
              .needs = {.circles = true, .intensity = true}},
-            {{"γh²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}, {"γv²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}}) {}
+            {{"a", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
 
   void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<Eigen::Vector3d> by) const override {
-    by[0] << 1.0, 0.0, 0.0;
-    by[1] << 0.0, 0.0, 1.0;
+    by[0] << 0.5, 0.0, -0.5;
   }
   [[nodiscard]] bool is_in_base_model() const override { return true; }
 };

@@ -36,8 +36,11 @@ class IntensityGeometry final : public CatalogueEffect {
 
   void intensity(const IntensityRow& row, const MeasurementTable& table, double /*shape*/,
                  std::span<double> by) const override {
-    by[0] = std::log(std::cos(row.beam.incidence_rad));
-    by[1] = -std::log(row.beam.range_m);
+    // About the board's middle: what a scene has in common are its levels, and a product of two
+    // unknowns would make the fit creep along a bent valley.
+    const TableScene& scene = table.scenes[static_cast<std::size_t>(row.beam.scene)];
+    by[0] = std::log(std::cos(row.beam.incidence_rad) / std::cos(scene.middle_incidence_rad));
+    by[1] = -std::log(row.beam.range_m / scene.middle_range_m);
     const auto k = line_index(table, row.beam.line);
     if (k > 0 && k + 1 < by.size()) by[k + 1] = 1.0;
   }
