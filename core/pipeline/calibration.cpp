@@ -275,8 +275,8 @@ class Calibration {
       BeamSpread beam;
       beam.blur_rad2 =
           std::pow(request_.options.forward.first_blur_rad, 2) * Eigen::Matrix2d::Identity();
-      constexpr double kRangeSigma_m = 0.02;
-      const auto returns = select_returns(cloud, print, lidar_from_board, beam, kRangeSigma_m);
+      constexpr RangeNoise kRange{0.02, 0.02};
+      const auto returns = select_returns(cloud, print, lidar_from_board, beam, kRange);
       return returns.has_intensity && intensity_structure(returns) < kPlainStructure;
     };
     for (std::size_t s = 0; s < result_.scenes.size(); ++s) {

@@ -148,13 +148,14 @@ std::vector<std::uint32_t> refused_returns(const CalibrationResult& result, std:
     }
     if (place >= result.forward->noise.scenes.size()) return {};
     const SceneNoise& noise = result.forward->noise.scenes[place];
-    const double range_sigma_m = std::max(noise.range_white_m, noise.range_black_m);
+    const RangeNoise range{noise.range_white_m, noise.range_black_m};
     const ReturnSelection& usual = result.options.forward.selection;
     ReturnSelection open = usual;
     open.range_gate = std::numeric_limits<double>::infinity();
+    open.crowds = false;
     const auto select = [&](const ReturnSelection& selection) {
       return select_returns(from.board_points, *result.print, state.lidar_from_board(place),
-                            state.beam, range_sigma_m, selection)
+                            state.beam, range, selection)
           .index;
     };
     const auto kept = select(usual);

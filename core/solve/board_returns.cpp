@@ -6,6 +6,9 @@
 #include <map>
 
 #include <Eigen/Geometry>
+#include <boost/math/special_functions/gamma.hpp>
+
+#include "solve/surface_noise.h"
 
 namespace lvcalib {
 namespace {
@@ -13,6 +16,13 @@ namespace {
 // What stands before the board is nearer by more than any range effect moves a return.
 constexpr double kCover_m = 0.03;
 constexpr double kCoverSpots = 3.0;  // Widths of a Gaussian spot, beyond which 1 % of it lies.
+// A return nearer by so many standard deviations is one of 30 000 of Gaussian noise: rare enough
+// that two of them side by side are no chance, frequent enough among those that are half on
+// something.
+constexpr double kTooNear = 4.0;
+constexpr double kTooNearChance = 3.2e-5;
+// That a place of some board without anything before it is taken for covered.
+constexpr double kCrowdChance = 1e-3;
 
 // Square cells over the board that something covers.
 class CoveredCells {
@@ -57,6 +67,70 @@ class CoveredCells {
   bool any_ = false;
 };
 
+// Counts of places on the board, to be asked for squares about a place.
+class PlaceCounts {
+ public:
+  PlaceCounts(const BoardOutline& outline, double cell_m)
+      : low_(outline.lower_left_m),
+        cell_m_(cell_m),
+        columns_(static_cast<int>(std::ceil(outline.size_m().x() / cell_m)) + 1),
+        rows_(static_cast<int>(std::ceil(outline.size_m().y() / cell_m)) + 1),
+        below_(Eigen::ArrayXXd::Zero(columns_ + 1, rows_ + 1)) {}
+
+  void add(const Eigen::Vector2d& p) { below_(column(p.x()) + 1, row(p.y()) + 1) += 1.0; }
+  // Turns counts into sums over all that lies left and below; nothing is added afterwards.
+  void sum() {
+    for (int r = 1; r <= rows_; ++r) {
+      for (int c = 1; c <= columns_; ++c)
+        below_(c, r) += below_(c - 1, r) + below_(c, r - 1) - below_(c - 1, r - 1);
+    }
+  }
+  [[nodiscard]] double about(const Eigen::Vector2d& p, double radius_m) const {
+    const int left = column(p.x() - radius_m), right = column(p.x() + radius_m) + 1;
+    const int bottom = row(p.y() - radius_m), top = row(p.y() + radius_m) + 1;
+    return below_(right, top) - below_(left, top) - below_(right, bottom) + below_(left, bottom);
+  }
+  [[nodiscard]] double total() const { return below_(columns_, rows_); }
+
+ private:
+  [[nodiscard]] int column(double x) const {
+    return std::clamp(static_cast<int>(std::floor((x - low_.x()) / cell_m_)), 0, columns_ - 1);
+  }
+  [[nodiscard]] int row(double y) const {
+    return std::clamp(static_cast<int>(std::floor((y - low_.y()) / cell_m_)), 0, rows_ - 1);
+  }
+  Eigen::Vector2d low_;
+  double cell_m_;
+  int columns_, rows_;
+  Eigen::ArrayXXd below_;
+};
+
+struct NearPlace {
+  Eigen::Vector2d board_m;
+  double reach_m;  // How far from it a spot still touches what is there.
+};
+
+// Covers what lies beside returns that are too near and stand together: as many others about one
+// that chance, at the rate of the whole board, brings them together once in a thousand boards.
+// Where a board lies off its plane all of it is too near, and nothing stands out.
+void cover_crowds(const std::vector<NearPlace>& near, const PlaceCounts& all,
+                  const BoardOutline& outline, double cell_m, CoveredCells& covered) {
+  if (near.size() < 2) return;
+  PlaceCounts counts(outline, cell_m);
+  for (const NearPlace& place : near) counts.add(place.board_m);
+  counts.sum();
+  const auto tried = static_cast<double>(near.size());
+  const double rate = std::max(kTooNearChance, tried / std::max(1.0, all.total()));
+  for (const NearPlace& place : near) {
+    const double others = counts.about(place.board_m, place.reach_m) - 1.0;
+    if (others < 1.0) continue;
+    const double expected = rate * all.about(place.board_m, place.reach_m);
+    // P(X ≥ n) of Poisson's distribution.
+    if (boost::math::gamma_p(others, expected) < kCrowdChance / tried)
+      covered.cover(place.board_m, place.reach_m);
+  }
+}
+
 // Returns for the search: places on the board from its middle, intensities less their mean.
 struct Samples {
   std::vector<Eigen::Vector2d> from_center_m;
@@ -100,14 +174,20 @@ void describe_numbers(BoardReturns& returns) {
 
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            double range_sigma_m, const ReturnSelection& selection) {
+                            const RangeNoise& noise, const ReturnSelection& selection) {
+  constexpr double kCell_m = 0.01;
   const BoardPredictor predictor(print, lidar_from_board, {}, beam);
   const double beam_rad = std::sqrt(beam.blur_rad2.trace());
+  const BoardOutline& outline = print.outline();
+  const Eigen::Vector2d center = outline.center_m();
+  const double middle_m = (lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0)).norm();
+  // One axis of the spot, as the nearest sample of the print need not know better.
+  const BlurredPrint::Coarse blurred = print.coarse(beam_rad * middle_m / std::sqrt(2.0));
   BoardReturns out;
   out.cloud = &cloud;
-  CoveredCells covered(print.outline(), 0.01);
-  const double gate = selection.range_gate * range_sigma_m;
-  const double cover = std::max(kCover_m, 2.0 * gate);
+  CoveredCells covered(outline, kCell_m);
+  PlaceCounts counts(outline, kCell_m);
+  std::vector<NearPlace> near;
   std::vector<Eigen::Vector2d> places;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
@@ -117,14 +197,18 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
     const double inside = print.inside_m(hit->board_m);
     if (inside <= 0.0) continue;
     const double off = range - hit->range_m;
+    const double sigma = noise_between(noise.white_m, noise.black_m, blurred.at(hit->board_m));
+    const double gate = selection.range_gate * sigma;
     // One spot is wider than the beam's angles span by 1/cos θ at most.
-    const double spot = beam_rad * range / 0.5;
-    if (off < -cover) {
-      covered.cover(hit->board_m, kCoverSpots * spot);
+    const double reach = kCoverSpots * beam_rad * range / 0.5;
+    if (off < -std::max(kCover_m, 2.0 * gate)) {
+      covered.cover(hit->board_m, reach);
       ++out.on_board;
       ++out.refused;
       continue;
     }
+    counts.add(hit->board_m);
+    if (off < -std::max(kCover_m, kTooNear * sigma)) near.push_back({hit->board_m, reach});
     if (inside < selection.inside_sigmas * beam_rad * range) continue;
     ++out.on_board;
     if (std::abs(off) > gate) {
@@ -133,6 +217,10 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
     }
     out.index.push_back(static_cast<std::uint32_t>(i));
     places.push_back(hit->board_m);
+  }
+  if (selection.crowds) {
+    counts.sum();
+    cover_crowds(near, counts, outline, kCell_m, covered);
   }
   std::size_t kept = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {

@@ -41,14 +41,25 @@ struct ReturnSelection {
   double inside_sigmas = 3.0;
   /// A return farther than this many standard deviations of its range from the plane is not on it.
   double range_gate = 5.0;
+  /// Look for places where returns that are too near crowd, for something that stands close before
+  /// the board or whose own returns are not in the cloud. Off while the board may be off its plane.
+  bool crowds = true;
+};
+
+/// Standard deviations of single ranges on plain white and plain black print.
+struct RangeNoise {
+  double white_m = 0.01;
+  double black_m = 0.01;
 };
 
 /// Picks the returns on a board at `lidar_from_board`: those whose ray meets the board's inside and
 /// whose range agrees with its plane. Where something stands before the board, returns within three
-/// spot widths of it are left out as well: part of their light comes from it.
+/// spot widths of it are left out as well: part of their light comes from it. Something stands
+/// there where a return is nearer than any on the board can be, and where more than chance allows
+/// are nearer by four standard deviations.
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            double range_sigma_m, const ReturnSelection& selection = {});
+                            const RangeNoise& noise, const ReturnSelection& selection = {});
 
 /// Below this intensity_structure() returns show no print: noise alone gives one, with a few
 /// hundred returns ± 0.1; a print of a contrast of half the noise adds this quarter.

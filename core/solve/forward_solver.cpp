@@ -55,7 +55,7 @@ class ForwardSolver {
     if (!select()) return Error::untrusted("no LiDAR return lies on the board");
     first_levels();
     if (!coarse()) return failure();
-    if (!select()) return Error::untrusted("no LiDAR return lies on the board");
+    if (!select(true)) return Error::untrusted("no LiDAR return lies on the board");
     if (!fine()) return failure();
     if (context_.stopped()) return Error::cancelled();
     measure_board_motion();
@@ -90,13 +90,15 @@ class ForwardSolver {
     }
   }
 
-  bool select() {
+  // `settled`: the boards lie on their planes, so that what stands out stands before them.
+  bool select(bool settled = false) {
     returns_.assign(scenes_.size(), {});
+    ReturnSelection how = options_.selection;
+    how.crowds = how.crowds && settled;
     parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       const SceneNoise& n = noise().scenes[s];
       returns_[s] = select_returns(*scenes_[s].board_points, print_, state().lidar_from_board(s),
-                                   state().beam, std::max(n.range_white_m, n.range_black_m),
-                                   options_.selection);
+                                   state().beam, {n.range_white_m, n.range_black_m}, how);
     });
     seen_.clear();
     for (const BoardReturns& r : returns_) seen_.emplace_back(r.size());
@@ -283,7 +285,7 @@ class ForwardSolver {
       if (*step < 0.5 || *step > kShrinks * last) break;
       last = *step;
     }
-    if (!select()) return false;
+    if (!select(true)) return false;
     list_lines();
     for (; rounds_left > 0; --rounds_left) {
       const auto step = iterate(final_rows(), true);

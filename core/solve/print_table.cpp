@@ -213,7 +213,7 @@ class SceneRows {
     const Eigen::Matrix3d rotation = geometry_.lidar_from_board().rotation.toRotationMatrix();
     const Cloud& cloud = *input_.board_points;
     const BoardReturns kept = select_returns(cloud, print_, geometry_.lidar_from_board(), beam,
-                                             std::max(noise.range_white_m, noise.range_black_m));
+                                             {noise.range_white_m, noise.range_black_m});
     has_intensity_ = kept.has_intensity;
     const BoardPredictor predictor(print_, geometry_.lidar_from_board(), levels_, beam);
     for (std::size_t k = 0; k < kept.size(); ++k) {

@@ -27,7 +27,7 @@ FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrin
   const SceneNoise& noise = solution.noise.scenes[s];
   const BoardReturns returns = select_returns(
       *scene.board_points, print, solution.state.lidar_from_board(s), solution.state.beam,
-      std::max(noise.range_white_m, noise.range_black_m), options.selection);
+      {noise.range_white_m, noise.range_black_m}, options.selection);
   if (returns.size() == 0) return out;
   LinearizationOptions how;
   how.robust_threshold = options.robust_threshold;

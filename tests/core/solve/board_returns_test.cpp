@@ -29,7 +29,7 @@ TEST(BoardReturns, AreThoseOnThePlaneAndInsideTheOutline) {
   const BlurredPrint print(rig.target);
   const Cloud& cloud = rig.clouds.front();
   const BoardReturns returns =
-      select_returns(cloud, print, rig.lidar_from_board.front(), beam(), 0.016);
+      select_returns(cloud, print, rig.lidar_from_board.front(), beam(), {0.016, 0.016});
   EXPECT_GT(returns.size(), cloud.size() / 2);
   EXPECT_LT(100 * returns.refused, returns.on_board);
   EXPECT_TRUE(returns.has_intensity);
@@ -48,6 +48,65 @@ TEST(BoardReturns, AreThoseOnThePlaneAndInsideTheOutline) {
   }
 }
 
+// A post 20 cm before the board of which the crop about the board has only the spots that are
+// partly on it: too near by less than single returns on black print may be.
+TEST(BoardReturns, WhatHidesTheBoardInPartIsLeftOut) {
+  auto rig = test::forward_rig(options(8));
+  const BlurredPrint print(rig.target);
+  const Rigid3& truth = rig.lidar_from_board.front();
+  const Rigid3 board_from_lidar = truth.inverse();
+  const Eigen::Vector2d c = rig.target.outline().center_m();
+  constexpr double kHalfPost_m = 0.015;
+  constexpr double kSpot_m = 0.004;
+  const auto from_post = [&](const Eigen::Vector3f& p) {
+    const Eigen::Vector3d at = board_from_lidar * p.cast<double>().eval();
+    return at.y() < c.y() ? std::abs(at.x() - c.x()) - kHalfPost_m : 1.0;
+  };
+  const auto on_post = [&](double d) { return 0.5 * std::erfc(d / (kSpot_m * std::sqrt(2.0))); };
+  Cloud cloud;
+  std::vector<double> hidden;  // Share of each return's light that comes from the post.
+  for (std::size_t i = 0; i < rig.clouds.front().size(); ++i) {
+    const Eigen::Vector3d p = rig.clouds.front().points_m[i].cast<double>();
+    const double share = on_post(from_post(rig.clouds.front().points_m[i]));
+    if (0.2 * share > 0.08) continue;
+    append_point(cloud, rig.clouds.front(), i);
+    cloud.points_m.back() = ((p.norm() - 0.2 * share) * p.normalized()).cast<float>();
+    hidden.push_back(share);
+  }
+  const RangeNoise noise{0.008, 0.016};
+  const BoardReturns returns = select_returns(cloud, print, truth, beam(), noise);
+  std::size_t touched = 0;
+  std::size_t left = 0;
+  for (const double share : hidden) touched += share > 0.01 ? 1 : 0;
+  for (const std::uint32_t i : returns.index) left += hidden[i] > 0.01 ? 1 : 0;
+  ASSERT_GT(touched, 50U);
+  EXPECT_LT(20 * left, touched);
+  // What is left out is there, not all over the board.
+  std::size_t far = 0;
+  for (const std::uint32_t i : returns.index) far += from_post(cloud.points_m[i]) > 0.08 ? 1 : 0;
+  std::size_t all_far = 0;
+  ReturnSelection open;
+  open.crowds = false;
+  for (const std::uint32_t i : select_returns(cloud, print, truth, beam(), noise, open).index)
+    all_far += from_post(cloud.points_m[i]) > 0.08 ? 1 : 0;
+  EXPECT_EQ(far, all_far);
+}
+
+// Errors that come now and then everywhere are no post.
+TEST(BoardReturns, OutliersAllOverTheBoardHideNothing) {
+  auto rig = test::forward_rig(options(9));
+  const BlurredPrint print(rig.target);
+  Cloud& cloud = rig.clouds.front();
+  Random random(4);
+  for (Eigen::Vector3f& p : cloud.points_m) {
+    if (random.uniform() > 0.005) continue;
+    p *= static_cast<float>(1.0 - random.uniform(0.035, 0.07) / static_cast<double>(p.norm()));
+  }
+  const BoardReturns returns =
+      select_returns(cloud, print, rig.lidar_from_board.front(), beam(), {0.008, 0.016});
+  EXPECT_LT(100 * returns.refused, returns.on_board);
+}
+
 TEST(BoardReturns, ThePrintFindsItsPlace) {
   const auto rig = test::forward_rig(options(4));
   const BlurredPrint print(rig.target);
@@ -59,7 +118,8 @@ TEST(BoardReturns, ThePrintFindsItsPlace) {
     // Turned about the normal by five degrees as well.
     const Eigen::Quaterniond spin = so3_exp({0.0, 0.0, seed % 2 == 0 ? 0.087 : -0.087});
     const Rigid3 turned = start * Rigid3{spin, center - spin * center};
-    const BoardReturns returns = select_returns(rig.clouds.front(), print, turned, beam(), 0.016);
+    const BoardReturns returns =
+        select_returns(rig.clouds.front(), print, turned, beam(), {0.016, 0.016});
     const auto matches = match_print(returns, print, turned);
     ASSERT_FALSE(matches.empty());
     const PrintMatch& match = matches.front();
@@ -81,7 +141,8 @@ TEST(BoardReturns, APlainBoardMatchesNothing) {
     i = static_cast<float>(100.0 + 5.0 * random.normal());
   const BlurredPrint print(rig.target);
   const Rigid3& truth = rig.lidar_from_board.front();
-  const BoardReturns returns = select_returns(rig.clouds.front(), print, truth, beam(), 0.016);
+  const BoardReturns returns =
+      select_returns(rig.clouds.front(), print, truth, beam(), {0.016, 0.016});
   EXPECT_TRUE(match_print(returns, print, truth).empty());
   EXPECT_NEAR(intensity_structure(returns), 1.0, 0.1);
 }
@@ -104,7 +165,7 @@ TEST(BoardReturns, WhatLooksTheSameElsewhereIsFoundThereToo) {
     const Eigen::Vector3d p = board_from_lidar * cloud.points_m[i].cast<double>().eval();
     if ((p.head<2>() - c).cwiseAbs().maxCoeff() < 0.15) append_point(window, cloud, i);
   }
-  const auto returns = select_returns(window, print, truth, beam(), 0.016);
+  const auto returns = select_returns(window, print, truth, beam(), {0.016, 0.016});
   const auto matches = match_print(returns, print, truth);
   ASSERT_GT(matches.size(), 1U);
   EXPECT_LT(matches[0].log_likelihood - matches[1].log_likelihood, 10.0);
@@ -115,17 +176,17 @@ TEST(BoardReturns, StepsAndCeilingOfTheIntensityAreSeen) {
   const BlurredPrint print(rig.target);
   const Rigid3& truth = rig.lidar_from_board.front();
   Cloud& cloud = rig.clouds.front();
-  const BoardReturns plain = select_returns(cloud, print, truth, beam(), 0.016);
+  const BoardReturns plain = select_returns(cloud, print, truth, beam(), {0.016, 0.016});
   EXPECT_EQ(plain.saturated, 0.0);
   // Neighbours differ at edges, too; noise alone would give one.
   EXPECT_GT(intensity_structure(plain), 1.4);
   const std::vector<float> intensity = cloud.intensity;
   for (float& i : cloud.intensity) i = 20.0F * std::floor(i / 20.0F);
-  EXPECT_EQ(select_returns(cloud, print, truth, beam(), 0.016).intensity_step, 20.0);
-  EXPECT_EQ(select_returns(cloud, print, truth, beam(), 0.016).saturated, 0.0);
+  EXPECT_EQ(select_returns(cloud, print, truth, beam(), {0.016, 0.016}).intensity_step, 20.0);
+  EXPECT_EQ(select_returns(cloud, print, truth, beam(), {0.016, 0.016}).saturated, 0.0);
   cloud.intensity = intensity;
   for (float& i : cloud.intensity) i = std::min(i, 70.0F);
-  EXPECT_GT(select_returns(cloud, print, truth, beam(), 0.016).saturated, 0.4);
+  EXPECT_GT(select_returns(cloud, print, truth, beam(), {0.016, 0.016}).saturated, 0.4);
 }
 
 }  // namespace
