@@ -90,7 +90,6 @@ class PlaceCounts {
     const int bottom = row(p.y() - radius_m), top = row(p.y() + radius_m) + 1;
     return below_(right, top) - below_(left, top) - below_(right, bottom) + below_(left, bottom);
   }
-  [[nodiscard]] double total() const { return below_(columns_, rows_); }
 
  private:
   [[nodiscard]] int column(double x) const {
@@ -111,23 +110,36 @@ struct NearPlace {
 };
 
 // Covers what lies beside returns that are too near and stand together: as many others about one
-// that chance, at the rate of the whole board, brings them together once in a thousand boards.
-// Where a board lies off its plane all of it is too near, and nothing stands out.
-void cover_crowds(const std::vector<NearPlace>& near, const PlaceCounts& all,
+// that chance, at the rate of what is not covered, brings them together once in a thousand boards.
+// Where a board lies off its plane all of it is too near, and nothing stands out. `kept`: places of
+// all returns that may stay.
+void cover_crowds(const std::vector<NearPlace>& near, const std::vector<Eigen::Vector2d>& kept,
                   const BoardOutline& outline, double cell_m, CoveredCells& covered) {
   if (near.size() < 2) return;
+  PlaceCounts near_counts(outline, cell_m);
+  for (const NearPlace& place : near) near_counts.add(place.board_m);
+  near_counts.sum();
   PlaceCounts counts(outline, cell_m);
-  for (const NearPlace& place : near) counts.add(place.board_m);
+  for (const Eigen::Vector2d& place : kept) counts.add(place);
   counts.sum();
-  const auto tried = static_cast<double>(near.size());
-  const double rate = std::max(kTooNearChance, tried / std::max(1.0, all.total()));
-  for (const NearPlace& place : near) {
-    const double others = counts.about(place.board_m, place.reach_m) - 1.0;
-    if (others < 1.0) continue;
-    const double expected = rate * all.about(place.board_m, place.reach_m);
-    // P(X ≥ n) of Poisson's distribution.
-    if (boost::math::gamma_p(others, expected) < kCrowdChance / tried)
+  std::vector<NearPlace> left = near;
+  for (bool found = true; found;) {
+    std::erase_if(left, [&](const NearPlace& place) { return covered.covers(place.board_m); });
+    const auto uncovered = static_cast<double>(std::count_if(
+        kept.begin(), kept.end(), [&](const auto& place) { return !covered.covers(place); }));
+    const double rate =
+        std::max(kTooNearChance, static_cast<double>(left.size()) / std::max(1.0, uncovered));
+    found = false;
+    for (const NearPlace& place : left) {
+      const double others = near_counts.about(place.board_m, place.reach_m) - 1.0;
+      const double about = std::max(others, counts.about(place.board_m, place.reach_m));
+      // P(X ≥ n) of Poisson's distribution.
+      if (others < 1.0 || boost::math::gamma_p(others, rate * about) >
+                              kCrowdChance / static_cast<double>(near.size()))
+        continue;
       covered.cover(place.board_m, place.reach_m);
+      found = true;
+    }
   }
 }
 
@@ -186,7 +198,6 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
   BoardReturns out;
   out.cloud = &cloud;
   CoveredCells covered(outline, kCell_m);
-  PlaceCounts counts(outline, kCell_m);
   std::vector<NearPlace> near;
   std::vector<Eigen::Vector2d> places;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -207,7 +218,6 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
       ++out.refused;
       continue;
     }
-    counts.add(hit->board_m);
     if (off < -std::max(kCover_m, kTooNear * sigma)) near.push_back({hit->board_m, reach});
     if (inside < selection.inside_sigmas * beam_rad * range) continue;
     ++out.on_board;
@@ -218,10 +228,7 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
     out.index.push_back(static_cast<std::uint32_t>(i));
     places.push_back(hit->board_m);
   }
-  if (selection.crowds) {
-    counts.sum();
-    cover_crowds(near, counts, outline, kCell_m, covered);
-  }
+  if (selection.crowds) cover_crowds(near, places, outline, kCell_m, covered);
   std::size_t kept = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (covered.covers(places[k])) continue;
