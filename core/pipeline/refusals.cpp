@@ -68,10 +68,16 @@ std::vector<Refusal> refusals(const CalibrationResult& result) {
     if (!solved.used) continue;
     if (result.forward && forward < result.forward->scenes.size()) {
       const ForwardSceneResult& returns = result.forward->scenes[forward++];
-      if (returns.refused > 0) {
-        out.push_back({solved.name, What::kPoints, -1, returns.refused,
-                       "off the board's plane, or beside what stands before it"});
+      std::size_t off_plane = returns.refused;
+      for (std::size_t k = 0; k < returns.covered.size(); ++k) {
+        const CoveredPatch& patch = returns.covered[k];
+        off_plane -= std::min(off_plane, patch.returns);
+        out.push_back({solved.name, What::kPatch, static_cast<int>(k), patch.returns,
+                       "something stands before the board there or lies on it", false,
+                       patch.board_m});
       }
+      if (off_plane > 0)
+        out.push_back({solved.name, What::kPoints, -1, off_plane, "off the board's plane"});
     }
     const auto found = std::find_if(result.scenes.begin(), result.scenes.end(),
                                     [&](const SceneResult& s) { return s.name == solved.name; });
@@ -152,7 +158,7 @@ std::vector<std::uint32_t> refused_returns(const CalibrationResult& result, std:
     const ReturnSelection& usual = result.options.forward.selection;
     ReturnSelection open = usual;
     open.range_gate = std::numeric_limits<double>::infinity();
-    open.crowds = false;
+    open.covers = false;
     const auto select = [&](const ReturnSelection& selection) {
       return select_returns(from.board_points, *result.print, state.lidar_from_board(place),
                             state.beam, range, selection)

@@ -17,15 +17,17 @@ struct Refusal {
     kCircle,    ///< One circle, by its id: in the solve of nodes and planes.
     kTag,       ///< The corners of one tag or square, by its id.
     kPoints,    ///< LiDAR points on the board; id is −1.
+    kPatch,     ///< The LiDAR points of a part of the board; id counts them in the scene.
     kResponse,  ///< One circle, by its id, or the scene (−1): in the boundary response alone.
   };
   std::string scene;
   What what = What::kScene;
   int id = -1;
-  std::size_t points = 0;  ///< How many, of kPoints.
+  std::size_t points = 0;  ///< How many, of kPoints and kPatch.
   std::string reason;      ///< In words.
   /// The user can insist on it (CalibrationRequest::insisted, SceneEdits).
   bool can_be_used = false;
+  Eigen::AlignedBox2d board_m = {};  ///< Where on the board, of kPatch.
 };
 
 /// The scene was refused by the program, and has what it takes to be used all the same.

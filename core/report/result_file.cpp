@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
+#include "base/text.h"
 #include "pipeline/refusals.h"
 #include "report/evidence_json.h"
 #include "report/json_values.h"
@@ -124,17 +125,25 @@ ordered_json refused_json(const CalibrationResult& result) {
   ordered_json list = ordered_json::array();
   for (const Refusal& refusal : refusals(result)) {
     if (refusal.what == What::kScene || refusal.what == What::kResponse) continue;
-    const bool points = refusal.what == What::kPoints;
-    const bool node = refusal.what == What::kCircle;
-    list.push_back(
-        {{"scene", refusal.scene},
-         {"what", points ? "points"
-                  : node ? "node"
-                         : "tag"},
-         {"where", points ? "on the board"
-                          : (node ? "circle " : "corners of ") + std::to_string(refusal.id)},
-         {"points", refusal.points},
-         {"reason", refusal.reason}});
+    std::string what = "tag";
+    std::string where = "corners of " + std::to_string(refusal.id);
+    if (refusal.what == What::kPoints) {
+      what = "points";
+      where = "on the board";
+    } else if (refusal.what == What::kPatch) {
+      const Eigen::AlignedBox2d& box = refusal.board_m;
+      what = "patch";
+      where = formatted("board x %.2f to %.2f m, ", box.min().x(), box.max().x()) +
+              formatted("y %.2f to %.2f m", box.min().y(), box.max().y());
+    } else if (refusal.what == What::kCircle) {
+      what = "node";
+      where = "circle " + std::to_string(refusal.id);
+    }
+    list.push_back({{"scene", refusal.scene},
+                    {"what", what},
+                    {"where", where},
+                    {"points", refusal.points},
+                    {"reason", refusal.reason}});
   }
   return list;
 }

@@ -6,7 +6,6 @@
 #include <map>
 
 #include <Eigen/Geometry>
-#include <boost/math/special_functions/gamma.hpp>
 
 #include "solve/surface_noise.h"
 
@@ -16,132 +15,6 @@ namespace {
 // What stands before the board is nearer by more than any range effect moves a return.
 constexpr double kCover_m = 0.03;
 constexpr double kCoverSpots = 3.0;  // Widths of a Gaussian spot, beyond which 1 % of it lies.
-// A return nearer by so many standard deviations is one of 30 000 of Gaussian noise: rare enough
-// that two of them side by side are no chance, frequent enough among those that are half on
-// something.
-constexpr double kTooNear = 4.0;
-constexpr double kTooNearChance = 3.2e-5;
-// That a place of some board without anything before it is taken for covered.
-constexpr double kCrowdChance = 1e-3;
-
-// Square cells over the board that something covers.
-class CoveredCells {
- public:
-  CoveredCells(const BoardOutline& outline, double cell_m)
-      : low_(outline.lower_left_m),
-        cell_m_(cell_m),
-        columns_(static_cast<int>(std::ceil(outline.size_m().x() / cell_m)) + 1),
-        rows_(static_cast<int>(std::ceil(outline.size_m().y() / cell_m)) + 1),
-        covered_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
-
-  void cover(const Eigen::Vector2d& p, double radius_m) {
-    any_ = true;
-    const Eigen::Vector2d a = (p - low_).array() - radius_m;
-    const Eigen::Vector2d b = (p - low_).array() + radius_m;
-    for (int r = row(a.y()); r <= row(b.y()); ++r) {
-      for (int c = column(a.x()); c <= column(b.x()); ++c) at(c, r) = 1;
-    }
-  }
-  [[nodiscard]] bool covers(const Eigen::Vector2d& p) const {
-    if (!any_) return false;
-    const Eigen::Vector2d d = p - low_;
-    return covered_[place(column(d.x()), row(d.y()))] != 0;
-  }
-
- private:
-  [[nodiscard]] int column(double x) const {
-    return std::clamp(static_cast<int>(std::floor(x / cell_m_)), 0, columns_ - 1);
-  }
-  [[nodiscard]] int row(double y) const {
-    return std::clamp(static_cast<int>(std::floor(y / cell_m_)), 0, rows_ - 1);
-  }
-  [[nodiscard]] std::size_t place(int c, int r) const {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(c);
-  }
-  std::uint8_t& at(int c, int r) { return covered_[place(c, r)]; }
-  Eigen::Vector2d low_;
-  double cell_m_;
-  int columns_, rows_;
-  std::vector<std::uint8_t> covered_;
-  bool any_ = false;
-};
-
-// Counts of places on the board, to be asked for squares about a place.
-class PlaceCounts {
- public:
-  PlaceCounts(const BoardOutline& outline, double cell_m)
-      : low_(outline.lower_left_m),
-        cell_m_(cell_m),
-        columns_(static_cast<int>(std::ceil(outline.size_m().x() / cell_m)) + 1),
-        rows_(static_cast<int>(std::ceil(outline.size_m().y() / cell_m)) + 1),
-        below_(Eigen::ArrayXXd::Zero(columns_ + 1, rows_ + 1)) {}
-
-  void add(const Eigen::Vector2d& p) { below_(column(p.x()) + 1, row(p.y()) + 1) += 1.0; }
-  // Turns counts into sums over all that lies left and below; nothing is added afterwards.
-  void sum() {
-    for (int r = 1; r <= rows_; ++r) {
-      for (int c = 1; c <= columns_; ++c)
-        below_(c, r) += below_(c - 1, r) + below_(c, r - 1) - below_(c - 1, r - 1);
-    }
-  }
-  [[nodiscard]] double about(const Eigen::Vector2d& p, double radius_m) const {
-    const int left = column(p.x() - radius_m), right = column(p.x() + radius_m) + 1;
-    const int bottom = row(p.y() - radius_m), top = row(p.y() + radius_m) + 1;
-    return below_(right, top) - below_(left, top) - below_(right, bottom) + below_(left, bottom);
-  }
-
- private:
-  [[nodiscard]] int column(double x) const {
-    return std::clamp(static_cast<int>(std::floor((x - low_.x()) / cell_m_)), 0, columns_ - 1);
-  }
-  [[nodiscard]] int row(double y) const {
-    return std::clamp(static_cast<int>(std::floor((y - low_.y()) / cell_m_)), 0, rows_ - 1);
-  }
-  Eigen::Vector2d low_;
-  double cell_m_;
-  int columns_, rows_;
-  Eigen::ArrayXXd below_;
-};
-
-struct NearPlace {
-  Eigen::Vector2d board_m;
-  double reach_m;  // How far from it a spot still touches what is there.
-};
-
-// Covers what lies beside returns that are too near and stand together: as many others about one
-// that chance, at the rate of what is not covered, brings them together once in a thousand boards.
-// Where a board lies off its plane all of it is too near, and nothing stands out. `kept`: places of
-// all returns that may stay.
-void cover_crowds(const std::vector<NearPlace>& near, const std::vector<Eigen::Vector2d>& kept,
-                  const BoardOutline& outline, double cell_m, CoveredCells& covered) {
-  if (near.size() < 2) return;
-  PlaceCounts near_counts(outline, cell_m);
-  for (const NearPlace& place : near) near_counts.add(place.board_m);
-  near_counts.sum();
-  PlaceCounts counts(outline, cell_m);
-  for (const Eigen::Vector2d& place : kept) counts.add(place);
-  counts.sum();
-  std::vector<NearPlace> left = near;
-  for (bool found = true; found;) {
-    std::erase_if(left, [&](const NearPlace& place) { return covered.covers(place.board_m); });
-    const auto uncovered = static_cast<double>(std::count_if(
-        kept.begin(), kept.end(), [&](const auto& place) { return !covered.covers(place); }));
-    const double rate =
-        std::max(kTooNearChance, static_cast<double>(left.size()) / std::max(1.0, uncovered));
-    found = false;
-    for (const NearPlace& place : left) {
-      const double others = near_counts.about(place.board_m, place.reach_m) - 1.0;
-      const double about = std::max(others, counts.about(place.board_m, place.reach_m));
-      // P(X ≥ n) of Poisson's distribution.
-      if (others < 1.0 || boost::math::gamma_p(others, rate * about) >
-                              kCrowdChance / static_cast<double>(near.size()))
-        continue;
-      covered.cover(place.board_m, place.reach_m);
-      found = true;
-    }
-  }
-}
 
 // Returns for the search: places on the board from its middle, intensities less their mean.
 struct Samples {
@@ -187,7 +60,6 @@ void describe_numbers(BoardReturns& returns) {
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
                             const RangeNoise& noise, const ReturnSelection& selection) {
-  constexpr double kCell_m = 0.01;
   const BoardPredictor predictor(print, lidar_from_board, {}, beam);
   const double beam_rad = std::sqrt(beam.blur_rad2.trace());
   const BoardOutline& outline = print.outline();
@@ -197,9 +69,9 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
   const BlurredPrint::Coarse blurred = print.coarse(beam_rad * middle_m / std::sqrt(2.0));
   BoardReturns out;
   out.cloud = &cloud;
-  CoveredCells covered(outline, kCell_m);
-  std::vector<NearPlace> near;
-  std::vector<Eigen::Vector2d> places;
+  CoveredCells covered(outline);
+  std::vector<PlacedReturn> near;
+  std::vector<PlacedReturn> kept;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
     const double range = p.norm();
@@ -207,48 +79,57 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
     if (!hit) continue;
     const double inside = print.inside_m(hit->board_m);
     if (inside <= 0.0) continue;
-    const double off = range - hit->range_m;
-    const double sigma = noise_between(noise.white_m, noise.black_m, blurred.at(hit->board_m));
-    const double gate = selection.range_gate * sigma;
-    // One spot is wider than the beam's angles span by 1/cos θ at most.
-    const double reach = kCoverSpots * beam_rad * range / 0.5;
-    if (off < -std::max(kCover_m, 2.0 * gate)) {
-      covered.cover(hit->board_m, reach);
+    const double white = blurred.at(hit->board_m);
+    const PlacedReturn at{static_cast<std::uint32_t>(i), hit->board_m, range - hit->range_m,
+                          noise_between(noise.white_m, noise.black_m, white), white,
+                          // One spot is wider than the beam's angles span by 1/cos θ at most.
+                          kCoverSpots * beam_rad * range / 0.5};
+    const double gate = selection.range_gate * at.sigma_m;
+    if (at.off_m < -std::max(kCover_m, 2.0 * gate)) {
+      covered.cover(at.board_m, at.reach_m);
       ++out.on_board;
       ++out.refused;
       continue;
     }
-    if (off < -std::max(kCover_m, kTooNear * sigma)) near.push_back({hit->board_m, reach});
+    if (at.off_m < -std::max(kCover_m, kTooNear * at.sigma_m)) near.push_back(at);
     if (inside < selection.inside_sigmas * beam_rad * range) continue;
     ++out.on_board;
-    if (std::abs(off) > gate) {
+    if (std::abs(at.off_m) > gate) {
       ++out.refused;
       continue;
     }
-    out.index.push_back(static_cast<std::uint32_t>(i));
-    places.push_back(hit->board_m);
+    kept.push_back(at);
   }
-  if (selection.crowds) cover_crowds(near, places, outline, kCell_m, covered);
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    if (covered.covers(places[k])) continue;
-    out.index[kept] = out.index[k];
-    ++kept;
+  if (selection.covers) {
+    cover_crowds(near, kept, outline, covered);
+    cover_patches(kept, cloud, outline, covered);
   }
-  out.refused += places.size() - kept;
-  out.index.resize(kept);
+  for (const Eigen::AlignedBox2d& box : covered.patches()) out.covered.push_back({box, 0});
+  for (const PlacedReturn& r : kept) {
+    if (!covered.covers(r.board_m)) {
+      out.index.push_back(r.point);
+      continue;
+    }
+    ++out.refused;
+    for (CoveredPatch& patch : out.covered) {
+      if (!patch.board_m.contains(r.board_m)) continue;
+      ++patch.returns;
+      break;
+    }
+  }
+  std::erase_if(out.covered, [](const CoveredPatch& patch) { return patch.returns == 0; });
 
   // Some drivers fill the field with one number.
-  out.has_intensity = cloud.has_intensity() && kept > 0 &&
+  out.has_intensity = cloud.has_intensity() && !out.index.empty() &&
                       std::any_of(out.index.begin(), out.index.end(), [&](std::uint32_t i) {
                         return cloud.intensity[i] != cloud.intensity[out.index.front()];
                       });
 
   if (out.has_intensity) describe_numbers(out);
 
-  out.successor.assign(kept, BoardReturns::kNone);
+  out.successor.assign(out.size(), BoardReturns::kNone);
   std::map<std::uint16_t, std::uint32_t> last;
-  for (std::uint32_t k = 0; k < kept; ++k) {
+  for (std::uint32_t k = 0; k < out.index.size(); ++k) {
     const std::uint16_t line = cloud.has_line() ? cloud.line[out.index[k]] : std::uint16_t{0};
     const auto [at, fresh] = last.try_emplace(line, k);
     if (!fresh) {

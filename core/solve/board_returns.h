@@ -10,8 +10,15 @@
 #include "base/rigid3.h"
 #include "cloud/cloud.h"
 #include "model/board_prediction.h"
+#include "solve/covered_places.h"
 
 namespace lvcalib {
+
+/// A part of the board that something covers, and the returns that were left out because of it.
+struct CoveredPatch {
+  Eigen::AlignedBox2d board_m;
+  std::size_t returns = 0;
+};
 
 /// The returns of one scene that lie on the board, as places in the scene's cloud.
 struct BoardReturns {
@@ -22,6 +29,7 @@ struct BoardReturns {
   double intensity_step = 0.0;  ///< Of numbers that come in few steps, the smallest; else 0.
   double saturated = 0.0;       ///< Share at the largest value, where they pile up there; else 0.
   std::size_t refused = 0;  ///< Of them, those that lie off the plane or next to what covers it.
+  std::vector<CoveredPatch> covered;
   /// Correlation of neighbours along a line is measured over these: places in `index` whose
   /// successor on the same line is the next place of `successor`, or kNone.
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -41,22 +49,14 @@ struct ReturnSelection {
   double inside_sigmas = 3.0;
   /// A return farther than this many standard deviations of its range from the plane is not on it.
   double range_gate = 5.0;
-  /// Look for places where returns that are too near crowd, for something that stands close before
-  /// the board or whose own returns are not in the cloud. Off while the board may be off its plane.
-  bool crowds = true;
-};
-
-/// Standard deviations of single ranges on plain white and plain black print.
-struct RangeNoise {
-  double white_m = 0.01;
-  double black_m = 0.01;
+  /// Look for what stands close before the board or lies on it (see cover_crowds() and
+  /// cover_patches()). Off while the board may be off its place.
+  bool covers = true;
 };
 
 /// Picks the returns on a board at `lidar_from_board`: those whose ray meets the board's inside and
-/// whose range agrees with its plane. Where something stands before the board, returns within three
-/// spot widths of it are left out as well: part of their light comes from it. Something stands
-/// there where a return is nearer than any on the board can be, and where more than chance allows
-/// are nearer by four standard deviations.
+/// whose range agrees with its plane. Where something stands before the board or lies on it,
+/// returns within three spot widths of it are left out as well: part of their light comes from it.
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
                             const RangeNoise& noise, const ReturnSelection& selection = {});

@@ -90,11 +90,11 @@ class ForwardSolver {
     }
   }
 
-  // `settled`: the boards lie on their planes, so that what stands out stands before them.
+  // `settled`: the boards lie where they are, so that what stands out is something else.
   bool select(bool settled = false) {
     returns_.assign(scenes_.size(), {});
     ReturnSelection how = options_.selection;
-    how.crowds = how.crowds && settled;
+    how.covers = how.covers && settled;
     parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       const SceneNoise& n = noise().scenes[s];
       returns_[s] = select_returns(*scenes_[s].board_points, print_, state().lidar_from_board(s),
@@ -552,6 +552,7 @@ class ForwardSolver {
       scene.returns = returns_[s].size();
       scene.on_board = returns_[s].on_board;
       scene.refused = returns_[s].refused;
+      scene.covered = returns_[s].covered;
       scene.intensity_left = fit.intensity_variance_share;
       const auto chi = [](double squares, std::size_t rows) {
         return rows > 0 ? std::sqrt(squares / static_cast<double>(rows)) : 0.0;

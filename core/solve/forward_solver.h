@@ -40,6 +40,7 @@ struct ForwardSceneResult {
   std::size_t returns = 0;  ///< Rows in use.
   std::size_t on_board = 0;
   std::size_t refused = 0;
+  std::vector<CoveredPatch> covered;  ///< Parts of the board that something covers.
   /// Share of the intensities' variance that the model leaves.
   double intensity_left = 1.0;
   double range_chi = 0.0, intensity_chi = 0.0, corner_chi = 0.0;  ///< RMS in σ.

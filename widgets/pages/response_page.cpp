@@ -168,6 +168,14 @@ QString ResponsePage::describe(const Refusal& refusal) {
     case What::kPoints:
       return tr("Scene %1, %n points on the board:", nullptr, static_cast<int>(refusal.points))
           .arg(scene);
+    case What::kPatch:
+      return tr("Scene %1, %n points at x %2 to %3 m, y %4 to %5 m on the board:", nullptr,
+                static_cast<int>(refusal.points))
+          .arg(scene)
+          .arg(refusal.board_m.min().x(), 0, 'f', 2)
+          .arg(refusal.board_m.max().x(), 0, 'f', 2)
+          .arg(refusal.board_m.min().y(), 0, 'f', 2)
+          .arg(refusal.board_m.max().y(), 0, 'f', 2);
     case What::kResponse:
       break;
   }

@@ -248,7 +248,8 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core", "structure is left that no known effect explains"),
     QT_TRANSLATE_NOOP("Core", "misses the board's pose by %1 mm, more than the gate"),
     QT_TRANSLATE_NOOP("Core", "misses the board's pose by more than the gate"),
-    QT_TRANSLATE_NOOP("Core", "off the board's plane, or beside what stands before it"),
+    QT_TRANSLATE_NOOP("Core", "off the board's plane"),
+    QT_TRANSLATE_NOOP("Core", "something stands before the board there or lies on it"),
     QT_TRANSLATE_NOOP("Core", "%1: the image file is empty"),
     QT_TRANSLATE_NOOP("Core", "%1: the image cannot be decoded: its data are damaged (%2)"),
     QT_TRANSLATE_NOOP(

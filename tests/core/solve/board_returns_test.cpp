@@ -90,7 +90,7 @@ TEST(BoardReturns, WhatHidesTheBoardInPartIsLeftOut) {
   for (const std::uint32_t i : returns.index) far += from_post(cloud.points_m[i]) > 0.08 ? 1 : 0;
   std::size_t all_far = 0;
   ReturnSelection open;
-  open.crowds = false;
+  open.covers = false;
   for (const std::uint32_t i : select_returns(cloud, print, truth, beam(), noise, open).index)
     all_far += from_post(cloud.points_m[i]) > 0.08 ? 1 : 0;
   EXPECT_EQ(far, all_far);

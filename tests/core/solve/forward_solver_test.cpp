@@ -2,6 +2,7 @@
 // The joint solve over corners and returns, on rigs by the simulator.
 #include "solve/forward_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -128,6 +129,45 @@ TEST(ForwardSolver, APostBeforeTheBoardIsRefused) {
   const auto solution = solve(rig, Vector6d::Zero());
   ASSERT_TRUE(solution);
   EXPECT_GE(solution->scenes.front().refused, hidden * 8 / 10);
+  EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
+}
+
+// Whether some patch refused in a scene holds a place of the board.
+bool is_covered(const ForwardSceneResult& scene, const Eigen::Vector2d& place_m) {
+  return std::any_of(scene.covered.begin(), scene.covered.end(),
+                     [&](const CoveredPatch& patch) { return patch.board_m.contains(place_m); });
+}
+
+TEST(ForwardSolver, AHandAndDirtOnTheBoardAreRefused) {
+  ForwardRig rig = forward_rig(options(57, LidarKind::kAvia));
+  const BoardOutline outline = rig.target.outline();
+  // A hand holds the first board by its edge, two and a half centimetres thick.
+  const Eigen::Vector2d hand(outline.lower_left_m.x() + 0.05, outline.center_m().y());
+  // Mud on the second, flat, as dark as ink.
+  const Eigen::Vector2d mud = outline.upper_right_m - Eigen::Vector2d(0.06, 0.09);
+  const auto near = [&](std::size_t s, std::size_t i, const Eigen::Vector2d& place, double size) {
+    const Eigen::Vector3d p =
+        rig.lidar_from_board[s].inverse() * rig.clouds[s].points_m[i].cast<double>().eval();
+    return (p.head<2>() - place).cwiseAbs().maxCoeff() < size;
+  };
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < rig.clouds[0].size(); ++i) {
+    if (!near(0, i, hand, 0.06)) continue;
+    const Eigen::Vector3d p = rig.clouds[0].points_m[i].cast<double>();
+    rig.clouds[0].points_m[i] = ((p.norm() - 0.025) * p.normalized()).cast<float>();
+    rig.clouds[0].intensity[i] = 60.0F;
+    ++held;
+  }
+  for (std::size_t i = 0; i < rig.clouds[1].size(); ++i) {
+    if (near(1, i, mud, 0.04)) rig.clouds[1].intensity[i] = 15.0F;
+  }
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  EXPECT_TRUE(is_covered(solution->scenes[0], hand));
+  EXPECT_TRUE(is_covered(solution->scenes[1], mud));
+  EXPECT_GE(solution->scenes[0].refused, held * 8 / 10);
+  for (std::size_t s = 2; s < solution->scenes.size(); ++s)
+    EXPECT_TRUE(solution->scenes[s].covered.empty()) << s;
   EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
 }
 
