@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "discovery/discovery.h"
+#include "discovery/effect_finding.h"
+#include "discovery/structure_scan.h"
 
 namespace lvcalib {
 

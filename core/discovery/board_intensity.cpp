@@ -32,8 +32,8 @@ std::optional<double> predicted_intensity(PrintRows& rows, const RangeRow& row) 
 
 }  // namespace
 
-BoardIntensity board_intensity(const ModelStep& step, int scene, double cell_m) {
-  const MeasurementTable& table = step.table();
+BoardIntensity board_intensity(const FittedModel& model, int scene, double cell_m) {
+  const MeasurementTable& table = model.table;
   BoardIntensity out;
   std::vector<const RangeRow*> rows;
   for (const RangeRow& row : table.range) {
@@ -57,10 +57,9 @@ BoardIntensity board_intensity(const ModelStep& step, int scene, double cell_m) 
   std::vector<double> measured(cells);
   std::vector<double> predicted(cells);
   std::vector<double> count(cells);
-  const std::vector<EffectInUse> in_use = step.in_use();
   std::deque<PrintRows> print;
   for (std::size_t k = 0; k < table.scenes.size(); ++k)
-    print.emplace_back(table, step.state, k, in_use);
+    print.emplace_back(table, model.state, k, model.effects);
   for (const RangeRow* row : rows) {
     const Eigen::Vector2d at = (row->beam.board_m - outline.lower_left_m).cwiseQuotient(size);
     const int x = std::clamp(static_cast<int>(at.x() * out.columns), 0, out.columns - 1);

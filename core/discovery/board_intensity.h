@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "discovery/model_session.h"
+#include "model/fitted_model.h"
 
 namespace lvcalib {
 
 /// Intensity over a board, measured and as predicted from the print, the scenes' levels and the
-/// effects in use; raw units. Cells without a return are NaN.
+/// model's effects; raw units. Cells without a return are NaN.
 struct BoardIntensity {
   int columns = 0;
   int rows = 0;
@@ -19,6 +19,6 @@ struct BoardIntensity {
 };
 /// One scene's (index into the table's), or of all together for −1. `cell_m`: size of a cell; 0:
 /// as fine as the returns allow. Empty if the clouds have no intensity.
-BoardIntensity board_intensity(const ModelStep& step, int scene, double cell_m = 0.0);
+BoardIntensity board_intensity(const FittedModel& model, int scene, double cell_m = 0.0);
 
 }  // namespace lvcalib

@@ -6,30 +6,15 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
-#include <boost/math/distributions/fisher_f.hpp>
 
 #include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
 
-struct MeanAndError {
-  double mean = 0.0;
-  double error = 0.0;  // standard error of the mean
-};
-
 double total(const std::array<double, kChannels>& squares) {
   return std::accumulate(squares.begin(), squares.end(), 0.0);
-}
-
-MeanAndError mean_of(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double v : values) squares += (v - mean) * (v - mean);
-  return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : HUGE_VAL};
 }
 
 // Squared distance of the estimate to the nearest parameters at or above their lowest values, in
@@ -106,55 +91,6 @@ Eigen::MatrixXd inverse_root(const Eigen::MatrixXd& m) {
 
 }  // namespace
 
-ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit) {
-  const auto worst = [](const Eigen::Matrix3d& c) {
-    return std::sqrt(
-        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c, Eigen::EigenvaluesOnly)
-                          .eigenvalues()(2)));
-  };
-  const double sigmas = tolerance.sigmas;
-  return {
-      std::max(tolerance.move.translation_m, sigmas * worst(fit.covariance.topLeftCorner<3, 3>())),
-      std::max(tolerance.move.rotation_rad, sigmas * worst(fit.covariance.block<3, 3>(3, 3)))};
-}
-
-ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values, double* kept) {
-  const Eigen::Index p = values.size();
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
-  const Eigen::Index q = h.rows() - p;
-  const Eigen::VectorXd cross = h.topRightCorner(q, p) * values;
-  const Eigen::VectorXd move = h.topLeftCorner(q, q).ldlt().solve(cross);
-  if (kept != nullptr) {
-    const double all = values.dot(h.bottomRightCorner(p, p) * values);
-    *kept = all > 0.0 ? std::clamp(1.0 - cross.dot(move) / all, 0.0, 1.0) : 0.0;
-  }
-  return {move.head<3>().norm(), move.segment<3>(3).norm()};
-}
-
-// The move is M θ; over θ̂ + L z with |z|² at its 95 % quantile it is at most |M θ̂| + q |M L|.
-MoveLimit move_limit(const ModelFit& fit, Eigen::Index p) {
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
-  const Eigen::Index q = h.rows() - p;
-  const Eigen::MatrixXd by =
-      h.topLeftCorner(q, q).ldlt().solve(Eigen::MatrixXd(h.topRightCorner(q, p)));
-  const Eigen::VectorXd theta = fit.solution.tail(p);
-  const Eigen::MatrixXd root = fit.covariance.bottomRightCorner(p, p).llt().matrixL();
-  const double quantile = p == 1 ? kUpper95 : std::sqrt(chi_square_gate(static_cast<int>(p), 0.05));
-  const auto unknown = [&](const Eigen::MatrixXd& rows) {
-    const Eigen::MatrixXd spread = rows * root;
-    return quantile * Eigen::JacobiSVD<Eigen::MatrixXd>(spread).singularValues()(0);
-  };
-  MoveLimit out;
-  out.unknown = {unknown(by.topRows<3>()), unknown(by.middleRows<3>(3))};
-  out.most = {(by.topRows<3>() * theta).norm() + out.unknown.translation_m,
-              (by.middleRows<3>(3) * theta).norm() + out.unknown.rotation_rad};
-  return out;
-}
-
 double Candidate::total_gain() const {
   return std::accumulate(scene_gain.begin(), scene_gain.end(), 0.0);
 }
@@ -208,20 +144,6 @@ std::array<double, kChannels> row_counts(const Linearization& linear) {
     for (std::size_t k = 0; k < kChannels; ++k) out[k] += scene.rows[k];
   }
   return out;
-}
-
-void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
-                    ColumnSubset& subset) {
-  std::size_t run = subset.columns.size();
-  for (const std::size_t count : columns.zero_sums) {
-    subset.zero_sums.emplace_back(run, count);
-    run += count;
-  }
-  for (int k = 0; k < columns.count(); ++k) {
-    subset.columns.push_back(columns.first + k);
-    subset.prior_sigma.push_back(columns.parameters[static_cast<std::size_t>(k)].prior_sigma);
-    subset.prior_mean.push_back(in_use != nullptr ? -(*in_use)(k) : 0.0);
-  }
 }
 
 std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& linear,
@@ -279,56 +201,6 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   return out;
 }
 
-Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p) {
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
-  const Eigen::Index q = h.rows() - p;
-  return h.bottomRightCorner(p, p) -
-         h.bottomLeftCorner(p, q) * h.topLeftCorner(q, q).ldlt().solve(h.topRightCorner(q, p));
-}
-
-double f_test(double squares, Eigen::Index p, std::size_t scenes) {
-  const double f = squares / static_cast<double>(p);
-  const double freedom = std::max(1.0, 3.0 * static_cast<double>(scenes) - 6.0);
-  if (!(f > 0.0) || !std::isfinite(f)) return 1.0;
-  return boost::math::cdf(
-      boost::math::complement(boost::math::fisher_f(static_cast<double>(p), freedom), f));
-}
-
-double f_test(const ModelFit& fit, Eigen::Index p) {
-  const Eigen::VectorXd theta = fit.solution.tail(p);
-  const Eigen::MatrixXd s = information_of_last(fit, p);
-  return f_test(theta.dot(s * theta), p, fit.scenes.size());
-}
-
-bool is_gain(const std::vector<double>& per_scene) {
-  const MeanAndError gain = mean_of(per_scene);
-  return gain.mean > gain.error;
-}
-
-double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index count) {
-  // Priors of the others keep them determined, but must not lend what the data do not have.
-  constexpr double kFaint = 1e-6;
-  Eigen::MatrixXd h = kFaint * fit.prior.information;
-  h.block(first, first, count, count).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
-  std::vector<Eigen::Index> own;
-  std::vector<Eigen::Index> rest;
-  for (Eigen::Index k = 0; k < h.rows(); ++k)
-    (k >= first && k < first + count ? own : rest).push_back(k);
-  const Eigen::MatrixXd raw = h(own, own);
-  const Eigen::MatrixXd cross = h(rest, own);
-  const Eigen::MatrixXd left =
-      raw - cross.transpose() * Eigen::MatrixXd(h(rest, rest)).ldlt().solve(cross);
-  if (!(raw.diagonal().maxCoeff() > 0.0)) return 0.0;
-  const Eigen::VectorXd scale =
-      raw.diagonal().cwiseMax(1e-12 * raw.diagonal().maxCoeff()).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd share = scale.asDiagonal() * left * scale.asDiagonal();
-  return std::clamp(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(share).eigenvalues().maxCoeff(),
-                    0.0, 1.0);
-}
-
 namespace {
 
 // Squared: two standard deviations, which one right estimate in twenty is off by.
@@ -340,7 +212,7 @@ constexpr double kFewestImproved = 2.0;
 std::vector<Criterion> existence(const Candidate& candidate, std::size_t tried,
                                  const DiscoveryOptions& options) {
   const double searched = static_cast<double>(std::max<std::size_t>(tried, 1));
-  const MeanAndError gain = mean_of(candidate.scene_gain);
+  const MeanAndError gain = mean_and_error(candidate.scene_gain);
   const ImprovedScenes scenes = improved_scenes(candidate, options);
   const auto improved = static_cast<double>(scenes.improved);
   // Just above one: a mean of exactly its standard error is none.
@@ -424,7 +296,7 @@ bool indistinguishable(const Candidate& a, const Candidate& b) {
   std::vector<double> difference;
   for (std::size_t s = 0; s < a.scene_density.size(); ++s)
     difference.push_back(a.scene_density[s] - b.scene_density[s]);
-  const MeanAndError d = mean_of(difference);
+  const MeanAndError d = mean_and_error(difference);
   return std::abs(d.mean) < d.error;
 }
 

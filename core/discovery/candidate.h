@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
+#include <array>
 #include <optional>
 #include <vector>
 
-#include "discovery/discovery.h"
+#include "discovery/discovery_options.h"
+#include "discovery/effect_finding.h"
+#include "model/fit_inference.h"
 
 namespace lvcalib {
 
@@ -16,21 +18,6 @@ enum class Contradiction {
   kScenes,  ///< With the shape number that fits best, scenes held out are predicted worse.
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
 };
-
-/// A tolerance with what a fit leaves open of the extrinsic.
-ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit);
-
-/// By how much the extrinsic moves if the last unknowns of a fit are left out at these values; with
-/// `kept` also which share of their squared effect the other unknowns do not absorb.
-ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values,
-                              double* kept = nullptr);
-
-/// How far the extrinsic may move if the last p unknowns of a fit are left out.
-struct MoveLimit {
-  ExtrinsicMove most;     ///< Upper 95 % limit over the joint confidence region of the values.
-  ExtrinsicMove unknown;  ///< The same if the estimate were zero: what the data cannot exclude.
-};
-MoveLimit move_limit(const ModelFit& fit, Eigen::Index p);
 
 /// One effect at one shape number, tried in addition to the model.
 struct Candidate {
@@ -80,10 +67,6 @@ struct Reference {
   std::vector<std::array<double, kChannels>> heldout;  ///< Squares per scene and channel.
 };
 
-/// Columns of an effect with priors about values in use (zero if none).
-void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
-                    ColumnSubset& subset);
-
 /// Rows of every channel over all scenes.
 std::array<double, kChannels> row_counts(const Linearization& linear);
 
@@ -121,26 +104,6 @@ bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptio
 /// Whether held-out scenes and the test after correction for the search speak for it.
 bool is_accepted(const Candidate& candidate, std::size_t tried, std::size_t scenes,
                  const DiscoveryOptions& options);
-
-/// P value of the squared length, in standard deviations, of p unknowns that may be zero.
-/// Between-scene effects have no more degrees of freedom than the scenes leave: three of each
-/// scene's board pose minus the extrinsic.
-double f_test(double squares, Eigen::Index p, std::size_t scenes);
-
-/// Information about the last p unknowns of a fit once all others are integrated out, from the data
-/// alone (without their priors).
-Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p);
-
-/// Wald F test that the last p unknowns of a fit are zero, from the data alone.
-double f_test(const ModelFit& fit, Eigen::Index p);
-
-/// True if the mean over scenes exceeds its standard error.
-bool is_gain(const std::vector<double>& per_scene);
-
-/// How much of the effect in the unknowns [first, first + count) of a fit the data can tell from
-/// all other unknowns: the largest share of a squared effect that is left, over its parameters.
-/// Next to nothing makes a solve singular.
-double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index count);
 
 /// Largest canonical correlation of two candidates' effects after all nuisances.
 double correlation_of(const Linearization& linear, const Reference& reference, std::size_t a,

@@ -8,7 +8,7 @@ namespace lvcalib {
 
 std::vector<ChannelSummary> summarize_channels(const EveryResidual& residuals,
                                                const std::vector<EffectInUse>& in_use,
-                                               const Reference& reference) {
+                                               const HeldoutSquares& heldout) {
   std::vector<ChannelSummary> out;
   std::size_t parameters = 0;
   for (const EffectInUse& use : in_use) parameters += static_cast<std::size_t>(use.values.size());
@@ -23,8 +23,7 @@ std::vector<ChannelSummary> summarize_channels(const EveryResidual& residuals,
     }
     const auto n = static_cast<double>(r.values.size());
     // Poses (or levels) and effects are fitted to these rows.
-    const double fitted =
-        std::min(0.5 * n, static_cast<double>(6 * reference.heldout.size() + parameters));
+    const double fitted = std::min(0.5 * n, static_cast<double>(6 * heldout.size() + parameters));
     const double unit = display_factor(r.channel);
     ChannelSummary s;
     s.channel = r.channel;
@@ -33,10 +32,9 @@ std::vector<ChannelSummary> summarize_channels(const EveryResidual& residuals,
     s.noise_floor = unit * std::sqrt(n / weights);
     s.unexplained =
         std::sqrt(std::max(0.0, s.rms * s.rms * n / (n - fitted) - s.noise_floor * s.noise_floor));
-    double heldout = 0.0;
-    for (const auto& scene : reference.heldout)
-      heldout += scene[static_cast<std::size_t>(r.channel)];
-    s.heldout_rms = unit * std::sqrt(heldout / weights);
+    double squares = 0.0;
+    for (const auto& scene : heldout) squares += scene[static_cast<std::size_t>(r.channel)];
+    s.heldout_rms = unit * std::sqrt(squares / weights);
     out.push_back(s);
   }
   return out;

@@ -10,6 +10,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/statistics.h"
 #include "model/row_covariates.h"
 
 namespace lvcalib {

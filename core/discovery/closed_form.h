@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "discovery/candidate.h"
 #include "discovery/structure_scan.h"
 
 namespace lvcalib {

@@ -4,10 +4,8 @@
 #include <algorithm>
 
 #include "base/yaml_file.h"
-#include "discovery/model_session.h"
 #include "discovery/proposals.h"
 #include "model/user_effect.h"
-#include "solve/print_table.h"
 
 namespace lvcalib {
 namespace {
@@ -84,11 +82,6 @@ Status check_options(const DiscoveryOptions& options) {
 }
 
 }  // namespace
-
-MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options) {
-  return print_table(input.scenes, input.print, input.camera, input.state, input.noise,
-                     input.sigma_px, options, {});
-}
 
 Status check_wanted(const std::vector<std::string>& with) {
   std::vector<std::string> known;

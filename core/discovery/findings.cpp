@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -110,6 +111,20 @@ std::string found_text(const EffectFinding& f) {
          formatted(", known to %.2g ",
                    factor * std::sqrt(squares / static_cast<double>(p.size()))) +
          unit_of(f.curve.channel);
+}
+
+// Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
+// alone, as of a warped board, is no gain in most.
+bool scenes_agree(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
+  const double total = std::accumulate(score.scene_gain.begin(), score.scene_gain.end(), 0.0);
+  if (!(total > std::log(static_cast<double>(tried) / options.false_alarm))) return false;
+  const auto speaking =
+      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                    [&](double gain) { return std::abs(gain) >= options.speaking_nats; });
+  const auto improved = std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                                      [&](double gain) { return gain >= options.speaking_nats; });
+  return is_gain(score.scene_gain) &&
+         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
 }
 
 class Judge {
@@ -307,11 +322,11 @@ class Judge {
     f.in_base = true;
     for (Eigen::Index k = 0; k < p; ++k) {
       const EffectParameter& q = parameters[static_cast<std::size_t>(k)];
-      f.parameters.push_back({q.name, q.unit, q.unit_in_si, values(k),
-                              std::sqrt(std::max(0.0, covariance(k, k)))});
+      f.parameters.push_back(
+          {q.name, q.unit, q.unit_in_si, values(k), std::sqrt(std::max(0.0, covariance(k, k)))});
     }
-    const bool there = values.dot(covariance.ldlt().solve(values)) >
-                       chi_square_gate(static_cast<int>(p), kChance);
+    const bool there =
+        values.dot(covariance.ldlt().solve(values)) > chi_square_gate(static_cast<int>(p), kChance);
     f.verdict = there ? EffectVerdict::kPresent : EffectVerdict::kAbsent;
     f.explanation = effect.info().physics +
                     " Measured with the base model, in every prediction: " + values_text(f) + ".";
@@ -372,6 +387,28 @@ std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chos
   return {out.begin(), out.end()};
 }
 
+bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
+  if (score.score >= options.min_structure) return true;
+  // What is local has a small share of the variance by nature: a bump is judged by its height.
+  const bool local = score.channel == Channel::kRange && score.height >= options.min_height;
+  return (score.score >= options.min_sure_structure || local) &&
+         scenes_agree(score, tried, options);
+}
+
+std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
+                                       const DiscoveryOptions& options) {
+  const std::size_t tried = scores.size();
+  std::erase_if(scores, [&](const StructureScore& s) { return !is_notable(s, tried, options); });
+  sort_best_first(scores);
+  return scores;
+}
+
+std::vector<StructureScore> notable_of(const StructureScan& scan, const DiscoveryOptions& options) {
+  std::vector<StructureScore> all = scan.curves;
+  all.insert(all.end(), scan.places.begin(), scan.places.end());
+  return notable_of(std::move(all), options);
+}
+
 void judge_unknown(const EffectSearch& explained, const DiscoveryOptions& options,
                    std::vector<StructureScore>& unknown) {
   // Each asks for a linearization of all rows, and there are four channels: beyond the strongest of
@@ -386,6 +423,50 @@ void judge_unknown(const EffectSearch& explained, const DiscoveryOptions& option
     unknown[k].extrinsic_move = *move;
     unknown[k].matters = move->exceeds(tolerance);
   }
+}
+
+ScenesTaken scenes_taken(const EffectSearch& search) {
+  return {search.table(), search.state(), search.in_use(), search.linear(),
+          search.reference().fit.variances};
+}
+
+OpenQuestions open_questions(const EffectSearch& search,
+                             const std::vector<EffectFinding>& findings) {
+  constexpr std::size_t kMostPairs = 3;
+  constexpr std::size_t kMostUnseen = 2;
+  constexpr double kUnseenMove_mm = 1.0;
+  // Where an effect stands in the linearisation: the candidate that predicts best.
+  const auto place = [&](const std::string& id) -> std::optional<std::size_t> {
+    for (const Candidate& c : search.candidates()) {
+      if (search.linear().columns.list()[c.columns].effect->info().id == id) return c.columns;
+    }
+    return std::nullopt;
+  };
+  OpenQuestions out;
+  for (const EffectFinding& f : findings) {
+    const auto& in_use = search.in_use();
+    const auto at = std::find_if(in_use.begin(), in_use.end(), [&](const EffectInUse& use) {
+      return use.effect->info().id == f.id;
+    });
+    if (at == in_use.end()) continue;
+    for (const std::string& id : f.aliases) {
+      const auto alias = place(id);
+      if (out.aliased.size() < kMostPairs && alias)
+        out.aliased.push_back({static_cast<std::size_t>(at - in_use.begin()), *alias});
+    }
+  }
+  for (const EffectFinding& f : findings) {
+    const auto effect = place(f.id);
+    if (f.verdict == EffectVerdict::kNotTestable && !f.parameters.empty() &&
+        f.extrinsic_move_mm >= kUnseenMove_mm && effect)
+      out.unseen.push_back({*effect, f.extrinsic_move_mm, f.extrinsic_move_mrad});
+  }
+  std::stable_sort(out.unseen.begin(), out.unseen.end(),
+                   [](const UnseenEffect& a, const UnseenEffect& b) {
+                     return a.extrinsic_move_mm > b.extrinsic_move_mm;
+                   });
+  if (out.unseen.size() > kMostUnseen) out.unseen.resize(kMostUnseen);
+  return out;
 }
 
 std::vector<EffectFinding> judge_effects(const EffectSearch& search,

@@ -3,7 +3,10 @@
 
 #include <vector>
 
+#include "discovery/effect_finding.h"
 #include "discovery/effect_search.h"
+#include "discovery/scene_advice.h"
+#include "discovery/structure_scan.h"
 
 namespace lvcalib {
 
@@ -12,10 +15,27 @@ namespace lvcalib {
 std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,
                                     const DiscoveryOptions& options);
 
+/// Whether a structure's score, one of so many tried, is large enough to be mentioned.
+bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options);
+
+/// Those of all scores tried that are notable, best first.
+std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
+                                       const DiscoveryOptions& options);
+std::vector<StructureScore> notable_of(const StructureScan& scan, const DiscoveryOptions& options);
+
 /// Says of structure that is left what it does to the extrinsic: as the curve that would take it
 /// out, left out. `explained` is the model that it is left by.
 void judge_unknown(const EffectSearch& explained, const DiscoveryOptions& options,
                    std::vector<StructureScore>& unknown);
+
+/// The scenes that a search looks at and its model. Refers to the search, on which rank() must have
+/// run.
+ScenesTaken scenes_taken(const EffectSearch& search);
+
+/// What one more scene should tell: effects of the model from their aliases, and whether those are
+/// there that could move the extrinsic unseen; the most important few.
+OpenQuestions open_questions(const EffectSearch& search,
+                             const std::vector<EffectFinding>& findings);
 
 /// Verdicts on the whole catalogue from the finished search (rank() must have run on the final
 /// model). Selected effects first, then the rest by their gain.

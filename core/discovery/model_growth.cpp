@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "base/statistics.h"
+#include "discovery/findings.h"
+
 namespace lvcalib {
 namespace {
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "discovery/effect_finding.h"
 #include "discovery/effect_search.h"
-#include "discovery/findings.h"
 
 namespace lvcalib {
 

@@ -5,11 +5,8 @@
 #include <cmath>
 
 #include "base/yaml_file.h"
-#include "discovery/channel_summary.h"
 #include "discovery/effect_search.h"
 #include "discovery/model_growth.h"
-#include "discovery/structure_scan.h"
-#include "model/user_effect.h"
 
 namespace lvcalib {
 namespace {
@@ -76,7 +73,7 @@ Result<ModelStepPtr> step_from(EffectSearch search, ModelStep step, const RunCon
                        model.end());
   const EveryResidual residuals = every_residual(search.table(), search.state(), model, context);
   if (context.stopped()) return Error::cancelled();
-  step.channels = summarize_channels(residuals, model, search.reference());
+  step.channels = summarize_channels(residuals, model, search.reference().heldout);
   context.report("structure", 0.7, "looking for structure");
   StructureScan scan = scan_structure(search.table(), residuals, context);
   if (context.stopped()) return Error::cancelled();
@@ -181,6 +178,11 @@ std::optional<std::size_t> ModelStep::find(const std::string& spec) const {
                                [&](const ModelTerm& term) { return term.spec == spec; });
   if (at == terms.end()) return std::nullopt;
   return static_cast<std::size_t>(at - terms.begin());
+}
+
+MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options) {
+  return print_table(input.scenes, input.print, input.camera, input.state, input.noise,
+                     input.sigma_px, options, {});
 }
 
 Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table,

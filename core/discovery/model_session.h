@@ -7,11 +7,36 @@
 #include <string>
 #include <vector>
 
-#include "discovery/discovery.h"
+#include "base/error.h"
+#include "base/progress.h"
+#include "discovery/channel_summary.h"
+#include "discovery/discovery_options.h"
+#include "discovery/effect_finding.h"
+#include "discovery/structure_scan.h"
+#include "model/fitted_model.h"
+#include "model/mixed_model.h"
+#include "model/user_effect.h"
+#include "solve/forward_problem.h"
+#include "solve/print_table.h"
 
 namespace lvcalib {
 
 class EffectSearch;
+
+/// What discovery starts from: the scenes in use and the state of the plain calibration.
+struct DiscoveryInput {
+  std::vector<SceneMeasurements> scenes;
+  Target target;
+  Camera camera;
+  ModelState state;
+  double sigma_px = 0.0;
+  /// The print and the noise that the joint solve over every return found. Null where that failed.
+  std::shared_ptr<const BlurredPrint> print;
+  ForwardNoise noise;
+};
+
+/// The measurements of a calibration, with every covariate. The input needs its print.
+MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options);
 
 /// What the steps of one session share: the measurements and how effects are judged.
 struct ModelBasis {
@@ -60,6 +85,8 @@ struct ModelStep {
   [[nodiscard]] std::vector<EffectInUse> in_use() const;
   /// Those and the nuisance: what the measurements are compared with.
   [[nodiscard]] std::vector<EffectInUse> predicted_with() const;
+  /// The model to those who look at its predictions, as long as the step is there.
+  [[nodiscard]] FittedModel fitted() const { return {table(), state, predicted_with()}; }
   /// Place of an effect among the terms.
   [[nodiscard]] std::optional<std::size_t> find(const std::string& spec) const;
 };

@@ -9,7 +9,6 @@
 #include <Eigen/Cholesky>
 
 #include "base/yaml_file.h"
-#include "discovery/candidate.h"
 
 namespace lvcalib {
 namespace {

@@ -171,8 +171,10 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   }
   if (context.stopped()) return Error::cancelled();
   context.report("advice", 0.85, "looking for the next scene");
-  out.advice =
-      options.advise_scenes ? advise_scenes(search, findings, options, context) : advise(findings);
+  out.advice = options.advise_scenes
+                   ? advise_scenes(scenes_taken(search), open_questions(search, findings),
+                                   options.grid, context)
+                   : advise(findings);
   const auto about_unknown = advise_unknown(out.unknown);
   out.advice.insert(out.advice.end(), about_unknown.begin(), about_unknown.end());
   out.budget = sensitivity_budget(search);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/model_session.h"
+#include "discovery/discovery.h"
 
 namespace lvcalib {
 

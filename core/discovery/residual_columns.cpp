@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "discovery/candidate.h"
 #include "model/mixed_model.h"
 
 namespace lvcalib {
@@ -39,11 +38,11 @@ std::vector<float> aligned(const ChannelResiduals& wanted, const ChannelResidual
 // levels give way to it in a fit that does not know it.
 class Adaptation {
  public:
-  Adaptation(const ModelStep& step, const EffectInUse& effect) {
+  Adaptation(const FittedModel& model, const EffectInUse& effect) {
     for (const Channel channel : kAllChannels) {
       Part& part = parts_[static_cast<std::size_t>(channel)];
-      part.rows = residuals_of(step.table(), step.state, {}, channel);
-      const ChannelResiduals with = residuals_of(step.table(), step.state, {effect}, channel);
+      part.rows = residuals_of(model.table, model.state, {}, channel);
+      const ChannelResiduals with = residuals_of(model.table, model.state, {effect}, channel);
       part.pattern.resize(with.values.size());
       for (std::size_t k = 0; k < with.values.size(); ++k)
         part.pattern[k] = part.rows.values[k] - with.values[k];
@@ -53,11 +52,10 @@ class Adaptation {
 
   // The fit with all its weights and random effects, told the effect's values and told zeros: what
   // extrinsic, poses and levels take over is the difference.
-  void solve(const ModelStep& step, const EffectInUse& effect) {
+  void solve(const FittedModel& model, const EffectInUse& effect) {
     EffectColumnsList columns;
-    columns.add(effect.effect, effect.shape, step.table());
-    const Linearization linear =
-        linearize(step.table(), step.state, step.predicted_with(), columns, {});
+    columns.add(effect.effect, effect.shape, model.table);
+    const Linearization linear = linearize(model.table, model.state, model.effects, columns, {});
     const auto& parameters = columns.list().front().parameters;
     ColumnSubset subset;
     append_columns(columns.list().front(), nullptr, subset);
@@ -114,13 +112,13 @@ const Covariate* ResidualColumns::find(const std::string& name) const {
   return at == covariates.end() ? nullptr : &*at;
 }
 
-ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before, Channel channel) {
-  const MeasurementTable& table = step.table();
-  const auto residuals_at = [&](const ModelStep& at) {
-    ChannelResiduals r = residuals_of(table, at.state, at.predicted_with(), channel);
-    return r;
+ResidualColumns residual_columns(const FittedModel& model, const FittedModel& before,
+                                 Channel channel) {
+  const MeasurementTable& table = model.table;
+  const auto residuals_at = [&](const FittedModel& at) {
+    return residuals_of(table, at.state, at.effects, channel);
   };
-  const ChannelResiduals now = residuals_at(step);
+  const ChannelResiduals now = residuals_at(model);
   const double unit = display_factor(channel);
   ResidualColumns out;
   out.channel = channel;
@@ -129,7 +127,8 @@ ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before,
     out.value.push_back(static_cast<float>(unit * now.values[k]));
     out.sigma.push_back(static_cast<float>(unit * now.sigma[k]));
   }
-  out.before = &before == &step ? out.value : aligned(now, residuals_at(before), unit);
+  const bool itself = &before.state == &model.state;
+  out.before = itself ? out.value : aligned(now, residuals_at(before), unit);
   out.scene = now.scene;
   out.row = now.row;
   out.component = components_of(now, channel);
@@ -137,17 +136,17 @@ ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before,
   return out;
 }
 
-std::vector<float> effect_pattern(const ModelStep& step, const EffectInUse& effect, Channel channel,
-                                  bool adapted) {
-  Adaptation adaptation(step, effect);
-  if (adapted) adaptation.solve(step, effect);
+std::vector<float> effect_pattern(const FittedModel& model, const EffectInUse& effect,
+                                  Channel channel, bool adapted) {
+  Adaptation adaptation(model, effect);
+  if (adapted) adaptation.solve(model, effect);
   return adaptation.pattern(channel);
 }
 
-std::vector<Channel> channels_of(const Effect& effect, double shape, const ModelStep& step) {
+std::vector<Channel> channels_of(const Effect& effect, double shape, const FittedModel& model) {
   // A few rows of each channel tell.
   MeasurementTable few;
-  const MeasurementTable& table = step.table();
+  const MeasurementTable& table = model.table;
   few.target = table.target;
   few.camera = table.camera;
   few.print = table.print;
@@ -168,14 +167,14 @@ std::vector<Channel> channels_of(const Effect& effect, double shape, const Model
   const auto parameters = effect.parameters(table);
   std::vector<Channel> out;
   for (const Channel channel : kAllChannels) {
-    const ChannelResiduals without = residuals_of(few, step.state, {}, channel);
+    const ChannelResiduals without = residuals_of(few, model.state, {}, channel);
     bool any = false;
     for (std::size_t p = 0; p < parameters.size() && !any; ++p) {
       // The pointer does not own: the effect outlives this call.
       EffectInUse use{EffectPtr(EffectPtr(), &effect), shape,
                       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
       use.values(static_cast<Eigen::Index>(p)) = parameters[p].material;
-      const ChannelResiduals with = residuals_of(few, step.state, {use}, channel);
+      const ChannelResiduals with = residuals_of(few, model.state, {use}, channel);
       for (std::size_t k = 0; k < with.values.size(); ++k)
         any = any || std::abs(with.values[k] - without.values[k]) > 1e-3 * without.sigma[k];
     }

@@ -6,7 +6,7 @@
 
 #include "discovery/binned_residuals.h"
 #include "discovery/covariates.h"
-#include "discovery/model_session.h"
+#include "model/fitted_model.h"
 
 namespace lvcalib {
 
@@ -29,17 +29,18 @@ struct ResidualColumns {
   [[nodiscard]] ResidualSample sample_before() const { return {before, sigma, scene}; }
 };
 
-/// The residuals of a step, beside those of another one on the same measurements.
-ResidualColumns residual_columns(const ModelStep& step, const ModelStep& before, Channel channel);
+/// The residuals of a model, beside those of another one (or itself) on the same measurements.
+ResidualColumns residual_columns(const FittedModel& model, const FittedModel& before,
+                                 Channel channel);
 
 /// What an effect of given values (SI) adds to the residuals of a model without it, display units,
 /// row by row as residual_columns() has them. `adapted`: after extrinsic, board poses and intensity
 /// levels have given way to it as far as the fit of all channels lets them, which is what the
 /// residuals show as long as the effect is not in the model.
-std::vector<float> effect_pattern(const ModelStep& step, const EffectInUse& effect, Channel channel,
-                                  bool adapted);
+std::vector<float> effect_pattern(const FittedModel& model, const EffectInUse& effect,
+                                  Channel channel, bool adapted);
 
 /// Channels in which an effect shows at all on these measurements.
-std::vector<Channel> channels_of(const Effect& effect, double shape, const ModelStep& step);
+std::vector<Channel> channels_of(const Effect& effect, double shape, const FittedModel& model);
 
 }  // namespace lvcalib

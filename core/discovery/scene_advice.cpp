@@ -15,11 +15,8 @@
 namespace lvcalib {
 namespace {
 
-constexpr std::size_t kMostPairs = 3;
-constexpr std::size_t kMostUnseen = 2;
 constexpr double kTells = 3.0;       // σ by which a difference must stand out
 constexpr double kWorthwhile = 1.2;  // a scene that gains less is not worth the way
-constexpr double kUnseenMove_mm = 1.0;
 
 using Block = InformationBlock;
 
@@ -41,55 +38,27 @@ Eigen::MatrixXd schur(const Eigen::MatrixXd& h, const std::vector<Eigen::Index>&
 
 class Adviser {
  public:
-  Adviser(const EffectSearch& search, const std::vector<EffectFinding>& findings,
-          const DiscoveryOptions& options, const RunContext& context)
-      : search_(search), findings_(findings), options_(options), context_(context) {}
+  Adviser(const ScenesTaken& taken, const OpenQuestions& questions, const BoardGridOptions& grid,
+          const RunContext& context)
+      : taken_(taken), questions_(questions), grid_(grid), context_(context) {}
 
   std::vector<std::string> run() {
-    choose_requests();
     if (!collect()) return {};
-    for (const auto& [a, b] : pairs_) tell_apart(a, b);
-    for (const EffectFinding* f : unseen_) make_visible(*f);
+    for (const auto& [a, b] : questions_.aliased) tell_apart(id_of(a), id_of(b));
+    for (const UnseenEffect& unseen : questions_.unseen) make_visible(unseen);
     shrink_extrinsic();
     return std::move(out_);
   }
 
  private:
   struct Involved {
-    EffectColumns columns;  // in the search's linearisation
+    EffectColumns columns;  // in the linearisation of the scenes taken
     Block block;
   };
 
-  // Pairs of an effect in the model with its aliases; effects that may be there unseen.
-  void choose_requests() {
-    for (const EffectFinding& f : findings_) {
-      const bool in_model =
-          std::any_of(search_.in_use().begin(), search_.in_use().end(),
-                      [&](const EffectInUse& use) { return use.effect->info().id == f.id; });
-      if (!in_model) continue;
-      for (const std::string& alias : f.aliases) {
-        if (pairs_.size() < kMostPairs && is_candidate(alias)) pairs_.emplace_back(f.id, alias);
-      }
-    }
-    for (const EffectFinding& f : findings_) {
-      if (f.verdict == EffectVerdict::kNotTestable && !f.parameters.empty() &&
-          f.extrinsic_move_mm >= kUnseenMove_mm && is_candidate(f.id))
-        unseen_.push_back(&f);
-    }
-    std::stable_sort(unseen_.begin(), unseen_.end(),
-                     [](const EffectFinding* a, const EffectFinding* b) {
-                       return a->extrinsic_move_mm > b->extrinsic_move_mm;
-                     });
-    if (unseen_.size() > kMostUnseen) unseen_.resize(kMostUnseen);
+  [[nodiscard]] const std::string& id_of(std::size_t k) const {
+    return taken_.linear.columns.list()[k].effect->info().id;
   }
-
-  [[nodiscard]] const Candidate* candidate(const std::string& id) const {
-    for (const Candidate& c : search_.candidates()) {
-      if (search_.linear().columns.list()[c.columns].effect->info().id == id) return &c;
-    }
-    return nullptr;
-  }
-  [[nodiscard]] bool is_candidate(const std::string& id) const { return candidate(id) != nullptr; }
 
   void involve(const EffectColumns& columns) {
     const std::string& id = columns.effect->info().id;
@@ -97,37 +66,37 @@ class Adviser {
     const auto first = 6 + static_cast<Eigen::Index>(subset_.columns.size());
     involved_[id] = {columns, {first, columns.count()}};
     append_columns(columns, nullptr, subset_);
-    predicted_columns_.add(columns.effect, columns.shape, search_.table());
+    predicted_columns_.add(columns.effect, columns.shape, taken_.table);
   }
 
   // Information of the scenes taken and of every pose of the grid, over all that is involved.
   bool collect() {
-    const auto& list = search_.linear().columns.list();
-    for (std::size_t k = 0; k < search_.in_use().size(); ++k) {
+    const auto& list = taken_.linear.columns.list();
+    for (std::size_t k = 0; k < taken_.in_use.size(); ++k) {
       involve(list[k]);
       own_.push_back(involved_.at(list[k].effect->info().id).block);
     }
-    for (const auto& [a, b] : pairs_) involve(list[candidate(b)->columns]);
-    for (const EffectFinding* f : unseen_) involve(list[candidate(f->id)->columns]);
-    const ModelVariances& variances = search_.reference().fit.variances;
+    for (const AliasedPair& pair : questions_.aliased) involve(list[pair.alias]);
+    for (const UnseenEffect& unseen : questions_.unseen) involve(list[unseen.effect]);
+    const ModelVariances& variances = taken_.variances;
     const auto size = 6 + static_cast<Eigen::Index>(subset_.columns.size());
     now_ = Eigen::MatrixXd::Zero(size, size);
     for (std::size_t k = 0; k < subset_.columns.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k) + 6;
       now_(at, at) = 1.0 / (subset_.prior_sigma[k] * subset_.prior_sigma[k]);
     }
-    for (const SceneProducts& scene : search_.linear().scenes)
+    for (const SceneProducts& scene : taken_.linear.scenes)
       now_ += scene_term(scene, subset_, variances).information;
-    const SensorModel sensors = sensors_of(search_.table());
-    const Rigid3& camera_from_lidar = search_.state().camera_from_lidar;
-    poses_ = board_grid(search_.table().target, search_.table().camera, options_.grid);
+    const SensorModel sensors = sensors_of(taken_.table);
+    const Rigid3& camera_from_lidar = taken_.state.camera_from_lidar;
+    poses_ = board_grid(taken_.table.target, taken_.table.camera, grid_);
     std::erase_if(poses_, [&](const GridPose& pose) {
-      return !lidar_sees(sensors, search_.table().target,
+      return !lidar_sees(sensors, taken_.table.target,
                          camera_from_lidar.inverse() * pose.camera_from_board);
     });
     ColumnSubset subset = subset_;
     std::iota(subset.columns.begin(), subset.columns.end(), 0);
-    added_ = predicted_information(poses_, sensors, search_.table(), camera_from_lidar,
+    added_ = predicted_information(poses_, sensors, taken_.table, camera_from_lidar,
                                    predicted_columns_, subset, variances, context_);
     return !added_.empty();
   }
@@ -150,7 +119,7 @@ class Adviser {
     Eigen::VectorXd values;
     for (std::size_t k = 0; k < own_.size(); ++k) {
       if (own_[k].first == block_a.first)
-        values = search_.in_use()[k].values;
+        values = taken_.in_use[k].values;
       else
         rest.push_back(own_[k]);
     }
@@ -170,8 +139,9 @@ class Adviser {
                    formatted("; the difference would stand %.1f σ (now %.1f σ)", after, before));
   }
 
-  void make_visible(const EffectFinding& f) {
-    const Involved& effect = involved_.at(f.id);
+  void make_visible(const UnseenEffect& unseen) {
+    const std::string& id = id_of(unseen.effect);
+    const Involved& effect = involved_.at(id);
     std::vector<Block> rest{{0, 6}};
     rest.insert(rest.end(), own_.begin(), own_.end());
     const auto mine = indices_of({effect.block});
@@ -191,8 +161,8 @@ class Adviser {
     const auto [pose, after] = best(t);
     const double before = t(now_);
     const std::string what =
-        f.id + formatted(" (it could move the extrinsic by %.1f mm and %.2f mrad)",
-                         f.extrinsic_move_mm, f.extrinsic_move_mrad);
+        id + formatted(" (it could move the extrinsic by %.1f mm and %.2f mrad)",
+                       unseen.extrinsic_move_mm, unseen.extrinsic_move_mrad);
     if (after < kWorthwhile * before) {
       out_.push_back("No further scene of this board will show " + what +
                      "; measure instead: " + effect.columns.effect->info().breaker);
@@ -225,12 +195,10 @@ class Adviser {
         formatted(": its standard deviation falls from %.2g to %.2g mm (or mrad)", before, -after));
   }
 
-  const EffectSearch& search_;
-  const std::vector<EffectFinding>& findings_;
-  const DiscoveryOptions& options_;
+  const ScenesTaken& taken_;
+  const OpenQuestions& questions_;
+  const BoardGridOptions& grid_;
   const RunContext& context_;
-  std::vector<std::pair<std::string, std::string>> pairs_;
-  std::vector<const EffectFinding*> unseen_;
   std::map<std::string, Involved> involved_;
   std::vector<Block> own_;
   ColumnSubset subset_;
@@ -263,10 +231,9 @@ double t_optimality(const Eigen::MatrixXd& now, const Eigen::MatrixXd& with_scen
                 noncentrality(with_scene, b, without_b, mimic));
 }
 
-std::vector<std::string> advise_scenes(const EffectSearch& search,
-                                       const std::vector<EffectFinding>& findings,
-                                       const DiscoveryOptions& options, const RunContext& context) {
-  return Adviser(search, findings, options, context).run();
+std::vector<std::string> advise_scenes(const ScenesTaken& taken, const OpenQuestions& questions,
+                                       const BoardGridOptions& grid, const RunContext& context) {
+  return Adviser(taken, questions, grid, context).run();
 }
 
 }  // namespace lvcalib

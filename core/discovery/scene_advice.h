@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "discovery/effect_search.h"
+#include "base/progress.h"
+#include "discovery/board_grid.h"
+#include "model/mixed_model.h"
 
 namespace lvcalib {
 
@@ -26,12 +28,41 @@ double t_optimality(const Eigen::MatrixXd& now, const Eigen::MatrixXd& with_scen
                     const InformationBlock& a, const InformationBlock& b,
                     const std::vector<InformationBlock>& rest, const Eigen::VectorXd& values);
 
+/// The scenes taken: their measurements and the model fitted to them, with other effects beside it.
+struct ScenesTaken {
+  const MeasurementTable& table;
+  const ModelState& state;
+  const std::vector<EffectInUse>& in_use;
+  const Linearization& linear;  ///< Columns of `in_use` first, in their order.
+  const ModelVariances& variances;
+};
+
+/// An effect of the model and one beside it that the scenes taken cannot tell apart; their places
+/// in the linearisation's list.
+struct AliasedPair {
+  std::size_t in_use = 0;
+  std::size_t alias = 0;
+};
+
+/// An effect that may be there unseen, its place in the linearisation's list, and how far it could
+/// move the extrinsic.
+struct UnseenEffect {
+  std::size_t effect = 0;
+  double extrinsic_move_mm = 0.0;
+  double extrinsic_move_mrad = 0.0;
+};
+
+/// What one more scene is to tell.
+struct OpenQuestions {
+  std::vector<AliasedPair> aliased;
+  std::vector<UnseenEffect> unseen;
+};
+
 /// Board poses worth taking, in words, computed over a grid of poses: to tell effects from their
 /// aliases, to see effects that could move the extrinsic unseen, and to shrink the extrinsic's
-/// weakest direction. Where no pose helps it says so and names what to measure instead. rank() must
-/// have run on the final model. Empty when stopped.
-std::vector<std::string> advise_scenes(const EffectSearch& search,
-                                       const std::vector<EffectFinding>& findings,
-                                       const DiscoveryOptions& options, const RunContext& context);
+/// weakest direction. Where no pose helps it says so and names what to measure instead. Empty when
+/// stopped.
+std::vector<std::string> advise_scenes(const ScenesTaken& taken, const OpenQuestions& questions,
+                                       const BoardGridOptions& grid, const RunContext& context);
 
 }  // namespace lvcalib

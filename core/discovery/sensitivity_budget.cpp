@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/statistics.h"
+#include "discovery/effect_search.h"
 
 namespace lvcalib {
 namespace {

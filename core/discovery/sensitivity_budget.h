@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "discovery/effect_search.h"
+#include "base/rigid3.h"
 
 namespace lvcalib {
+
+class EffectSearch;
+
+/// What an effect that is not in the model could still do to the extrinsic.
+struct BudgetItem {
+  std::string id;
+  std::string parameter;  ///< The one whose size is given: the largest, measured by what matters.
+  std::string unit;
+  double size = 0.0;  ///< Upper 95 % limit (display units); the prior's where data say nothing.
+  double translation_mm = 0.0;  ///< Movement of the extrinsic at that limit.
+  double rotation_mrad = 0.0;
+  /// Second moment (one σ) of the movement, left perturbation in the camera frame.
+  Matrix6d moment = Matrix6d::Zero();
+};
 
 /// What every testable effect that is not in the model could still do to the extrinsic, largest
 /// movement first. rank() must have run on the final model.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -13,7 +12,6 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "discovery/candidate.h"
 #include "discovery/structure_basis.h"
 
 namespace lvcalib {
@@ -227,12 +225,6 @@ const Covariate* find_in(const std::vector<Covariate>& covariates, const std::st
   return at == covariates.end() ? nullptr : &*at;
 }
 
-void sort_best_first(std::vector<StructureScore>& scores) {
-  std::stable_sort(
-      scores.begin(), scores.end(),
-      [](const StructureScore& a, const StructureScore& b) { return a.score > b.score; });
-}
-
 // Places in two dimensions where something local may sit, on the board or in the field of view; and
 // what comes near or at a slant on one print only, as of a receiver that saturates.
 constexpr std::array<std::pair<const char*, const char*>, 4> kPlaces{
@@ -285,20 +277,6 @@ std::vector<StructureScore> image_surface(const std::vector<Covariate>& covariat
   const bool better = std::all_of(alone.begin(), alone.end(),
                                   [&](const StructureScore& one) { return is_better(s, one); });
   return better ? std::vector{s} : std::vector<StructureScore>{};
-}
-
-// Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
-// alone, as of a warped board, is no gain in most.
-bool scenes_agree(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
-  const double total = std::accumulate(score.scene_gain.begin(), score.scene_gain.end(), 0.0);
-  if (!(total > std::log(static_cast<double>(tried) / options.false_alarm))) return false;
-  const auto speaking =
-      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
-                    [&](double gain) { return std::abs(gain) >= options.speaking_nats; });
-  const auto improved = std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
-                                      [&](double gain) { return gain >= options.speaking_nats; });
-  return is_gain(score.scene_gain) &&
-         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
 }
 
 StructureScore score_of(const Covariate& covariate, const OwnRows& rows) {
@@ -365,26 +343,10 @@ StructureScan scan_structure(const MeasurementTable& table, const ModelState& st
   return scan_structure(table, every_residual(table, state, in_use, context), context);
 }
 
-bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
-  if (score.score >= options.min_structure) return true;
-  // What is local has a small share of the variance by nature: a bump is judged by its height.
-  const bool local = score.channel == Channel::kRange && score.height >= options.min_height;
-  return (score.score >= options.min_sure_structure || local) &&
-         scenes_agree(score, tried, options);
-}
-
-std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
-                                       const DiscoveryOptions& options) {
-  const std::size_t tried = scores.size();
-  std::erase_if(scores, [&](const StructureScore& s) { return !is_notable(s, tried, options); });
-  sort_best_first(scores);
-  return scores;
-}
-
-std::vector<StructureScore> notable_of(const StructureScan& scan, const DiscoveryOptions& options) {
-  std::vector<StructureScore> all = scan.curves;
-  all.insert(all.end(), scan.places.begin(), scan.places.end());
-  return notable_of(std::move(all), options);
+void sort_best_first(std::vector<StructureScore>& scores) {
+  std::stable_sort(
+      scores.begin(), scores.end(),
+      [](const StructureScore& a, const StructureScore& b) { return a.score > b.score; });
 }
 
 }  // namespace lvcalib

@@ -1,12 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "discovery/covariates.h"
-#include "discovery/discovery.h"
+#include "model/fit_inference.h"
 
 namespace lvcalib {
+
+/// Structure that a covariate explains in held-out scenes.
+struct StructureScore {
+  Channel channel = Channel::kCorner;
+  std::string covariate;
+  double score = 0.0;      ///< Share of held-out variance.
+  double amplitude = 0.0;  ///< RMS of the curve, display units.
+  /// A closed form that predicts scenes held out as well, as a formula to ask for; empty if none.
+  std::string formula = {};
+  double formula_score = 0.0;  ///< Share of held-out variance that it explains.
+  /// Of surfaces: largest deviation from the median, in standard deviations of one row.
+  double height = 0.0;
+  /// Gain of every scene held out, in units of log-density (half the fall of whitened squares).
+  std::vector<double> scene_gain = {};
+  /// What a curve or surface over it would do to the extrinsic, where it was asked for, and whether
+  /// that exceeds the tolerance.
+  ExtrinsicMove extrinsic_move = {};
+  bool matters = false;
+  /// Of a surface over two covariates; empty of a curve.
+  std::string second_covariate = {};
+  /// "board x" or "board x and board y".
+  [[nodiscard]] std::string covariates() const {
+    return second_covariate.empty() ? covariate : covariate + " and " + second_covariate;
+  }
+};
 
 /// Share of held-out variance that a smooth curve of one covariate explains: cubic B-splines
 /// (shrunken means for categories) fitted on all scenes but one and predicted on that one, whose
@@ -28,12 +55,7 @@ StructureScan scan_structure(const MeasurementTable& table, const EveryResidual&
 StructureScan scan_structure(const MeasurementTable& table, const ModelState& state,
                              const std::vector<EffectInUse>& in_use, const RunContext& context);
 
-/// Those of all scores tried that are notable, best first.
-std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
-                                       const DiscoveryOptions& options);
-std::vector<StructureScore> notable_of(const StructureScan& scan, const DiscoveryOptions& options);
-
-/// Whether a score, one of so many tried, is large enough to be mentioned.
-bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options);
+/// Orders scores by the share that they explain, those that are equal as they were.
+void sort_best_first(std::vector<StructureScore>& scores);
 
 }  // namespace lvcalib

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/statistics.h"
+#include "discovery/model_session.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {
@@ -25,7 +26,7 @@ ModelStepPtr step_with(double falling) {
 
 TEST(BoardIntensityTest, APrintAsExpectedLeavesNoDifference) {
   const ModelStepPtr step = step_with(0.0);
-  const BoardIntensity image = board_intensity(*step, -1);
+  const BoardIntensity image = board_intensity(step->fitted(), -1);
   ASSERT_GT(image.columns, 10);
   ASSERT_EQ(image.measured.size(), static_cast<std::size_t>(image.columns * image.rows));
   std::vector<double> measured;
@@ -42,7 +43,8 @@ TEST(BoardIntensityTest, APrintAsExpectedLeavesNoDifference) {
 }
 
 TEST(BoardIntensityTest, WhatThePrintDoesNotExplainIsLeft) {
-  const BoardIntensity image = board_intensity(*step_with(-0.3), 0, 0.05);
+  const ModelStepPtr step = step_with(-0.3);
+  const BoardIntensity image = board_intensity(step->fitted(), 0, 0.05);
   double sum = 0.0;
   for (const float d : image.difference) {
     if (!std::isnan(d)) sum += static_cast<double>(d);
@@ -55,7 +57,7 @@ TEST(BoardIntensityTest, WithoutIntensityThereIsNone) {
   made.table.has_intensity = false;
   const auto step = start_model(made.table, made.truth, {}, {});
   ASSERT_TRUE(step);
-  EXPECT_TRUE(board_intensity(**step, -1).measured.empty());
+  EXPECT_TRUE(board_intensity((*step)->fitted(), -1).measured.empty());
 }
 
 }  // namespace

@@ -83,21 +83,6 @@ TEST_F(Candidates, ParametersThatActAlikeAreJudgedTogether) {
   EXPECT_LT(evaluate(0).p_value, 1e-3);
 }
 
-TEST_F(Candidates, WhatIsLeftOfAnEffectIsTheShareThatNothingElseDoes) {
-  const auto made = test::synthetic_table({});
-  EffectColumnsList columns;
-  for (const char* id : {"range_scale", "range_scale", "range_walk"})
-    columns.add(find_effect(id), 0.0, made.table);
-  linear_ = linearize(made.table, made.truth, {}, columns, {});
-  ColumnSubset subset;
-  for (const EffectColumns& c : columns.list()) append_columns(c, nullptr, subset);
-  const ModelFit fit = fit_model(linear_, subset, {}, {.rounds = 0});
-  EXPECT_LT(determined_share(fit, 6, 1), 1e-6);  // its twin is in the model
-  EXPECT_LT(determined_share(fit, 7, 1), 1e-6);
-  EXPECT_GT(determined_share(fit, 8, 1), 0.01);
-  EXPECT_LE(determined_share(fit, 8, 1), 1.0);
-}
-
 // By how much, and by which rule: the list says what is_accepted() says.
 TEST(CriteriaOf, AreThoseByWhichACandidateIsAccepted) {
   DiscoveryOptions options;
@@ -137,27 +122,6 @@ TEST(CriteriaOf, AreThoseByWhichACandidateIsAccepted) {
   fails_by("explained", [](Candidate& bad) { bad.explained_share = 0.1; });
   fails_by("held_out", [](Candidate& bad) { bad.heldout_gain[1] = 0.009; });
   fails_by("not_contradicted", [](Candidate& bad) { bad.contradiction = Contradiction::kPrints; });
-}
-
-TEST(Tolerated, IsTheUsersOrWhatIsLeftOpenAnyway) {
-  ModelFit fit;
-  fit.covariance = Eigen::MatrixXd::Zero(6, 6);
-  fit.covariance.diagonal() << 4e-6, 1e-6, 1e-6, 1e-8, 9e-8, 1e-8;  // 2 mm and 0.3 mrad at worst
-  const ExtrinsicMove usual = tolerated({}, fit);
-  EXPECT_NEAR(usual.translation_m, 1e-3, 1e-9);
-  EXPECT_NEAR(usual.rotation_rad, 2e-4, 1e-9);
-  const ExtrinsicMove own = tolerated({{1e-4, 1e-5}, 0.0}, fit);
-  EXPECT_NEAR(own.translation_m, 1e-4, 1e-12);
-  EXPECT_NEAR(own.rotation_rad, 1e-5, 1e-12);
-  EXPECT_TRUE(usual.exceeds(own));
-  EXPECT_NEAR(usual.over(own), 20.0, 1e-6);
-}
-
-TEST(IsGain, MeansMoreThanOneStandardError) {
-  EXPECT_TRUE(is_gain({1.0, 1.2, 0.8}));
-  EXPECT_FALSE(is_gain({3.0, -1.5, -1.0}));
-  EXPECT_FALSE(is_gain({-1.0, -1.0, -1.1}));
-  EXPECT_FALSE(is_gain({5.0}));  // one scene has no standard error
 }
 
 TEST_F(Candidates, TheSearchRaisesTheBar) {

@@ -24,7 +24,7 @@ class Summary : public ::testing::Test {
   std::vector<ChannelSummary> summary(const test::SyntheticTable& made) {
     EffectSearch search(made.table, made.truth, options_, context_);
     return summarize_channels(every_residual(made.table, search.state(), search.in_use(), context_),
-                              search.in_use(), search.reference());
+                              search.in_use(), search.reference().heldout);
   }
   DiscoveryOptions options_;
   RunContext context_;

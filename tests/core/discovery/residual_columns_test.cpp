@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "discovery/model_session.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {
@@ -36,7 +37,7 @@ class ColumnsOfResiduals : public ::testing::Test {
 };
 
 TEST_F(ColumnsOfResiduals, BeforeAndAfterStandSideBySide) {
-  const ResidualColumns c = residual_columns(*walk_, *base_, Channel::kRange);
+  const ResidualColumns c = residual_columns(walk_->fitted(), base_->fitted(), Channel::kRange);
   ASSERT_EQ(c.size(), base_->table().range.size());
   ASSERT_EQ(c.before.size(), c.size());
   EXPECT_TRUE(c.component.empty());
@@ -54,7 +55,7 @@ TEST_F(ColumnsOfResiduals, BeforeAndAfterStandSideBySide) {
 }
 
 TEST_F(ColumnsOfResiduals, CornersHaveTwoComponents) {
-  const ResidualColumns c = residual_columns(*base_, *base_, Channel::kCorner);
+  const ResidualColumns c = residual_columns(base_->fitted(), base_->fitted(), Channel::kCorner);
   ASSERT_EQ(c.size(), 2 * base_->table().corner.size());
   EXPECT_THAT(c.component, Contains(0));
   EXPECT_THAT(c.component, Contains(1));
@@ -63,7 +64,7 @@ TEST_F(ColumnsOfResiduals, CornersHaveTwoComponents) {
 
 TEST_F(ColumnsOfResiduals, ThePatternOfAnEffectIsWhatItAdds) {
   EffectInUse use{find_effect("range_walk"), 0.0, Eigen::VectorXd::Constant(1, 0.005)};
-  const auto raw = effect_pattern(*base_, use, Channel::kRange, false);
+  const auto raw = effect_pattern(base_->fitted(), use, Channel::kRange, false);
   const auto& rows = base_->table().range;
   ASSERT_EQ(raw.size(), rows.size());
   for (std::size_t k = 0; k < raw.size(); k += 97)
@@ -72,22 +73,22 @@ TEST_F(ColumnsOfResiduals, ThePatternOfAnEffectIsWhatItAdds) {
   const EffectPtr turn = find_effect("angle_zero");
   const auto n = static_cast<Eigen::Index>(turn->parameters(base_->table()).size());
   EffectInUse turned{turn, 0.0, Eigen::VectorXd::Constant(n, 1e-4)};
-  const double whole = rms_of(effect_pattern(*walk_, turned, Channel::kBoundary, false));
+  const double whole = rms_of(effect_pattern(walk_->fitted(), turned, Channel::kBoundary, false));
   EXPECT_GT(whole, 0.1);
-  EXPECT_LT(rms_of(effect_pattern(*walk_, turned, Channel::kBoundary, true)), 0.1 * whole);
+  EXPECT_LT(rms_of(effect_pattern(walk_->fitted(), turned, Channel::kBoundary, true)), 0.1 * whole);
   // Linear in the size.
   use.values *= 2.0;
-  const auto twice = effect_pattern(*base_, use, Channel::kRange, true);
+  const auto twice = effect_pattern(base_->fitted(), use, Channel::kRange, true);
   use.values *= 0.5;
-  const auto once = effect_pattern(*base_, use, Channel::kRange, true);
+  const auto once = effect_pattern(base_->fitted(), use, Channel::kRange, true);
   for (std::size_t k = 0; k < once.size(); k += 131)
     EXPECT_NEAR(static_cast<double>(twice[k]), 2.0 * static_cast<double>(once[k]), 1e-3);
 }
 
 TEST_F(ColumnsOfResiduals, ThePatternAtItsEstimateIsWhatIsSeen) {
   const EffectInUse found = walk_->terms[0].use;
-  const auto predicted = effect_pattern(*base_, found, Channel::kRange, true);
-  const ResidualColumns c = residual_columns(*base_, *base_, Channel::kRange);
+  const auto predicted = effect_pattern(base_->fitted(), found, Channel::kRange, true);
+  const ResidualColumns c = residual_columns(base_->fitted(), base_->fitted(), Channel::kRange);
   const Covariate* darkness = c.find("darkness");
   ASSERT_NE(darkness, nullptr);
   const auto seen = bin_residuals(darkness->values, true, c.sample());
@@ -100,11 +101,13 @@ TEST_F(ColumnsOfResiduals, ThePatternAtItsEstimateIsWhatIsSeen) {
 }
 
 TEST_F(ColumnsOfResiduals, AnEffectShowsInItsChannelsOnly) {
-  EXPECT_THAT(channels_of(*find_effect("corner_bias"), 0.0, *base_), ElementsAre(Channel::kCorner));
-  const auto walk = channels_of(*find_effect("range_walk"), 0.0, *base_);
+  EXPECT_THAT(channels_of(*find_effect("corner_bias"), 0.0, base_->fitted()),
+              ElementsAre(Channel::kCorner));
+  const auto walk = channels_of(*find_effect("range_walk"), 0.0, base_->fitted());
   EXPECT_THAT(walk, Contains(Channel::kRange));
   EXPECT_THAT(walk, Not(Contains(Channel::kCorner)));
-  EXPECT_THAT(channels_of(*find_effect("board_bow"), 0.0, *base_), Contains(Channel::kRange));
+  EXPECT_THAT(channels_of(*find_effect("board_bow"), 0.0, base_->fitted()),
+              Contains(Channel::kRange));
 }
 
 }  // namespace

@@ -43,6 +43,13 @@ TEST(TOptimality, NoncentralityIsWhatIsLeftOfTheEffect) {
   EXPECT_NEAR(noncentrality(h, {1, 1}, {{0, 1}}, Eigen::VectorXd::Constant(1, 3.0)), 4.5, 1e-6);
 }
 
+std::vector<std::string> advice_for(const EffectSearch& search,
+                                    const std::vector<EffectFinding>& findings,
+                                    const DiscoveryOptions& options, const RunContext& context) {
+  return advise_scenes(scenes_taken(search), open_questions(search, findings), options.grid,
+                       context);
+}
+
 TEST(AdviseScenes, NamesAPoseThatShowsWhatIsUnseen) {
   const auto made = test::synthetic_table({});
   const DiscoveryOptions options;
@@ -50,7 +57,7 @@ TEST(AdviseScenes, NamesAPoseThatShowsWhatIsUnseen) {
   EffectSearch search(made.table, made.truth, options, context);
   search.rank();
   auto findings = judge_effects(search, {}, options);
-  const auto advice = advise_scenes(search, findings, options, context);
+  const auto advice = advice_for(search, findings, options, context);
   ASSERT_FALSE(advice.empty());
   // Every sentence names a place for the board or what to measure instead.
   for (const std::string& a : advice) {
@@ -70,7 +77,7 @@ TEST(AdviseScenes, StopsWhenAsked) {
   search.rank();
   const auto findings = judge_effects(search, {}, options);
   stop.request_stop();
-  EXPECT_TRUE(advise_scenes(search, findings, options, context).empty());
+  EXPECT_TRUE(advice_for(search, findings, options, context).empty());
 }
 
 TEST(AdviseScenes, TellsAliasesApartOrSaysThatNothingWill) {
@@ -84,8 +91,7 @@ TEST(AdviseScenes, TellsAliasesApartOrSaysThatNothingWill) {
   search.add(find_effect("range_scale"), 0.0);
   search.rank();
   Selection scale{"range_scale", {"print_scale"}, 0.0, 0.0, 1.0};
-  const auto advice =
-      advise_scenes(search, judge_effects(search, {scale}, options), options, context);
+  const auto advice = advice_for(search, judge_effects(search, {scale}, options), options, context);
   EXPECT_THAT(advice, Contains(HasSubstr("range_scale from print_scale")));
 }
 

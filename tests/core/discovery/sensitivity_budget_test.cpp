@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "discovery/effect_search.h"
 #include "support/pose_matchers.h"
 #include "support/synthetic_table.h"
 

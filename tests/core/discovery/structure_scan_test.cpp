@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "discovery/findings.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {

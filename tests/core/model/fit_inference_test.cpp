@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/fit_inference.h"
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+TEST(DeterminedShare, IsWhatNothingElseDoesOfAnEffect) {
+  const auto made = test::synthetic_table({});
+  EffectColumnsList columns;
+  for (const char* id : {"range_scale", "range_scale", "range_walk"})
+    columns.add(find_effect(id), 0.0, made.table);
+  const Linearization linear = linearize(made.table, made.truth, {}, columns, {});
+  ColumnSubset subset;
+  for (const EffectColumns& c : columns.list()) append_columns(c, nullptr, subset);
+  const ModelFit fit = fit_model(linear, subset, {}, {.rounds = 0});
+  EXPECT_LT(determined_share(fit, 6, 1), 1e-6);  // its twin is in the model
+  EXPECT_LT(determined_share(fit, 7, 1), 1e-6);
+  EXPECT_GT(determined_share(fit, 8, 1), 0.01);
+  EXPECT_LE(determined_share(fit, 8, 1), 1.0);
+}
+
+TEST(Tolerated, IsTheUsersOrWhatIsLeftOpenAnyway) {
+  ModelFit fit;
+  fit.covariance = Eigen::MatrixXd::Zero(6, 6);
+  fit.covariance.diagonal() << 4e-6, 1e-6, 1e-6, 1e-8, 9e-8, 1e-8;  // 2 mm and 0.3 mrad at worst
+  const ExtrinsicMove usual = tolerated({}, fit);
+  EXPECT_NEAR(usual.translation_m, 1e-3, 1e-9);
+  EXPECT_NEAR(usual.rotation_rad, 2e-4, 1e-9);
+  const ExtrinsicMove own = tolerated({{1e-4, 1e-5}, 0.0}, fit);
+  EXPECT_NEAR(own.translation_m, 1e-4, 1e-12);
+  EXPECT_NEAR(own.rotation_rad, 1e-5, 1e-12);
+  EXPECT_TRUE(usual.exceeds(own));
+  EXPECT_NEAR(usual.over(own), 20.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace lvcalib
