@@ -49,6 +49,7 @@ class CheckDoors(unittest.TestCase):
         self.refuse("core/simulation/a.cpp", BSD + '#include "model/a.h"\n', "simulation to model")
         self.refuse("core/simulation/a.cpp", BSD + '#include "cloud/plane.h"\n', "only write")
         self.refuse("core/pipeline/a.cpp", BSD + '#include "report/a.h"\n', "pipeline to report")
+        self.refuse("core/report/a.cpp", BSD + '#include "simulation/a.h"\n', "to simulation")
         self.refuse("core/base/a.cpp", BSD + '#  include "widgets/a.h"\n', "widgets/")
         self.refuse("core/kitchen/a.cpp", BSD, "not in a room")
 
