@@ -26,13 +26,11 @@ DOORS = {
     "detection": ["base", "target", "camera", "cloud"],
     "localization": ["base", "target", "camera", "cloud", "detection"],
     "refinement": ["base", "target", "camera", "cloud", "detection", "localization"],
-    "extrinsic": ["base", "target", "camera", "cloud", "detection", "localization", "refinement"],
-    "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
-                 "extrinsic"],
-    "model": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic"],
-    "solve": ["base", "target", "camera", "cloud", "detection", "model"],
-    "discovery": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic",
-                  "model", "solve"],
+    "model": ["base", "target", "camera", "cloud", "detection"],
+    "solve": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
+              "model"],
+    "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement"],
+    "discovery": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
     "simulation": ["base", "target", "camera", "cloud"],
 }
 # The simulation is a library of its own, which the installed core does not carry.

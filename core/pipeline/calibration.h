@@ -10,8 +10,6 @@
 
 #include "base/progress.h"
 #include "discovery/discovery.h"
-#include "extrinsic/methods.h"
-#include "extrinsic/uncertainty.h"
 #include "pipeline/crop_box.h"
 #include "pipeline/dataset.h"
 #include "pipeline/input_hashes.h"
@@ -21,6 +19,8 @@
 #include "pipeline/stage_cache.h"
 #include "response/boundary_response.h"
 #include "solve/forward_solver.h"
+#include "solve/method_comparison.h"
+#include "solve/uncertainty_report.h"
 
 namespace lvcalib {
 
