@@ -30,7 +30,10 @@ DOORS = {
     "solve": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
               "model"],
     "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement"],
-    "discovery": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
+    "diagnostics": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
+    "design": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
+    "selection": ["base", "target", "camera", "cloud", "detection", "model", "solve", "diagnostics",
+                  "design"],
     "simulation": ["base", "target", "camera", "cloud"],
 }
 # The simulation is a library of its own, which the installed core does not carry.

@@ -8,11 +8,11 @@
 
 #include "base/error.h"
 #include "detection/board_view.h"
-#include "discovery/discovery.h"
 #include "localization/board_search.h"
 #include "localization/scene_consensus.h"
 #include "refinement/board_refinement.h"
 #include "response/boundary_response.h"
+#include "selection/discovery.h"
 #include "solve/feature_solver.h"
 #include "solve/forward_solver.h"
 

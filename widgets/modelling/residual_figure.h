@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "discovery/residual_columns.h"
+#include "diagnostics/residual_columns.h"
 
 namespace lvcalib::widgets {
 
