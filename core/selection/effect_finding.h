@@ -67,7 +67,6 @@ struct EffectFinding {
   /// Whether it was let in, rule by rule; empty if nobody asked: the user's own wish, or no data.
   std::vector<Criterion> criteria;
   double kept = 0.0;     ///< Share of its squared effect that pose and levels cannot absorb.
-  bool in_base = false;  ///< Measured with the base model, which every prediction holds.
   std::string explanation;
   std::string spec;  ///< Of a user's own effect: makes it again (EffectInfo::spec).
   FoundCurve curve;

@@ -63,6 +63,16 @@ std::vector<EffectInUse> EffectSearch::model() const {
   return out;
 }
 
+std::optional<MeasuredBlur> EffectSearch::measured_blur() const {
+  if (!sees_print() || reference_.fit.covariance.rows() == 0) return std::nullopt;
+  // The blur stands behind the effects in use.
+  Eigen::Index at = 6;
+  for (const EffectInUse& use : in_use_) at += use.values.size();
+  const Eigen::Matrix2d& blur = state_.beam.blur_rad2;
+  return MeasuredBlur{{blur(0, 0), blur(0, 1), blur(1, 1)},
+                      reference_.fit.covariance.block<3, 3>(at, at)};
+}
+
 EffectColumnsList EffectSearch::own_columns() const {
   EffectColumnsList columns;
   for (const EffectInUse& use : model()) columns.add(use.effect, use.shape, table());

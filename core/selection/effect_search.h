@@ -12,6 +12,12 @@
 
 namespace lvcalib {
 
+/// Covariance of the beam's spot in the beam's frame, footprint and pointing jitter together.
+struct MeasuredBlur {
+  Eigen::Vector3d rad2 = Eigen::Vector3d::Zero();        ///< Horizontal, mixed, vertical.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of these, rad⁴.
+};
+
 /// State of the search: effects in use with their values, the poses, and the model about them.
 class EffectSearch {
  public:
@@ -80,6 +86,8 @@ class EffectSearch {
 
   [[nodiscard]] const MeasurementTable& table() const { return *table_; }
   [[nodiscard]] const ModelState& state() const { return state_; }
+  /// The beam's blur as the model measures it; nothing where no intensity tells it.
+  [[nodiscard]] std::optional<MeasuredBlur> measured_blur() const;
   /// Effects found or asked for, in the order added.
   [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
   /// Those and the beam's blur: what the model predicts with.

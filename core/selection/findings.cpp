@@ -141,12 +141,14 @@ class Judge {
       if (seen.insert(id).second) add_other(c);
     }
     for (const EffectPtr& effect : effect_catalogue()) {
-      if (effect->is_in_base_model() && search_.measured_blur()) {
-        add_measured(*effect, *search_.measured_blur());
-        continue;
-      }
       const std::string reason = why_not_testable(*effect, search_.table());
-      if (!reason.empty()) add_untestable(*effect, reason);
+      if (reason.empty()) continue;
+      const auto blur = effect->is_in_base_model() ? search_.measured_blur() : std::nullopt;
+      if (blur) {
+        add_measured(*effect, *blur, reason);
+      } else {
+        add_untestable(*effect, reason);
+      }
     }
     for (std::size_t k = 0; k < out_.size(); ++k) out_[k].rank = static_cast<int>(k) + 1;
     return std::move(out_);
@@ -304,32 +306,26 @@ class Judge {
     }
   }
 
-  // Part of the beam's blur, which the base model measures: the least squares of what the effect
-  // adds to the three numbers of the blur. It is there if it is beyond what chance makes of none.
-  void add_measured(const Effect& effect, const MeasuredBlur& blur) {
-    constexpr double kChance = 0.001;
+  // Part of the beam's blur, which every model holds: the least squares of what the effect adds to
+  // the three numbers of the blur. Measured, so there is nothing to test; the value is told.
+  void add_measured(const Effect& effect, const MeasuredBlur& blur, const std::string& reason) {
     const std::vector<EffectParameter> parameters = effect.parameters(search_.table());
-    const auto p = static_cast<Eigen::Index>(parameters.size());
     std::vector<Eigen::Vector3d> by(parameters.size(), Eigen::Vector3d::Zero());
     effect.blur({}, search_.table(), 0.0, by);
-    Eigen::MatrixXd columns(3, p);
-    for (Eigen::Index k = 0; k < p; ++k) columns.col(k) = by[static_cast<std::size_t>(k)];
+    Eigen::MatrixXd columns(3, static_cast<Eigen::Index>(parameters.size()));
+    for (std::size_t k = 0; k < by.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = by[k];
     const Eigen::MatrixXd inverse = columns.completeOrthogonalDecomposition().pseudoInverse();
     const Eigen::VectorXd values = inverse * blur.rad2;
     const Eigen::MatrixXd covariance = inverse * blur.covariance * inverse.transpose();
     EffectFinding f;
     f.id = effect.info().id;
-    f.in_base = true;
-    for (Eigen::Index k = 0; k < p; ++k) {
-      const EffectParameter& q = parameters[static_cast<std::size_t>(k)];
-      f.parameters.push_back(
-          {q.name, q.unit, q.unit_in_si, values(k), std::sqrt(std::max(0.0, covariance(k, k)))});
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      f.parameters.push_back({parameters[k].name, parameters[k].unit, parameters[k].unit_in_si,
+                              values(i), std::sqrt(std::max(0.0, covariance(i, i)))});
     }
-    const bool there =
-        values.dot(covariance.ldlt().solve(values)) > chi_square_gate(static_cast<int>(p), kChance);
-    f.verdict = there ? EffectVerdict::kPresent : EffectVerdict::kAbsent;
-    f.explanation = effect.info().physics +
-                    " Measured with the base model, in every prediction: " + values_text(f) + ".";
+    f.verdict = EffectVerdict::kNotTestable;
+    f.explanation = "Not testable: " + reason + ".";
     out_.push_back(std::move(f));
   }
 
