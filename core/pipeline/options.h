@@ -12,7 +12,7 @@
 #include "localization/scene_consensus.h"
 #include "refinement/board_refinement.h"
 #include "response/boundary_response.h"
-#include "selection/discovery.h"
+#include "selection/discovery_options.h"
 #include "solve/feature_solver.h"
 #include "solve/forward_solver.h"
 
