@@ -192,7 +192,7 @@ class Planner {
                     "%s stays hard to test: what matters of it stands %.1f σ above zero",
                     e.id.c_str(), e.sigmas);
       out_.warnings.push_back(text + std::string("; to see it: ") +
-                              find_effect(e.id)->info().breaker);
+                              find_effect(e.id)->info().discriminating_pose);
     }
   }
 

@@ -131,7 +131,7 @@ class Adviser {
     if (after < kTells || after < kWorthwhile * before) {
       out_.push_back("No further scene of this board will tell " + a + " from " + b +
                      formatted(" (at best %.1f σ); measure instead: ", after) +
-                     involved_.at(b).columns.effect->info().breaker);
+                     involved_.at(b).columns.effect->info().discriminating_pose);
       return;
     }
     out_.push_back("To tell " + a + " from " + b + ", take a scene with the board " +
@@ -165,7 +165,7 @@ class Adviser {
                        unseen.extrinsic_move_mm, unseen.extrinsic_move_mrad);
     if (after < kWorthwhile * before) {
       out_.push_back("No further scene of this board will show " + what +
-                     "; measure instead: " + effect.columns.effect->info().breaker);
+                     "; measure instead: " + effect.columns.effect->info().discriminating_pose);
       return;
     }
     out_.push_back(

@@ -12,6 +12,32 @@
 #include "base/statistics.h"
 
 namespace lvcalib {
+namespace {
+
+// Information of all scenes, and of the priors but those of the last p unknowns.
+Eigen::MatrixXd information_but_prior(const ModelFit& fit, Eigen::Index p) {
+  Eigen::MatrixXd h = fit.prior.information;
+  h.bottomRightCorner(p, p).setZero();
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  return h;
+}
+
+// What the other unknowns take over of the last ones' effect.
+struct Absorbed {
+  Eigen::VectorXd cross;  // Of their information with the last ones, times these values.
+  Eigen::VectorXd by;     // By how much they move.
+};
+
+Absorbed absorbed(const Eigen::MatrixXd& h, const Eigen::VectorXd& values) {
+  const Eigen::Index p = values.size();
+  const Eigen::Index q = h.rows() - p;
+  Absorbed out;
+  out.cross = h.topRightCorner(q, p) * values;
+  out.by = h.topLeftCorner(q, q).ldlt().solve(out.cross);
+  return out;
+}
+
+}  // namespace
 
 ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit) {
   const auto worst = [](const Eigen::Matrix3d& c) {
@@ -25,26 +51,22 @@ ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit) {
       std::max(tolerance.move.rotation_rad, sigmas * worst(fit.covariance.block<3, 3>(3, 3)))};
 }
 
-ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values, double* kept) {
-  const Eigen::Index p = values.size();
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
-  const Eigen::Index q = h.rows() - p;
-  const Eigen::VectorXd cross = h.topRightCorner(q, p) * values;
-  const Eigen::VectorXd move = h.topLeftCorner(q, q).ldlt().solve(cross);
-  if (kept != nullptr) {
-    const double all = values.dot(h.bottomRightCorner(p, p) * values);
-    *kept = all > 0.0 ? std::clamp(1.0 - cross.dot(move) / all, 0.0, 1.0) : 0.0;
-  }
+ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values) {
+  const Eigen::VectorXd move = absorbed(information_but_prior(fit, values.size()), values).by;
   return {move.head<3>().norm(), move.segment<3>(3).norm()};
+}
+
+double unabsorbed_share(const ModelFit& fit, const Eigen::VectorXd& values) {
+  const Eigen::Index p = values.size();
+  const Eigen::MatrixXd h = information_but_prior(fit, p);
+  const Absorbed other = absorbed(h, values);
+  const double all = values.dot(h.bottomRightCorner(p, p) * values);
+  return all > 0.0 ? std::clamp(1.0 - other.cross.dot(other.by) / all, 0.0, 1.0) : 0.0;
 }
 
 // The move is M θ; over θ̂ + L z with |z|² at its 95 % quantile it is at most |M θ̂| + q |M L|.
 MoveLimit move_limit(const ModelFit& fit, Eigen::Index p) {
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  const Eigen::MatrixXd h = information_but_prior(fit, p);
   const Eigen::Index q = h.rows() - p;
   const Eigen::MatrixXd by =
       h.topLeftCorner(q, q).ldlt().solve(Eigen::MatrixXd(h.topRightCorner(q, p)));
@@ -63,9 +85,7 @@ MoveLimit move_limit(const ModelFit& fit, Eigen::Index p) {
 }
 
 Eigen::MatrixXd information_of_last(const ModelFit& fit, Eigen::Index p) {
-  Eigen::MatrixXd h = fit.prior.information;
-  h.bottomRightCorner(p, p).setZero();
-  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  const Eigen::MatrixXd h = information_but_prior(fit, p);
   const Eigen::Index q = h.rows() - p;
   return h.bottomRightCorner(p, p) -
          h.bottomLeftCorner(p, q) * h.topLeftCorner(q, q).ldlt().solve(h.topRightCorner(q, p));

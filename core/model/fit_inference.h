@@ -36,10 +36,12 @@ struct Tolerance {
 /// A tolerance with what a fit leaves open of the extrinsic.
 ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit);
 
-/// By how much the extrinsic moves if the last unknowns of a fit are left out at these values; with
-/// `kept` also which share of their squared effect the other unknowns do not absorb.
-ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values,
-                              double* kept = nullptr);
+/// By how much the extrinsic moves if the last unknowns of a fit are left out at these values.
+ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values);
+
+/// Share of the squared effect of the last unknowns of a fit, at these values, that the other
+/// unknowns do not absorb, 0…1; zero for no effect at all.
+double unabsorbed_share(const ModelFit& fit, const Eigen::VectorXd& values);
 
 /// How far the extrinsic may move if the last p unknowns of a fit are left out.
 struct MoveLimit {

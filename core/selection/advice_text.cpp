@@ -46,7 +46,7 @@ std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
     const EffectPtr effect = find_effect(f.id);
     if (effect == nullptr) continue;  // the user's own
     const std::string text = "To tell " + f.id + " from " + joined(f.aliases, " and ") +
-                             ", take: " + effect->info().breaker;
+                             ", take: " + effect->info().discriminating_pose;
     out.push_back(text);
   }
   std::vector<const EffectFinding*> unseen;
@@ -62,7 +62,7 @@ std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
     if (f->extrinsic_move_mm < 1.0) continue;
     out.push_back("To see whether " + f->id + " is there (it could move the extrinsic by " +
                   formatted("%.1f mm and %.2f mrad", f->extrinsic_move_mm, f->extrinsic_move_mrad) +
-                  "), take: " + find_effect(f->id)->info().breaker);
+                  "), take: " + find_effect(f->id)->info().discriminating_pose);
   }
   return out;
 }

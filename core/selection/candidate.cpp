@@ -48,14 +48,14 @@ double beyond_possible(const EffectColumns& columns, const ModelFit& fit) {
 // is predicted better as well.
 struct ImprovedScenes {
   std::size_t improved = 0;
-  std::size_t speaking = 0;
+  std::size_t informative = 0;
 };
 
 ImprovedScenes improved_scenes(const Candidate& candidate, const DiscoveryOptions& options) {
   ImprovedScenes out;
   for (std::size_t s = 0; s < candidate.scene_gain.size(); ++s) {
-    if (std::abs(candidate.scene_gain[s]) < options.speaking_nats) continue;
-    ++out.speaking;
+    if (std::abs(candidate.scene_gain[s]) < options.informative_nats) continue;
+    ++out.informative;
     const bool fell =
         s < candidate.scene_squares_fall.size() && candidate.scene_squares_fall[s] > 0;
     out.improved += candidate.scene_gain[s] > 0.0 || fell ? 1 : 0;
@@ -221,7 +221,7 @@ std::vector<Criterion> existence(const Candidate& candidate, std::size_t tried,
           {"mean_gain", gain.mean / std::max(gain.error, 1e-300), kMoreThanOne},
           {"total_gain", candidate.total_gain(), std::log(searched)},
           {"scenes_improved",
-           scenes.speaking > 0 ? improved / static_cast<double>(scenes.speaking) : 0.0,
+           scenes.informative > 0 ? improved / static_cast<double>(scenes.informative) : 0.0,
            options.scenes_improved},
           {"two_scenes", improved, kFewestImproved}};
 }

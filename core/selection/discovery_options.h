@@ -22,7 +22,7 @@ struct DiscoveryOptions {
   double min_gain_few_scenes = 0.03;  ///< … with three scenes or fewer.
   double min_extrinsic_move = 0.5;    ///< Or so many σ that the extrinsic moves.
   double scenes_improved = 0.75;      ///< Share of scenes that must be predicted better, …
-  double speaking_nats = 0.5;         ///< … of those whose log-density changes by so much.
+  double informative_nats = 0.5;      ///< … of those whose log-density changes by so much.
   double min_explained = 0.2;         ///< Of what a channel misses by, if that exceeds its noise.
   double alias_correlation = 0.95;    ///< Candidates correlated higher cannot be told apart.
   double min_structure = 0.02;        ///< Held-out share of variance worth a mention, or …

@@ -66,7 +66,8 @@ struct EffectFinding {
                          ///< more than the tolerance.
   /// Whether it was let in, rule by rule; empty if nobody asked: the user's own wish, or no data.
   std::vector<Criterion> criteria;
-  double kept = 0.0;     ///< Share of its squared effect that pose and levels cannot absorb.
+  /// Share of its squared effect that pose and levels cannot absorb.
+  double unabsorbed_share = 0.0;
   std::string explanation;
   std::string spec;  ///< Of a user's own effect: makes it again (EffectInfo::spec).
   FoundCurve curve;

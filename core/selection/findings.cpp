@@ -118,13 +118,15 @@ std::string found_text(const EffectFinding& f) {
 bool scenes_agree(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
   const double total = std::accumulate(score.scene_gain.begin(), score.scene_gain.end(), 0.0);
   if (!(total > std::log(static_cast<double>(tried) / options.false_alarm))) return false;
-  const auto speaking =
+  const auto informative =
       std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
-                    [&](double gain) { return std::abs(gain) >= options.speaking_nats; });
-  const auto improved = std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
-                                      [&](double gain) { return gain >= options.speaking_nats; });
+                    [&](double gain) { return std::abs(gain) >= options.informative_nats; });
+  const auto improved =
+      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                    [&](double gain) { return gain >= options.informative_nats; });
   return is_gain(score.scene_gain) &&
-         static_cast<double>(improved) >= options.scenes_improved * static_cast<double>(speaking);
+         static_cast<double>(improved) >=
+             options.scenes_improved * static_cast<double>(informative);
 }
 
 class Judge {
@@ -216,7 +218,7 @@ class Judge {
     f.explanation += "; leaving it out would move the extrinsic by " + move_text(f) + ".";
     if (!f.aliases.empty()) {
       f.explanation += " These scenes cannot tell it from " + joined(f.aliases, " or ") +
-                       "; to tell: " + info.breaker + ".";
+                       "; to tell: " + info.discriminating_pose + ".";
     }
   }
 
@@ -242,7 +244,7 @@ class Judge {
       f.explanation = "Explains the same as " + s.id +
                       ", which is in the model: these scenes cannot "
                       "tell the two apart. To tell: " +
-                      columns.effect->info().breaker + ".";
+                      columns.effect->info().discriminating_pose + ".";
     }
     out_.push_back(std::move(f));
   }
@@ -259,7 +261,7 @@ class Judge {
   // Absent if at its limit it would not move the extrinsic by more than is tolerated. Not testable
   // if the data could not exclude that even where they saw nothing of it, or hardly see it at all.
   void judge_other(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
-    static_cast<void>(move_if_omitted(c.fit, c.fit.solution.tail(columns.count()), &f.kept));
+    f.unabsorbed_share = unabsorbed_share(c.fit, c.fit.solution.tail(columns.count()));
     set_move(c.limit.most, f);
     const bool told = is_told(columns, f);
     if (!f.matters && told) {
@@ -278,9 +280,10 @@ class Judge {
           "cannot tell: " +
           values_text(f) + ".";
     } else if (c.contradiction == Contradiction::kScenes) {
-      f.explanation = "Where it fits best it predicts scenes held out worse: " + values_text(f) +
-                      "; too few of them show it. To decide: " + columns.effect->info().breaker +
-                      ".";
+      f.explanation =
+          "Where it fits best it predicts scenes held out worse: " + values_text(f) +
+          "; too few of them show it. To decide: " + columns.effect->info().discriminating_pose +
+          ".";
     } else if (c.contradiction == Contradiction::kPrints) {
       f.explanation = "White and black print contradict each other about it: " + values_text(f) +
                       " of both together; something that depends on the print is at work.";
@@ -297,12 +300,13 @@ class Judge {
     } else if (!told || c.limit.unknown.exceeds(c.tolerance)) {
       f.explanation = "Cannot be told from these scenes: " + values_text(f) +
                       "; it may move the extrinsic by " + move_text(f) +
-                      ". To see it: " + columns.effect->info().breaker + ".";
+                      ". To see it: " + columns.effect->info().discriminating_pose + ".";
     } else {
       f.explanation = "Undecided: " + values_text(f) +
                       " is neither excluded nor confirmed by scenes held out; it may move the "
                       "extrinsic by " +
-                      move_text(f) + ". To decide: " + columns.effect->info().breaker + ".";
+                      move_text(f) + ". To decide: " + columns.effect->info().discriminating_pose +
+                      ".";
     }
   }
 

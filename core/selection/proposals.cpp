@@ -87,7 +87,8 @@ class Proposer {
       std::string others;
       for (const std::string& id : proposal.finding.aliases)
         others += (others.empty() ? "" : ", ") + id;
-      out += " These scenes cannot tell it from " + others + "; to tell: " + info.breaker + ".";
+      out += " These scenes cannot tell it from " + others +
+             "; to tell: " + info.discriminating_pose + ".";
     }
     return out;
   }

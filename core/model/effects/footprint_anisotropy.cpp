@@ -15,7 +15,7 @@ class FootprintAnisotropy final : public CatalogueEffect {
                          .physics = "The footprint is wider along one axis of the LiDAR.",
                          .formula = "A = print * N(0, S), S += ½ diag(a, −a), a = γh² − γv²",
                          .source = "Livox Avia manual",
-                         .breaker = "circles far away",
+                         .discriminating_pose = "circles far away",
                          .needs = {.circles = true, .intensity = true}},
                         {{"a", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
 

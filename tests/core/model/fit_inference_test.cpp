@@ -23,6 +23,22 @@ TEST(DeterminedShare, IsWhatNothingElseDoesOfAnEffect) {
   EXPECT_LE(determined_share(fit, 8, 1), 1.0);
 }
 
+// By hand: one unknown beside the extrinsic, known through the same row as the origin's x.
+TEST(UnabsorbedShare, IsWhatTheExtrinsicCannotTakeOver) {
+  ModelFit fit;
+  fit.prior.information = Eigen::MatrixXd::Zero(7, 7);
+  fit.prior.information(6, 6) = 1e9;  // The effect's own prior is no evidence.
+  Eigen::MatrixXd h = Eigen::MatrixXd::Identity(7, 7);
+  h(0, 6) = h(6, 0) = 0.6;  // Σ x·e, with Σ x² = Σ e² = 1: 0.36 of the squares are absorbed.
+  fit.scenes = {{h, Eigen::VectorXd::Zero(7), 0.0}};
+  const Eigen::VectorXd values = Eigen::VectorXd::Constant(1, 2e-3);
+  EXPECT_NEAR(unabsorbed_share(fit, values), 0.64, 1e-12);
+  const ExtrinsicMove move = move_if_omitted(fit, values);
+  EXPECT_NEAR(move.translation_m, 0.6 * 2e-3, 1e-12);
+  EXPECT_NEAR(move.rotation_rad, 0.0, 1e-12);
+  EXPECT_EQ(unabsorbed_share(fit, Eigen::VectorXd::Zero(1)), 0.0);
+}
+
 TEST(Tolerated, IsTheUsersOrWhatIsLeftOpenAnyway) {
   ModelFit fit;
   fit.covariance = Eigen::MatrixXd::Zero(6, 6);

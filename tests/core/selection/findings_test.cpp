@@ -76,7 +76,7 @@ TEST_F(Findings, AliasedNamesTheOthersAndTheSceneThatTells) {
       finding_of(judged(with_walk(), {"range_walk"}, {"range_near"}), "range_walk");
   EXPECT_EQ(f.verdict, EffectVerdict::kAliased);
   EXPECT_THAT(f.explanation, HasSubstr("range_near"));
-  EXPECT_THAT(f.explanation, HasSubstr(find_effect("range_walk")->info().breaker));
+  EXPECT_THAT(f.explanation, HasSubstr(find_effect("range_walk")->info().discriminating_pose));
 }
 
 // 95 % of what is told absent must move the extrinsic by less than is tolerated, however large its
@@ -109,7 +109,7 @@ TEST_F(Findings, FewNoisyScenesMakeEffectsNotTestableRatherThanAbsent) {
   for (const char* id : {"range_offset", "range_scale", "range_near", "range_incidence"}) {
     const EffectFinding& f = finding_of(all, id);
     EXPECT_EQ(f.verdict, EffectVerdict::kNotTestable) << id;
-    EXPECT_THAT(f.explanation, HasSubstr(find_effect(id)->info().breaker)) << id;
+    EXPECT_THAT(f.explanation, HasSubstr(find_effect(id)->info().discriminating_pose)) << id;
   }
 }
 
@@ -135,7 +135,7 @@ TEST_F(Findings, WhatScenesHeldOutContradictIsNotJudgedPresent) {
   const EffectFinding f = finding_of(judge_effects(search, {}, options_), "range_walk");
   EXPECT_NE(f.verdict, EffectVerdict::kPresent);
   EXPECT_THAT(f.explanation, HasSubstr("predicts scenes held out worse"));
-  EXPECT_THAT(f.explanation, HasSubstr(find_effect("range_walk")->info().breaker));
+  EXPECT_THAT(f.explanation, HasSubstr(find_effect("range_walk")->info().discriminating_pose));
 }
 
 TEST_F(Findings, AliasesOfACandidateAreThoseWithItsPattern) {
