@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace lvcalib {
 
@@ -61,19 +60,6 @@ double rms(std::span<const double> values) {
   double sum = 0.0;
   for (const double v : values) sum += v * v;
   return std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-MeanAndError mean_and_error(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double v : values) squares += (v - mean) * (v - mean);
-  return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : HUGE_VAL};
-}
-
-bool is_gain(const std::vector<double>& per_scene) {
-  const MeanAndError gain = mean_and_error(per_scene);
-  return gain.mean > gain.error;
 }
 
 double huber_weight(double residual, double threshold) {

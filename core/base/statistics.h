@@ -37,17 +37,6 @@ BoxSummary box_summary(std::vector<double> values);
 /// Root mean square; 0 for no values.
 double rms(std::span<const double> values);
 
-/// Mean of some values with its standard error, which is infinite for fewer than two.
-struct MeanAndError {
-  double mean = 0.0;
-  double error = 0.0;
-};
-MeanAndError mean_and_error(const std::vector<double>& values);
-
-/// True if the mean over scenes exceeds its standard error: the one-standard-error rule (Breiman et
-/// al. 1984) for gains of scenes held out.
-bool is_gain(const std::vector<double>& per_scene);
-
 /// Weight ρ'(r)/r of Huber's loss for a residual in units of its standard deviation.
 double huber_weight(double residual, double threshold = 1.345);
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "base/statistics.h"
+#include "model/fit_inference.h"
 #include "model/row_covariates.h"
 
 namespace lvcalib {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -125,6 +126,19 @@ double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index co
   const Eigen::MatrixXd share = scale.asDiagonal() * left * scale.asDiagonal();
   return std::clamp(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(share).eigenvalues().maxCoeff(),
                     0.0, 1.0);
+}
+
+MeanAndError mean_and_error(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0) / n) : HUGE_VAL};
+}
+
+bool is_gain(const std::vector<double>& per_scene) {
+  const MeanAndError gain = mean_and_error(per_scene);
+  return gain.mean > gain.error;
 }
 
 }  // namespace lvcalib

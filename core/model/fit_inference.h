@@ -2,9 +2,11 @@
 #pragma once
 
 // What a fit says about its last unknowns, an effect's parameters: whether they are zero, how well
-// the data determine them, and how the extrinsic moves when they are left out.
+// the data determine them, and how the extrinsic moves when they are left out. And what gains over
+// scenes held out say.
 
 #include <algorithm>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -66,5 +68,16 @@ double f_test(const ModelFit& fit, Eigen::Index p);
 /// all other unknowns: the largest share of a squared effect that is left, over its parameters.
 /// Next to nothing makes a solve singular.
 double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index count);
+
+/// Mean of some values with its standard error, which is infinite for fewer than two.
+struct MeanAndError {
+  double mean = 0.0;
+  double error = 0.0;
+};
+MeanAndError mean_and_error(const std::vector<double>& values);
+
+/// True if the mean over scenes exceeds its standard error: the one-standard-error rule (Breiman et
+/// al. 1984) for gains of scenes held out.
+bool is_gain(const std::vector<double>& per_scene);
 
 }  // namespace lvcalib

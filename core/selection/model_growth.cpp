@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/statistics.h"
+#include "model/fit_inference.h"
 #include "selection/findings.h"
 
 namespace lvcalib {

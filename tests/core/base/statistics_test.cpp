@@ -107,12 +107,5 @@ TEST(Statistics, ChiSquareGateAgreesWithTables) {
   }
 }
 
-TEST(IsGain, MeansMoreThanOneStandardError) {
-  EXPECT_TRUE(is_gain({1.0, 1.2, 0.8}));
-  EXPECT_FALSE(is_gain({3.0, -1.5, -1.0}));
-  EXPECT_FALSE(is_gain({-1.0, -1.0, -1.1}));
-  EXPECT_FALSE(is_gain({5.0}));  // one scene has no standard error
-}
-
 }  // namespace
 }  // namespace lvcalib

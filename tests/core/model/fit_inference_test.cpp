@@ -53,5 +53,12 @@ TEST(Tolerated, IsTheUsersOrWhatIsLeftOpenAnyway) {
   EXPECT_NEAR(usual.over(own), 20.0, 1e-6);
 }
 
+TEST(IsGain, MeansMoreThanOneStandardError) {
+  EXPECT_TRUE(is_gain({1.0, 1.2, 0.8}));
+  EXPECT_FALSE(is_gain({3.0, -1.5, -1.0}));
+  EXPECT_FALSE(is_gain({-1.0, -1.0, -1.1}));
+  EXPECT_FALSE(is_gain({5.0}));  // one scene has no standard error
+}
+
 }  // namespace
 }  // namespace lvcalib
