@@ -10,8 +10,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "model/fit_inference.h"
 #include "model/row_covariates.h"
+#include "solve/fit_inference.h"
 
 namespace lvcalib {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 constexpr std::size_t kMostRows = 40000;
 constexpr int kWaves = 16;  // wave lengths from two intervals to an eighth of one
 constexpr int kSteps = 7;   // places of a step, at equal shares of the rows
-constexpr int kNuisance = LocalLayout::kFixed;
 
 // One term of a formula: one function, or a sine with its cosine.
 struct Term {
@@ -81,7 +80,7 @@ double by_chance(double sets) {
 }
 
 // Whitened cross products of one scene after its nuisance: all terms' columns, then the residual.
-struct SceneSums {
+struct SceneCrossSums {
   Eigen::MatrixXd products;
 };
 
@@ -151,8 +150,8 @@ class FormSearch {
     const Eigen::Index all = columns_ + 1;
     std::vector<Eigen::MatrixXd> cross(static_cast<std::size_t>(scenes));
     std::vector<Eigen::MatrixXd> nuisance(static_cast<std::size_t>(scenes));
-    for (auto& m : cross) m.setZero(kNuisance, all);
-    for (auto& m : nuisance) m.setZero(kNuisance, kNuisance);
+    for (auto& m : cross) m.setZero(LocalLayout::kFixed, all);
+    for (auto& m : nuisance) m.setZero(LocalLayout::kFixed, LocalLayout::kFixed);
     sums_.assign(static_cast<std::size_t>(scenes), {Eigen::MatrixXd::Zero(all, all)});
     Eigen::VectorXd row(all);
     const std::size_t stride = 1 + residuals.values.size() / kMostRows;
@@ -169,7 +168,7 @@ class FormSearch {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       Eigen::MatrixXd& m = sums_[s].products;
       m = Eigen::MatrixXd(m.selfadjointView<Eigen::Upper>());
-      for (int c = 0; c < kNuisance; ++c) {
+      for (int c = 0; c < LocalLayout::kFixed; ++c) {
         if (nuisance[s](c, c) <= 0.0) nuisance[s](c, c) = 1.0;
       }
       m -= cross[s].transpose() * nuisance[s].ldlt().solve(cross[s]);
@@ -198,7 +197,7 @@ class FormSearch {
     }
     std::vector<double> out;
     if (at.empty()) return std::vector<double>(sums_.size(), 0.0);
-    for (const SceneSums& s : sums_) {
+    for (const SceneCrossSums& s : sums_) {
       Eigen::MatrixXd others = total_(at, at) - s.products(at, at);
       others.diagonal().array() += 1e-6 * (1.0 + others.trace());
       const Eigen::VectorXd c =
@@ -221,7 +220,7 @@ class FormSearch {
   std::vector<Eigen::Index> first_;
   std::vector<double> scale_;
   Eigen::Index columns_ = 0;
-  std::vector<SceneSums> sums_;
+  std::vector<SceneCrossSums> sums_;
   Eigen::MatrixXd total_;
   double before_ = 0.0;
 };

@@ -6,7 +6,7 @@
 
 #include "base/progress.h"
 #include "diagnostics/covariates.h"
-#include "model/fit_inference.h"
+#include "solve/fit_inference.h"
 
 namespace lvcalib {
 

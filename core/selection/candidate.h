@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "model/fit_inference.h"
 #include "selection/discovery_options.h"
 #include "selection/effect_finding.h"
+#include "solve/fit_inference.h"
 
 namespace lvcalib {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "design/board_grid.h"
-#include "model/fit_inference.h"
 #include "model/user_effect.h"
+#include "solve/fit_inference.h"
 #include "solve/print_table.h"
 
 namespace lvcalib {

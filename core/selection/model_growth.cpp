@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "model/fit_inference.h"
 #include "selection/findings.h"
+#include "solve/fit_inference.h"
 
 namespace lvcalib {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "model/fit_inference.h"
+#include "solve/fit_inference.h"
 
 #include <gtest/gtest.h>
 

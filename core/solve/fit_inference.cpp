@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/fit_inference.h"
+#include "solve/fit_inference.h"
 
 #include <algorithm>
 #include <cmath>
