@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnostics/residual_columns.h"
+#include "selection/model_session.h"
 
 namespace lvcalib::widgets {
 
