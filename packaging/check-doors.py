@@ -26,17 +26,19 @@ DOORS = {
     "detection": ["base", "target", "camera", "cloud"],
     "localization": ["base", "target", "camera", "cloud", "detection"],
     "refinement": ["base", "target", "camera", "cloud", "detection", "localization"],
-    "extrinsic": ["base", "target", "camera", "cloud", "detection", "localization", "refinement"],
-    "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
-                 "extrinsic"],
-    "model": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic"],
-    "solve": ["base", "target", "camera", "cloud", "detection", "model"],
-    "discovery": ["base", "target", "camera", "cloud", "detection", "refinement", "extrinsic",
-                  "model", "solve"],
+    "model": ["base", "target", "camera", "cloud", "detection"],
+    "solve": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
+              "model"],
+    "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement"],
+    "diagnostics": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
+    "design": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
+    "selection": ["base", "target", "camera", "cloud", "detection", "model", "solve", "diagnostics",
+                  "design"],
     "simulation": ["base", "target", "camera", "cloud"],
 }
-DOORS["pipeline"] = sorted(DOORS)
-DOORS["report"] = sorted(DOORS)
+# The simulation is a library of its own, which the installed core does not carry.
+DOORS["pipeline"] = sorted(set(DOORS) - {"simulation"})
+DOORS["report"] = sorted(set(DOORS) - {"simulation"})
 
 # Which folders of widgets/ a folder may include, besides itself.
 WIDGET_DOORS = {

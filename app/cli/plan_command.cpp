@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "command.h"
-#include "discovery/planning.h"
+#include "design/planning.h"
 #include "report/plan_file.h"
 
 namespace lvcalib::cli {

@@ -15,7 +15,7 @@ class BeamBlur final : public CatalogueEffect {
                          .physics = "Footprint and pointing jitter blur the print.",
                          .formula = "A = print * N(0, S)",
                          .source = "derived",
-                         .breaker = "boards at near and far distance",
+                         .discriminating_pose = "boards at near and far distance",
                          .needs = {.intensity = true}},
                         {blur("horizontal"), blur("mixed"), blur("vertical")}) {}
 

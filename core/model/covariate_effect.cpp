@@ -74,7 +74,8 @@ EffectInfo user_effect_info(const UserEffectSpec& spec,
   info.group = "user";
   info.title = spec.id;
   info.source = "the user";
-  info.breaker = "scenes in which the covariates take more values, each with several board poses";
+  info.discriminating_pose =
+      "scenes in which the covariates take more values, each with several board poses";
   std::string units;
   for (const RowCovariate* c : covariates) {
     info.needs.time = info.needs.time || c->needs_time;

@@ -40,8 +40,8 @@ struct EffectInfo {
   std::string title;    ///< "Range walk"
   std::string physics;  ///< One sentence.
   std::string formula;
-  std::string source;   ///< Literature or manual.
-  std::string breaker;  ///< The scene that tells it from its aliases.
+  std::string source;               ///< Literature or manual.
+  std::string discriminating_pose;  ///< Or what else to measure: it tells it from its aliases.
   EffectNeeds needs;
   /// Of a user's own effect: the text that make_user_effect() takes to make the same one again.
   std::string spec = {};

@@ -257,6 +257,20 @@ double log_integral(const Eigen::MatrixXd& information, const Eigen::VectorXd& g
 
 }  // namespace
 
+void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
+                    ColumnSubset& subset) {
+  std::size_t run = subset.columns.size();
+  for (const std::size_t count : columns.zero_sums) {
+    subset.zero_sums.emplace_back(run, count);
+    run += count;
+  }
+  for (int k = 0; k < columns.count(); ++k) {
+    subset.columns.push_back(columns.first + k);
+    subset.prior_sigma.push_back(columns.parameters[static_cast<std::size_t>(k)].prior_sigma);
+    subset.prior_mean.push_back(in_use != nullptr ? -(*in_use)(k) : 0.0);
+  }
+}
+
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options) {
   return Fitter(linear, subset, start, options).run();

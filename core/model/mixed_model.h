@@ -37,6 +37,10 @@ struct ColumnSubset {
   std::vector<std::pair<std::size_t, std::size_t>> zero_sums;
 };
 
+/// Appends an effect's columns, with priors about values in use (zero if none).
+void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
+                    ColumnSubset& subset);
+
 /// A fitted mixed model. Global unknowns: extrinsic (6), then the subset's columns.
 struct ModelFit {
   ColumnSubset subset;

@@ -9,9 +9,6 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "discovery/discovery.h"
-#include "extrinsic/methods.h"
-#include "extrinsic/uncertainty.h"
 #include "pipeline/crop_box.h"
 #include "pipeline/dataset.h"
 #include "pipeline/input_hashes.h"
@@ -20,7 +17,10 @@
 #include "pipeline/scene_edits.h"
 #include "pipeline/stage_cache.h"
 #include "response/boundary_response.h"
+#include "selection/discovery.h"
 #include "solve/forward_solver.h"
+#include "solve/method_comparison.h"
+#include "solve/uncertainty_report.h"
 
 namespace lvcalib {
 

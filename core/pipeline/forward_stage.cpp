@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/normal_equations.h"
-#include "extrinsic/solution_report.h"
+#include "solve/solution_report.h"
 
 namespace lvcalib {
 

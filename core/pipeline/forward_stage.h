@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "extrinsic/extrinsic_solver.h"
-#include "extrinsic/uncertainty.h"
 #include "pipeline/calibration.h"
+#include "solve/feature_solver.h"
+#include "solve/uncertainty_report.h"
 
 namespace lvcalib {
 

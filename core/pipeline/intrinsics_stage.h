@@ -8,10 +8,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "camera/camera.h"
-#include "extrinsic/extrinsic_solver.h"
 #include "pipeline/board_images.h"
 #include "pipeline/dataset.h"
 #include "pipeline/options.h"
+#include "solve/feature_solver.h"
 #include "solve/intrinsics_fit.h"
 
 namespace lvcalib {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "discovery/discovery.h"
-#include "discovery/proposals.h"
 #include "pipeline/calibration.h"
+#include "selection/discovery.h"
+#include "selection/proposals.h"
 
 namespace lvcalib {
 

@@ -210,7 +210,7 @@ std::vector<OptionDeclaration> make_declarations() {
               "Share of scenes that must be predicted better.", &O::discovery, &M::scenes_improved),
       declare("discovery.speaking_nats", "nat", 0, 1000, "discover",
               "Scenes whose log-density changes by less say nothing.", &O::discovery,
-              &M::speaking_nats),
+              &M::informative_nats),
       declare("discovery.min_explained", "1", 0, 1, "discover",
               "Share of what a channel misses by, beyond its noise, that an effect must explain.",
               &O::discovery, &M::min_explained),

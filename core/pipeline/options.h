@@ -8,12 +8,12 @@
 
 #include "base/error.h"
 #include "detection/board_view.h"
-#include "discovery/discovery.h"
-#include "extrinsic/extrinsic_solver.h"
 #include "localization/board_search.h"
 #include "localization/scene_consensus.h"
 #include "refinement/board_refinement.h"
 #include "response/boundary_response.h"
+#include "selection/discovery_options.h"
+#include "solve/feature_solver.h"
 #include "solve/forward_solver.h"
 
 namespace lvcalib {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "discovery/model_session.h"
 #include "pipeline/session.h"
+#include "selection/model_session.h"
 
 namespace lvcalib {
 

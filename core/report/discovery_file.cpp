@@ -76,7 +76,7 @@ ordered_json effect_json(const EffectFinding& f) {
                     {"extrinsic_move_mrad", f.extrinsic_move_mrad},
                     {"matters", f.matters},
                     {"criteria", criteria_json(f.criteria)},
-                    {"kept_share", f.kept},
+                    {"kept_share", f.unabsorbed_share},
                     {"explanation", f.explanation}};
   if (f.shape != 0.0) j["shape"] = f.shape;
   if (f.shape_sigma > 0.0) j["shape_sigma"] = f.shape_sigma;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "discovery/discovery.h"
+#include "selection/discovery.h"
 
 namespace lvcalib {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "discovery/planning.h"
+#include "design/planning.h"
 
 namespace lvcalib {
 

@@ -11,9 +11,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "discovery/effect_search.h"
-#include "discovery/structure_scan.h"
+#include "diagnostics/structure_scan.h"
 #include "pipeline/model_discovery.h"
+#include "selection/effect_search.h"
 #include "simulation/dataset_writer.h"
 
 namespace {

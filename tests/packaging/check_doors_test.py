@@ -39,6 +39,7 @@ class CheckDoors(unittest.TestCase):
         self.accept("core/detection/a.cpp", BSD + '#include "camera/camera.h"\n')
         self.accept("core/cloud/a.cpp", BSD + '#include "cloud/cloud.h"\n#include <opencv2/core.hpp>\n')
         self.accept("core/simulation/a.cpp", BSD + '#include "cloud/cloud.h"\n')
+        self.accept("core/selection/a.cpp", BSD + '#include "diagnostics/structure_scan.h"\n')
         self.accept("core/report/a.h", BSD + '#include "pipeline/session.h"\n')
         self.accept("app/cli/a.cpp", GPL + '#include "report/result.h"\n')
         self.accept("widgets/views/a.cpp", GPL + "#include <QWidget>\n#include <vtkActor.h>\n")
@@ -49,6 +50,8 @@ class CheckDoors(unittest.TestCase):
         self.refuse("core/simulation/a.cpp", BSD + '#include "model/a.h"\n', "simulation to model")
         self.refuse("core/simulation/a.cpp", BSD + '#include "cloud/plane.h"\n', "only write")
         self.refuse("core/pipeline/a.cpp", BSD + '#include "report/a.h"\n', "pipeline to report")
+        self.refuse("core/report/a.cpp", BSD + '#include "simulation/a.h"\n', "to simulation")
+        self.refuse("core/design/a.cpp", BSD + '#include "selection/a.h"\n', "design to selection")
         self.refuse("core/base/a.cpp", BSD + '#  include "widgets/a.h"\n', "widgets/")
         self.refuse("core/kitchen/a.cpp", BSD, "not in a room")
 

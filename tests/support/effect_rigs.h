@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/discovery.h"
+#include "selection/discovery.h"
 #include "simulation/simulator.h"
 
 namespace lvcalib::test {

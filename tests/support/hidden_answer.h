@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "discovery/discovery.h"
+#include "selection/discovery.h"
 #include "support/effect_rigs.h"
 
 namespace lvcalib::test {

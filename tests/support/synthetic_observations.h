@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "base/random.h"
-#include "extrinsic/extrinsic_solver.h"
+#include "solve/feature_solver.h"
 
 namespace lvcalib::test {
 

@@ -263,7 +263,7 @@ void AddEffectDialog::describe() {
   };
   text_->setHtml(QStringLiteral("<h3>%1</h3>").arg(effect_title(info.id).toHtmlEscaped()) +
                  line({}, info.physics) + line(tr("Formula:"), info.formula) +
-                 line(tr("To tell it from others:"), info.breaker) +
+                 line(tr("To tell it from others:"), info.discriminating_pose) +
                  line(tr("Source:"), info.source));
   if (why_not_testable(*effect, step_->table()).empty()) {
     pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));

@@ -6,7 +6,7 @@
 #include <QWidget>
 #include <memory>
 
-#include "discovery/board_intensity.h"
+#include "diagnostics/board_intensity.h"
 #include "views/figure_actions.h"
 
 namespace lvcalib::widgets {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/rigid3.h"
-#include "discovery/model_session.h"
+#include "selection/model_session.h"
 #include "views/plot_view.h"
 
 namespace lvcalib::widgets {

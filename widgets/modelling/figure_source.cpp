@@ -74,9 +74,9 @@ void FigureSource::request(Channel channel, const QString& covariate,
     if (context.stopped()) return {};
     auto overlay = laid_over;
     if (effect && !overlay) {
-      overlay =
-          std::make_shared<const Overlay>(Overlay{QString::fromStdString(effect->effect->info().id),
-                                                  effect_pattern(*step, *effect, channel, true)});
+      overlay = std::make_shared<const Overlay>(
+          Overlay{QString::fromStdString(effect->effect->info().id),
+                  effect_pattern(step->fitted(), *effect, channel, true)});
       post([this, step, channel, effect, overlay] {
         if (step == step_) laid_over_ = {channel, *effect, overlay};
       });
@@ -94,14 +94,14 @@ void FigureSource::requestPattern(const EffectInUse& effect) {
     std::shared_ptr<const ChannelView> best_view;
     auto overlay = std::make_shared<Overlay>();
     double best = 0.0;
-    for (const Channel channel : channels_of(*effect.effect, effect.shape, *step)) {
+    for (const Channel channel : channels_of(*effect.effect, effect.shape, step->fitted())) {
       if (context.stopped()) return {};
       auto view = views[static_cast<std::size_t>(channel)];
       if (!view) {
         view = std::make_shared<const ChannelView>(make_channel_view(*step, *before, channel));
         post([this, step, channel, view] { keep(step, channel, view); });
       }
-      auto pattern = effect_pattern(*step, effect, channel, true);
+      auto pattern = effect_pattern(step->fitted(), effect, channel, true);
       const double seen = visibility(*view, pattern);
       if (seen <= best) continue;
       best = seen;
@@ -122,7 +122,7 @@ void FigureSource::requestBoard(int scene) {
   if (!step_) return;
   board_.start([this, step = step_, scene](const RunContext& context,
                                            const Runner::Post&) -> Runner::Deliver {
-    auto board = std::make_shared<const BoardIntensity>(board_intensity(*step, scene));
+    auto board = std::make_shared<const BoardIntensity>(board_intensity(step->fitted(), scene));
     if (context.stopped()) return {};
     return [this, board] { Q_EMIT boardReady(board); };
   });

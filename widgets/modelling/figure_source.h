@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "discovery/board_intensity.h"
+#include "diagnostics/board_intensity.h"
 #include "modelling/residual_figure.h"
 #include "runner/runner.h"
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "discovery/proposals.h"
 #include "modelling/residual_figure.h"
+#include "selection/proposals.h"
 
 class QLabel;
 class QPushButton;

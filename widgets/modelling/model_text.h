@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/proposals.h"
+#include "selection/proposals.h"
 
 namespace lvcalib::widgets {
 

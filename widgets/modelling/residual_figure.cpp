@@ -104,7 +104,7 @@ void set_axes(ResidualFigure& figure) {
 
 ChannelView make_channel_view(const ModelStep& step, const ModelStep& before, Channel channel) {
   ChannelView view;
-  view.columns = residual_columns(step, before, channel);
+  view.columns = residual_columns(step.fitted(), before.fitted(), channel);
   const ResidualColumns& c = view.columns;
   const auto map = [&](const char* x, const char* y) -> ResidualMap {
     const Covariate* cx = c.find(x);

@@ -7,7 +7,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "discovery/residual_columns.h"
+#include "diagnostics/residual_columns.h"
+#include "selection/model_session.h"
 
 namespace lvcalib::widgets {
 

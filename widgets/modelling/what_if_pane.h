@@ -4,7 +4,7 @@
 #include <QWidget>
 #include <optional>
 
-#include "discovery/model_session.h"
+#include "selection/model_session.h"
 
 class QComboBox;
 class QDoubleSpinBox;

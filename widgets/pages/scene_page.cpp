@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <set>
 
-#include "extrinsic/cloud_projection.h"
+#include "camera/cloud_projection.h"
 #include "pages/cloud_pane.h"
 #include "pages/image_pane.h"
 #include "pages/scene_overlay.h"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "discovery/proposals.h"
 #include "pipeline/calibration.h"
 #include "runner/runner.h"
+#include "selection/proposals.h"
 
 class QUndoStack;
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "discovery/model_session.h"
 #include "pipeline/calibration.h"
 #include "runner/runner.h"
+#include "selection/model_session.h"
 
 namespace lvcalib::widgets {
 

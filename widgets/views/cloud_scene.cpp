@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/statistics.h"
-#include "extrinsic/cloud_projection.h"
+#include "camera/cloud_projection.h"
 #include "refinement/node_samples.h"
 
 namespace lvcalib::widgets {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "extrinsic/uncertainty.h"
+#include "solve/uncertainty_report.h"
 #include "views/plot_view.h"
 
 namespace lvcalib::widgets {

@@ -16,7 +16,7 @@ class AngleScale final : public CatalogueEffect {
              .physics = "Azimuth or elevation is read with a wrong scale.",
              .formula = "daz = s1 az, del = s2 el",
              .source = "Lichti and Licht 2006",
-             .breaker = "boards at the edges of the field of view",
+             .discriminating_pose = "boards at the edges of the field of view",
              .needs = {}},
             {{"azimuth", "ppm", 1e-6, 500e-6, 0.02}, {"elevation", "ppm", 1e-6, 500e-6, 0.02}}) {}
 

@@ -16,7 +16,7 @@ class AngleZero final : public CatalogueEffect {
                                     "turned LiDAR: part of the extrinsic by definition.",
                          .formula = "daz = a, del = b",
                          .source = "definition of the LiDAR frame",
-                         .breaker = "none: not defined apart from the extrinsic",
+                         .discriminating_pose = "none: not defined apart from the extrinsic",
                          .needs = {}},
                         {{"a", "mrad", 1e-3, 0.5e-3, 0.05}, {"b", "mrad", 1e-3, 0.5e-3, 0.05}}) {}
   [[nodiscard]] bool is_gauge() const override { return true; }

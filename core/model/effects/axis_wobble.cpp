@@ -16,7 +16,7 @@ class AxisWobble final : public CatalogueEffect {
                                     "tilted against the mirror.",
                          .formula = "daz = c sec el + i tan el",
                          .source = "Lichti and Licht 2006",
-                         .breaker = "boards high and low",
+                         .discriminating_pose = "boards high and low",
                          .needs = {}},
                         {{"c", "mrad", 1e-3, 0.5e-3, 0.02}, {"i", "mrad", 1e-3, 0.5e-3, 0.02}}) {}
 

@@ -16,7 +16,7 @@ class BeamDivergence final : public CatalogueEffect {
                                     "farther.",
                          .formula = "A = print * N(0, S), S += γ² I",
                          .source = "Livox Avia manual; Laconte 2019",
-                         .breaker = "circles at near and far distance",
+                         .discriminating_pose = "circles at near and far distance",
                          .needs = {.circles = true, .intensity = true}},
                         {{"γ²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}}) {}
 

@@ -17,7 +17,7 @@ class BeamOriginOffset final : public CatalogueEffect {
                         "error falls with the range.",
              .formula = "angle error o/r",
              .source = "NISTIR 6922; VLS-128 manual",
-             .breaker = "boards below 2 m beside boards beyond 4 m",
+             .discriminating_pose = "boards below 2 m beside boards beyond 4 m",
              .needs = {}},
             {{"horizontal", "mm", 1e-3, 2e-3, 0.05}, {"vertical", "mm", 1e-3, 2e-3, 0.05}}) {}
 

@@ -17,7 +17,8 @@ class Blooming final : public CatalogueEffect {
                         "dark side, the more the higher the contrast.",
              .formula = "dd = -κ σ ln(µ_out/µ_in)",
              .source = "VLS-128 manual",
-             .breaker = "prints of two contrasts, or distances with different footprints",
+             .discriminating_pose =
+                 "prints of two contrasts, or distances with different footprints",
              .needs = {.circles = true, .intensity = true}},
             {{"κ", "1", 1.0, 0.05, 1.0, 0.0}}) {}
 

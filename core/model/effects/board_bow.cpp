@@ -9,17 +9,18 @@ namespace {
 class BoardBow final : public CatalogueEffect {
  public:
   BoardBow()
-      : CatalogueEffect({.id = "board_bow",
-                         .group = "board",
-                         .title = "Board bow",
-                         .physics = "The board is not flat: it bends or twists.",
-                         .formula = "z = kx (1-x²) + ky (1-y²) + kxy x y, x and y from -1 to 1",
-                         .source = "measured on foam boards",
-                         .breaker = "none needed: turn the board by 90 degrees to confirm",
-                         .needs = {}},
-                        {{"kx", "mm", 1e-3, 0.5e-3, 0.02},
-                         {"ky", "mm", 1e-3, 0.5e-3, 0.02},
-                         {"kxy", "mm", 1e-3, 0.5e-3, 0.02}}) {}
+      : CatalogueEffect(
+            {.id = "board_bow",
+             .group = "board",
+             .title = "Board bow",
+             .physics = "The board is not flat: it bends or twists.",
+             .formula = "z = kx (1-x²) + ky (1-y²) + kxy x y, x and y from -1 to 1",
+             .source = "measured on foam boards",
+             .discriminating_pose = "none needed: turn the board by 90 degrees to confirm",
+             .needs = {}},
+            {{"kx", "mm", 1e-3, 0.5e-3, 0.02},
+             {"ky", "mm", 1e-3, 0.5e-3, 0.02},
+             {"kxy", "mm", 1e-3, 0.5e-3, 0.02}}) {}
 
   void board(const PrintPoint& point, const Target& target, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

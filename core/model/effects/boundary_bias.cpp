@@ -17,7 +17,7 @@ class BoundaryBias final : public CatalogueEffect {
                  "The mid-level crossing lies outside or inside the printed edge everywhere.",
              .formula = "dd = δ0",
              .source = "LV-Calib, boundary response",
-             .breaker = "measure the printed circles: print growth looks the same",
+             .discriminating_pose = "measure the printed circles: print growth looks the same",
              .needs = {.circles = true, .intensity = true}},
             {{"δ0", "mm", 1e-3, 0.3e-3, 0.02}}) {}
 

@@ -18,7 +18,7 @@ class BoundaryRangePull final : public CatalogueEffect {
                         "what the power alone does in every scan.",
              .formula = "dr = sin θ cos(ψ-α) (σ/cos θ)² I'(d)/I(d)",
              .source = "derived; compare Laconte 2019",
-             .breaker = "a board turned beyond 40 degrees",
+             .discriminating_pose = "a board turned beyond 40 degrees",
              .needs = {.circles = true, .intensity = true}},
             {{"a", "1", 1.0, 2.0, 3.0}}) {}
 

@@ -15,7 +15,7 @@ class ChannelAngleOffset final : public CatalogueEffect {
                          .physics = "Every laser points slightly elsewhere than its table says.",
                          .formula = "del = b(line), daz = c(line), each with sum zero",
                          .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
-                         .breaker = "boards that every line crosses",
+                         .discriminating_pose = "boards that every line crosses",
                          .needs = {.line = true}},
                         {}) {}
 

@@ -9,15 +9,16 @@ namespace {
 class ChannelRangeOffset final : public CatalogueEffect {
  public:
   ChannelRangeOffset()
-      : CatalogueEffect({.id = "channel_range_offset",
-                         .group = "LiDAR range",
-                         .title = "Range offset of each line",
-                         .physics = "Every laser has its own delay.",
-                         .formula = "dr = a(line), sum zero",
-                         .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
-                         .breaker = "boards that every line crosses at several distances",
-                         .needs = {.line = true}},
-                        {}) {}
+      : CatalogueEffect(
+            {.id = "channel_range_offset",
+             .group = "LiDAR range",
+             .title = "Range offset of each line",
+             .physics = "Every laser has its own delay.",
+             .formula = "dr = a(line), sum zero",
+             .source = "HDL-64E S3 manual; Glennie and Lichti 2011",
+             .discriminating_pose = "boards that every line crosses at several distances",
+             .needs = {.line = true}},
+            {}) {}
 
   // One parameter per laser line; what all have in common is a range offset, an effect of its own.
   [[nodiscard]] std::vector<EffectParameter> parameters(

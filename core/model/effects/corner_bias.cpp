@@ -17,8 +17,9 @@ class CornerBias final : public CatalogueEffect {
                  "The corner detector is drawn outwards or inwards, seen from the tag's centre.",
              .formula = "corners move by b away from the tag's centre in the image",
              .source = "MacKinnon 2023; measured on rendered tags",
-             .breaker = "boards at several distances: a print error in mm shrinks with the "
-                        "distance, this does not",
+             .discriminating_pose =
+                 "boards at several distances: a print error in mm shrinks with the "
+                 "distance, this does not",
              .needs = {.tags = true}},
             {{"b", "px", 1.0, 0.05, 2.0}}) {}
 

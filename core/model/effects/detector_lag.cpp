@@ -16,7 +16,7 @@ class DetectorLag final : public CatalogueEffect {
              .physics = "The detector needs time to recover, so that edges move along the scan.",
              .formula = "dd = v τ cos(scan direction - ψ), in the board: over cos θ up the slope",
              .source = "derived",
-             .breaker = "scans that cross edges in both directions",
+             .discriminating_pose = "scans that cross edges in both directions",
              .needs = {.time = true, .circles = true, .intensity = true}},
             {{"τ", "µs", 1e-6, 2e-6, 1e-3, 0.0}}) {}
 

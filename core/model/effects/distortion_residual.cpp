@@ -15,7 +15,7 @@ class DistortionResidual final : public CatalogueEffect {
                          .physics = "The lens distorts differently than the intrinsics file says.",
                          .formula = "dx = x (k ρ²) + tangential (p1, p2)",
                          .source = "mrcal",
-                         .breaker = "boards in the corners of the image",
+                         .discriminating_pose = "boards in the corners of the image",
                          .needs = {}},
                         {{"k", "1", 1.0, 5e-4, 0.5},
                          {"p1", "1", 1.0, 2e-4, 0.1},

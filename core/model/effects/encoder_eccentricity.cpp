@@ -15,7 +15,7 @@ class EncoderEccentricity final : public CatalogueEffect {
                          .physics = "The scale disc of the encoder is not centred on the axis.",
                          .formula = "daz = a sin az + b cos az",
                          .source = "Lichti and Licht 2006",
-                         .breaker = "boards all around the LiDAR",
+                         .discriminating_pose = "boards all around the LiDAR",
                          .needs = {}},
                         {{"a", "mrad", 1e-3, 0.3e-3, 0.02}, {"b", "mrad", 1e-3, 0.3e-3, 0.02}}) {}
 

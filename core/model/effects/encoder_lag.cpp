@@ -16,7 +16,7 @@ class EncoderLag final : public CatalogueEffect {
                                     "beam is shifted along its scan.",
                          .formula = "direction shifted by τ ω",
                          .source = "Glennie and Lichti 2011",
-                         .breaker = "scans that cross the board in several directions",
+                         .discriminating_pose = "scans that cross the board in several directions",
                          .needs = {.time = true}},
                         {{"τ", "µs", 1e-6, 2e-6, 1e-3}}) {}
 

@@ -9,16 +9,15 @@ namespace {
 class FootprintAnisotropy final : public CatalogueEffect {
  public:
   FootprintAnisotropy()
-      : CatalogueEffect(
-            {.id = "footprint_anisotropy",
-             .group = "beam",
-             .title = "Elliptic footprint",
-             .physics = "The footprint is wider along one axis of the LiDAR.",
-             .formula = "A = print * N(0, S), S += ½ diag(a, −a), a = γh² − γv²",
-             .source = "Livox Avia manual",
-             .breaker = "circles far away",
-             .needs = {.circles = true, .intensity = true}},
-            {{"a", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
+      : CatalogueEffect({.id = "footprint_anisotropy",
+                         .group = "beam",
+                         .title = "Elliptic footprint",
+                         .physics = "The footprint is wider along one axis of the LiDAR.",
+                         .formula = "A = print * N(0, S), S += ½ diag(a, −a), a = γh² − γv²",
+                         .source = "Livox Avia manual",
+                         .discriminating_pose = "circles far away",
+                         .needs = {.circles = true, .intensity = true}},
+                        {{"a", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
 
   void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<Eigen::Vector3d> by) const override {

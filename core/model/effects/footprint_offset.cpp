@@ -16,7 +16,7 @@ class FootprintOffset final : public CatalogueEffect {
              .physics = "The intensity is collected beside the reported direction.",
              .formula = "dd = r (βh cos ψ' + βv sin ψ'), in the board: over cos θ up the slope",
              .source = "derived",
-             .breaker = "boards near and far, strongly turned",
+             .discriminating_pose = "boards near and far, strongly turned",
              .needs = {.circles = true, .intensity = true}},
             {{"βh", "mrad", 1e-3, 0.3e-3, 0.02}, {"βv", "mrad", 1e-3, 0.3e-3, 0.02}}) {}
 

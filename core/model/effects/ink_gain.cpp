@@ -15,7 +15,7 @@ class InkGain final : public CatalogueEffect {
                          .physics = "Ink spreads, so that every black edge moves outwards.",
                          .formula = "edges move out by g",
                          .source = "ISO 12647 dot gain",
-                         .breaker = "measure a printed circle with a caliper",
+                         .discriminating_pose = "measure a printed circle with a caliper",
                          .needs = {.circles = true, .intensity = true}},
                         {{"g", "mm", 1e-3, 0.3e-3, 0.01}}) {}
 

@@ -20,7 +20,7 @@ class IntensityGeometry final : public CatalogueEffect {
                         "for, and every line has a gain of its own.",
              .formula = "ln I = n ln cos θ - p ln r + g(line)",
              .source = "Laconte 2019; Livox manuals",
-             .breaker = "boards at several distances and angles",
+             .discriminating_pose = "boards at several distances and angles",
              .needs = {.intensity = true}},
             {{"n", "1", 1.0, 0.3, 3.0}, {"p", "1", 1.0, 0.3, 4.0}}) {}
 

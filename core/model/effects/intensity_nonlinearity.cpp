@@ -23,7 +23,7 @@ class IntensityNonlinearity final : public CatalogueEffect {
                  "white is reached off the edge.",
              .formula = "I = (true I)^(1+g): the mid-level crossing of edges moves",
              .source = "Mitka and Klapa 2025",
-             .breaker = "prints of several greys, or a reflectance chart",
+             .discriminating_pose = "prints of several greys, or a reflectance chart",
              .needs = {.circles = true, .intensity = true}},
             {{"g", "1", 1.0, kMaterial, 2.0}}) {}
 

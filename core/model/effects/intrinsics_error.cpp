@@ -16,7 +16,7 @@ class IntrinsicsError final : public CatalogueEffect {
              .physics = "Focal length or principal point differ from the intrinsics file.",
              .formula = "du = δf x + δcx, dv = δf y + δcy",
              .source = "mrcal; Abraham and Förstner",
-             .breaker = "boards in all corners of the image and at several distances",
+             .discriminating_pose = "boards in all corners of the image and at several distances",
              .needs = {}},
             {{"δf", "px", 1.0, 0.5, 100.0},
              {"δcx", "px", 1.0, 0.5, 100.0},

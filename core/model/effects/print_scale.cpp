@@ -15,7 +15,7 @@ class PrintScale final : public CatalogueEffect {
                          .physics = "The print is larger or smaller than drawn, or not square.",
                          .formula = "x += (s+a) x + h y, y += (s-a) y + h x",
                          .source = "printers measured at up to 0.5 %",
-                         .breaker = "measure the print with a ruler",
+                         .discriminating_pose = "measure the print with a ruler",
                          .needs = {}},
                         {{"scale", "ppm", 1e-6, 500e-6, 0.02},
                          {"anisotropy", "ppm", 1e-6, 500e-6, 0.02},

@@ -17,7 +17,7 @@ class RangeCyclic final : public CatalogueEffect {
              .physics = "Crosstalk or phase measurement makes the range error a wave of the range.",
              .formula = "dr = a sin(2πr/U) + b cos(2πr/U)",
              .source = "Lichti and Licht 2006",
-             .breaker = "a board turned so that its range spans two periods",
+             .discriminating_pose = "a board turned so that its range spans two periods",
              .needs = {}},
             {{"a", "mm", 1e-3, 0.7e-3, 0.03}, {"b", "mm", 1e-3, 0.7e-3, 0.03}}) {}
 

@@ -10,17 +10,18 @@ namespace {
 class RangeDrift final : public CatalogueEffect {
  public:
   RangeDrift()
-      : CatalogueEffect({.id = "range_drift",
-                         .group = "LiDAR range",
-                         .title = "Drift within a scan",
-                         .physics = "The range drifts anew in every scan, as where the device is "
-                                    "switched on for it.",
-                         .formula = "dr = a τ (1 - exp(-t/τ)), t from the start of the scan",
-                         .source = "Glennie and Lichti 2011",
-                         .breaker = "let the device run before the scan; boards beside the middle, "
+      : CatalogueEffect(
+            {.id = "range_drift",
+             .group = "LiDAR range",
+             .title = "Drift within a scan",
+             .physics = "The range drifts anew in every scan, as where the device is "
+                        "switched on for it.",
+             .formula = "dr = a τ (1 - exp(-t/τ)), t from the start of the scan",
+             .source = "Glennie and Lichti 2011",
+             .discriminating_pose = "let the device run before the scan; boards beside the middle, "
                                     "where motion looks different",
-                         .needs = {.time = true}},
-                        {{"a", "mm/s", 1e-3, 2e-3, 0.5}}) {}
+             .needs = {.time = true}},
+            {{"a", "mm/s", 1e-3, 2e-3, 0.5}}) {}
 
   // From a tenth of a scan to so long that the drift is steady.
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable& table) const override {

@@ -16,7 +16,7 @@ class RangeIncidence final : public CatalogueEffect {
              .physics = "The footprint stretches on a slanted surface and the echo with it.",
              .formula = "dr = a (sec θ - 1)",
              .source = "Soudarissanane 2009; Zámečníková 2015",
-             .breaker = "a board turned beyond 50 degrees",
+             .discriminating_pose = "a board turned beyond 50 degrees",
              .needs = {}},
             {{"a", "mm", 1e-3, 2e-3, 0.05}}) {}
 

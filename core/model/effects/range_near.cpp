@@ -16,7 +16,7 @@ class RangeNear final : public CatalogueEffect {
              .physics = "Overlap of emitter and receiver is incomplete close to the sensor.",
              .formula = "dr = a exp(-r/r0)",
              .source = "HDL-64E S3 manual",
-             .breaker = "a board below 1.5 m beside one beyond 3 m",
+             .discriminating_pose = "a board below 1.5 m beside one beyond 3 m",
              .needs = {}},
             {{"a", "mm", 1e-3, 5e-3, 0.1}}) {}
 

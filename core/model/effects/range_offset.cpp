@@ -16,7 +16,7 @@ class RangeOffset final : public CatalogueEffect {
                                     "internal delay or a wrong zero point.",
                          .formula = "dr = a",
                          .source = "Lichti and Licht 2006; HDL-64E S3 manual",
-                         .breaker = "boards turned to ±40 degrees",
+                         .discriminating_pose = "boards turned to ±40 degrees",
                          .needs = {}},
                         {{"a", "mm", 1e-3, 3e-3, 0.05}}) {}
 

@@ -16,7 +16,7 @@ class RangeScale final : public CatalogueEffect {
              .physics = "Ranges are proportionally off: wrong clock frequency or refractive index.",
              .formula = "dr = m r",
              .source = "Lichti and Licht 2006",
-             .breaker = "measure the printed board: a wrong print scale looks the same",
+             .discriminating_pose = "measure the printed board: a wrong print scale looks the same",
              .needs = {}},
             {{"m", "ppm", 1e-6, 500e-6, 5e-3}}) {}
 

@@ -19,7 +19,7 @@ class RangeWalk final : public CatalogueEffect {
              .formula = "dr = a g(P), g = 0 for the usual white and 1 for the usual black, a power "
                         "of 1/P or ln P; P from the intensity, or from print, range and incidence",
              .source = "Livox HAP and Mid-70 manuals; Laconte 2019",
-             .breaker = "boards at two distances with the same print",
+             .discriminating_pose = "boards at two distances with the same print",
              .needs = {.intensity = true}},
             {{"a", "mm", 1e-3, 2e-3, 0.05}}) {}
 

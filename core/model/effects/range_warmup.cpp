@@ -15,7 +15,7 @@ class RangeWarmup final : public CatalogueEffect {
                          .physics = "The range drifts while electronics warm up.",
                          .formula = "dr = b exp(-t/τ) over the order of the scenes",
                          .source = "Glennie and Lichti 2011",
-                         .breaker = "repeat the first scene at the end",
+                         .discriminating_pose = "repeat the first scene at the end",
                          .needs = {}},
                         {{"b", "mm", 1e-3, 2e-3, 0.05}}) {}
 

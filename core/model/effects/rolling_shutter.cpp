@@ -16,7 +16,7 @@ class RollingShutter final : public CatalogueEffect {
              .physics = "Image rows are exposed one after the other while the camera turns.",
              .formula = "du = y/H (v (1+x²) + w x y), dv = y/H (v x y + w (1+y²)), y/H the row",
              .source = "derived",
-             .breaker = "let the rig rest",
+             .discriminating_pose = "let the rig rest",
              .needs = {}},
             {{"v", "px", 1.0, 0.3, 50.0}, {"w", "px", 1.0, 0.3, 50.0}}) {}
 

@@ -15,7 +15,7 @@ class ScanMotion final : public CatalogueEffect {
                          .physics = "The LiDAR or the board moved while the scan was taken.",
                          .formula = "p += v t",
                          .source = "derived",
-                         .breaker = "let the rig rest; take a shorter scan",
+                         .discriminating_pose = "let the rig rest; take a shorter scan",
                          .needs = {.time = true}},
                         {{"vx", "mm/s", 1e-3, 5e-3, 1.0},
                          {"vy", "mm/s", 1e-3, 5e-3, 1.0},

@@ -15,7 +15,7 @@ class SpecularLobe final : public CatalogueEffect {
                          .physics = "Glossy print shines when the beam hits it squarely.",
                          .formula = "I += k exp(-θ²/2s²)",
                          .source = "Laconte 2019",
-                         .breaker = "boards square to the beam beside turned ones",
+                         .discriminating_pose = "boards square to the beam beside turned ones",
                          .needs = {.intensity = true}},
                         {{"k", "1", 1.0, 0.1, 5.0, 0.0}}) {}
 

@@ -23,7 +23,7 @@ TEST(Registry, EveryEffectTellsWhoItIs) {
     EXPECT_TRUE(ids.insert(info.id).second) << info.id << " twice";
     EXPECT_TRUE(groups.contains(info.group)) << info.id << ": " << info.group;
     for (const std::string* text :
-         {&info.title, &info.physics, &info.formula, &info.source, &info.breaker})
+         {&info.title, &info.physics, &info.formula, &info.source, &info.discriminating_pose})
       EXPECT_FALSE(text->empty()) << info.id;
     EXPECT_EQ(info.physics.back(), '.') << info.id;
     EXPECT_EQ(find_effect(info.id), effect);

@@ -85,7 +85,7 @@ Discovery example_discovery() {
   unseen.verdict = EffectVerdict::kNotTestable;
   unseen.parameters = {{"a", "mm", 1e-3, 0.0, 0.004}};
   unseen.extrinsic_move_mm = 8.765;
-  unseen.kept = 0.006;
+  unseen.unabsorbed_share = 0.006;
   unseen.explanation = "These scenes could not show it.";
   d.effects = {found, unseen};
   d.selected = {"range_walk"};

@@ -24,16 +24,16 @@ TEST(BoardIntensityViewTest, ShowsMeasuredPredictedAndDifference) {
   view.resize(600, 240);
   view.setImages(nullptr, "nothing yet");
   const int empty = colours(view);
-  view.setImages(
-      std::make_shared<const BoardIntensity>(board_intensity(*test::model_example().base, -1)));
+  view.setImages(std::make_shared<const BoardIntensity>(
+      board_intensity(test::model_example().base->fitted(), -1)));
   EXPECT_GT(colours(view), empty);
 }
 
 TEST(BoardIntensityViewTest, FlickersBetweenMeasuredAndPredicted) {
   BoardIntensityView view;
   view.resize(400, 240);
-  view.setImages(
-      std::make_shared<const BoardIntensity>(board_intensity(*test::model_example().base, 0)));
+  view.setImages(std::make_shared<const BoardIntensity>(
+      board_intensity(test::model_example().base->fitted(), 0)));
   view.show();
   EXPECT_FALSE(view.showsPrediction());
   view.setFlicker(true);

@@ -8,7 +8,7 @@
 #include <QTest>
 #include <stdexcept>
 
-#include "discovery/proposals.h"
+#include "selection/proposals.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib::test {

@@ -53,7 +53,7 @@ TEST(ResidualFigureTest, APatternIsGroupedAsTheResidualsAre) {
       make_channel_view(*example.base, *example.base, Channel::kRange));
   auto overlay = std::make_shared<Overlay>();
   overlay->pattern =
-      effect_pattern(*example.base, example.mended->terms[0].use, Channel::kRange, true);
+      effect_pattern(example.base->fitted(), example.mended->terms[0].use, Channel::kRange, true);
   const auto figure = make_residual_figure(view, "darkness", overlay, {});
   ASSERT_NE(figure, nullptr);
   ASSERT_EQ(figure->predicted.size(), figure->now.size());

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "design/board_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "base/units.h"
+
+namespace lvcalib {
+namespace {
+
+// Corners that frame the pattern; neighbours first, so that two of them tell the tags' size.
+std::vector<Eigen::Vector2d> pattern_corners(const Target& target) {
+  if (!target.has_tags()) return target.checkerboard_corners_m();
+  std::vector<Eigen::Vector2d> out;
+  for (const TargetTag& tag : target.tags()) {
+    const auto corners = target.tag_corners_m(tag);
+    out.insert(out.end(), corners.begin(), corners.end());
+  }
+  return out;
+}
+
+bool is_seen(const Target& target, const Camera& camera, const Rigid3& camera_from_board,
+             double min_tag_px) {
+  const auto corners = pattern_corners(target);
+  const std::size_t group = target.has_tags() ? 4 : 2;
+  Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const auto pixel =
+        camera.project(camera_from_board * Eigen::Vector3d(corners[k].x(), corners[k].y(), 0.0));
+    if (!pixel || !camera.in_image(*pixel)) return false;
+    if (k % group != 0 && (*pixel - last).norm() < min_tag_px) return false;
+    last = *pixel;
+  }
+  return true;
+}
+
+// Board at a point of the camera frame: turned to the line of sight, then tilted and rolled.
+Rigid3 pose_at(const Target& target, const Eigen::Vector3d& center, const GridPose& pose) {
+  const Eigen::Quaterniond to_sight =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), center.normalized());
+  // Board x right, y up, z towards the camera.
+  const Eigen::Quaterniond facing(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+  const Eigen::AngleAxisd about_x(kRadPerDeg * pose.tilt_x_deg, Eigen::Vector3d::UnitX());
+  const Eigen::AngleAxisd about_y(kRadPerDeg * pose.tilt_y_deg, Eigen::Vector3d::UnitY());
+  const Eigen::AngleAxisd roll(kRadPerDeg * pose.roll_deg, Eigen::Vector3d::UnitZ());
+  Rigid3 out;
+  out.rotation = (to_sight * facing * about_x * about_y * roll).normalized();
+  const Eigen::Vector2d middle = target.outline().center_m();
+  out.translation = center - out.rotation * Eigen::Vector3d(middle.x(), middle.y(), 0.0);
+  return out;
+}
+
+// Tilts about one axis or the other; no tilt once.
+std::vector<std::pair<double, double>> tilts_of(const BoardGridOptions& options) {
+  std::vector<std::pair<double, double>> out;
+  for (const double tilt : options.tilts_deg) {
+    out.emplace_back(tilt, 0.0);
+    if (tilt != 0.0) out.emplace_back(0.0, tilt);
+  }
+  return out;
+}
+
+}  // namespace
+
+Status BoardGridOptions::check() const {
+  const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
+  const auto turned = [](double v) { return std::abs(v) <= 80.0; };
+  if (distances_m.empty() || tilts_deg.empty() || rolls_deg.empty() ||
+      !std::all_of(distances_m.begin(), distances_m.end(), positive) ||
+      !std::all_of(tilts_deg.begin(), tilts_deg.end(), turned) || cells < 1 || cells > 20) {
+    return Error::usage(
+        "grid of board poses: expected distances above zero, tilts up to 80 degrees, at least one "
+        "of each, and 1 to 20 cells");
+  }
+  return Done{};
+}
+
+std::string GridPose::text() const {
+  const auto number = [](const char* format, double v) {
+    char out[64];
+    std::snprintf(out, sizeof out, format, std::abs(v));
+    return std::string(out);
+  };
+  std::string out = "at " + number("%.1f m", distance_m);
+  std::string away;
+  if (std::abs(right_deg) >= 0.5)
+    away += number(" %.0f°", right_deg) + (right_deg > 0 ? " right" : " left");
+  if (std::abs(down_deg) >= 0.5)
+    away += (away.empty() ? "" : " and") + number(" %.0f°", down_deg) +
+            (down_deg > 0 ? " below" : " above");
+  out += away.empty() ? ", in the middle of the image" : "," + away + " of the optical axis";
+  if (tilt_x_deg == 0.0 && tilt_y_deg == 0.0) out += ", facing the camera";
+  if (tilt_x_deg != 0.0)
+    out +=
+        (tilt_x_deg > 0 ? ", the top leaning towards the camera by" : ", the top leaning away by") +
+        number(" %.0f°", tilt_x_deg);
+  if (tilt_y_deg != 0.0)
+    out += (tilt_y_deg > 0 ? ", the right side turned away by" : ", the left side turned away by") +
+           number(" %.0f°", tilt_y_deg);
+  if (roll_deg != 0.0) out += ", rolled by" + number(" %.0f°", roll_deg);
+  return out;
+}
+
+std::vector<GridPose> board_grid(const Target& target, const Camera& camera,
+                                 const BoardGridOptions& options) {
+  std::vector<GridPose> out;
+  for (int i = 0; i < options.cells; ++i) {
+    for (int j = 0; j < options.cells; ++j) {
+      const Eigen::Vector2d pixel((i + 0.5) / options.cells * camera.width_px - 0.5,
+                                  (j + 0.5) / options.cells * camera.height_px - 0.5);
+      const auto ray = camera.unproject(pixel);
+      if (!ray) continue;
+      for (const double distance : options.distances_m) {
+        for (const auto& [tilt_x, tilt_y] : tilts_of(options)) {
+          for (const double roll : options.rolls_deg) {
+            GridPose pose{{},
+                          distance,
+                          tilt_x,
+                          tilt_y,
+                          roll,
+                          std::atan2(ray->x(), ray->z()) / kRadPerDeg,
+                          std::atan2(ray->y(), ray->z()) / kRadPerDeg};
+            pose.camera_from_board = pose_at(target, distance * *ray, pose);
+            if (is_seen(target, camera, pose.camera_from_board, options.min_tag_px))
+              out.push_back(pose);
+          }
+        }
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "design/planning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+
+#include "base/yaml_file.h"
+
+namespace lvcalib {
+namespace {
+
+// Before any scene: nothing is known. Metres and radians.
+constexpr double kKnownBefore = 1.0;
+
+// Structure that nothing explains is not foreseen: calibrate asks for it, and states it, once there
+// are measurements.
+ModelVariances noise_alone() {
+  ModelVariances out;
+  out.group = kAbsentVariance;
+  return out;
+}
+
+MeasurementTable bare_table(const Target& target, const Camera& camera,
+                            const LidarDescription& lidar) {
+  MeasurementTable out;
+  out.target = target;
+  out.camera = camera;
+  out.print = std::make_shared<const BlurredPrint>(target);
+  if (lidar.lines.size() > 1) out.lines = lidar.lines;
+  out.has_time = lidar.has_time;
+  out.has_intensity = lidar.has_intensity;
+  // Print that returns a tenth of white; the numbers cancel in all that is planned.
+  out.level = {1.0, 0.1};
+  out.log_contrast = std::log(10.0);
+  return out;
+}
+
+class Planner {
+ public:
+  Planner(const Target& target, const Camera& camera, const LidarDescription& lidar,
+          const PlanOptions& options, const RunContext& context)
+      : table_(bare_table(target, camera, lidar)),
+        sensors_(lidar.sensors),
+        options_(options),
+        context_(context) {
+    sensors_.corner_sigma_px = options.corner_sigma_px;
+    out_.camera_from_lidar = lidar.camera_from_lidar.value_or(forward_looking_mount());
+  }
+
+  Result<ScenePlan> run() {
+    if (Status s = options_.check(); !s) return s.error();
+    if (Status s = add_effects(); !s) return s.error();
+    if (Status s = collect(); !s) return s.error();
+    for (int k = 0; k < options_.scenes; ++k) {
+      if (context_.stopped()) return Error::cancelled();
+      context_.report("plan", 0.5 + 0.5 * k / options_.scenes,
+                      "choosing scene " + std::to_string(k + 1));
+      if (!choose_next()) break;
+    }
+    warn();
+    context_.report("plan", 1.0, "done");
+    return std::move(out_);
+  }
+
+ private:
+  Status add_effects() {
+    std::vector<std::string> known;
+    for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
+    for (const std::string& id : options_.effects) {
+      const EffectPtr effect = find_effect(id);
+      if (effect == nullptr) {
+        std::string message = "there is no effect '" + id + "'";
+        if (const std::string near = nearest_word(id, known); !near.empty())
+          message.append("; did you mean '").append(near).append("'?");
+        return Error::usage(message);
+      }
+      if (const std::string why = why_not(*effect); !why.empty())
+        return Error::input("the effect '" + id + "' cannot be planned for: " + why);
+      // Of a shape number that nobody knows yet, the middle of its grid.
+      const auto shapes = effect->shapes(table_);
+      columns_.add(effect, shapes[shapes.size() / 2], table_);
+    }
+    for (const EffectColumns& c : columns_.list()) append_columns(c, nullptr, subset_);
+    return Done{};
+  }
+
+  // why_not_testable() looks at rows, and there are none yet.
+  [[nodiscard]] std::string why_not(const Effect& effect) const {
+    const EffectNeeds& needs = effect.info().needs;
+    if (needs.time && !table_.has_time) return "the LiDAR's description says no time";
+    if (needs.line && table_.lines.empty()) return "the LiDAR's description has one line only";
+    if (needs.intensity && !table_.has_intensity)
+      return "the LiDAR's description says no intensity";
+    if (needs.tags && !table_.target.has_tags()) return "this board has no tags";
+    if (effect.is_gauge()) return "no data can tell it from a turn of the LiDAR frame";
+    return {};
+  }
+
+  Status collect() {
+    context_.report("plan", 0.0, "predicting measurements");
+    poses_ = board_grid(table_.target, table_.camera, options_.grid);
+    const std::size_t in_image = poses_.size();
+    std::erase_if(poses_, [&](const GridPose& pose) {
+      return !lidar_sees(sensors_, table_.target,
+                         out_.camera_from_lidar.inverse() * pose.camera_from_board);
+    });
+    if (poses_.empty()) {
+      return Error::input("no board pose of the grid is in view of both sensors (" +
+                              std::to_string(in_image) + " are in view of the camera)",
+                          {}, "check the field of view and T_camera_lidar, or use a smaller board");
+    }
+    out_.poses_tried = poses_.size();
+    added_ = predicted_information(poses_, sensors_, table_, out_.camera_from_lidar, columns_,
+                                   subset_, noise_alone(), context_);
+    if (added_.empty()) return Error::cancelled();
+    const auto size = 6 + static_cast<Eigen::Index>(subset_.columns.size());
+    now_ = Eigen::MatrixXd::Identity(size, size) / (kKnownBefore * kKnownBefore);
+    for (std::size_t k = 0; k < subset_.columns.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k) + 6;
+      now_(at, at) = 1.0 / (subset_.prior_sigma[k] * subset_.prior_sigma[k]);
+    }
+    return Done{};
+  }
+
+  // Smallest |t| of a material size over an effect's parameters, with the extrinsic free.
+  [[nodiscard]] double visibility(const EffectColumns& c, const Eigen::MatrixXd& h) const {
+    std::vector<Eigen::Index> at(6);
+    std::iota(at.begin(), at.end(), 0);
+    for (int k = 0; k < c.count(); ++k) at.push_back(6 + c.first + k);
+    const auto n = static_cast<Eigen::Index>(at.size());
+    const Eigen::MatrixXd covariance =
+        Eigen::MatrixXd(h(at, at)).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+    double least = HUGE_VAL;
+    for (int k = 0; k < c.count(); ++k) {
+      const double sigma = std::sqrt(std::max(1e-300, covariance(6 + k, 6 + k)));
+      least = std::min(least, c.parameters[static_cast<std::size_t>(k)].material / sigma);
+    }
+    return least;
+  }
+
+  [[nodiscard]] double merit(const Eigen::MatrixXd& h) const {
+    const Matrix6d extrinsic = h.topLeftCorner<6, 6>();
+    double out = extrinsic.ldlt().vectorD().cwiseAbs().array().max(1e-300).log().sum();
+    // As much as if the effect were one more unknown, until it is testable.
+    for (const EffectColumns& c : columns_.list())
+      out += 2.0 * std::min(0.0, std::log(visibility(c, h) / options_.testable));
+    return out;
+  }
+
+  bool choose_next() {
+    std::size_t best = added_.size();
+    double best_merit = -HUGE_VAL;
+    for (std::size_t k = 0; k < added_.size(); ++k) {
+      if (taken_.size() == added_.size() && taken_[k]) continue;
+      const double m = merit(now_ + added_[k]);
+      if (m > best_merit) {
+        best_merit = m;
+        best = k;
+      }
+    }
+    if (best == added_.size()) return false;
+    taken_.resize(added_.size(), false);
+    taken_[best] = true;
+    now_ += added_[best];
+    PlannedScene scene;
+    scene.pose = poses_[best];
+    scene.lidar_from_board = out_.camera_from_lidar.inverse() * scene.pose.camera_from_board;
+    const Matrix6d h = now_.topLeftCorner<6, 6>();
+    scene.covariance = h.ldlt().solve(Matrix6d::Identity());
+    scene.determined = scene.covariance.diagonal().cwiseSqrt().maxCoeff() < 0.1 * kKnownBefore;
+    for (const EffectColumns& c : columns_.list())
+      scene.effects.push_back({c.effect->info().id, visibility(c, now_)});
+    out_.scenes.push_back(std::move(scene));
+    return true;
+  }
+
+  void warn() {
+    if (out_.scenes.empty()) return;
+    if (static_cast<int>(out_.scenes.size()) < options_.scenes)
+      out_.warnings.push_back("the grid has no more poses than " +
+                              std::to_string(out_.scenes.size()));
+    const PlannedScene& last = out_.scenes.back();
+    if (!last.determined) out_.warnings.push_back("so few scenes do not determine the extrinsic");
+    for (const EffectVisibility& e : last.effects) {
+      if (e.sigmas >= options_.testable) continue;
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    "%s stays hard to test: what matters of it stands %.1f σ above zero",
+                    e.id.c_str(), e.sigmas);
+      out_.warnings.push_back(text + std::string("; to see it: ") +
+                              find_effect(e.id)->info().discriminating_pose);
+    }
+  }
+
+  MeasurementTable table_;
+  SensorModel sensors_;
+  const PlanOptions& options_;
+  const RunContext& context_;
+  EffectColumnsList columns_;
+  ColumnSubset subset_;
+  std::vector<GridPose> poses_;
+  std::vector<Eigen::MatrixXd> added_;
+  std::vector<bool> taken_;
+  Eigen::MatrixXd now_;
+  ScenePlan out_;
+};
+
+}  // namespace
+
+Status PlanOptions::check() const {
+  if (scenes < 1 || scenes > 100)
+    return Error::usage("scenes to plan: expected 1 to 100, found " + std::to_string(scenes));
+  if (!(testable > 0.0) || !(corner_sigma_px > 0.0))
+    return Error::usage("planning: expected a corner noise and a threshold above zero");
+  return grid.check();
+}
+
+Result<ScenePlan> plan_scenes(const Target& target, const Camera& camera,
+                              const LidarDescription& lidar, const PlanOptions& options,
+                              const RunContext& context) {
+  return Planner(target, camera, lidar, options, context).run();
+}
+
+}  // namespace lvcalib

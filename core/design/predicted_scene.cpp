@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "design/predicted_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "model/catalogue_effect.h"
+#include "model/scene_geometry.h"
+
+namespace lvcalib {
+namespace {
+
+// Places on the board, of which each stands for as many points as fall about it. Edges take a tenth
+// to a third of a print, so that tens of places see one.
+constexpr int kPlaces = 400;
+constexpr double kMostPoints = 20000.0;  // kept per scene, as in the table
+constexpr std::size_t kChunk = 48;
+
+// Stretch of the footprint along ψ by the incidence.
+double stretch(const BeamPoint& beam, double psi_rad) {
+  const double c = std::tan(beam.incidence_rad) * std::cos(psi_rad - beam.slope_rad);
+  return std::sqrt(1.0 + c * c);
+}
+
+double board_area_m2(const Target& target) {
+  return target.outline().size_m().prod();
+}
+
+// Points that fall on a square metre of the board about a beam.
+double points_per_m2(const SensorModel& sensors, const BeamPoint& beam) {
+  return sensors.points_per_sr * std::cos(beam.incidence_rad) / (beam.range_m * beam.range_m);
+}
+
+// Even in the plane at every length (R2 sequence: powers of the plastic number).
+Eigen::Vector2d quasi_random(int k) {
+  constexpr double kPlastic = 1.32471795724474602596;
+  double whole = 0.0;
+  return {std::modf(0.5 + (k + 1) / kPlastic, &whole),
+          std::modf(0.5 + (k + 1) / (kPlastic * kPlastic), &whole)};
+}
+
+BeamSpread beam_of(const SensorModel& sensors) {
+  BeamSpread out;
+  out.blur_rad2 = sensors.footprint_rad * sensors.footprint_rad * Eigen::Matrix2d::Identity();
+  return out;
+}
+
+BoardLevels levels_of(const MeasurementTable& table) {
+  return {table.level_of(Print::kWhite), table.level_of(Print::kBlack), Eigen::Vector2d::Zero()};
+}
+
+class ScenePredictor {
+ public:
+  ScenePredictor(const GridPose& pose, const SensorModel& sensors, MeasurementTable& table,
+                 const ModelState& state)
+      : sensors_(sensors),
+        table_(table),
+        scene_(static_cast<int>(table.scenes.size())),
+        camera_from_board_(pose.camera_from_board),
+        geometry_(state.camera_from_lidar, pose.camera_from_board),
+        levels_(levels_of(table)),
+        beam_(beam_of(sensors)),
+        predictor_(*table.print, geometry_.lidar_from_board(), levels_, beam_) {
+    scene_info_.name = pose.text();
+    scene_info_.clock = 0.5;
+    geometry_.tell_middle(table.target.outline().center_m(), scene_info_);
+  }
+
+  void run() {
+    add_returns();
+    add_corners();
+    table_.scenes.push_back(std::move(scene_info_));
+  }
+
+ private:
+  bool beam_at(const Eigen::Vector2d& board_m, BeamPoint& beam) {
+    beam.scene = scene_;
+    const Eigen::Vector3d p =
+        geometry_.lidar_from_board() * Eigen::Vector3d(board_m.x(), board_m.y(), 0.0);
+    if (!geometry_.describe(p.normalized(), beam)) return false;
+    const BeamTrait& trait = sensors_.traits[next_trait_++ % sensors_.traits.size()];
+    beam.time_s = trait.time_s;
+    beam.scan_rad_s = trait.scan_rad_s;
+    beam.line = trait.line;
+    if (sensors_.lines_by_elevation > 0) {
+      const double low = sensors_.elevation_rad.x();
+      const double share = (beam.elevation_rad - low) / (sensors_.elevation_rad.y() - low);
+      const int lines = sensors_.lines_by_elevation;
+      beam.line = std::clamp(static_cast<int>(share * lines), 0, lines - 1);
+    }
+    return true;
+  }
+
+  void set_darkness(double intensity, BeamPoint& beam) const {
+    if (table_.log_contrast > 0.0 && intensity > 0.0)
+      beam.darkness = std::log(table_.level_of(Print::kWhite) / intensity) / table_.log_contrast;
+  }
+
+  void add_returns() {
+    const BoardOutline outline = table_.target.outline();
+    const double cell = board_area_m2(table_.target) / kPlaces;
+    for (int k = 0; k < kPlaces; ++k) {
+      BeamPoint beam;
+      const Eigen::Vector2d at =
+          outline.lower_left_m + quasi_random(k).cwiseProduct(outline.size_m());
+      if (!beam_at(at, beam)) continue;
+      const auto p = predictor_.predict(beam.direction);
+      if (!p) continue;
+      const double points =
+          std::clamp(points_per_m2(sensors_, beam) * cell, 1e-3, kMostPoints / kPlaces);
+      add_return(*p, beam, std::sqrt(points));
+    }
+  }
+
+  // A return that weighs as `root` squared of them.
+  void add_return(const ReturnPrediction& p, BeamPoint beam, double root) {
+    set_darkness(p.intensity, beam);
+    const PrintView view = view_print(p, levels_, beam_);
+    if (view.kind == PrintView::Kind::kEdge)
+      beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m};
+    const Print print = p.white > 0.5 ? Print::kWhite : Print::kBlack;
+    RangeRow range;
+    range.beam = beam;
+    range.print = print;
+    range.measured_m = p.range_m;
+    range.intensity = p.intensity;
+    range.sigma_m = sensors_.range_sigma_m / root;
+    table_.range.push_back(range);
+    if (!table_.has_intensity) return;
+    if (view.kind == PrintView::Kind::kPlain) {
+      table_.intensity.push_back({beam,
+                                  print,
+                                  std::log(p.intensity),
+                                  sensors_.intensity_sigma / root,
+                                  {p.intensity, p.intensity, {}}});
+    } else if (view.kind == PrintView::Kind::kEdge) {
+      BoundaryRow edge;
+      edge.beam = beam;
+      edge.psi_rad = view.psi_rad;
+      edge.transition_m = view.width_m;
+      edge.log_contrast = table_.log_contrast;
+      edge.sigma_m =
+          sensors_.edge_noise * std::abs(levels_.white - levels_.black) / view.slope / root;
+      edge.reading = {p.intensity, -view.slope, {}};
+      const AngleAxes axes = angle_axes(beam);
+      const Eigen::Vector3d outward(std::cos(view.psi_rad), std::sin(view.psi_rad), 0.0);
+      const Eigen::Vector3d a =
+          geometry_.edge_row(beam.direction, geometry_.lidar_from_board().rotation * outward);
+      edge.edge_normal_rad << a.dot(axes.azimuth_m), a.dot(axes.elevation_m);
+      table_.boundary.push_back(edge);
+    }
+  }
+
+  void add_corner(int feature, int corner, const Eigen::Vector2d& at,
+                  const std::optional<Eigen::Vector2d>& center) {
+    CornerRow row;
+    row.scene = scene_;
+    row.feature = feature;
+    row.corner = corner;
+    row.board_m = at;
+    row.sigma_px = sensors_.corner_sigma_px;
+    const auto pixel =
+        table_.camera.project(camera_from_board_ * Eigen::Vector3d(at.x(), at.y(), 0.0));
+    if (!pixel) return;
+    row.pixel = *pixel;
+    if (center) {
+      row.from_tag_m = at - *center;
+      const auto middle = table_.camera.project(camera_from_board_ *
+                                                Eigen::Vector3d(center->x(), center->y(), 0.0));
+      if (middle) row.from_tag_px = *pixel - *middle;
+    }
+    table_.corner.push_back(row);
+  }
+
+  void add_corners() {
+    if (!table_.target.has_tags()) {
+      const auto corners = table_.target.checkerboard_corners_m();
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        scene_info_.features.push_back(static_cast<int>(k));
+        add_corner(static_cast<int>(k), 0, corners[k], std::nullopt);
+      }
+      return;
+    }
+    for (const TargetTag& tag : table_.target.tags()) {
+      scene_info_.features.push_back(tag.id);
+      const auto corners = table_.target.tag_corners_m(tag);
+      for (int k = 0; k < 4; ++k)
+        add_corner(tag.id, k, corners[static_cast<std::size_t>(k)], tag.center_m);
+    }
+  }
+
+  const SensorModel& sensors_;
+  MeasurementTable& table_;
+  int scene_;
+  Rigid3 camera_from_board_;
+  SceneGeometry geometry_;
+  BoardLevels levels_;
+  BeamSpread beam_;
+  BoardPredictor predictor_;
+  TableScene scene_info_;
+  std::size_t next_trait_ = 0;
+};
+
+void measure_field_of_view(const MeasurementTable& table, SensorModel& out) {
+  constexpr double kWider = 0.25;
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL);
+  Eigen::Vector2d high = Eigen::Vector2d::Constant(-HUGE_VAL);
+  for (const RangeRow& row : table.range) {
+    const Eigen::Vector2d at(row.beam.azimuth_rad, row.beam.elevation_rad);
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
+  const Eigen::Vector2d margin = kWider * (high - low);
+  out.azimuth_rad << low.x() - margin.x(), high.x() + margin.x();
+  out.elevation_rad << low.y() - margin.y(), high.y() + margin.y();
+}
+
+void measure_ranges(const MeasurementTable& table, SensorModel& out) {
+  std::map<int, std::vector<const RangeRow*>> scenes;
+  std::vector<double> sigma;
+  for (const RangeRow& row : table.range) {
+    scenes[row.beam.scene].push_back(&row);
+    sigma.push_back(row.sigma_m);
+  }
+  out.range_sigma_m = median(sigma);
+  const double area = board_area_m2(table.target);
+  std::vector<double> density;
+  for (const auto& [scene, rows] : scenes) {
+    double solid_angle = 0.0;  // of a square metre of the board
+    for (const RangeRow* row : rows)
+      solid_angle += std::cos(row->beam.incidence_rad) / (row->beam.range_m * row->beam.range_m);
+    solid_angle /= static_cast<double>(rows.size());
+    density.push_back(static_cast<double>(rows.size()) / (area * solid_angle));
+  }
+  out.points_per_sr = median(density);
+  out.traits.clear();
+  const std::size_t stride = 1 + table.range.size() / 256;
+  for (std::size_t k = 0; k < table.range.size(); k += stride) {
+    const BeamPoint& beam = table.range[k].beam;
+    out.traits.push_back({beam.time_s, beam.scan_rad_s, beam.line});
+  }
+}
+
+}  // namespace
+
+SensorModel sensors_of(const MeasurementTable& table) {
+  SensorModel out;
+  if (table.range.empty()) return out;
+  measure_field_of_view(table, out);
+  measure_ranges(table, out);
+  std::vector<double> values;
+  for (const IntensityRow& row : table.intensity) values.push_back(row.sigma);
+  if (!values.empty()) out.intensity_sigma = median(values);
+  values.clear();
+  for (const CornerRow& row : table.corner) values.push_back(row.sigma_px);
+  if (!values.empty()) out.corner_sigma_px = median(values);
+  std::vector<double> footprint;
+  std::vector<double> noise;
+  const double contrast = std::abs(table.level_of(Print::kWhite) - table.level_of(Print::kBlack));
+  for (const BoundaryRow& row : table.boundary) {
+    if (!(row.transition_m > 0.0)) continue;
+    footprint.push_back(row.transition_m / (row.beam.range_m * stretch(row.beam, row.psi_rad)));
+    noise.push_back(row.sigma_m * std::abs(row.reading.unit) / contrast);
+  }
+  if (!footprint.empty()) {
+    out.footprint_rad = median(footprint);
+    out.edge_noise = median(noise);
+  }
+  return out;
+}
+
+bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& lidar_from_board) {
+  const BoardOutline outline = target.outline();
+  const double middle = 0.5 * sensors.azimuth_rad.sum();
+  const double half = 0.5 * (sensors.azimuth_rad.y() - sensors.azimuth_rad.x());
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d share(k % 2, k / 2);
+    const Eigen::Vector2d at = outline.lower_left_m + share.cwiseProduct(outline.size_m());
+    const Eigen::Vector3d p = lidar_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0);
+    const double azimuth = std::atan2(p.y(), p.x());
+    if (std::abs(std::remainder(azimuth - middle, 2.0 * std::numbers::pi)) > half) return false;
+    const double elevation = std::atan2(p.z(), p.head<2>().norm());
+    if (elevation < sensors.elevation_rad.x() || elevation > sensors.elevation_rad.y())
+      return false;
+    const double across = std::remainder(azimuth - middle, 2.0 * std::numbers::pi) / half;
+    const double up = (2.0 * elevation - sensors.elevation_rad.sum()) /
+                      (sensors.elevation_rad.y() - sensors.elevation_rad.x());
+    if (sensors.round && across * across + up * up > 1.0) return false;
+  }
+  // Seen from the front, not grazing.
+  constexpr double kSteepest = 0.17;  // cos 80°
+  const Eigen::Vector3d normal = lidar_from_board.rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector2d center = outline.center_m();
+  const Eigen::Vector3d at = lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
+  return normal.dot(-at.normalized()) > kSteepest;
+}
+
+void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
+                            MeasurementTable& table, ModelState& state) {
+  ScenePredictor(pose, sensors, table, state).run();
+  state.beam = beam_of(sensors);
+  state.levels.push_back(levels_of(table));
+  state.camera_from_board.push_back(pose.camera_from_board);
+}
+
+std::vector<Eigen::MatrixXd> predicted_information(
+    const std::vector<GridPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
+    const Rigid3& camera_from_lidar, const EffectColumnsList& columns, const ColumnSubset& subset,
+    const ModelVariances& variances, const RunContext& context) {
+  MeasurementTable empty;
+  empty.target = like.target;
+  empty.camera = like.camera;
+  empty.print = like.print;
+  empty.lines = like.lines;
+  empty.has_time = like.has_time;
+  empty.has_intensity = like.has_intensity;
+  empty.level = like.level;
+  empty.log_contrast = like.log_contrast;
+  std::vector<Eigen::MatrixXd> out(poses.size());
+  for (std::size_t first = 0; first < poses.size() && !context.stopped(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, poses.size() - first);
+    MeasurementTable table = empty;
+    ModelState state{camera_from_lidar, {}};
+    for (std::size_t k = 0; k < count; ++k)
+      append_predicted_scene(poses[first + k], sensors, table, state);
+    const Linearization linear = linearize(table, state, {}, columns, context);
+    if (context.stopped()) break;
+    parallel_for(count, context.thread_count(), [&](std::size_t k) {
+      out[first + k] = scene_term(linear.scenes[k], subset, variances).information;
+    });
+  }
+  if (context.stopped()) out.clear();
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagnostics/structure_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "diagnostics/structure_basis.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr int kCoarse = 8;  // splines of a covariate
+constexpr int kFine = 32;   // where rows are many: ripples of several periods over the board
+constexpr std::size_t kRowsPerSpline = 50;
+constexpr int kNuisance = LocalLayout::kFixed;
+
+// One channel's residuals as the shapes see them, in units of their standard deviations. What each
+// scene's own pose and levels can do is described by orthonormal columns over its rows, and taken
+// out of the residuals: that is the same for every shape.
+class OwnRows {
+ public:
+  using Nuisance = Eigen::Matrix<double, kNuisance, 1>;
+
+  OwnRows(const ChannelResiduals& residuals, int scenes)
+      : of_(residuals), weight_(residuals.values.size()), value_(residuals.values.size()) {
+    const auto n = static_cast<std::size_t>(scenes);
+    using Products = Eigen::Matrix<double, kNuisance, kNuisance>;
+    std::vector<Products> products(n, Products::Zero());
+    for (std::size_t k = 0; k < size(); ++k) {
+      weight_[k] = 1.0 / residuals.sigma[k];
+      value_[k] = weight_[k] * residuals.values[k];
+      const Nuisance own = weight_[k] * residuals.nuisance[k];
+      products[scene(k)].noalias() += own * own.transpose();
+    }
+    std::vector<Products> basis;
+    for (const Products& p : products) basis.push_back(orthonormal(p));
+    nuisance_.resize(size());
+    std::vector<Nuisance> along(n, Nuisance::Zero());
+    for (std::size_t k = 0; k < size(); ++k) {
+      nuisance_[k].noalias() = basis[scene(k)] * (weight_[k] * residuals.nuisance[k]);
+      along[scene(k)] += value_[k] * nuisance_[k];
+    }
+    squares_.assign(n, 0.0);
+    weights_.assign(n, 0.0);
+    for (std::size_t k = 0; k < size(); ++k) {
+      value_[k] -= nuisance_[k].dot(along[scene(k)]);
+      squares_[scene(k)] += value_[k] * value_[k];
+      weights_[scene(k)] += weight_[k] * weight_[k];
+    }
+  }
+
+  [[nodiscard]] const ChannelResiduals& residuals() const { return of_; }
+  [[nodiscard]] std::size_t size() const { return of_.values.size(); }
+  [[nodiscard]] std::size_t scenes() const { return squares_.size(); }
+  [[nodiscard]] std::size_t scene(std::size_t k) const {
+    return static_cast<std::size_t>(of_.scene[k]);
+  }
+  [[nodiscard]] double weight(std::size_t k) const { return weight_[k]; }  // 1/σ
+  [[nodiscard]] double value(std::size_t k) const { return value_[k]; }
+  [[nodiscard]] const Nuisance& nuisance(std::size_t k) const { return nuisance_[k]; }
+  [[nodiscard]] double squares_of(std::size_t scene) const { return squares_[scene]; }
+  [[nodiscard]] double weight_of(std::size_t scene) const { return weights_[scene]; }
+
+ private:
+  // Turns nuisance rows into orthonormal ones; directions that the rows do not tell become zero.
+  static Eigen::Matrix<double, kNuisance, kNuisance> orthonormal(
+      const Eigen::Matrix<double, kNuisance, kNuisance>& products) {
+    constexpr double kRounding = 1e-10;
+    Nuisance scale;
+    for (int c = 0; c < kNuisance; ++c)
+      scale(c) = products(c, c) > 0.0 ? 1.0 / std::sqrt(products(c, c)) : 0.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kNuisance, kNuisance>> axes(
+        scale.asDiagonal() * products * scale.asDiagonal());
+    Nuisance share;
+    for (int c = 0; c < kNuisance; ++c) {
+      const double size = axes.eigenvalues()(c);
+      share(c) = size > kRounding ? 1.0 / std::sqrt(size) : 0.0;
+    }
+    return share.asDiagonal() * axes.eigenvectors().transpose() * scale.asDiagonal();
+  }
+
+  const ChannelResiduals& of_;
+  std::vector<double> weight_, value_;
+  std::vector<Nuisance> nuisance_;
+  std::vector<double> squares_, weights_;  // By scene.
+};
+
+// Products of a shape's columns over one scene's rows, what the scene's own nuisance can do taken
+// out.
+struct SceneSums {
+  Eigen::MatrixXd curve;
+  Eigen::VectorXd residual;
+};
+
+template <class Shape>
+std::vector<SceneSums> scene_sums(const Shape& shape, const OwnRows& rows) {
+  std::vector<SceneSums> sums(rows.scenes());
+  std::vector<Eigen::MatrixXd> nuisance(rows.scenes());
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    sums[s].curve.setZero(shape.size(), shape.size());
+    sums[s].residual.setZero(shape.size());
+    nuisance[s].setZero(kNuisance, shape.size());
+  }
+  BasisRow b;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::size_t scene = rows.scene(k);
+    SceneSums& s = sums[scene];
+    shape.evaluate(k, b);
+    const auto count = static_cast<std::size_t>(b.count);
+    for (std::size_t i = 0; i < count; ++i) b.value[i] *= rows.weight(k);
+    for (std::size_t i = 0; i < count; ++i) {
+      s.residual(b.column[i]) += b.value[i] * rows.value(k);
+      nuisance[scene].col(b.column[i]) += b.value[i] * rows.nuisance(k);
+      // Columns rise within a row: the lower triangle.
+      for (std::size_t j = 0; j <= i; ++j)
+        s.curve(b.column[i], b.column[j]) += b.value[i] * b.value[j];
+    }
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    sums[s].curve.selfadjointView<Eigen::Lower>().rankUpdate(nuisance[s].transpose(), -1.0);
+    sums[s].curve.triangularView<Eigen::StrictlyUpper>() = sums[s].curve.transpose();
+  }
+  return sums;
+}
+
+// Sums of all scenes.
+struct AllSums {
+  std::vector<SceneSums> scenes;
+  Eigen::MatrixXd curve;
+  Eigen::VectorXd gradient;
+  double weight = 0.0;
+};
+
+template <class Shape>
+AllSums all_sums(const Shape& shape, const OwnRows& rows) {
+  AllSums out;
+  out.scenes = scene_sums(shape, rows);
+  out.curve.setZero(shape.size(), shape.size());
+  out.gradient.setZero(shape.size());
+  for (std::size_t s = 0; s < out.scenes.size(); ++s) {
+    out.weight += rows.weight_of(s);
+    out.curve += out.scenes[s].curve;
+    out.gradient += out.scenes[s].residual;
+  }
+  return out;
+}
+
+// What the shape fitted to the other scenes predicts of each, with coefficients shrunk by a ridge.
+void predict_scenes(const AllSums& sums, const OwnRows& rows, double ridge, StructureScore& out) {
+  out.scene_gain.clear();
+  double before = 0.0;
+  double after = 0.0;
+  double fitted = 0.0;
+  for (std::size_t k = 0; k < sums.scenes.size(); ++k) {
+    const SceneSums& s = sums.scenes[k];
+    Eigen::MatrixXd others = sums.curve - s.curve;
+    others.diagonal().array() += ridge;
+    const Eigen::VectorXd c = others.ldlt().solve(sums.gradient - s.residual);
+    const double size = c.dot(s.curve * c);
+    const double drop = 2.0 * c.dot(s.residual) - size;
+    before += rows.squares_of(k);
+    after += rows.squares_of(k) - drop;
+    out.scene_gain.push_back(0.5 * drop);
+    fitted += size;
+  }
+  if (!(before > 0.0) || !std::isfinite(after)) return;
+  out.score = 1.0 - after / before;
+  out.amplitude = sums.weight > 0.0
+                      ? display_factor(out.channel) * std::sqrt(std::max(0.0, fitted) / sums.weight)
+                      : 0.0;
+}
+
+// Largest deviation (all but half a percent of the rows) of the fitted shape from its median, in
+// standard deviations of one row.
+template <class Shape>
+double height_of(const Shape& shape, const OwnRows& rows, const AllSums& sums, double ridge) {
+  constexpr double kAlmostAll = 0.995;
+  if (!shape.kLocal) return 0.0;
+  Eigen::MatrixXd curve = sums.curve;
+  curve.diagonal().array() += ridge;
+  const Eigen::VectorXd c = curve.ldlt().solve(sums.gradient);
+  std::vector<double> values(rows.size());
+  BasisRow b;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    shape.evaluate(k, b);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); ++i)
+      values[k] += b.value[i] * c(b.column[i]);
+  }
+  const double middle = median(values);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = std::abs(values[k] - middle) * rows.weight(k);
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(kAlmostAll * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+template <class Shape>
+void score(const Shape& shape, const OwnRows& rows, StructureScore& out) {
+  const AllSums sums = all_sums(shape, rows);
+  // Shrinks what few rows support: one row's weight as a prior about zero. Something local leaves
+  // most of a surface flat: there stronger priors are tried as well, and scenes held out choose.
+  const double one_row = sums.weight / std::max<double>(1.0, static_cast<double>(rows.size()));
+  const StructureScore start = out;
+  for (const double prior_rows : Shape::kPriorRows) {
+    StructureScore tried = start;
+    predict_scenes(sums, rows, prior_rows * one_row, tried);
+    if (prior_rows > 1.0 && tried.score <= out.score) continue;
+    out = tried;
+    out.height = height_of(shape, rows, sums, prior_rows * one_row);
+  }
+}
+
+const Covariate* find_in(const std::vector<Covariate>& covariates, const std::string& name) {
+  const auto at = std::find_if(covariates.begin(), covariates.end(),
+                               [&](const Covariate& c) { return c.name == name; });
+  return at == covariates.end() ? nullptr : &*at;
+}
+
+// Places in two dimensions where something local may sit, on the board or in the field of view; and
+// what comes near or at a slant on one print only, as of a receiver that saturates.
+constexpr std::array<std::pair<const char*, const char*>, 4> kPlaces{
+    {{"board x", "board y"}, {"azimuth", "elevation"}, {"print", "range"}, {"print", "incidence"}}};
+
+// By more than one standard error over scenes: two covariates are not named where one will do.
+bool is_better(const StructureScore& surface, const StructureScore& curve) {
+  if (surface.score <= curve.score) return false;
+  if (surface.scene_gain.size() != curve.scene_gain.size()) return true;
+  std::vector<double> more;
+  for (std::size_t s = 0; s < surface.scene_gain.size(); ++s)
+    more.push_back(surface.scene_gain[s] - curve.scene_gain[s]);
+  return is_gain(more);
+}
+
+// Surfaces that predict held-out scenes better than either of their covariates alone.
+std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
+                                     const std::vector<StructureScore>& alone,
+                                     const OwnRows& rows) {
+  std::vector<StructureScore> out;
+  for (const auto& [first, second] : kPlaces) {
+    const Covariate* x = find_in(covariates, first);
+    const Covariate* y = find_in(covariates, second);
+    if (x == nullptr || y == nullptr) continue;
+    const Surface surface(*x, *y);
+    if (x->values.size() < kRowsPerSpline * static_cast<std::size_t>(surface.size())) continue;
+    StructureScore s{rows.residuals().channel, x->name, 0.0, 0.0};
+    s.second_covariate = y->name;
+    score(surface, rows, s);
+    const auto worse = [&](const StructureScore& one) {
+      return (one.covariate != first && one.covariate != second) || is_better(s, one);
+    };
+    if (std::all_of(alone.begin(), alone.end(), worse)) out.push_back(s);
+  }
+  return out;
+}
+
+// Something local in the lens displaces corners in both directions of the image.
+std::vector<StructureScore> image_surface(const std::vector<Covariate>& covariates,
+                                          const std::vector<StructureScore>& alone,
+                                          const OwnRows& rows) {
+  const Covariate* x = find_in(covariates, "image x");
+  const Covariate* y = find_in(covariates, "image y");
+  if (x == nullptr || y == nullptr) return {};
+  const ImageSurface surface(*x, *y, rows.residuals().row);
+  if (x->values.size() < static_cast<std::size_t>(surface.size())) return {};
+  StructureScore s{rows.residuals().channel, x->name, 0.0, 0.0};
+  s.second_covariate = y->name;
+  score(surface, rows, s);
+  const bool better = std::all_of(alone.begin(), alone.end(),
+                                  [&](const StructureScore& one) { return is_better(s, one); });
+  return better ? std::vector{s} : std::vector<StructureScore>{};
+}
+
+StructureScore score_of(const Covariate& covariate, const OwnRows& rows) {
+  StructureScore out{rows.residuals().channel, covariate.name, 0.0, 0.0};
+  score(Curve(covariate, kCoarse), rows, out);
+  if (covariate.categories || covariate.values.size() < kRowsPerSpline * kFine) return out;
+  StructureScore fine = out;
+  score(Curve(covariate, kFine), rows, fine);
+  return fine.score > out.score ? fine : out;
+}
+
+struct ScannedChannel {
+  std::optional<OwnRows> rows;
+  std::vector<Covariate> covariates;
+};
+
+}  // namespace
+
+StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
+                               int scenes) {
+  return score_of(covariate, OwnRows(residuals, scenes));
+}
+
+StructureScan scan_structure(const MeasurementTable& table, const EveryResidual& residuals,
+                             const RunContext& context) {
+  std::array<ScannedChannel, kChannels> channels;
+  parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
+    const ChannelResiduals& r = residuals[k];
+    if (r.values.empty() || context.stopped()) return;
+    channels[k].rows.emplace(r, static_cast<int>(table.scenes.size()));
+    channels[k].covariates = covariates_of(table, r.channel, r);
+  });
+  std::vector<std::pair<std::size_t, const Covariate*>> asked;
+  for (std::size_t k = 0; k < kChannels; ++k) {
+    for (const Covariate& c : channels[k].covariates) asked.emplace_back(k, &c);
+  }
+  StructureScan out;
+  out.curves.resize(asked.size());
+  parallel_for(asked.size(), context.thread_count(), [&](std::size_t k) {
+    if (!context.stopped())
+      out.curves[k] = score_of(*asked[k].second, *channels[asked[k].first].rows);
+  });
+  std::array<std::vector<StructureScore>, kChannels> places;
+  parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
+    const ScannedChannel& channel = channels[k];
+    if (!channel.rows || context.stopped()) return;
+    std::vector<StructureScore> alone;
+    for (const StructureScore& s : out.curves) {
+      if (s.channel == residuals[k].channel) alone.push_back(s);
+    }
+    // Corners have two axes, which no single surface over the board describes.
+    places[k] = residuals[k].channel == Channel::kCorner
+                    ? image_surface(channel.covariates, alone, *channel.rows)
+                    : surfaces(channel.covariates, alone, *channel.rows);
+  });
+  for (const auto& one : places) out.places.insert(out.places.end(), one.begin(), one.end());
+  sort_best_first(out.curves);
+  sort_best_first(out.places);
+  return out;
+}
+
+StructureScan scan_structure(const MeasurementTable& table, const ModelState& state,
+                             const std::vector<EffectInUse>& in_use, const RunContext& context) {
+  return scan_structure(table, every_residual(table, state, in_use, context), context);
+}
+
+void sort_best_first(std::vector<StructureScore>& scores) {
+  std::stable_sort(
+      scores.begin(), scores.end(),
+      [](const StructureScore& a, const StructureScore& b) { return a.score > b.score; });
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,496 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "selection/effect_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "model/beam_blur.h"
+#include "model/residuals.h"
+#include "selection/print_contrast.h"
+
+namespace lvcalib {
+namespace {
+
+constexpr std::size_t kFinalists = 12;  // candidates whose variances are settled fully
+constexpr std::size_t kFewShapes = 8;   // more than these are first sieved on the residuals
+constexpr std::size_t kSievedShapes = 3;
+constexpr std::size_t kRefitted = 3;  // candidates that get a full refit when they need one
+
+// Keeps the columns just appended where they are: their increments are known to be zero.
+void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
+  const std::size_t first = subset.columns.size() - columns.parameters.size();
+  std::erase_if(subset.zero_sums, [&](const auto& run) { return run.first >= first; });
+  for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
+    subset.prior_sigma[first + k] = 1e-6 * columns.parameters[k].material;
+    subset.prior_mean[first + k] = 0.0;
+  }
+}
+
+void sort_best_first(std::vector<Candidate>& candidates) {
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.total_density() > b.total_density(); });
+}
+
+}  // namespace
+
+EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
+                           const DiscoveryOptions& options, const RunContext& context)
+    : EffectSearch(table, std::move(state), {}, options, context) {}
+
+EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
+                           std::vector<EffectInUse> in_use, const DiscoveryOptions& options,
+                           const RunContext& context)
+    : base_(&table),
+      table_(&table),
+      state_(std::move(state)),
+      options_(options),
+      context_(context),
+      in_use_(std::move(in_use)),
+      blur_{beam_blur(), 0.0, Eigen::VectorXd::Zero(3)} {
+  std::copy_n(table.structure_variances.begin(),
+              std::min(table.structure_variances.size(), variances_.group.size()),
+              variances_.group.begin());
+  refit();
+}
+
+std::vector<EffectInUse> EffectSearch::model() const {
+  std::vector<EffectInUse> out = in_use_;
+  if (sees_print()) out.push_back(blur_);
+  return out;
+}
+
+std::optional<MeasuredBlur> EffectSearch::measured_blur() const {
+  if (!sees_print() || reference_.fit.covariance.rows() == 0) return std::nullopt;
+  // The blur stands behind the effects in use.
+  Eigen::Index at = 6;
+  for (const EffectInUse& use : in_use_) at += use.values.size();
+  const Eigen::Matrix2d& blur = state_.beam.blur_rad2;
+  return MeasuredBlur{{blur(0, 0), blur(0, 1), blur(1, 1)},
+                      reference_.fit.covariance.block<3, 3>(at, at)};
+}
+
+EffectColumnsList EffectSearch::own_columns() const {
+  EffectColumnsList columns;
+  for (const EffectInUse& use : model()) columns.add(use.effect, use.shape, table());
+  return columns;
+}
+
+ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns,
+                                      const std::optional<OtherColumns>& other) const {
+  ColumnSubset subset;
+  for (std::size_t k = 0; k < in_use_.size(); ++k) {
+    if (other && other->of == k) {
+      append_columns(columns.list()[other->columns], nullptr, subset);
+      continue;
+    }
+    append_columns(columns.list()[k], &in_use_[k].values, subset);
+    if (in_use_[k].held) hold_last(columns.list()[k], subset);
+  }
+  if (sees_print()) append_columns(columns.list()[in_use_.size()], &blur_.values, subset);
+  return subset;
+}
+
+void EffectSearch::add(const EffectPtr& effect, double shape) {
+  const auto parameters = effect->parameters(table());
+  in_use_.push_back(
+      {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))});
+  refit();
+}
+
+void EffectSearch::remove(std::size_t k) {
+  in_use_.erase(in_use_.begin() + static_cast<std::ptrdiff_t>(k));
+  refit();
+}
+
+void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape) {
+  const auto parameters = effect->parameters(table());
+  in_use_[k] = {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
+  refit();
+}
+
+void EffectSearch::refit() {
+  constexpr int kSteps = 15;
+  joint_covariance_.reset();
+  shape_sigmas_.clear();
+  ranked_ = false;
+  linear_ = linearize(table(), state_, model(), own_columns(), context_);
+  for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+    variances_ = reference_.fit.variances;
+    // A displacement of a tenth of the standard deviations leaves a hundredth of itself to the
+    // next.
+    const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
+    if ((reference_.fit.solution.cwiseAbs().array() <= 0.1 * sigma.array()).all()) {
+      move(1.0);
+      return;
+    }
+    if (!descend()) return;
+  }
+  if (!context_.stopped())
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+}
+
+// A print is seen through a blur of millimetres: far from linear in what moves it. Steps that do
+// not lower what is fitted are halved.
+bool EffectSearch::descend() {
+  constexpr double kLeastShare = 0.01;
+  const ModelState state = state_;
+  const std::vector<EffectInUse> in_use = in_use_;
+  const double before = misfit(linear_, reference_.subset, variances_);
+  for (double share = 1.0; share > kLeastShare; share *= 0.5) {
+    move(share);
+    Linearization next = linearize(table(), state_, model(), own_columns(), context_);
+    if (context_.stopped()) return false;
+    if (misfit(next, own_subset(next.columns), variances_) < before) {
+      linear_ = std::move(next);
+      return true;
+    }
+    state_ = state;
+    in_use_ = in_use;
+  }
+  return false;
+}
+
+// By a share of the reference's solution.
+void EffectSearch::move(double share) {
+  const Eigen::VectorXd x = share * reference_.fit.solution;
+  std::vector<Vector6d> boards;
+  for (const Eigen::VectorXd& local : reference_.fit.local)
+    boards.push_back(share * local.head<6>());
+  state_ = moved(state_, x.head<6>(), boards);
+  move_levels(share);
+  Eigen::Index at = 6;
+  for (EffectInUse& use : in_use_) {
+    use.values += x.segment(at, use.values.size());
+    at += use.values.size();
+  }
+  if (sees_print()) move_blur(x.segment<3>(at));
+}
+
+void EffectSearch::move_levels(double share) {
+  for (std::size_t s = 0; s < state_.levels.size(); ++s) {
+    const Eigen::VectorXd step =
+        share * reference_.fit.local[s].segment<kLevelParameters>(LocalLayout::kPose);
+    BoardLevels& levels = state_.levels[s];
+    levels.white += step(0);
+    levels.black += step(1);
+    levels.slope += step.tail<2>();
+  }
+}
+
+// As far as the blur stays one: a covariance has no negative axis.
+void EffectSearch::move_blur(const Eigen::Vector3d& step) {
+  Eigen::Matrix2d change;
+  change << step(0), step(1), step(1), step(2);
+  Eigen::Matrix2d& blur = state_.beam.blur_rad2;
+  for (double share = 1.0; share > 1e-3; share *= 0.5) {
+    const Eigen::Matrix2d next = blur + share * change;
+    // Widths change by half at most in one step: the print is linearised about them.
+    if (next.determinant() > 0.1 * blur.determinant() && next(0, 0) > 0.25 * blur(0, 0)) {
+      blur = next;
+      return;
+    }
+  }
+}
+
+// Structure that the calibration did not find may come to light once an effect is explained. The
+// clearest kind enters; the others are asked again with it in.
+bool EffectSearch::admit_structure() {
+  constexpr double kChance = 0.01;  // As in the joint solve.
+  bool any = false;
+  while (!context_.stopped()) {
+    const auto scores = group_scores(linear_, reference_.fit);
+    std::size_t best = kVarianceGroups;
+    double largest = 1.0;
+    for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+      const GroupScore& score = scores[k];
+      if (score.effective < 1.0 || !(score.determined > 0.0)) continue;
+      const double ratio = score.squares / (variances_.group[k] * score.determined);
+      const double gate = chi_square_gate(static_cast<int>(std::lround(score.effective)), kChance) /
+                          score.effective;
+      if (ratio / gate > largest) {
+        largest = ratio / gate;
+        best = k;
+      }
+    }
+    if (best == kVarianceGroups) return any;
+    any = true;
+    // From where half of it would be told.
+    variances_.group[best] *= scores[best].effective / scores[best].determined;
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+    variances_ = reference_.fit.variances;
+  }
+  return any;
+}
+
+// Weights and classes of rows follow the model, until both stand still.
+void EffectSearch::remake() {
+  if (!base_->again || (in_use_.empty() && table_ == base_)) return;
+  // Each round leaves a few hundredths of what was wrong: more than two are rarely needed.
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
+    const Rigid3 before = state_.camera_from_lidar;
+    auto next = std::make_shared<MeasurementTable>(base_->again(state_, in_use_, context_));
+    if (context_.stopped()) return;
+    next->again = base_->again;
+    remade_ = std::move(next);
+    table_ = remade_.get();
+    refit();
+    if (admit_structure()) refit();
+    if (context_.stopped()) return;
+    // A twentieth of a standard deviation: what is left is far below what is known.
+    constexpr double kStands = 0.05;
+    const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().head<6>().cwiseSqrt();
+    const Vector6d moved = se3_log(state_.camera_from_lidar * before.inverse());
+    if ((moved.array().abs() < kStands * sigma.array()).all()) return;
+  }
+}
+
+std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) const {
+  std::vector<double> shapes = effect.shapes(table());
+  if (shapes.size() <= kFewShapes) return shapes;
+  // Least squares of the range residuals on the effect alone, row by row: a periodogram.
+  const ChannelResiduals residuals = residuals_of(table(), state_, model(), Channel::kRange);
+  const auto p = effect.parameters(table()).size();
+  const std::size_t stride = std::max<std::size_t>(1, residuals.values.size() / 20000);
+  std::vector<double> power(shapes.size());
+  parallel_for(shapes.size(), context_.thread_count(), [&](std::size_t k) {
+    if (context_.stopped()) return;
+    const auto n = static_cast<Eigen::Index>(p);
+    Eigen::MatrixXd normal = 1e-9 * Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
+    std::vector<Eigen::Vector3d> moves(p);
+    Eigen::VectorXd row(n);
+    for (std::size_t i = 0; i < residuals.values.size(); i += stride) {
+      const BeamPoint& beam = table().range[residuals.row[i]].beam;
+      effect.lidar(beam, table(), shapes[k], moves);
+      for (Eigen::Index j = 0; j < n; ++j)
+        row(j) = beam.direction.dot(moves[static_cast<std::size_t>(j)]) / residuals.sigma[i];
+      normal.noalias() += row * row.transpose();
+      gradient += residuals.values[i] / residuals.sigma[i] * row;
+    }
+    power[k] = gradient.dot(normal.ldlt().solve(gradient));
+  });
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const bool peak = (k == 0 || power[k] >= power[k - 1]) &&
+                      (k + 1 == shapes.size() || power[k] >= power[k + 1]);
+    if (peak) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
+  std::vector<double> out;
+  for (const std::size_t k : order) {
+    if (out.size() < kSievedShapes) out.push_back(shapes[k]);
+  }
+  return out;
+}
+
+void EffectSearch::append_candidates(EffectColumnsList& columns) const {
+  for (const EffectPtr& effect : effect_catalogue()) {
+    const std::string& id = effect->info().id;
+    const bool used = std::any_of(in_use_.begin(), in_use_.end(), [&](const EffectInUse& use) {
+      return use.effect->info().id == id;
+    });
+    if (used || !why_not_testable(*effect, table()).empty()) continue;
+    for (const double shape : shapes_worth_trying(*effect)) columns.add(effect, shape, table());
+  }
+}
+
+void EffectSearch::rank() {
+  if (ranked_) return;
+  EffectColumnsList columns = own_columns();
+  const ColumnSubset subset = own_subset(columns);
+  append_candidates(columns);
+  linear_ = linearize(table(), state_, model(), columns, context_);
+  candidates_.clear();
+  if (context_.stopped()) return;
+  reference_ = make_reference(linear_, subset, variances_, {});
+  variances_ = reference_.fit.variances;
+  const std::size_t first = own_count();
+  candidates_.resize(columns.list().size() - first);
+  const auto evaluate = [&](std::size_t k, std::size_t columns_at, const MixedModelOptions& how) {
+    if (context_.stopped()) return;
+    candidates_[k] = evaluate_candidate(linear_, reference_, columns_at, options_.tolerance, how);
+  };
+  parallel_for(candidates_.size(), context_.thread_count(),
+               [&](std::size_t k) { evaluate(k, first + k, {.rounds = 3}); });
+  if (context_.stopped()) return;
+  sort_best_first(candidates_);
+  parallel_for(std::min(kFinalists, candidates_.size()), context_.thread_count(),
+               [&](std::size_t k) { evaluate(k, candidates_[k].columns, {}); });
+  sort_best_first(candidates_);
+  for (Candidate& c : candidates_) {
+    if (refused_.contains(linear_.columns.list()[c.columns].effect->info().id))
+      c.contradiction = Contradiction::kScenes;
+  }
+  refit_promising();
+  ask_both_prints();
+  ranked_ = !context_.stopped();
+}
+
+void EffectSearch::ask_both_prints() {
+  const bool told = find_effect("range_walk") != nullptr &&
+                    why_not_testable(*find_effect("range_walk"), table()).empty();
+  if (!told) return;
+  constexpr auto kRangeChannel = static_cast<std::size_t>(Channel::kRange);
+  const std::vector<EffectInUse> effects = model();
+  const EffectColumnsList own = own_columns();
+  const ColumnSubset subset = own_subset(own);
+  const auto disagree = [&](const Candidate& c) {
+    return prints_disagree({table(), state_, effects, own, subset, variances_},
+                           linear_.columns.list()[c.columns], c.must_show.value_or(Channel::kRange),
+                           options_, context_);
+  };
+  doubt_levels(disagree);
+  while (!context_.stopped()) {
+    const auto chosen = best();
+    if (!chosen || !(candidates_[*chosen].acting_share[kRangeChannel] > 0.0)) return;
+    if (!disagree(candidates_[*chosen])) return;
+    contradict(candidates_[*chosen], Contradiction::kPrints);
+  }
+}
+
+// Edges are found in intensities. Where the two prints tell different stories about what these do,
+// as where a receiver saturates, edges are not to be trusted either.
+void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& disagree) {
+  bool doubted = false;
+  for (const Candidate& c : candidates_) {
+    if (context_.stopped()) return;
+    const bool asked = c.must_show && c.contradiction == Contradiction::kNone &&
+                       is_accepted(c, candidates_.size(), table().scenes.size(), options_);
+    if (!asked || !disagree(c)) continue;
+    contradict(c, Contradiction::kPrints);
+    doubted = true;
+  }
+  if (!doubted) return;
+  for (Candidate& c : candidates_) {
+    if (c.acts_on_edges_alone()) c.contradiction = Contradiction::kLevels;
+  }
+}
+
+void EffectSearch::contradict(const Candidate& candidate, Contradiction by) {
+  const auto id_of = [&](const Candidate& c) {
+    return linear_.columns.list()[c.columns].effect->info().id;
+  };
+  const std::string id = id_of(candidate);
+  for (Candidate& c : candidates_) {
+    if (id_of(c) == id) c.contradiction = by;
+  }
+}
+
+// A strong effect has moved poses so far that the linearisation about them misjudges single scenes.
+void EffectSearch::refit_promising() {
+  const std::size_t tried = candidates_.size();
+  for (std::size_t k = 0; k < std::min(kRefitted, tried) && !context_.stopped(); ++k) {
+    Candidate& c = candidates_[k];
+    if (is_accepted(c, tried, table().scenes.size(), options_)) return;
+    if (c.p_value * static_cast<double>(tried) > options_.false_alarm) continue;
+    const EffectColumns& columns = linear_.columns.list()[c.columns];
+    const Reference& without_it = reference_;
+    EffectSearch trial(*this);
+    trial.add(columns.effect, columns.shape);
+    if (context_.stopped()) return;
+    std::array<double, kChannels> with{};
+    std::array<double, kChannels> without{};
+    for (std::size_t s = 0; s < table().scenes.size(); ++s) {
+      c.scene_density[s] = trial.reference_.density[s];
+      c.scene_gain[s] = c.scene_density[s] - without_it.density[s];
+      for (std::size_t channel = 0; channel < kChannels; ++channel) {
+        with[channel] += trial.reference_.heldout[s][channel];
+        without[channel] += without_it.heldout[s][channel];
+      }
+    }
+    c.set_heldout(with, without, row_counts(linear_));
+  }
+}
+
+// Where a simpler one predicts as well, the simpler: as many parameters as it has less might gain
+// what it falls behind by chance (likelihood ratio, 5 %).
+std::optional<std::size_t> EffectSearch::best() const {
+  constexpr double kByChance = 0.05;
+  const auto unknowns = [&](const Candidate& c) {
+    const EffectColumns& columns = linear_.columns.list()[c.columns];
+    return columns.count() + (columns.effect->shape_name().empty() ? 0 : 1);
+  };
+  std::optional<std::size_t> chosen;
+  double most = 0.0;
+  int first = 0;
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    const Candidate& c = candidates_[k];
+    if (!is_accepted(c, candidates_.size(), table().scenes.size(), options_)) continue;
+    if (!chosen) {
+      chosen = k;
+      most = c.total_density();
+      first = unknowns(c);
+      continue;
+    }
+    // What shows in another channel may be there as well.
+    const Candidate& now = candidates_[*chosen];
+    if (c.main_channel() != now.main_channel() || unknowns(c) >= unknowns(now)) continue;
+    const int fewer = first - unknowns(c);
+    if (2.0 * (most - c.total_density()) < chi_square_gate(fewer, kByChance)) chosen = k;
+  }
+  return chosen;
+}
+
+EffectSearch EffectSearch::with_faint() const {
+  EffectSearch out(*this);
+  std::set<Channel> done;
+  for (const Candidate& c : candidates_) {
+    if (c.contradiction != Contradiction::kNone || !is_sure(c, candidates_.size(), options_))
+      continue;
+    if (!done.insert(c.main_channel()).second) continue;
+    const EffectColumns& columns = linear_.columns.list()[c.columns];
+    out.add(columns.effect, columns.shape);
+  }
+  return out;
+}
+
+std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect) const {
+  const double shape = preferred_shape(effect);
+  if (context_.stopped()) return std::nullopt;
+  EffectColumnsList columns = own_columns();
+  const ColumnSubset subset = own_subset(columns);
+  columns.add(effect, shape, table());
+  const Linearization linear = linearize(table(), state_, model(), columns, context_);
+  if (context_.stopped()) return std::nullopt;
+  const Reference reference = make_reference(linear, subset, variances_, {.rounds = 0});
+  const Candidate c = evaluate_candidate(linear, reference, own_count(), options_.tolerance, {});
+  const auto p = static_cast<Eigen::Index>(columns.list().back().count());
+  const ExtrinsicMove move = move_if_omitted(c.fit, c.fit.solution.tail(p));
+  if (!std::isfinite(move.translation_m) || !std::isfinite(move.rotation_rad)) return std::nullopt;
+  return move;
+}
+
+std::optional<std::size_t> EffectSearch::superfluous() {
+  // The model with all effects in use against those with one less.
+  const EffectColumnsList columns = own_columns();
+  const Linearization linear = linearize(table(), state_, model(), columns, context_);
+  if (context_.stopped()) return std::nullopt;
+  for (std::size_t k = 0; k < in_use_.size(); ++k) {
+    // Without the effect its rows still hold the values in use: the candidate's increment undoes
+    // them, so that the test of "increment equals minus the value" is that of the removal.
+    const Reference with = make_reference(linear, own_subset(columns), variances_, {.rounds = 0});
+    ColumnSubset frozen = own_subset(columns);
+    const EffectColumns& c = columns.list()[k];
+    for (int p = 0; p < c.count(); ++p) {
+      // Held at zero effect: increment −value, known exactly. Columns of effects in use come first.
+      const auto at = static_cast<std::size_t>(c.first + p);
+      frozen.prior_sigma[at] = 1e-6 * c.parameters[static_cast<std::size_t>(p)].material;
+      frozen.prior_mean[at] = -in_use_[k].values(p);
+    }
+    const Reference without = make_reference(linear, frozen, variances_, {});
+    std::vector<double> gain;
+    for (std::size_t s = 0; s < with.density.size(); ++s)
+      gain.push_back(with.density[s] - without.density[s]);
+    if (!is_gain(gain)) return k;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "selection/candidate.h"
+
+namespace lvcalib {
+
+/// Covariance of the beam's spot in the beam's frame, footprint and pointing jitter together.
+struct MeasuredBlur {
+  Eigen::Vector3d rad2 = Eigen::Vector3d::Zero();        ///< Horizontal, mixed, vertical.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of these, rad⁴.
+};
+
+/// State of the search: effects in use with their values, the poses, and the model about them.
+class EffectSearch {
+ public:
+  EffectSearch(const MeasurementTable& table, ModelState state, const DiscoveryOptions& options,
+               const RunContext& context);
+  /// Takes up the search at a model with effects in use, whose values are fitted again.
+  EffectSearch(const MeasurementTable& table, ModelState state, std::vector<EffectInUse> in_use,
+               const DiscoveryOptions& options, const RunContext& context);
+
+  /// Who is told of progress and may stop it from now on.
+  void set_context(const RunContext& context) { context_ = context; }
+  /// Adds an effect without asking and refits.
+  void add(const EffectPtr& effect, double shape);
+  /// Takes effect number k out and refits.
+  void remove(std::size_t k);
+  /// Puts another effect in the place of number k and refits.
+  void replace(std::size_t k, const EffectPtr& effect, double shape);
+  /// Among an effect's shape numbers the one whose model predicts held-out scenes best.
+  [[nodiscard]] double preferred_shape(const EffectPtr& effect) const;
+  /// Moves effect k's shape number from the grid of the search to where the restricted likelihood
+  /// is largest and refits: what a coarse shape leaves over looks like other effects.
+  void refine_shape(std::size_t k);
+  /// Moves the shape numbers in use from the grid of the search to where the restricted likelihood
+  /// is largest (between their neighbours on the grid), refits, and estimates the covariance of all
+  /// unknowns with the shape numbers among them.
+  void refine_shapes();
+  /// Covariance of extrinsic and effects in use: with uncertain shape numbers after
+  /// refine_shapes(), with known ones before.
+  [[nodiscard]] const Eigen::MatrixXd& joint_covariance() const {
+    return joint_covariance_ ? *joint_covariance_ : reference_.fit.covariance;
+  }
+  /// Standard deviation of effect k's shape number after refine_shapes(); 0 if it has none.
+  [[nodiscard]] double shape_sigma(std::size_t k) const {
+    return k < shape_sigmas_.size() ? shape_sigmas_[k] : 0.0;
+  }
+  /// Gauss–Newton on extrinsic, poses and effects until the extrinsic stands still.
+  void refit();
+  /// Makes the table again for the model as it is (see MeasurementTable::again) and refits: to be
+  /// called when effects have come or gone.
+  void remake();
+  /// The table that remake() made; null if there was nothing to do.
+  [[nodiscard]] std::shared_ptr<const MeasurementTable> remade() const { return remade_; }
+  /// Linearises with all candidates that are testable and not in use, and evaluates each. Does
+  /// nothing if that was done for the model as it is.
+  void rank();
+  /// From the next rank() on an effect is not accepted: scenes held out contradict it.
+  void refuse(const std::string& id) {
+    refused_.insert(id);
+    ranked_ = false;
+  }
+  /// After rank(): index of the best accepted candidate, or of the simplest that predicts as well.
+  [[nodiscard]] std::optional<std::size_t> best() const;
+  /// After rank(): the model with effects that are sure but explain too little to be let in, of
+  /// each channel the one that gains most. What it leaves is what no effect of the catalogue
+  /// explains.
+  [[nodiscard]] EffectSearch with_faint() const;
+  /// What leaving an effect out does to the extrinsic, at what the data say of it beside the model;
+  /// nothing if they say nothing.
+  [[nodiscard]] std::optional<ExtrinsicMove> move_without(const EffectPtr& effect) const;
+  /// An effect in use whose removal the held-out scenes do not notice: the mean loss over scenes is
+  /// within its standard error.
+  [[nodiscard]] std::optional<std::size_t> superfluous();
+
+  /// Shape numbers of an effect; of very many the few that the range residuals speak for.
+  [[nodiscard]] std::vector<double> shapes_worth_trying(const Effect& effect) const;
+
+  [[nodiscard]] const MeasurementTable& table() const { return *table_; }
+  [[nodiscard]] const ModelState& state() const { return state_; }
+  /// The beam's blur as the model measures it; nothing where no intensity tells it.
+  [[nodiscard]] std::optional<MeasuredBlur> measured_blur() const;
+  /// Effects found or asked for, in the order added.
+  [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
+  /// Those and the beam's blur: what the model predicts with.
+  [[nodiscard]] std::vector<EffectInUse> model() const;
+  [[nodiscard]] const Linearization& linear() const { return linear_; }
+  [[nodiscard]] const Reference& reference() const { return reference_; }
+  [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+
+ private:
+  // Lets groups of random effects in that were absent and that the residuals show.
+  bool admit_structure();
+  bool descend();
+  void move(double share);
+  void move_levels(double share);
+  void move_blur(const Eigen::Vector3d& step);
+  // Judges promising candidates again after a full refit, until one is accepted.
+  void refit_promising();
+  // Takes accepted candidates off the list that white and black print contradict.
+  void ask_both_prints();
+  void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
+  void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
+  [[nodiscard]] EffectColumnsList own_columns() const;
+  // Columns that stand for effect number `of`, its value in use taken for zero.
+  struct OtherColumns {
+    std::size_t of, columns;
+  };
+  [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns,
+                                        const std::optional<OtherColumns>& other = {}) const;
+  void append_candidates(EffectColumnsList& columns) const;
+  bool move_shape(std::size_t k);
+  // Restricted log-likelihood at shape numbers of effect k, all other values as they are, to first
+  // order in what the effect moves. Only the channels on which it acts change with the shape: the
+  // first call keeps the others in `elsewhere`, later ones with as many shapes take them from
+  // there.
+  [[nodiscard]] std::vector<double> shape_profile(std::size_t k, const std::vector<double>& shapes,
+                                                  std::optional<Linearization>& elsewhere) const;
+  void estimate_joint_covariance();
+  // Effects in use and the beam's blur, which only intensities tell.
+  [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (sees_print() ? 1 : 0); }
+  [[nodiscard]] bool sees_print() const { return table().has_intensity; }
+
+  const MeasurementTable* base_;   // what was given
+  const MeasurementTable* table_;  // that, or …
+  std::shared_ptr<const MeasurementTable> remade_;
+  ModelState state_;
+  const DiscoveryOptions& options_;
+  RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it
+  std::vector<EffectInUse> in_use_;
+  EffectInUse blur_;
+  ModelVariances variances_;
+  Linearization linear_;
+  Reference reference_;
+  std::vector<Candidate> candidates_;
+  bool ranked_ = false;  // `candidates_` are those of the model as it is.
+  std::set<std::string> refused_;
+  std::optional<Eigen::MatrixXd> joint_covariance_;
+  std::vector<double> shape_sigmas_;
+};
+
+}  // namespace lvcalib

@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "selection/findings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include <Eigen/Cholesky>
+
+#include "base/statistics.h"
+#include "base/text.h"
+#include "model/user_effect.h"
+#include "selection/advice_text.h"
+
+namespace lvcalib {
+namespace {
+
+std::string value_text(const ParameterEstimate& p) {
+  return p.name + " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) +
+         behind_number(p.unit);
+}
+
+std::string lowest_text(const EffectColumns& columns) {
+  std::vector<std::string> parts;
+  for (const EffectParameter& p : columns.parameters) {
+    if (std::isfinite(p.lowest))
+      parts.push_back(p.name + " = " + formatted("%.3g", p.lowest / p.unit_in_si) +
+                      behind_number(p.unit));
+  }
+  return joined(parts, ", ");
+}
+
+std::string values_text(const EffectFinding& finding) {
+  constexpr std::size_t kShown = 4;
+  std::vector<std::string> parts;
+  for (const ParameterEstimate& p : finding.parameters) {
+    if (parts.size() == kShown) {
+      parts.emplace_back("…");
+      break;
+    }
+    parts.push_back(value_text(p));
+  }
+  return joined(parts, ", ");
+}
+
+void set_parameters(const EffectColumns& columns, const Eigen::VectorXd& values,
+                    const Eigen::MatrixXd& covariance, EffectFinding& finding) {
+  finding.shape = columns.shape;
+  for (int k = 0; k < columns.count(); ++k) {
+    const EffectParameter& p = columns.parameters[static_cast<std::size_t>(k)];
+    finding.parameters.push_back(
+        {p.name, p.unit, p.unit_in_si, values(k), std::sqrt(std::max(0.0, covariance(k, k)))});
+  }
+}
+
+void set_move(const ExtrinsicMove& move, EffectFinding& finding) {
+  finding.extrinsic_move_mm = 1e3 * move.translation_m;
+  finding.extrinsic_move_mrad = 1e3 * move.rotation_rad;
+}
+
+std::string move_text(const EffectFinding& finding) {
+  return formatted("%.1f mm and %.2f mrad", finding.extrinsic_move_mm, finding.extrinsic_move_mrad);
+}
+
+// The curve over its intervals, with its standard deviation.
+FoundCurve found_curve(const EffectInUse& use, const Eigen::MatrixXd& covariance) {
+  constexpr int kAlong = 33;
+  constexpr int kTensor = 9;
+  FoundCurve out;
+  const CurveView* view = as_curve(*use.effect);
+  if (view == nullptr) return out;
+  out.channel = view->channel();
+  out.covariates = view->covariate_names();
+  out.units = view->covariate_units();
+  const auto& axes = view->basis().axes();
+  const auto places = [](const CurveAxis& axis, int count) {
+    if (axis.categories()) return axis.labels;
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k)
+      values.push_back(axis.low + (axis.high - axis.low) * k / (count - 1.0));
+    return values;
+  };
+  const bool tensor = axes.size() > 1;
+  Eigen::VectorXd by(use.values.size());
+  for (const double x : places(axes[0], tensor ? kTensor : kAlong)) {
+    for (const double y : tensor ? places(axes[1], kTensor) : std::vector<double>{0.0}) {
+      const std::array<double, 2> at{x, y};
+      view->columns_at(std::span(at).first(axes.size()), use.shape,
+                       {by.data(), static_cast<std::size_t>(by.size())});
+      out.points.push_back({x, y, by.dot(use.values), std::sqrt(by.dot(covariance * by))});
+    }
+  }
+  return out;
+}
+
+// What was found of an effect: its values, or of a curve how far it reaches.
+std::string found_text(const EffectFinding& f) {
+  if (f.curve.points.empty()) return values_text(f);
+  const auto& p = f.curve.points;
+  const auto [low, high] = std::minmax_element(
+      p.begin(), p.end(),
+      [](const CurvePoint& a, const CurvePoint& b) { return a.value < b.value; });
+  double squares = 0.0;
+  for (const CurvePoint& point : p) squares += point.sigma * point.sigma;
+  const double factor = display_factor(f.curve.channel);
+  return formatted("it runs from %.3g to %.3g ", factor * low->value, factor * high->value) +
+         unit_of(f.curve.channel) + " over " + joined(f.curve.covariates, " and ") +
+         formatted(", known to %.2g ",
+                   factor * std::sqrt(squares / static_cast<double>(p.size()))) +
+         unit_of(f.curve.channel);
+}
+
+// Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
+// alone, as of a warped board, is no gain in most.
+bool scenes_agree(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
+  const double total = std::accumulate(score.scene_gain.begin(), score.scene_gain.end(), 0.0);
+  if (!(total > std::log(static_cast<double>(tried) / options.false_alarm))) return false;
+  const auto informative =
+      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                    [&](double gain) { return std::abs(gain) >= options.informative_nats; });
+  const auto improved =
+      std::count_if(score.scene_gain.begin(), score.scene_gain.end(),
+                    [&](double gain) { return gain >= options.informative_nats; });
+  return is_gain(score.scene_gain) &&
+         static_cast<double>(improved) >=
+             options.scenes_improved * static_cast<double>(informative);
+}
+
+class Judge {
+ public:
+  Judge(const EffectSearch& search, const std::vector<Selection>& selected,
+        const DiscoveryOptions& options)
+      : search_(search), selected_(selected), options_(options) {}
+
+  std::vector<EffectFinding> run() {
+    for (const Selection& s : selected_) add_selected(s);
+    std::set<std::string> seen;
+    for (const Candidate& c : search_.candidates()) {
+      const std::string& id = columns_of(c).effect->info().id;
+      if (seen.insert(id).second) add_other(c);
+    }
+    for (const EffectPtr& effect : effect_catalogue()) {
+      const std::string reason = why_not_testable(*effect, search_.table());
+      if (reason.empty()) continue;
+      const auto blur = effect->is_in_base_model() ? search_.measured_blur() : std::nullopt;
+      if (blur) {
+        add_measured(*effect, *blur, reason);
+      } else {
+        add_untestable(*effect, reason);
+      }
+    }
+    for (std::size_t k = 0; k < out_.size(); ++k) out_[k].rank = static_cast<int>(k) + 1;
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] const EffectColumns& columns_of(const Candidate& c) const {
+    return search_.linear().columns.list()[c.columns];
+  }
+
+  void add_selected(const Selection& s) {
+    const auto& in_use = search_.in_use();
+    Eigen::Index at = 6;
+    for (std::size_t k = 0; k < in_use.size(); ++k) {
+      const Eigen::Index n = in_use[k].values.size();
+      if (in_use[k].effect->info().id == s.id) {
+        EffectFinding f;
+        f.id = s.id;
+        f.verdict = s.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
+        f.aliases = s.aliases;
+        f.heldout_gain = s.heldout_gain;
+        f.log_density_gain = s.log_density_gain;
+        f.p_value = s.p_value;
+        const Eigen::MatrixXd covariance = search_.joint_covariance().block(at, at, n, n);
+        set_parameters(search_.linear().columns.list()[k], in_use[k].values, covariance, f);
+        f.shape_sigma = search_.shape_sigma(k);
+        f.shape_name = in_use[k].effect->shape_name();
+        f.spec = in_use[k].effect->info().spec;
+        f.curve = found_curve(in_use[k], covariance);
+        const ExtrinsicMove move = bias_of(k, at, n);
+        set_move(move, f);
+        f.matters = move.exceeds(tolerated(options_.tolerance, search_.reference().fit));
+        f.criteria = s.criteria;
+        explain_selected(*in_use[k].effect, f);
+        out_.push_back(std::move(f));
+        return;
+      }
+      at += n;
+    }
+  }
+
+  // The extrinsic's bias by an effect in use, from the final model's information.
+  [[nodiscard]] ExtrinsicMove bias_of(std::size_t k, Eigen::Index at, Eigen::Index n) const {
+    const ModelFit& fit = search_.reference().fit;
+    Eigen::MatrixXd h = fit.prior.information;
+    for (const SceneTerm& scene : fit.scenes) h += scene.information;
+    std::vector<Eigen::Index> rest;
+    for (Eigen::Index i = 0; i < h.rows(); ++i) {
+      if (i < at || i >= at + n) rest.push_back(i);
+    }
+    const Eigen::MatrixXd hr = h(rest, rest);
+    const Eigen::VectorXd cross = h(rest, Eigen::seqN(at, n)) * search_.in_use()[k].values;
+    const Eigen::VectorXd move = hr.ldlt().solve(cross);
+    return {move.head<3>().norm(), move.segment<3>(3).norm()};
+  }
+
+  void explain_selected(const Effect& effect, EffectFinding& f) const {
+    const EffectInfo& info = effect.info();
+    f.explanation = info.physics + " Found: " + found_text(f);
+    if (!effect.shape_name().empty()) {
+      f.explanation += "; " + effect.shape_name() +
+                       (f.shape_sigma > 0.0 ? formatted(" = %.4g ± %.2g", f.shape, f.shape_sigma)
+                                            : formatted(" = %.3g", f.shape));
+    }
+    f.explanation += "; leaving it out would move the extrinsic by " + move_text(f) + ".";
+    if (!f.aliases.empty()) {
+      f.explanation += " These scenes cannot tell it from " + joined(f.aliases, " or ") +
+                       "; to tell: " + info.discriminating_pose + ".";
+    }
+  }
+
+  void add_other(const Candidate& c) {
+    const EffectColumns& columns = columns_of(c);
+    EffectFinding f;
+    f.id = columns.effect->info().id;
+    f.heldout_gain = c.best_heldout_gain();
+    f.log_density_gain = c.total_gain();
+    f.p_value = c.p_value;
+    f.criteria =
+        criteria_of(c, search_.candidates().size(), search_.table().scenes.size(), options_);
+    f.matters = c.limit.most.exceeds(c.tolerance);
+    const Eigen::Index p = columns.count();
+    const Eigen::VectorXd theta = c.fit.solution.tail(p);
+    const Eigen::MatrixXd covariance = c.fit.covariance.bottomRightCorner(p, p);
+    set_parameters(columns, theta, covariance, f);
+    judge_other(columns, c, f);
+    for (const Selection& s : selected_) {
+      if (std::find(s.aliases.begin(), s.aliases.end(), f.id) == s.aliases.end()) continue;
+      f.verdict = EffectVerdict::kAliased;
+      f.aliases.assign(1, s.id);
+      f.explanation = "Explains the same as " + s.id +
+                      ", which is in the model: these scenes cannot "
+                      "tell the two apart. To tell: " +
+                      columns.effect->info().discriminating_pose + ".";
+    }
+    out_.push_back(std::move(f));
+  }
+
+  // Whether the data say more of it than what is believable beforehand: a third of that, or less.
+  static bool is_told(const EffectColumns& columns, const EffectFinding& f) {
+    constexpr double kTold = 1.0 / 3.0;
+    for (std::size_t k = 0; k < f.parameters.size(); ++k) {
+      if (f.parameters[k].sigma > kTold * columns.parameters[k].prior_sigma) return false;
+    }
+    return true;
+  }
+
+  // Absent if at its limit it would not move the extrinsic by more than is tolerated. Not testable
+  // if the data could not exclude that even where they saw nothing of it, or hardly see it at all.
+  void judge_other(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
+    f.unabsorbed_share = unabsorbed_share(c.fit, c.fit.solution.tail(columns.count()));
+    set_move(c.limit.most, f);
+    const bool told = is_told(columns, f);
+    if (!f.matters && told) {
+      f.verdict = EffectVerdict::kAbsent;
+      f.explanation =
+          (is_sure(c, search_.candidates().size(), options_) ? "Too small to matter: "
+                                                             : "Not there as far as it matters: ") +
+          values_text(f) + "; it moves the extrinsic by " + move_text(f) + " at most.";
+      return;
+    }
+    f.verdict = EffectVerdict::kNotTestable;
+    if (c.contradiction == Contradiction::kLevels) {
+      f.explanation =
+          "White and black return unlike shares of light as range and incidence "
+          "change, which no effect explains; edges are found in these intensities and "
+          "cannot tell: " +
+          values_text(f) + ".";
+    } else if (c.contradiction == Contradiction::kScenes) {
+      f.explanation =
+          "Where it fits best it predicts scenes held out worse: " + values_text(f) +
+          "; too few of them show it. To decide: " + columns.effect->info().discriminating_pose +
+          ".";
+    } else if (c.contradiction == Contradiction::kPrints) {
+      f.explanation = "White and black print contradict each other about it: " + values_text(f) +
+                      " of both together; something that depends on the print is at work.";
+    } else if (!c.possible()) {
+      f.explanation = "What fits best is impossible: " + values_text(f) +
+                      ", while no device has less than " + lowest_text(columns) +
+                      "; something else is at work.";
+    } else if (c.explained_share < options_.min_explained &&
+               is_sure(c, search_.candidates().size(), options_)) {
+      f.explanation = formatted("It explains %.0f %% of what is wrong in the ",
+                                100.0 * std::max(0.0, c.explained_share)) +
+                      std::string(name_of(c.explained_in)) + " channel: " + values_text(f) +
+                      "; something else is at work there.";
+    } else if (!told || c.limit.unknown.exceeds(c.tolerance)) {
+      f.explanation = "Cannot be told from these scenes: " + values_text(f) +
+                      "; it may move the extrinsic by " + move_text(f) +
+                      ". To see it: " + columns.effect->info().discriminating_pose + ".";
+    } else {
+      f.explanation = "Undecided: " + values_text(f) +
+                      " is neither excluded nor confirmed by scenes held out; it may move the "
+                      "extrinsic by " +
+                      move_text(f) + ". To decide: " + columns.effect->info().discriminating_pose +
+                      ".";
+    }
+  }
+
+  // Part of the beam's blur, which every model holds: the least squares of what the effect adds to
+  // the three numbers of the blur. Measured, so there is nothing to test; the value is told.
+  void add_measured(const Effect& effect, const MeasuredBlur& blur, const std::string& reason) {
+    const std::vector<EffectParameter> parameters = effect.parameters(search_.table());
+    std::vector<Eigen::Vector3d> by(parameters.size(), Eigen::Vector3d::Zero());
+    effect.blur({}, search_.table(), 0.0, by);
+    Eigen::MatrixXd columns(3, static_cast<Eigen::Index>(parameters.size()));
+    for (std::size_t k = 0; k < by.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = by[k];
+    const Eigen::MatrixXd inverse = columns.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::VectorXd values = inverse * blur.rad2;
+    const Eigen::MatrixXd covariance = inverse * blur.covariance * inverse.transpose();
+    EffectFinding f;
+    f.id = effect.info().id;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      f.parameters.push_back({parameters[k].name, parameters[k].unit, parameters[k].unit_in_si,
+                              values(i), std::sqrt(std::max(0.0, covariance(i, i)))});
+    }
+    f.verdict = EffectVerdict::kNotTestable;
+    f.explanation = "Not testable: " + reason + ".";
+    out_.push_back(std::move(f));
+  }
+
+  void add_untestable(const Effect& effect, const std::string& reason) {
+    EffectFinding f;
+    f.id = effect.info().id;
+    f.verdict = EffectVerdict::kNotTestable;
+    f.explanation = "Not testable: " + reason + ".";
+    out_.push_back(std::move(f));
+  }
+
+  const EffectSearch& search_;
+  const std::vector<Selection>& selected_;
+  const DiscoveryOptions& options_;
+  std::vector<EffectFinding> out_;
+};
+
+}  // namespace
+
+std::string name_of(EffectVerdict verdict) {
+  switch (verdict) {
+    case EffectVerdict::kPresent:
+      return "present";
+    case EffectVerdict::kAbsent:
+      return "absent";
+    case EffectVerdict::kAliased:
+      return "aliased";
+    case EffectVerdict::kNotTestable:
+      break;
+  }
+  return "not_testable";
+}
+
+std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,
+                                    const DiscoveryOptions& options) {
+  const auto& candidates = search.candidates();
+  const auto& list = search.linear().columns.list();
+  const Candidate& best = candidates[chosen];
+  const std::string& own = list[best.columns].effect->info().id;
+  std::set<std::string> out;
+  for (const Candidate& other : candidates) {
+    const std::string& id = list[other.columns].effect->info().id;
+    if (id == own) continue;
+    const bool alike = correlation_of(search.linear(), search.reference(), best.columns,
+                                      other.columns) > options.alias_correlation;
+    // Effects of different channels may both be there; that they gain alike is chance.
+    const bool tie = other.main_channel() == best.main_channel() &&
+                     is_accepted(other, candidates.size(), search.table().scenes.size(), options) &&
+                     indistinguishable(best, other);
+    // Where a candidate with more parameters contains the other's pattern, only a tie in prediction
+    // makes them aliases.
+    const bool same_size = list[best.columns].count() == list[other.columns].count();
+    if (tie || (alike && same_size)) out.insert(id);
+  }
+  return {out.begin(), out.end()};
+}
+
+bool is_notable(const StructureScore& score, std::size_t tried, const DiscoveryOptions& options) {
+  if (score.score >= options.min_structure) return true;
+  // What is local has a small share of the variance by nature: a bump is judged by its height.
+  const bool local = score.channel == Channel::kRange && score.height >= options.min_height;
+  return (score.score >= options.min_sure_structure || local) &&
+         scenes_agree(score, tried, options);
+}
+
+std::vector<StructureScore> notable_of(std::vector<StructureScore> scores,
+                                       const DiscoveryOptions& options) {
+  const std::size_t tried = scores.size();
+  std::erase_if(scores, [&](const StructureScore& s) { return !is_notable(s, tried, options); });
+  sort_best_first(scores);
+  return scores;
+}
+
+std::vector<StructureScore> notable_of(const StructureScan& scan, const DiscoveryOptions& options) {
+  std::vector<StructureScore> all = scan.curves;
+  all.insert(all.end(), scan.places.begin(), scan.places.end());
+  return notable_of(std::move(all), options);
+}
+
+void judge_unknown(const EffectSearch& explained, const DiscoveryOptions& options,
+                   std::vector<StructureScore>& unknown) {
+  // Each asks for a linearization of all rows, and there are four channels: beyond the strongest of
+  // each, other covariates mostly see the same structure.
+  constexpr std::size_t kMost = 4;
+  const ExtrinsicMove tolerance = tolerated(options.tolerance, explained.reference().fit);
+  for (std::size_t k = 0; k < std::min(kMost, unknown.size()); ++k) {
+    const auto curve = make_user_effect(curve_spec(unknown[k]), explained.table(), options.user);
+    if (!curve) continue;
+    const auto move = explained.move_without(*curve);
+    if (!move) continue;
+    unknown[k].extrinsic_move = *move;
+    unknown[k].matters = move->exceeds(tolerance);
+  }
+}
+
+ScenesTaken scenes_taken(const EffectSearch& search) {
+  return {search.table(), search.state(), search.in_use(), search.linear(),
+          search.reference().fit.variances};
+}
+
+OpenQuestions open_questions(const EffectSearch& search,
+                             const std::vector<EffectFinding>& findings) {
+  constexpr std::size_t kMostPairs = 3;
+  constexpr std::size_t kMostUnseen = 2;
+  constexpr double kUnseenMove_mm = 1.0;
+  // Where an effect stands in the linearisation: the candidate that predicts best.
+  const auto place = [&](const std::string& id) -> std::optional<std::size_t> {
+    for (const Candidate& c : search.candidates()) {
+      if (search.linear().columns.list()[c.columns].effect->info().id == id) return c.columns;
+    }
+    return std::nullopt;
+  };
+  OpenQuestions out;
+  for (const EffectFinding& f : findings) {
+    const auto& in_use = search.in_use();
+    const auto at = std::find_if(in_use.begin(), in_use.end(), [&](const EffectInUse& use) {
+      return use.effect->info().id == f.id;
+    });
+    if (at == in_use.end()) continue;
+    for (const std::string& id : f.aliases) {
+      const auto alias = place(id);
+      if (out.aliased.size() < kMostPairs && alias)
+        out.aliased.push_back({static_cast<std::size_t>(at - in_use.begin()), *alias});
+    }
+  }
+  for (const EffectFinding& f : findings) {
+    const auto effect = place(f.id);
+    if (f.verdict == EffectVerdict::kNotTestable && !f.parameters.empty() &&
+        f.extrinsic_move_mm >= kUnseenMove_mm && effect)
+      out.unseen.push_back({*effect, f.extrinsic_move_mm, f.extrinsic_move_mrad});
+  }
+  std::stable_sort(out.unseen.begin(), out.unseen.end(),
+                   [](const UnseenEffect& a, const UnseenEffect& b) {
+                     return a.extrinsic_move_mm > b.extrinsic_move_mm;
+                   });
+  if (out.unseen.size() > kMostUnseen) out.unseen.resize(kMostUnseen);
+  return out;
+}
+
+std::vector<EffectFinding> judge_effects(const EffectSearch& search,
+                                         const std::vector<Selection>& selected,
+                                         const DiscoveryOptions& options) {
+  return Judge(search, selected, options).run();
+}
+
+}  // namespace lvcalib

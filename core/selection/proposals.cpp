@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "selection/proposals.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/text.h"
+#include "design/scene_advice.h"
+#include "diagnostics/closed_form.h"
+#include "diagnostics/structure_scan.h"
+#include "selection/advice_text.h"
+#include "selection/effect_search.h"
+#include "selection/findings.h"
+#include "selection/sensitivity_budget.h"
+
+namespace lvcalib {
+namespace {
+
+std::string values_text(const std::vector<ParameterEstimate>& parameters) {
+  constexpr std::size_t kShown = 4;
+  std::string out;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (k == kShown) return out + ", …";
+    const ParameterEstimate& p = parameters[k];
+    out += (out.empty() ? "" : ", ") + p.name + " = " +
+           with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + behind_number(p.unit);
+  }
+  return out;
+}
+
+class Proposer {
+ public:
+  Proposer(const EffectSearch& search, const DiscoveryOptions& options)
+      : search_(search), options_(options) {
+    const auto& candidates = search.candidates();
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+      first_.try_emplace(columns_of(candidates[k]).effect->info().id, k);
+  }
+
+  std::vector<EffectProposal> run(std::vector<EffectFinding> findings) {
+    for (EffectFinding& finding : findings) {
+      EffectProposal proposal;
+      proposal.finding = std::move(finding);
+      if (const auto at = first_.find(proposal.finding.id); at != first_.end())
+        judge(at->second, proposal);
+      out_.push_back(std::move(proposal));
+    }
+    std::stable_partition(out_.begin(), out_.end(),
+                          [](const EffectProposal& p) { return p.suggested; });
+    group_aliases();
+    for (std::size_t k = 0; k < out_.size(); ++k) out_[k].finding.rank = static_cast<int>(k) + 1;
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] const EffectColumns& columns_of(const Candidate& c) const {
+    return search_.linear().columns.list()[c.columns];
+  }
+
+  void judge(std::size_t k, EffectProposal& proposal) const {
+    const Candidate& c = search_.candidates()[k];
+    proposal.heldout_fall = c.heldout_gain;
+    const Vector6d move = c.fit.solution.head<6>() - search_.reference().fit.solution.head<6>();
+    proposal.gained_mm = 1e3 * move.head<3>().norm();
+    proposal.gained_mrad = 1e3 * move.tail<3>().norm();
+    proposal.suggested =
+        is_accepted(c, search_.candidates().size(), search_.table().scenes.size(), options_);
+    if (!proposal.suggested) return;
+    EffectFinding& f = proposal.finding;
+    f.aliases = aliases_of(search_, k, options_);
+    f.verdict = f.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
+    f.extrinsic_move_mm = proposal.gained_mm;
+    f.extrinsic_move_mrad = proposal.gained_mrad;
+    f.matters =
+        ExtrinsicMove{1e-3 * proposal.gained_mm, 1e-3 * proposal.gained_mrad}.exceeds(c.tolerance);
+    f.explanation = explain(columns_of(c).effect->info(), c.main_channel(), proposal);
+  }
+
+  static std::string explain(const EffectInfo& info, Channel best, const EffectProposal& proposal) {
+    std::string out = info.physics + " Found: " + values_text(proposal.finding.parameters) +
+                      ". With it, scenes held out have " +
+                      formatted("%.0f %% less squared error in the ",
+                                100.0 * proposal.heldout_fall[static_cast<std::size_t>(best)]) +
+                      name_of(best) + " channel and the extrinsic moves by " +
+                      formatted("%.1f mm and %.2f mrad.", proposal.gained_mm, proposal.gained_mrad);
+    if (!proposal.finding.aliases.empty()) {
+      std::string others;
+      for (const std::string& id : proposal.finding.aliases)
+        others += (others.empty() ? "" : ", ") + id;
+      out += " These scenes cannot tell it from " + others +
+             "; to tell: " + info.discriminating_pose + ".";
+    }
+    return out;
+  }
+
+  // Each suggested effect takes those that it cannot be told from to its side.
+  void group_aliases() {
+    std::vector<EffectProposal> grouped;
+    std::vector<bool> taken(out_.size(), false);
+    for (std::size_t k = 0; k < out_.size(); ++k) {
+      if (taken[k]) continue;
+      taken[k] = true;
+      grouped.push_back(out_[k]);
+      if (!out_[k].suggested) continue;
+      for (std::size_t j = k + 1; j < out_.size(); ++j) {
+        const auto& aliases = out_[k].finding.aliases;
+        const std::string& id = out_[j].finding.id;
+        if (taken[j] || std::find(aliases.begin(), aliases.end(), id) == aliases.end()) continue;
+        taken[j] = true;
+        grouped.push_back(out_[j]);
+        grouped.back().alias_of = out_[k].finding.id;
+        grouped.back().finding.verdict = EffectVerdict::kAliased;
+      }
+    }
+    out_ = std::move(grouped);
+  }
+
+  const EffectSearch& search_;
+  const DiscoveryOptions& options_;
+  std::map<std::string, std::size_t> first_;  // an effect's best candidate
+  std::vector<EffectProposal> out_;
+};
+
+// What is known of an effect in the model without asking whether it belongs there.
+EffectFinding finding_in_model(const ModelTerm& term) {
+  EffectFinding f;
+  f.id = term.spec;
+  f.verdict = EffectVerdict::kPresent;
+  f.parameters = term.estimates();
+  f.shape = term.use.shape;
+  f.explanation = term.use.effect->info().physics + " In the model" +
+                  (term.use.held ? ", held" : "") + ": " + values_text(f.parameters) + ".";
+  return f;
+}
+
+}  // namespace
+
+bool ModelRanking::nothing_missing() const {
+  return unknown.empty() && std::none_of(proposals.begin(), proposals.end(),
+                                         [](const EffectProposal& p) { return p.suggested; });
+}
+
+Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& context) {
+  const DiscoveryOptions& options = step.basis->options;
+  context.report("rank", 0.1, "ranking effects");
+  EffectSearch search(*step.search);
+  search.set_context(context);
+  search.rank();
+  if (context.stopped()) return Error::cancelled();
+  context.report("verdicts", 0.7, "judging effects");
+  std::vector<Selection> selected;
+  for (const ModelTerm& term : step.terms) {
+    if (term.on) selected.push_back(term.selection);
+  }
+  ModelRanking out;
+  const std::vector<EffectFinding> findings = judge_effects(search, selected, options);
+  // Those in use come first.
+  const auto others = findings.begin() + static_cast<std::ptrdiff_t>(selected.size());
+  out.in_use.assign(findings.begin(), others);
+  out.proposals = Proposer(search, options).run({others, findings.end()});
+  if (context.stopped()) return Error::cancelled();
+  const bool any = std::any_of(out.proposals.begin(), out.proposals.end(),
+                               [](const EffectProposal& p) { return p.suggested; });
+  if (!any) {
+    const EffectSearch explained = search.with_faint();
+    if (context.stopped()) return Error::cancelled();
+    out.unknown = notable_of(
+        scan_structure(explained.table(), explained.state(), explained.model(), context), options);
+    judge_unknown(explained, options, out.unknown);
+    suggest_closed_forms(explained.table(), explained.state(), explained.model(),
+                         options.closed_forms, context, out.unknown);
+  }
+  if (context.stopped()) return Error::cancelled();
+  context.report("advice", 0.85, "looking for the next scene");
+  out.advice = options.advise_scenes
+                   ? advise_scenes(scenes_taken(search), open_questions(search, findings),
+                                   options.grid, context)
+                   : advise(findings);
+  const auto about_unknown = advise_unknown(out.unknown);
+  out.advice.insert(out.advice.end(), about_unknown.begin(), about_unknown.end());
+  out.budget = sensitivity_budget(search);
+  if (context.stopped()) return Error::cancelled();
+  context.report("verdicts", 1.0, "done");
+  return out;
+}
+
+Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRanking* ranking) {
+  Discovery out;
+  if (steps.empty()) return out;
+  const ModelStep& base = *steps.front();
+  const ModelStep& last = *steps.back();
+  out.channels = base.channels;
+  out.structure = notable_of({base.structure, base.places}, base.basis->options);
+  for (const ModelTerm& term : last.terms) {
+    if (!term.on) continue;
+    if (ranking == nullptr) out.effects.push_back(finding_in_model(term));
+    out.selected.push_back(term.spec);
+    out.model.push_back(term.use);
+  }
+  if (ranking != nullptr) {
+    out.effects = ranking->in_use;
+    for (const EffectProposal& p : ranking->proposals) out.effects.push_back(p.finding);
+    out.unknown = ranking->unknown;
+    out.advice = ranking->advice;
+    out.budget = ranking->budget;
+  }
+  for (std::size_t k = 0; k < out.effects.size(); ++k)
+    out.effects[k].rank = static_cast<int>(k) + 1;
+  for (const ModelStepPtr& step : steps) {
+    const bool added = step->change == ModelChange::kAdd || step->change == ModelChange::kSwitchOn;
+    out.history.push_back(
+        {added ? step->changed : "", step->channels, step->state.camera_from_lidar});
+  }
+  out.state = last.state;
+  out.covariance = last.covariance;
+  out.scales = scales_of(last.table());
+  out.fit = last.fit;
+  out.covariance_with_budget = covariance_with_budget(out.covariance, out.budget);
+  return out;
+}
+
+}  // namespace lvcalib

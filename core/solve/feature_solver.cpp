@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/feature_solver.h"
+
+#include <algorithm>
+
+#include <Eigen/SVD>
+
+#include "solve/robust_fit.h"
+#include "solve/solution_report.h"
+
+namespace lvcalib {
+namespace {
+
+Status enough_scenes(const std::vector<SceneObservations>& scenes, const Target& target) {
+  const auto used =
+      std::count_if(scenes.begin(), scenes.end(), [](const SceneObservations& s) { return s.use; });
+  if (used == 0) return Error::untrusted("no usable scene is left");
+  if (!target.has_circles() && used < 3) {
+    return Error::untrusted(
+        std::to_string(used) +
+            " usable scenes; a target without circles needs three or more, differently turned",
+        {}, "take scenes with the board tilted left, right, up and down");
+  }
+  return Done{};
+}
+
+// A start that puts corners where the camera cannot see them leaves nothing to descend from.
+Status corners_in_view(const std::vector<SceneObservations>& scenes, const Camera& camera) {
+  for (const SceneObservations& scene : scenes) {
+    if (!scene.use) continue;
+    for (const CornerObservation& c : scene.corners) {
+      if (camera.project(scene.camera_from_board *
+                         Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0)))
+        continue;
+      return Error::untrusted(
+          "the board's start pose puts some of its corners where the camera cannot see them",
+          scene.name, "leave this scene out");
+    }
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Rigid3 closed_form_extrinsic(const std::vector<SceneObservations>& scenes, const Target& target) {
+  // Corresponding points: the outline's corners and a point above the middle, by each sensor's own
+  // board pose.
+  const BoardOutline outline = target.outline();
+  const Eigen::Vector2d a = outline.lower_left_m;
+  const Eigen::Vector2d b = outline.upper_right_m;
+  const Eigen::Vector2d c = outline.center_m();
+  const std::vector<Eigen::Vector3d> points{{a.x(), a.y(), 0},
+                                            {b.x(), a.y(), 0},
+                                            {b.x(), b.y(), 0},
+                                            {a.x(), b.y(), 0},
+                                            {c.x(), c.y(), outline.size_m().maxCoeff()}};
+  std::vector<Eigen::Vector3d> camera;
+  std::vector<Eigen::Vector3d> lidar;
+  for (const SceneObservations& scene : scenes) {
+    if (!scene.use) continue;
+    for (const Eigen::Vector3d& p : points) {
+      camera.push_back(scene.camera_from_board * p);
+      lidar.push_back(scene.lidar_from_board * p);
+    }
+  }
+  if (camera.empty()) return {};
+  Eigen::Vector3d camera_mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lidar_mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < camera.size(); ++i) {
+    camera_mean += camera[i] / static_cast<double>(camera.size());
+    lidar_mean += lidar[i] / static_cast<double>(camera.size());
+  }
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < camera.size(); ++i) {
+    cross += (camera[i] - camera_mean) * (lidar[i] - lidar_mean).transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2, 2) = -1.0;
+  const Eigen::Matrix3d R = svd.matrixU() * sign * svd.matrixV().transpose();
+  return Rigid3::from_matrix(R, camera_mean - R * lidar_mean);
+}
+
+Result<ExtrinsicSolution> solve_extrinsic(const std::vector<SceneObservations>& scenes,
+                                          const Camera& camera, const Target& target,
+                                          const ExtrinsicOptions& options) {
+  if (Status status = enough_scenes(scenes, target); !status) return status.error();
+  if (Status status = corners_in_view(scenes, camera); !status) return status.error();
+  auto fit = fit_robustly(scenes, camera, target, options);
+  if (!fit) return fit.error();
+  return report_solution(*fit, scenes, camera, target, options);
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solve/feature_solver.h"
+
+namespace lvcalib {
+
+/// The extrinsic from one half of the scenes against that from the other.
+struct SplitHalf {
+  std::string name;                ///< "near/far", "left/right", "flat/tilted"
+  std::vector<std::string> first;  ///< Scenes of the first half (near, left, flat).
+  std::vector<std::string> second;
+  double translation_mm = 0.0;  ///< Difference, of the LiDAR's origin in the camera frame.
+  double rotation_mrad = 0.0;
+  double expected_translation_mm = 0.0;  ///< What noise alone makes of it, root mean square.
+  double expected_rotation_mrad = 0.0;
+  double chi_square = 0.0;  ///< ξᵀ(Σ₁ + Σ₂)⁻¹ξ, six degrees of freedom.
+  double gate = 0.0;        ///< Exceeded by noise alone once in a thousand.
+  [[nodiscard]] bool agrees() const { return chi_square <= gate; }
+};
+
+/// How the extrinsic's uncertainty shows in the image.
+struct ProjectedUncertainty {
+  int columns = 0;
+  int rows = 0;
+  double range_m = 0.0;
+  std::vector<Eigen::Vector2d> pixel;  ///< Row by row.
+  std::vector<double> sigma_px;  ///< Root of the trace of the pixel's covariance; NaN: no ray.
+};
+
+/// How it shows in space: at this distance along the camera's axis.
+struct RangeUncertainty {
+  double range_m = 0.0;
+  double across_mm = 0.0;  ///< Root of the trace of the covariance across the ray.
+  double along_mm = 0.0;
+};
+
+struct UncertaintyReport {
+  std::vector<SplitHalf> splits;
+  std::string splits_reason;               ///< Why there are none: "not enough scenes for …".
+  std::vector<ProjectedUncertainty> maps;  ///< One per range.
+  std::vector<RangeUncertainty> by_range;
+};
+
+struct UncertaintyOptions {
+  std::vector<double> ranges_m = {2.0, 5.0, 10.0, 20.0, 50.0};
+  double map_range_m = 5.0;
+  int map_columns = 24;
+};
+
+/// The extrinsic from some of the scenes (indices); nothing if they do not determine it.
+using SubsetSolver =
+    std::function<std::optional<UncertainRigid3>(const std::vector<std::size_t>& scenes)>;
+
+/// Compares halves of the scenes, and projects the covariance. Halves need two scenes each; three
+/// for targets without circles. Halves are solved by `subset`, or, without it, from nodes and
+/// planes.
+UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
+                                     const Camera& camera, const Target& target,
+                                     const ExtrinsicSolution& joint,
+                                     const ExtrinsicOptions& options,
+                                     const UncertaintyOptions& how = {},
+                                     const SubsetSolver& subset = {});
+
+/// Covariance (px²) of the pixel of a point (camera frame) when the extrinsic has this one.
+/// Nothing where the camera sees no such point.
+std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
+                                                const Eigen::Vector3d& point_in_camera_m,
+                                                const Matrix6d& covariance);
+
+}  // namespace lvcalib

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "selection/effect_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/pose_matchers.h"
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+class SearchState : public ::testing::Test {
+ protected:
+  static test::SyntheticTable with_walk(double size_m) {
+    test::Disturbance wrong;
+    wrong.range_m = [size_m](const BeamPoint& beam) { return size_m * beam.darkness; };
+    return test::synthetic_table({}, wrong);
+  }
+  [[nodiscard]] static std::string id_of(const EffectSearch& search, const Candidate& c) {
+    return search.linear().columns.list()[c.columns].effect->info().id;
+  }
+  DiscoveryOptions options_;
+  RunContext context_;
+};
+
+TEST_F(SearchState, RefitFindsTheTruthFromAWrongStart) {
+  const auto made = test::synthetic_table({});
+  ModelState start = made.truth;
+  Random random(8);
+  start.camera_from_lidar = test::disturbed(start.camera_from_lidar, random, 0.001, 0.0005);
+  for (Rigid3& board : start.camera_from_board)
+    board = test::disturbed(board, random, 0.0005, 0.0005);
+  const EffectSearch search(made.table, start, options_, context_);
+  EXPECT_LT(test::chi_square_of({search.state().camera_from_lidar,
+                                 search.reference().fit.covariance.topLeftCorner<6, 6>().eval()},
+                                made.truth.camera_from_lidar),
+            22.5);
+}
+
+TEST_F(SearchState, AddedEffectsTakeTheirValueAndLeaveTheCandidates) {
+  const auto made = with_walk(0.008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  ASSERT_FALSE(search.candidates().empty());
+  EXPECT_EQ(id_of(search, search.candidates().front()), "range_walk");
+  ASSERT_TRUE(search.best().has_value());
+  search.add(find_effect("range_walk"), 0.0);
+  ASSERT_EQ(search.in_use().size(), 1U);
+  EXPECT_NEAR(search.in_use()[0].values(0), 0.008, 0.0008);
+  search.rank();
+  for (const Candidate& c : search.candidates()) EXPECT_NE(id_of(search, c), "range_walk");
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(SearchState, RemovedEffectsLeaveNoTrace) {
+  const auto made = with_walk(0.0);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  const Rigid3 before = search.state().camera_from_lidar;
+  search.add(find_effect("range_offset"), 0.0);
+  search.remove(0);
+  EXPECT_TRUE(search.in_use().empty());
+  // To a twentieth of what the scenes determine.
+  const Vector6d sigma = search.reference().fit.covariance.diagonal().head<6>().cwiseSqrt();
+  const Vector6d moved = se3_log(search.state().camera_from_lidar * before.inverse());
+  EXPECT_LT(moved.cwiseQuotient(sigma).norm(), 0.05);
+}
+
+TEST_F(SearchState, WhatIsNotThereIsSuperfluousAndWhatIsThereIsNot) {
+  const auto made = with_walk(0.008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.add(find_effect("range_walk"), 0.0);
+  EXPECT_FALSE(search.superfluous().has_value());
+  search.add(find_effect("board_bow"), 0.0);
+  const auto k = search.superfluous();
+  ASSERT_TRUE(k.has_value());
+  EXPECT_EQ(search.in_use()[*k].effect->info().id, "board_bow");
+}
+
+TEST_F(SearchState, CandidatesComeBestFirst) {
+  const auto made = with_walk(0.008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  for (const Candidate& c : search.candidates()) {
+    EXPECT_EQ(c.scene_gain.size(), made.table.scenes.size());
+    EXPECT_GE(c.p_value, 0.0);
+    EXPECT_LE(c.p_value, 1.0);
+  }
+  EXPECT_GT(search.candidates().front().total_gain(), search.candidates().back().total_gain());
+  EXPECT_GT(search.candidates().front().best_heldout_gain(), 0.05);
+}
+
+TEST_F(SearchState, StopsWhenAsked) {
+  const auto made = with_walk(0.008);
+  std::stop_source source;
+  source.request_stop();
+  context_.stop = source.get_token();
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  EXPECT_TRUE(search.candidates().empty());
+  EXPECT_FALSE(search.best().has_value());
+  EXPECT_FALSE(search.superfluous().has_value());
+}
+
+test::SyntheticTable with_ink(double ink_m) {
+  test::Disturbance wrong;
+  wrong.edge_m = [ink_m](const BoundaryRow&) { return ink_m; };
+  return test::synthetic_table({}, wrong);
+}
+
+double blur_sigma(const EffectSearch& search) {
+  const auto at = static_cast<Eigen::Index>(6);
+  return std::sqrt(search.reference().fit.covariance(at, at));
+}
+
+TEST_F(SearchState, TheBlurIsMeasuredWithTheModelAndIsNoInk) {
+  const auto made = with_ink(0.0);
+  ModelState start = made.truth;
+  start.beam.blur_rad2 *= 0.7;
+  EffectSearch search(made.table, start, options_, context_);
+  ASSERT_EQ(search.model().size(), 1U);
+  const double sigma = blur_sigma(search);
+  const double truth = test::kTableBeam_rad * test::kTableBeam_rad;
+  EXPECT_NEAR(search.state().beam.blur_rad2(0, 0), truth, 4.0 * sigma);
+  EXPECT_LT(sigma, 0.1 * truth);
+  EXPECT_TRUE(search.in_use().empty());
+  search.rank();
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(SearchState, InkBesideTheBlurHasItsOwnSize) {
+  const auto made = with_ink(0.0008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.add(find_effect("ink_gain"), 0.0);
+  const double sigma = std::sqrt(search.reference().fit.covariance(6, 6));
+  EXPECT_NEAR(search.in_use()[0].values(0), 0.0008, 3.0 * sigma);
+  EXPECT_LT(sigma, 0.0002);
+}
+
+TEST_F(SearchState, InkIsFoundAsWhatMovesEdges) {
+  const auto made = with_ink(-0.0004);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  const std::string id = id_of(search, search.candidates()[*best]);
+  EXPECT_TRUE(id == "ink_gain" || id == "boundary_bias" || id == "blooming") << id;
+}
+
+// Near boards read wrong on one print only, as where a receiver saturates, or on both.
+test::SyntheticTable near_boards_off(double white_m, double black_m) {
+  test::Disturbance wrong;
+  wrong.range_m = [=](const BeamPoint& beam) {
+    const double near = std::exp(-(beam.range_m - 1.5) / 0.8);
+    return near * (beam.darkness < 0.5 ? white_m : black_m);
+  };
+  return test::synthetic_table({}, wrong);
+}
+
+TEST_F(SearchState, WhatOnlyWhitePrintShowsIsNoEffectThatKnowsNoPrint) {
+  const auto made = near_boards_off(-0.02, 0.0);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  if (best) {
+    EXPECT_EQ(id_of(search, search.candidates()[*best]), "range_walk");
+  }
+  search.add(find_effect("range_walk"), 0.0);
+  search.rank();
+  bool seen = false;
+  for (const Candidate& c : search.candidates()) {
+    if (id_of(search, c) != "range_near") continue;
+    seen = true;
+    EXPECT_FALSE(is_accepted(c, search.candidates().size(), made.table.scenes.size(), options_));
+  }
+  EXPECT_TRUE(seen);
+}
+
+TEST_F(SearchState, WhatBothPrintsShowIsNotContradicted) {
+  const auto made = near_boards_off(-0.02, -0.02);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  EXPECT_EQ(id_of(search, search.candidates()[*best]), "range_near");
+  for (const Candidate& c : search.candidates())
+    EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
+}
+
+// Within a scan of 0.1 s, with a decay of 0.03 s, 4 mm at the most: not an offset, nor a motion.
+TEST_F(SearchState, ADriftWithinEveryScanIsNoMotion) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    return 0.004 * (1.0 - std::exp(-beam.time_s / 0.03));
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  const EffectColumns& found = search.linear().columns.list()[search.candidates()[*best].columns];
+  ASSERT_EQ(found.effect->info().id, "range_drift");
+  search.add(found.effect, found.shape);
+  search.refine_shape(0);
+  search.refine_shapes();
+  const EffectInUse& use = search.in_use()[0];
+  EXPECT_NEAR(use.shape, 0.03, 4.0 * search.shape_sigma(0));
+  EXPECT_LT(search.shape_sigma(0), 0.01);
+  EXPECT_NEAR(use.values(0), 0.004 / 0.03, 4.0 * std::sqrt(search.joint_covariance()(6, 6)));
+  search.rank();
+  EXPECT_FALSE(search.best().has_value());
+}
+
+// A near effect beside a walk between the prints: their sum contradicts neither.
+TEST_F(SearchState, AConstantDifferenceBetweenPrintsIsNoContradiction) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    return -0.02 * std::exp(-(beam.range_m - 1.5) / 0.8) + 0.01 * beam.darkness;
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  for (const Candidate& c : search.candidates())
+    EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
+}
+
+TEST_F(SearchState, WhatIsSureButFaintExplainsStructure) {
+  test::Disturbance wrong;
+  wrong.log_intensity = [](const IntensityRow& row) {
+    return 0.22 * std::log(std::cos(row.beam.incidence_rad));
+  };
+  test::TableRecipe recipe;
+  recipe.intensity_sigma = 0.02;
+  recipe.range_rows = 4000;
+  const auto made = test::synthetic_table(recipe, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  EXPECT_FALSE(search.best().has_value());
+  const EffectSearch explained = search.with_faint();
+  ASSERT_FALSE(explained.in_use().empty());
+  EXPECT_EQ(explained.in_use()[0].effect->info().id, "intensity_geometry");
+  EXPECT_TRUE(search.in_use().empty());
+}
+
+// Two lines clip white, as where a receiver saturates: the intensities of the two prints tell
+// different stories, and edges, which are seen in them, move.
+TEST_F(SearchState, EdgesFoundInDoubtfulIntensitiesTellNothing) {
+  const auto clipped = [](const BeamPoint& beam) { return beam.line > 3 ? 1.0 : 0.0; };
+  test::Disturbance wrong;
+  wrong.log_intensity = [=](const IntensityRow& row) {
+    return row.print == Print::kWhite ? -0.3 * clipped(row.beam) : 0.0;
+  };
+  wrong.edge_m = [=](const BoundaryRow& row) { return -0.001 * (0.5 + clipped(row.beam)); };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  bool seen = false;
+  for (const Candidate& c : search.candidates()) {
+    if (id_of(search, c) == "intensity_geometry") {
+      EXPECT_EQ(c.contradiction, Contradiction::kPrints);
+    }
+    if (id_of(search, c) != "ink_gain") continue;
+    seen = true;
+    EXPECT_EQ(c.contradiction, Contradiction::kLevels);
+  }
+  EXPECT_TRUE(seen);
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(SearchState, WhatBothPrintsLoseIsNoContradiction) {
+  test::Disturbance wrong;
+  wrong.log_intensity = [](const IntensityRow& row) { return -0.8 * std::log(row.beam.range_m); };
+  wrong.edge_m = [](const BoundaryRow&) { return 0.0015; };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  for (const Candidate& c : search.candidates())
+    EXPECT_EQ(c.contradiction, Contradiction::kNone) << id_of(search, c);
+  EXPECT_TRUE(search.best().has_value());
+}
+
+// Where a channel misses by many times its noise, what explains a little of it is no explanation.
+TEST_F(SearchState, ALensFlawIsNoDistortion) {
+  test::Disturbance wrong;
+  wrong.corner_px = [](const CornerRow& row) -> Eigen::Vector2d {
+    const double from = (row.pixel - Eigen::Vector2d(640.0, 400.0)).squaredNorm();
+    return std::exp(-0.5 * from / (90.0 * 90.0)) * Eigen::Vector2d(2.0, 1.0);
+  };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto best = search.best();
+  if (best) {
+    EXPECT_NE(search.candidates()[*best].main_channel(), Channel::kCorner)
+        << id_of(search, search.candidates()[*best]);
+  }
+}
+
+}  // namespace
+}  // namespace lvcalib

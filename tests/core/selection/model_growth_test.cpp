@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "selection/model_growth.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/synthetic_table.h"
+
+namespace lvcalib {
+namespace {
+
+class Growing : public ::testing::Test {
+ protected:
+  Growing() {
+    test::Disturbance wrong;
+    wrong.range_m = [](const BeamPoint& beam) { return 0.008 * beam.darkness; };
+    wrong.corner_px = [](const CornerRow& row) {
+      return Eigen::Vector2d(0.15 * row.from_tag_px.normalized());
+    };
+    made_ = test::synthetic_table({}, wrong);
+  }
+  [[nodiscard]] std::vector<std::string> ids(const EffectSearch& search) const {
+    std::vector<std::string> out;
+    for (const EffectInUse& use : search.in_use()) out.push_back(use.effect->info().id);
+    return out;
+  }
+  [[nodiscard]] std::vector<std::string> ids() const {
+    std::vector<std::string> out;
+    for (const Selection& s : selections_) out.push_back(s.id);
+    return out;
+  }
+  test::SyntheticTable made_;
+  DiscoveryOptions options_;
+  RunContext context_;
+  std::vector<Selection> selections_;
+};
+
+TEST_F(Growing, AddsWhatIsThereAndKeepsTheListsInStep) {
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  std::size_t rounds = 0;
+  grow_model(search, selections_, options_, context_, [&] {
+    ++rounds;
+    EXPECT_EQ(ids(), ids(search));
+  });
+  EXPECT_EQ(rounds, 2U);
+  EXPECT_THAT(ids(), ::testing::UnorderedElementsAre("range_walk", "corner_bias"));
+  EXPECT_FALSE(search.best().has_value());
+}
+
+TEST_F(Growing, TheUsersOwnStayHoweverUseless) {
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  search.add(find_effect("range_cyclic"), 0.3);
+  selections_.emplace_back();
+  selections_.back().id = "range_cyclic";
+  selections_.back().wanted = true;
+  options_.max_effects = 1;  // beside the user's
+  grow_model(search, selections_, options_, context_, [] {});
+  ASSERT_EQ(selections_.size(), 2U);
+  EXPECT_EQ(selections_[0].id, "range_cyclic");
+  EXPECT_EQ(ids(), ids(search));
+}
+
+TEST_F(Growing, AStoppedSearchAddsNothing) {
+  std::stop_source stop;
+  context_.stop = stop.get_token();
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  stop.request_stop();
+  grow_model(search, selections_, options_, context_, [] { FAIL(); });
+  EXPECT_TRUE(selections_.empty());
+}
+
+// On the grid of the search are decays over 1.2 and 2.4 m: what the nearest leaves over must not be
+// taken for further effects.
+TEST_F(Growing, AShapeBetweenTheOnesTriedLeavesNothingOver) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.08 * std::exp(-beam.range_m / 1.7); };
+  test::TableRecipe recipe;
+  recipe.range_rows = 4000;
+  made_ = test::synthetic_table(recipe, wrong);
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  grow_model(search, selections_, options_, context_, [] {});
+  EXPECT_THAT(ids(), ::testing::ElementsAre("range_near"));
+  ASSERT_FALSE(search.in_use().empty());
+  EXPECT_NEAR(search.in_use()[0].shape, 1.7, 0.15);
+}
+
+}  // namespace
+}  // namespace lvcalib

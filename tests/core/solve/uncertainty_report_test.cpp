@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/uncertainty_report.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/statistics.h"
+#include "support/synthetic_observations.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Uncertainty : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::vector<SceneObservations> scenes(int count, std::uint64_t seed) const {
+    return test::observed_scenes(count, target_, camera_, truth_, noise_, seed);
+  }
+  [[nodiscard]] UncertaintyReport assess(const std::vector<SceneObservations>& observations) const {
+    const auto joint = solve_extrinsic(observations, camera_, target_, options_);
+    if (!joint) {
+      ADD_FAILURE() << joint.error().text();
+      return {};
+    }
+    return assess_uncertainty(observations, camera_, target_, *joint, options_);
+  }
+  Target target_;
+  Camera camera_ = test::test_camera();
+  Rigid3 truth_ = test::test_extrinsic();
+  test::ObservationNoise noise_;
+  ExtrinsicOptions options_;
+};
+
+TEST_F(Uncertainty, HalvesOfGoodScenesDifferAsMuchAsNoiseSays) {
+  std::vector<double> chi_squares;
+  int contradictions = 0;
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    const UncertaintyReport report = assess(scenes(5, seed));
+    ASSERT_EQ(report.splits.size(), 3U);
+    for (const SplitHalf& split : report.splits) {
+      chi_squares.push_back(split.chi_square);
+      contradictions += split.agrees() ? 0 : 1;
+      EXPECT_EQ(split.first.size() + split.second.size(), 5U);
+      EXPECT_GT(split.expected_translation_mm, 0.0);
+      EXPECT_GT(split.expected_rotation_mrad, 0.0);
+    }
+  }
+  // χ² of six degrees of freedom: median 5.35. 45 draws that are not quite independent.
+  EXPECT_GT(median(chi_squares), 3.0);
+  EXPECT_LT(median(chi_squares), 8.5);
+  EXPECT_LE(contradictions, 1);
+}
+
+// A LiDAR whose ranges are stretched agrees with itself in every scene and not between distances.
+TEST_F(Uncertainty, AHiddenEffectShowsBetweenHalves) {
+  options_.reject_bad_scenes = false;
+  auto observations = scenes(5, 3);
+  for (std::size_t s = 0; s < observations.size(); ++s) {
+    const double offset = 0.006 * (observations[s].camera_from_board.translation.norm() - 2.5);
+    SceneObservations& scene = observations[s];
+    const Eigen::Vector3d move = offset * scene.plane.center_m.normalized();
+    scene.plane.center_m += move;
+    scene.lidar_from_board.translation += move;
+    for (RefinedNode& node : scene.nodes) node.center_lidar_m += move;
+  }
+  const UncertaintyReport report = assess(observations);
+  ASSERT_EQ(report.splits.size(), 3U);
+  EXPECT_EQ(report.splits[0].name, "near/far");
+  EXPECT_FALSE(report.splits[0].agrees()) << report.splits[0].chi_square;
+  EXPECT_GT(report.splits[0].translation_mm, report.splits[0].expected_translation_mm);
+}
+
+TEST_F(Uncertainty, HalvesAreSortedByWhatTheirNameSays) {
+  const auto observations = scenes(5, 4);
+  const UncertaintyReport report = assess(observations);
+  const auto distance = [&](const std::string& name) {
+    for (const SceneObservations& s : observations) {
+      if (s.name == name) return s.camera_from_board.translation.norm();
+    }
+    return 0.0;
+  };
+  for (const std::string& near : report.splits[0].first) {
+    for (const std::string& far : report.splits[0].second)
+      EXPECT_LT(distance(near), distance(far) + 0.2);
+  }
+}
+
+TEST_F(Uncertainty, TooFewScenesSaySo) {
+  const UncertaintyReport report = assess(scenes(3, 5));
+  EXPECT_TRUE(report.splits.empty());
+  EXPECT_THAT(report.splits_reason, HasSubstr("not enough scenes"));
+  EXPECT_THAT(report.splits_reason, HasSubstr("3 in use, 4 needed"));
+  EXPECT_FALSE(report.by_range.empty());
+}
+
+// The map against drawing extrinsics from the covariance and projecting a point.
+TEST_F(Uncertainty, PixelCovarianceIsThatOfDrawnExtrinsics) {
+  const auto joint = solve_extrinsic(scenes(3, 6), camera_, target_, options_);
+  ASSERT_TRUE(joint.ok());
+  const Matrix6d& covariance = joint->camera_from_lidar.covariance;
+  const Matrix6d root = covariance.llt().matrixL();
+  const Eigen::Vector3d point(0.8, -0.5, 5.0);
+  const auto stated = pixel_covariance(camera_, point, covariance);
+  ASSERT_TRUE(stated.has_value());
+  Random random(1);
+  Eigen::Matrix2d drawn = Eigen::Matrix2d::Zero();
+  constexpr int kDraws = 4000;
+  const Eigen::Vector2d center = *camera_.project(point);
+  for (int i = 0; i < kDraws; ++i) {
+    Vector6d z;
+    for (double& v : z) v = random.normal();
+    const Eigen::Vector2d d = *camera_.project(se3_exp(root * z) * point) - center;
+    drawn += d * d.transpose() / kDraws;
+  }
+  EXPECT_NEAR(std::sqrt(stated->trace()), std::sqrt(drawn.trace()),
+              0.05 * std::sqrt(drawn.trace()));
+  EXPECT_FALSE(pixel_covariance(camera_, {0, 0, -1}, covariance).has_value());
+}
+
+TEST_F(Uncertainty, TheMapCoversTheImageAndGrowsWithRange) {
+  const UncertaintyReport report = assess(scenes(3, 7));
+  ASSERT_EQ(report.maps.size(), 1U);
+  const ProjectedUncertainty& map = report.maps[0];
+  EXPECT_EQ(map.pixel.size(), static_cast<std::size_t>(map.columns * map.rows));
+  EXPECT_EQ(map.sigma_px.size(), map.pixel.size());
+  EXPECT_EQ(map.pixel.front(), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(map.pixel.back(), Eigen::Vector2d(camera_.width_px - 1, camera_.height_px - 1));
+  for (const double sigma : map.sigma_px) EXPECT_GT(sigma, 0.0);
+  for (std::size_t k = 1; k < report.by_range.size(); ++k)
+    EXPECT_GT(report.by_range[k].across_mm, report.by_range[k - 1].across_mm);
+}
+
+}  // namespace
+}  // namespace lvcalib
