@@ -206,6 +206,54 @@ were saved. Take them up again?</source>
         <translation>只有一个可用场景，无从检验结果；请采集两个或更多场景</translation>
     </message>
     <message>
+        <source>only one usable scene: nothing to check the result against; take two or more; %1</source>
+        <translation>只有一个可用场景，无从检验结果；请采集两个或更多场景；%1</translation>
+    </message>
+    <message>
+        <source>scene %1 has the same image as scene %2: one of the two is not the scene&apos;s own</source>
+        <translation>场景 %1 的图像与场景 %2 的相同：两者之一不属于其场景</translation>
+    </message>
+    <message>
+        <source>scene %1 has the same cloud as scene %2: one of the two is not the scene&apos;s own</source>
+        <translation>场景 %1 的点云与场景 %2 的相同：两者之一不属于其场景</translation>
+    </message>
+    <message>
+        <source>%1 t = [%2] m, %3 t = [%4] m, %5 mm and %6 mrad apart: did a sensor move between scenes %7 and %8?</source>
+        <translation>%1 t = [%2] m，%3 t = [%4] m，相差 %5 mm 和 %6 mrad：场景 %7 与 %8 之间是否有传感器移动过？</translation>
+    </message>
+    <message>
+        <source>scenes %1 give</source>
+        <translation>场景 %1 给出</translation>
+    </message>
+    <message>
+        <source>scene %1 gives</source>
+        <translation>场景 %1 给出</translation>
+    </message>
+    <message>
+        <source>no image shows the tags of the right columns that target.yaml has: %1 would fit</source>
+        <translation>没有图像显示 target.yaml 中右侧各列的标签：%1 则相符</translation>
+    </message>
+    <message>
+        <source>no image shows the tags of the upper rows that target.yaml has: %1 would fit</source>
+        <translation>没有图像显示 target.yaml 中上方各行的标签：%1 则相符</translation>
+    </message>
+    <message>
+        <source>the images contradict target.yaml: %1 would fit (corners then scatter by %2 px, now by %3 px); measure the print</source>
+        <translation>图像与 target.yaml 矛盾：%1 则相符（角点离散将为 %2 px，现为 %3 px）；请测量印刷图案</translation>
+    </message>
+    <message>
+        <source>the images contradict target.yaml: %1 would fit (corners then scatter by %2 px, now by %3 px)</source>
+        <translation>图像与 target.yaml 矛盾：%1 则相符（角点离散将为 %2 px，现为 %3 px）</translation>
+    </message>
+    <message>
+        <source>the tags do not lie where the target has them; they do with %1</source>
+        <translation>标签不在标定板描述的位置上；若 %1 则相符</translation>
+    </message>
+    <message>
+        <source>more tags are in the image than the target has; all of them fit with %1</source>
+        <translation>图像中的标签多于标定板描述的；若 %1 则全部相符</translation>
+    </message>
+    <message>
         <source>the scenes determine only %1 of 6 directions of the extrinsic</source>
         <translation>这些场景只能确定外参 6 个方向中的 %1 个</translation>
     </message>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "base/file_io.h"
 #include "base/yaml_file.h"
@@ -69,6 +70,20 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
   return request;
 }
 
+// Files among the scenes would be taken for a scene of their own by the next run.
+Status refuse_among_scenes(const CalibrationArguments& options) {
+  std::error_code code;
+  const auto scenes =
+      std::filesystem::weakly_canonical(std::filesystem::path(options.dataset) / "scenes", code);
+  if (code) return Done{};
+  const auto output = std::filesystem::weakly_canonical(options.output, code);
+  if (code || std::mismatch(scenes.begin(), scenes.end(), output.begin(), output.end()).first !=
+                  scenes.end())
+    return Done{};
+  return Error::usage("the output folder lies among the dataset's scenes", options.output,
+                      "give a folder outside " + scenes.string());
+}
+
 }  // namespace
 
 void add_calibration_arguments(CLI::App& command, CalibrationArguments& arguments,
@@ -101,6 +116,7 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
 }
 
 Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments, Session& session) {
+  if (Status s = refuse_among_scenes(arguments); !s) return s.error();
   if (Status s = check_folder_usable(arguments.output); !s) return s.error();
   auto dataset = open_dataset(arguments.dataset, unusable_scenes(arguments));
   if (!dataset) return dataset.error();

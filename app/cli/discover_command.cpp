@@ -66,8 +66,7 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
   for (const std::string& warning : discovery->warnings) session.warn(warning);
   const CalibrationResult final = with_model(std::move(*result), *discovery);
   if (session.context.stopped()) return Error::cancelled();
-  if (Status s = write_results(final, output); !s) return s.error();
-  if (Status s = write_discovery(*discovery, output); !s) return s.error();
+  if (Status s = write_discovery(*discovery, final, output); !s) return s.error();
   if (final.quality == Quality::kFailed) return untrusted_result(final, options.calibration);
   return summary_of(*discovery, output);
 }

@@ -2,6 +2,7 @@
 #include "base/file_io.h"
 #include "command.h"
 #include "overwriting.h"
+#include "pipeline/calibration.h"
 #include "pipeline/dataset.h"
 #include "report/exports.h"
 
@@ -15,6 +16,7 @@ struct ExportArguments {
   std::string imu;
   std::string lidar_frame;
   std::string camera_frame;
+  bool force = false;
 };
 
 Result<std::string> run(const ExportArguments& options) {
@@ -23,6 +25,10 @@ Result<std::string> run(const ExportArguments& options) {
   }
   auto input = read_export_input(options.result);
   if (!input) return input.error();
+  if (input->quality == name_of(Quality::kFailed) && !options.force) {
+    return Error::untrusted("the result has failed and is not to be used", options.result,
+                            "its warnings say why; --force exports it all the same");
+  }
   if (!options.imu.empty()) {
     auto imu = read_transform(options.imu, "T_imu_lidar");
     if (!imu) return imu.error();
@@ -57,6 +63,7 @@ Command add_export_command(CLI::App& app) {
                       "what the LiDAR's frame is called (default: lidar)");
   command->add_option("--camera-frame", options->camera_frame,
                       "what the camera's frame is called (default: camera)");
+  command->add_flag("--force", options->force, "export a result that has failed, too");
   return {command, [options](Session&) { return run(*options); }};
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "command.h"
@@ -39,6 +41,15 @@ int fail(ProgressPrinter& printer, const Error& error) {
   return exit_status(error.kind);
 }
 
+// What was printed must have arrived: a full device, a closed pipe.
+int check_printed(ProgressPrinter& printer, int status) {
+  std::cout.flush();
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  if (!lost) return status;
+  return fail(printer, Error::output("what was to be printed is lost: standard output cannot be "
+                                     "written"));
+}
+
 struct CommonOptions {
   int threads = 0;
   bool quiet = false;
@@ -57,7 +68,8 @@ int parse(CLI::App& app, int argc, char** argv, ProgressPrinter& printer) {
     app.parse(argc, argv);
     return -1;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
+    if (e.get_exit_code() == 0)  // --help and --version
+      return check_printed(printer, app.exit(e));
     const auto used = app.get_subcommands();
     const std::string where = used.empty() ? std::string{} : used.front()->get_name();
     return fail(printer,
@@ -103,9 +115,8 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
     if (!summary) return fail(printer, summary.error());
     printer.finish();
     std::printf("%s\n", printable(*summary).c_str());
-    std::fflush(stdout);
   }
-  return 0;
+  return check_printed(printer, 0);
 }
 
 }  // namespace
@@ -113,13 +124,17 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
 
 int main(int argc, char** argv) {
   using lvcalib::Error;
-  lvcalib::cli::InterruptWatch interrupt;
   lvcalib::cli::ProgressPrinter printer;
   try {
+    const lvcalib::cli::InterruptWatch interrupt;
     return lvcalib::cli::run(argc, argv, printer, interrupt);
   } catch (const std::bad_alloc&) {
     return lvcalib::cli::fail(
         printer, Error::input("not enough memory", {}, "use smaller clouds or images"));
+  } catch (const std::system_error&) {
+    return lvcalib::cli::fail(printer,
+                              Error::input("not enough memory or threads", {},
+                                           "end other programs, or raise the limits (ulimit)"));
   } catch (const std::exception& e) {
     return lvcalib::cli::fail(printer,
                               Error::input(std::string("unexpected failure: ") + e.what()));

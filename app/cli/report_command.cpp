@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+
 #include "base/file_io.h"
 #include "command.h"
+#include "overwriting.h"
 #include "report/html_report.h"
 
 namespace lvcalib::cli {
@@ -12,6 +15,10 @@ struct ReportArguments {
 };
 
 Result<std::string> run(const ReportArguments& options, Session& session) {
+  for (const char* input : {"result.json", "result.yaml", "discovery.json"}) {
+    const std::string file = (std::filesystem::path(options.folder) / input).string();
+    if (Status s = refuse_overwriting(options.output, file); !s) return s.error();
+  }
   auto report = html_report(options.folder, session.context);
   if (!report) return report.error();
   if (session.context.stopped()) return Error::cancelled();

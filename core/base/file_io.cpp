@@ -77,17 +77,54 @@ int write_named(const fs::path& path, std::string_view content) {
   return file < 0 ? errno : write_and_close(file, content);
 }
 
+fs::path temporary_for(const fs::path& path) {
+  fs::path temporary = path;
+  temporary += ".part" + std::to_string(::getpid());
+  return temporary;
+}
+
+// Everything under a name that nobody reads; the errno of the first failure, or 0.
+int write_temporary(const fs::path& temporary, std::string_view content) {
+  const int failure = write_unnamed(temporary, content);
+  return failure == EOPNOTSUPP ? write_named(temporary, content) : failure;
+}
+
+Error not_written(int failure, const fs::path& path) {
+  return Error::output("cannot be written: " + std::string(std::strerror(failure)), path.string());
+}
+
 }  // namespace
 
 Status write_file_atomically(const fs::path& path, std::string_view content) {
-  fs::path temporary = path;
-  temporary += ".part" + std::to_string(::getpid());
-  int failure = write_unnamed(temporary, content);
-  if (failure == EOPNOTSUPP) failure = write_named(temporary, content);
+  const fs::path temporary = temporary_for(path);
+  int failure = write_temporary(temporary, content);
   if (failure == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) failure = errno;
   if (failure == 0) return Done{};
   ::unlink(temporary.c_str());
-  return Error::output("cannot be written: " + std::string(std::strerror(failure)), path.string());
+  return not_written(failure, path);
+}
+
+Status write_files_together(const fs::path& folder,
+                            const std::vector<std::pair<std::string, std::string>>& files) {
+  int failure = 0;
+  fs::path failed;
+  for (const auto& [name, content] : files) {
+    failed = folder / name;
+    failure = write_temporary(temporary_for(failed), content);
+    if (failure != 0) break;
+  }
+  // The earlier ones go before the first new one comes: a mixture would be believed.
+  for (std::size_t k = 0; failure == 0 && k < files.size(); ++k) {
+    failed = folder / files[k].first;
+    if (::unlink(failed.c_str()) != 0 && errno != ENOENT) failure = errno;
+  }
+  for (std::size_t k = 0; failure == 0 && k < files.size(); ++k) {
+    failed = folder / files[k].first;
+    if (::rename(temporary_for(failed).c_str(), failed.c_str()) != 0) failure = errno;
+  }
+  if (failure == 0) return Done{};
+  for (const auto& [name, content] : files) ::unlink(temporary_for(folder / name).c_str());
+  return not_written(failure, failed);
 }
 
 Status create_folder(const fs::path& path) {

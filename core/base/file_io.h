@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 
@@ -16,6 +18,12 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::size_
 /// Writes a file so that a reader, a crash or an interruption never sees half of it: the text
 /// goes to a temporary file beside it, is flushed to disk, and then takes the name.
 Status write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// Writes several files of one folder that belong together, each as above: whatever interrupts it,
+/// those that are there are all of this call or all of an earlier one. All are written in full
+/// before any takes its name, so that a full disk leaves the earlier ones as they are.
+Status write_files_together(const std::filesystem::path& folder,
+                            const std::vector<std::pair<std::string, std::string>>& files);
 
 /// Creates a folder and its parents. Error if a file is in the way or it cannot be created.
 Status create_folder(const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -40,7 +41,12 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   };
   {
     std::vector<std::jthread> pool;
-    for (std::size_t t = 1; t < workers; ++t) pool.emplace_back(run);
+    pool.reserve(workers);
+    try {
+      for (std::size_t t = 1; t < workers; ++t) pool.emplace_back(run);
+    } catch (const std::system_error&) {
+      // No more threads to be had: those that there are do the work.
+    }
     run();
   }
   if (failure) std::rethrow_exception(failure);

@@ -2,11 +2,14 @@
 #include "cloud/pcd_header.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <string_view>
 
+#include "base/yaml_file.h"
 #include "cloud/text_rows.h"
 
 namespace lvcalib {
@@ -47,8 +50,35 @@ class PcdHeaderParser {
     if (key == "HEIGHT") return take_number(key, words, height_);
     if (key == "POINTS") return take_number(key, words, points_);
     if (key == "DATA") return take_data(words);
-    if (key == "VERSION" || key == "VIEWPOINT") return Done{};
+    if (key == "VIEWPOINT") return check_viewpoint(words);
+    if (key == "VERSION") return Done{};
     return error("unknown entry '" + std::string(key.substr(0, 40)) + "' in the PCD header");
+  }
+
+  // Where the sensor was (m), and how it was turned (w x y z). Points of a moved sensor may be in
+  // its frame or in that of a map, programs differ; the LiDAR's frame is asked for.
+  [[nodiscard]] Status check_viewpoint(std::string_view words) const {
+    std::array<double, 7> pose{};
+    std::size_t count = 0;
+    for (auto word = next_word(words); !word.empty(); word = next_word(words)) {
+      double value = 0.0;
+      if (count == pose.size() || !parse_number(word, value)) {
+        return error("VIEWPOINT must hold seven numbers, x y z and the quaternion w x y z");
+      }
+      pose[count++] = value;
+    }
+    if (count != 0 && count != pose.size())
+      return error("VIEWPOINT must hold seven numbers, found " + std::to_string(count));
+    // What a tenth of a millimetre or of a milliradian is worth matters to nobody.
+    constexpr double kNothing = 1e-4;
+    const bool moved = std::any_of(pose.begin(), pose.begin() + 3,
+                                   [](double v) { return !(std::abs(v) < kNothing); });
+    const bool turned = std::any_of(pose.begin() + 4, pose.end(),
+                                    [](double v) { return !(std::abs(v) < kNothing); });
+    if (!moved && !turned) return Done{};
+    return error(
+        "VIEWPOINT says that the sensor was moved or turned: are the points in its frame or in "
+        "that of a map? Write them in the LiDAR's frame, with VIEWPOINT 0 0 0 1 0 0 0");
   }
 
   [[nodiscard]] Error error(const std::string& message) const {

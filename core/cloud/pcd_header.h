@@ -30,8 +30,9 @@ struct PcdHeader {
   [[nodiscard]] std::size_t point_bytes() const;
 };
 
-/// Consumes the header up to and with its DATA line. VERSION and VIEWPOINT are ignored, COUNT and
-/// either of POINTS and WIDTH × HEIGHT may be missing. Errors name the line.
+/// Consumes the header up to and with its DATA line. VERSION is ignored, a VIEWPOINT other than the
+/// origin refused; COUNT and either of POINTS and WIDTH × HEIGHT may be missing. Errors name the
+/// line.
 Result<PcdHeader> read_pcd_header(Input& input);
 
 }  // namespace lvcalib

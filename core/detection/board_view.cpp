@@ -140,6 +140,10 @@ std::size_t fitting_tags(std::vector<BoardTag> tags, const Target& target, const
 // Too few tags lie where the target has them: says so, and what would fit.
 Error misplaced_tags(std::size_t fitting, const std::vector<BoardTag>& seen, const Target& target,
                      const Camera& camera, const DetectionOptions& options) {
+  if (const auto grid = other_grid(seen, target, camera, options)) {
+    return Error::input("the tags do not lie where the target has them; they do with " + *grid, {},
+                        "correct target.yaml, or use the right board");
+  }
   if (const auto other = other_arrangement(seen, target, camera, options)) {
     return Error::input("the tags lie as on a board " + *other, {},
                         "use a board as lvcalib target draws it: tags upright, ids from the bottom "
@@ -166,6 +170,39 @@ std::optional<Error> other_layout(std::size_t fitting, const std::vector<BoardTa
   const std::string value = other.legacy_pattern ? "true" : "false";
   return Error::input("the markers lie as on a board with legacyPattern: " + value, {},
                       "set legacyPattern: " + value);
+}
+
+// Tags that the target does not have are in the image, and all of them fit with other numbers in
+// target.yaml: says which.
+std::optional<Error> other_count(const GrayImage& image, const Target& target, const Camera& camera,
+                                 const DetectionOptions& options, const RunContext& context) {
+  const auto all = all_tags_of_family(image, target, options, context);
+  if (std::all_of(all.begin(), all.end(),
+                  [&](const BoardTag& tag) { return target.tag(tag.id).has_value(); }))
+    return std::nullopt;
+  const auto grid = other_grid(all, target, camera, options);
+  if (!grid) return std::nullopt;
+  return Error::input(
+      "more tags are in the image than the target has; all of them fit with " + *grid, {},
+      "correct target.yaml, or use the right board");
+}
+
+// Where a quarter of the board should be in the image and shows no tag of the target's: with ids
+// counted from another number the tags seen fit as well, whole rows off. Then other tags are there.
+std::optional<Error> miscounted_tags(const GrayImage& image, const std::vector<BoardTag>& tags,
+                                     const Target& target, const Camera& camera,
+                                     const Rigid3& camera_from_board,
+                                     const DetectionOptions& options, const RunContext& context) {
+  if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
+    return std::nullopt;
+  std::size_t visible = 0;
+  for (const TargetTag& tag : target.tags()) {
+    const auto pixel = camera.project(camera_from_board *
+                                      Eigen::Vector3d(tag.center_m.x(), tag.center_m.y(), 0.0));
+    visible += pixel && camera.in_image(*pixel) ? 1 : 0;
+  }
+  if (4 * tags.size() > 3 * visible) return std::nullopt;
+  return other_count(image, target, camera, options, context);
 }
 
 std::string id_list(const std::set<int>& ids) {
@@ -200,6 +237,7 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
     return static_cast<int>(ids.size()) >= fewest_tags(target, options);
   };
   if (!enough()) {
+    if (const auto error = other_count(image, target, camera, options, context)) return *error;
     return explain_missing_tags(image, target, static_cast<int>(tags.size()), options, context);
   }
   // Nothing else confirms a lone tag: its bits must be found in the image again.
@@ -235,6 +273,9 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
     if (context.stopped()) return Error::cancelled();
   }
   if (!enough()) return misplaced();
+  if (const auto error = miscounted_tags(image, tags, target, camera,
+                                         pose->camera_from_board.transform, options, context))
+    return *error;
   std::vector<CornerObservation> corners = to_observations(tags, target);
   pose = estimate_board_pose(corners, camera, options);
   if (!pose) return pose.error();

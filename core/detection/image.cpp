@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <cstdint>
+#include <new>
 #include <string>
 
 #include <opencv2/core.hpp>
@@ -8,6 +9,7 @@
 
 #include "base/file_io.h"
 #include "base/image_header.h"
+#include "base/memory.h"
 #include "detection/board_view.h"
 #include "detection/color_image.h"
 
@@ -84,12 +86,20 @@ Result<cv::Mat> decode(std::string_view bytes, const std::string& where) {
   }
   const Error damaged = Error::input("the image cannot be decoded: its data are damaged", where,
                                      "copy or save the image again");
+  // The decoders behind OpenCV are many, and not all of them take a refusal well. Pixels of 16 bits
+  // and four channels, twice, and room for themselves.
+  constexpr std::size_t kOwn = std::size_t{32} << 20U;
+  require_memory(16 * static_cast<std::size_t>(header->width_px) *
+                     static_cast<std::size_t>(header->height_px) +
+                 kOwn);
   try {
     const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U,
                       const_cast<char*>(bytes.data()));  // imdecode only reads
     cv::Mat mat = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
     if (mat.empty()) return damaged;
     return mat;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     // The decoder's own text names source lines of OpenCV, which help nobody here.
     return damaged;

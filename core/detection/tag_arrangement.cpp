@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "detection/tag_arrangement.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
 #include "detection/board_pose.h"
 
 namespace lvcalib {
@@ -59,7 +63,80 @@ std::string described(const Arrangement& how) {
   return text;
 }
 
+// Tags that lie where a target has them.
+std::size_t fitting_as_is(const std::vector<BoardTag>& tags, const Target& target,
+                          const Camera& camera, const DetectionOptions& options) {
+  return fitting(rearranged(tags, target, {}), camera, options);
+}
+
+// The grid with another number of columns or another first id that most tags fit. Which rows are
+// there the tags say themselves.
+std::pair<std::size_t, std::string> best_counting(const std::vector<BoardTag>& tags,
+                                                  const Target& target, const Camera& camera,
+                                                  const DetectionOptions& options) {
+  constexpr int kMostColumns = 16;
+  const auto [low, high] = std::minmax_element(
+      tags.begin(), tags.end(), [](const BoardTag& a, const BoardTag& b) { return a.id < b.id; });
+  std::pair<std::size_t, std::string> best{0, {}};
+  for (int columns = 1; columns <= kMostColumns; ++columns) {
+    // Ids that differ by whole rows lie alike but for a shift of the whole board.
+    for (int k = 0; k < columns; ++k) {
+      Target other = target;
+      other.tag_columns = columns;
+      other.first_tag_id = low->id - k;
+      if (other.first_tag_id < 0) break;
+      other.tag_rows = (high->id - other.first_tag_id) / columns + 1;
+      const std::size_t count = fitting_as_is(tags, other, camera, options);
+      if (count <= best.first) continue;
+      std::string fields;
+      const auto say = [&](const char* field, int value, int given) {
+        if (value == given) return;
+        fields += (fields.empty() ? "" : ", ") + std::string(field) + ": " + std::to_string(value);
+      };
+      say("firstTagId", other.first_tag_id, target.first_tag_id);
+      say("tagCols", columns, target.tag_columns);
+      if (other.tag_rows > target.tag_rows || columns != target.tag_columns)
+        say("tagRows", other.tag_rows, target.tag_rows);
+      best = {count, fields};
+    }
+  }
+  return best;
+}
+
+// The spacing that most tags fit, to two per cent: what corners tell within the gate.
+std::pair<std::size_t, std::string> best_spacing(const std::vector<BoardTag>& tags,
+                                                 const Target& target, const Camera& camera,
+                                                 const DetectionOptions& options) {
+  constexpr double kStep = 1.02;
+  std::pair<std::size_t, std::string> best{0, {}};
+  for (double spacing = 0.05; spacing < 3.0; spacing *= kStep) {
+    Target other = target;
+    other.tag_spacing = spacing;
+    const std::size_t count = fitting_as_is(tags, other, camera, options);
+    if (count > best.first) best = {count, formatted("tagSpacing: about %.2f", spacing)};
+  }
+  return best;
+}
+
 }  // namespace
+
+std::optional<std::string> other_grid(const std::vector<BoardTag>& tags, const Target& target,
+                                      const Camera& camera, const DetectionOptions& options) {
+  if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
+      tags.size() < 4)
+    return std::nullopt;
+  const std::size_t given = fitting_as_is(tags, target, camera, options);
+  constexpr std::size_t kMore = 3;
+  const auto better = [&](const std::pair<std::size_t, std::string>& found) {
+    return !found.second.empty() && found.first >= given + kMore &&
+           4 * found.first >= 3 * tags.size();
+  };
+  if (const auto found = best_counting(tags, target, camera, options); better(found))
+    return found.second;
+  if (const auto found = best_spacing(tags, target, camera, options); better(found))
+    return found.second;
+  return std::nullopt;
+}
 
 std::optional<std::string> other_arrangement(const std::vector<BoardTag>& tags,
                                              const Target& target, const Camera& camera,

@@ -18,4 +18,11 @@ std::optional<std::string> other_arrangement(const std::vector<BoardTag>& tags,
                                              const Target& target, const Camera& camera,
                                              const DetectionOptions& options);
 
+/// Fields of target.yaml with which at least three quarters of the tags, and three more than with
+/// the present ones, lie where the target has them: "firstTagId: 0", "tagCols: 4",
+/// "tagSpacing: 0.833". `tags` may hold ids that the target does not have. Nothing for other boards
+/// than grids, or if nothing fits so well.
+std::optional<std::string> other_grid(const std::vector<BoardTag>& tags, const Target& target,
+                                      const Camera& camera, const DetectionOptions& options);
+
 }  // namespace lvcalib

@@ -14,6 +14,7 @@
 #include <apriltag/tag36h11.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "detection/marker_detector.h"
 
@@ -182,6 +183,24 @@ struct Pass {
   double min_margin = 0.0;
 };
 
+// More than the library takes for one pass, as its data structures have it: per pixel of the
+// reduced image twelve bytes for regions and up to four edge points of 16 bytes in lists that
+// double when they grow; per code and correctable error three entries of 16 bytes. The library
+// writes to what it has asked for without looking whether it got it.
+std::size_t memory_needed(const image_u8_t& image, const Pass& pass, std::size_t codes,
+                          int max_hamming) {
+  const double pixels = static_cast<double>(image.width) * image.height * pass.scale * pass.scale;
+  constexpr std::size_t kBits = 36;
+  const std::size_t errors = max_hamming == 0   ? 1
+                             : max_hamming == 1 ? 1 + kBits
+                                                : 1 + kBits + kBits * (kBits - 1) / 2;
+  constexpr double kFull = 4.0;  // Copies of the image at full size, a byte a pixel.
+  constexpr double kReduced = 140.0;
+  constexpr std::size_t kOther = std::size_t{24} << 20U;
+  return kOther + codes * errors * 3 * 16 +
+         static_cast<std::size_t>(pixels * (kFull + kReduced / (pass.decimate * pass.decimate)));
+}
+
 std::vector<TagDetection> run_pass(image_u8_t& image, apriltag_family_t& family, const Pass& pass,
                                    const TagSearchOptions& options) {
   std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)> detector(
@@ -305,6 +324,10 @@ Result<std::vector<TagDetection>> find_tags(const GrayImage& image, const std::s
   if (std::min(image.width_px, image.height_px) < 16 * options.decimate) {
     return std::vector<TagDetection>{};
   }
+  // The image in eight bits, and enlarged.
+  require_memory(8 * static_cast<std::size_t>(image.width_px) *
+                     static_cast<std::size_t>(image.height_px) +
+                 (std::size_t{1} << 20U));
   const ImageHandle small = to_u8(image);
   // What each pass after the first adds: small and crowded tags; tags whose corners touch other
   // black areas.
@@ -321,6 +344,9 @@ Result<std::vector<TagDetection>> find_tags(const GrayImage& image, const std::s
   std::vector<std::vector<TagDetection>> found(passes.size());
   parallel_for(passes.size(), context.thread_count(), [&](std::size_t i) {
     if (context.stopped()) return;
+    const int codes = options.id_count > 0 ? options.id_count : tag_family_size(family);
+    require_memory(
+        memory_needed(*small, passes[i], static_cast<std::size_t>(codes), options.max_hamming));
     const FamilyHandle handle = make_family(family, border_bits, options);
     const ImageHandle treated = treat(passes[i].scale > 1.0 ? *large : *small, passes[i].treatment);
     found[i] = run_pass(*treated, *handle, passes[i], options);

@@ -124,6 +124,23 @@ std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
       std::count_if(ids.begin(), ids.end(), [&](int id) { return target.tag(id).has_value(); }));
 }
 
+std::vector<BoardTag> all_tags_of_family(const GrayImage& image, const Target& target,
+                                         const DetectionOptions& options,
+                                         const RunContext& context) {
+  TagSearchOptions search;
+  search.decimate = options.quad_decimate;
+  search.max_hamming = 0;
+  const auto found = find_tags(image, target.tag_family, target.tag_border_bits, search, context);
+  std::vector<BoardTag> tags;
+  if (!found) return tags;
+  for (const TagDetection& detection : *found) {
+    BoardTag tag{detection.id, detection.corners, {}, false, 0.0};
+    tag.sigma_px.fill(options.unrefined_sigma_px);
+    tags.push_back(tag);
+  }
+  return tags;
+}
+
 Error explain_mirrored() {
   return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror", {},
                       "turn off flipping in the camera driver, or print the board again");

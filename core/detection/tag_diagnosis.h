@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "base/error.h"
+#include "detection/board_tags.h"
 #include "detection/board_view.h"
 
 namespace lvcalib {
@@ -19,5 +22,11 @@ std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
 
 /// The image, or the print, is mirrored.
 Error explain_mirrored();
+
+/// Every tag of the target's family that the image shows without a wrong bit, also those that the
+/// target does not have. None where the search is stopped.
+std::vector<BoardTag> all_tags_of_family(const GrayImage& image, const Target& target,
+                                         const DetectionOptions& options,
+                                         const RunContext& context);
 
 }  // namespace lvcalib

@@ -16,15 +16,7 @@ namespace {
 
 std::vector<SceneHypotheses> hypotheses(const CalibrationResult& result) {
   std::vector<SceneHypotheses> out;
-  for (const SceneResult& scene : result.scenes) {
-    SceneHypotheses h;
-    if (scene.view && scene.search) {
-      h.camera_from_board = scene.view->camera_from_board;
-      h.alternative_camera_from_board = scene.view->alternative_pose;
-      h.candidates = scene.search->candidates;
-    }
-    out.push_back(std::move(h));
-  }
+  for (const SceneResult& scene : result.scenes) out.push_back(hypotheses_of(scene));
   return out;
 }
 
@@ -85,13 +77,7 @@ class Calibration {
         scene.edits = edits->second;
       result_.scenes.push_back(std::move(scene));
     }
-    const auto same = same_files(dataset_, request_.use_crops, context_);
-    for (std::size_t s = 0; s < same.size(); ++s) {
-      if (!same[s] || !result_.scenes[s].reason.empty()) continue;
-      const SceneResult& first = result_.scenes[*same[s]];
-      if (first.reason.empty())
-        result_.scenes[s].reason = "the same files as scene " + first.name + ", which counts once";
-    }
+    note_same_files();
     for (const std::string& name : request_.rejected) {
       const bool known = std::any_of(dataset_.scenes.begin(), dataset_.scenes.end(),
                                      [&](const SceneFiles& f) { return f.name == name; });
@@ -99,6 +85,31 @@ class Calibration {
         return Error::usage("there is no scene '" + name + "' to reject", dataset_.path.string());
     }
     return Done{};
+  }
+
+  // A scene counts once. With another scene's image or cloud it is not known which of the two is
+  // right: the others must tell, and the verdict says so.
+  void note_same_files() {
+    const auto same = same_content(dataset_, request_.use_crops, context_);
+    for (std::size_t s = 0; s < same.size(); ++s) {
+      SceneResult& scene = result_.scenes[s];
+      if (!scene.reason.empty()) continue;
+      const auto& [image, cloud] = same[s];
+      const auto first = std::find_if(same.begin(), same.begin() + static_cast<std::ptrdiff_t>(s),
+                                      [&](const SameContent& other) {
+                                        const auto t = static_cast<std::size_t>(&other - &same[0]);
+                                        return image == other.image.value_or(t) &&
+                                               cloud == other.cloud.value_or(t);
+                                      });
+      if (first != same.begin() + static_cast<std::ptrdiff_t>(s)) {
+        const SceneResult& one = result_.scenes[static_cast<std::size_t>(first - same.begin())];
+        if (one.reason.empty())
+          scene.reason = "the same files as scene " + one.name + ", which counts once";
+        continue;
+      }
+      if (image) scene.shared_file = "the same image as scene " + result_.scenes[*image].name;
+      if (cloud) scene.shared_file = "the same cloud as scene " + result_.scenes[*cloud].name;
+    }
   }
 
   // What the user left out of the images, before anything is made of it.
@@ -341,6 +352,8 @@ class Calibration {
     const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
     // Of its own size it was looked for already: something else is wrong.
     if (percent == 0) return std::nullopt;
+    if (const std::string spacing = better_spacing(result_); !spacing.empty())
+      return wrong_target(spacing);
     if (const std::string what = contradicted_by_corners(result_); !what.empty())
       return wrong_camera(what);
     return Error::untrusted(
@@ -350,6 +363,11 @@ class Calibration {
         result_.dataset, "measure the printed tags and correct tagSize");
   }
 
+  [[nodiscard]] Error wrong_target(const std::string& what) const {
+    return Error::untrusted("the images contradict target.yaml: " + what, result_.dataset,
+                            "measure the print and correct target.yaml");
+  }
+
   // A wrong focal length makes every distance, and with it the board's size, wrong.
   [[nodiscard]] Error wrong_camera(const std::string& what) const {
     return Error::untrusted("the images contradict the intrinsics: " + what, result_.dataset,
@@ -357,6 +375,8 @@ class Calibration {
   }
 
   Status not_found() {
+    if (const std::string spacing = better_spacing(result_); !spacing.empty())
+      return wrong_target(spacing);
     if (const std::string what = contradicted_by_corners(result_); !what.empty())
       return wrong_camera(what);
     if (const auto error = wrong_size()) return *error;
@@ -364,7 +384,10 @@ class Calibration {
     if (context_.stopped()) return Error::cancelled();
     std::string detail;
     for (const SceneResult& scene : result_.scenes) {
-      if (!scene.view) continue;
+      if (!scene.view) {
+        detail += (detail.empty() ? "" : "; ") + scene.name + ": " + scene.reason;
+        continue;
+      }
       detail += (detail.empty() ? "" : "; ") + scene.name + ": " +
                 (scene.reason.empty() ? search_summary(scene) : scene.reason);
     }

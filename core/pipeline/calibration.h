@@ -41,6 +41,8 @@ struct SceneResult {
   SceneEdits edits;         ///< What the user left out by hand, or wants used.
   /// Insisted on: what spoke against it.
   std::string objection;
+  /// "the same cloud as scene B", where only one of the two files is another scene's.
+  std::string shared_file;
   bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
   BoardPlace place = BoardPlace::kOpen;  ///< What is where the other scenes put its board.
   /// The LiDAR sees the board but not its print: `search` goes by the outline, and the intensity of

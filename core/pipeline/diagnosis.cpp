@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/diagnosis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/parallel.h"
 #include "base/text.h"
@@ -28,6 +30,25 @@ std::uintmax_t size_of(const fs::path& path) {
   std::error_code code;
   const auto size = fs::file_size(path, code);
   return code ? 0 : size;
+}
+
+// Per file the place of the first one with the same content. Only files of like sizes are read.
+std::vector<std::optional<std::size_t>> first_of_same(const std::vector<fs::path>& files,
+                                                      const RunContext& context) {
+  std::vector<std::optional<std::size_t>> out(files.size());
+  std::map<std::uintmax_t, std::vector<std::size_t>> alike;
+  for (std::size_t k = 0; k < files.size(); ++k) alike[size_of(files[k])].push_back(k);
+  for (const auto& [size, places] : alike) {
+    if (places.size() < 2 || size == 0) continue;
+    std::map<std::string, std::size_t> first;
+    for (const std::size_t k : places) {
+      InputFile file;
+      if (!hash_file(files[k], context, file)) continue;
+      const auto [at, is_new] = first.try_emplace(file.sha256, k);
+      if (!is_new) out[k] = at->second;
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -149,32 +170,104 @@ std::string diagnose_guess(const Rigid3& guess, const Rigid3& found) {
                    rotation_distance_rad(guess, found) * 180.0 / M_PI);
 }
 
-std::vector<std::optional<std::size_t>> same_files(const Dataset& dataset, bool use_crops,
-                                                   const RunContext& context) {
-  std::vector<std::optional<std::size_t>> out(dataset.scenes.size());
-  const auto cloud_of = [&](const SceneFiles& f) {
-    return use_crops && !f.crop.empty() ? f.crop : f.cloud;
-  };
-  // Only files of like sizes need be read.
-  std::map<std::pair<std::uintmax_t, std::uintmax_t>, std::vector<std::size_t>> alike;
-  for (std::size_t s = 0; s < dataset.scenes.size(); ++s) {
-    const SceneFiles& f = dataset.scenes[s];
-    alike[{size_of(f.image), size_of(cloud_of(f))}].push_back(s);
+std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
+                                      const RunContext& context) {
+  std::vector<fs::path> images;
+  std::vector<fs::path> clouds;
+  for (const SceneFiles& f : dataset.scenes) {
+    images.push_back(f.image);
+    clouds.push_back(use_crops && !f.crop.empty() ? f.crop : f.cloud);
   }
-  for (const auto& [sizes, scenes] : alike) {
-    if (scenes.size() < 2 || sizes.first == 0 || sizes.second == 0) continue;
-    std::map<std::string, std::size_t> first;
-    for (const std::size_t s : scenes) {
-      InputFile image;
-      InputFile cloud;
-      if (!hash_file(dataset.scenes[s].image, context, image) ||
-          !hash_file(cloud_of(dataset.scenes[s]), context, cloud))
-        continue;
-      const auto [at, is_new] = first.try_emplace(image.sha256 + cloud.sha256, s);
-      if (!is_new) out[s] = at->second;
-    }
-  }
+  const auto same_image = first_of_same(images, context);
+  const auto same_cloud = first_of_same(clouds, context);
+  std::vector<SameContent> out(dataset.scenes.size());
+  for (std::size_t s = 0; s < out.size(); ++s) out[s] = {same_image[s], same_cloud[s]};
   return out;
+}
+
+std::string diagnose_unseen_tags(const CalibrationResult& result) {
+  const Target& target = result.target;
+  if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
+    return {};
+  std::set<int> seen;
+  int views = 0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!scene.view) continue;
+    ++views;
+    for (const CornerObservation& corner : scene.view->corners) seen.insert(corner.feature_id);
+  }
+  int columns = 0;
+  int rows = 0;
+  for (const TargetTag& tag : target.tags()) {
+    if (!seen.contains(tag.id)) continue;
+    columns = std::max(columns, tag.column + 1);
+    rows = std::max(rows, tag.row + 1);
+  }
+  if (views < 2 || seen.empty() || (columns == target.tag_columns && rows == target.tag_rows))
+    return {};
+  std::string fields;
+  if (columns < target.tag_columns) fields += "tagCols: " + std::to_string(columns);
+  if (rows < target.tag_rows)
+    fields += (fields.empty() ? "" : ", ") + ("tagRows: " + std::to_string(rows));
+  return "no image shows the tags of the " +
+         std::string(columns < target.tag_columns ? "right columns" : "upper rows") +
+         " that target.yaml has: " + fields + " would fit";
+}
+
+SceneHypotheses hypotheses_of(const SceneResult& scene) {
+  SceneHypotheses h;
+  if (!scene.view || !scene.search) return h;
+  h.camera_from_board = scene.view->camera_from_board;
+  h.alternative_camera_from_board = scene.view->alternative_pose;
+  h.candidates = scene.search->candidates;
+  return h;
+}
+
+std::string describe_bump(const SceneGroup& first, const SceneGroup& second,
+                          const std::string& last_before, const std::string& first_after) {
+  const auto gives = [](const SceneGroup& group) {
+    const Eigen::Vector3d& t = group.camera_from_lidar.translation;
+    const bool several = group.names.find(',') != std::string::npos;
+    return (several ? "scenes " : "scene ") + group.names + (several ? " give " : " gives ") +
+           formatted("t = [%.3f %.3f ", t.x(), t.y()) + formatted("%.3f] m", t.z());
+  };
+  const Rigid3& a = first.camera_from_lidar;
+  const Rigid3& b = second.camera_from_lidar;
+  return gives(first) + ", " + gives(second) +
+         formatted(", %.1f mm and %.1f mrad apart: ",
+                   1e3 * translation_distance_m(a.inverse(), b.inverse()),
+                   1e3 * rotation_distance_rad(a, b)) +
+         "did a sensor move between scenes " + last_before + " and " + first_after + "?";
+}
+
+std::string diagnose_bump(const CalibrationResult& result) {
+  // Scenes are taken in the order of their names.
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    if (result.scenes[s].used || result.scenes[s].contradicts) order.push_back(s);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return result.scenes[a].name < result.scenes[b].name;
+  });
+  const auto used = [&](std::size_t s) { return result.scenes[s].used; };
+  const auto middle = std::partition_point(
+      order.begin(), order.end(), [&](std::size_t s) { return used(s) == used(order.front()); });
+  if (order.size() < 2 || middle == order.end() ||
+      std::any_of(middle, order.end(),
+                  [&](std::size_t s) { return used(s) == used(order.front()); }))
+    return {};
+  std::vector<SceneHypotheses> others;
+  std::string names[2];
+  for (auto at = order.begin(); at != order.end(); ++at) {
+    std::string& list = names[used(*at) ? 0 : 1];
+    list += (list.empty() ? "" : ", ") + result.scenes[*at].name;
+    if (!used(*at)) others.push_back(hypotheses_of(result.scenes[*at]));
+  }
+  const auto agreed = decide_scenes(others, std::nullopt, result.options.consensus);
+  if (!agreed || agreed->agreeing != static_cast<int>(others.size())) return {};
+  return describe_bump({names[0], result.extrinsic.camera_from_lidar.transform},
+                       {names[1], agreed->camera_from_lidar.transform},
+                       result.scenes[*(middle - 1)].name, result.scenes[*middle].name);
 }
 
 }  // namespace lvcalib

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "base/text.h"
 #include "detection/board_view.h"
 #include "pipeline/calibration.h"
 #include "pipeline/forward_stage.h"
@@ -292,6 +293,68 @@ std::string contradicted_by_corners(const CalibrationResult& result) {
   return contrast.contradicts() ? describe(contrast, given, views) : std::string();
 }
 
+std::string better_spacing(const std::vector<CornerView>& views, const Target& target,
+                           const Camera& given) {
+  constexpr double kNotNoise = 2.0;
+  if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
+      target.tag_count() < 2)
+    return {};
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
+  const auto as_given = fit_intrinsics(views, given, wide);
+  if (!as_given || !(as_given->replicate_px > 0.0) ||
+      as_given->sigma_px < kNotNoise * as_given->replicate_px)
+    return {};
+  // What is left with another spacing.
+  const auto left_px = [&](double spacing) {
+    Target other = target;
+    other.tag_spacing = spacing;
+    std::vector<std::vector<CornerObservation>> corners;
+    corners.reserve(views.size());
+    std::vector<CornerView> moved = views;
+    for (CornerView& view : moved) {
+      corners.push_back(*view.corners);
+      for (CornerObservation& c : corners.back()) {
+        if (const auto tag = other.tag(c.feature_id))
+          c.board_m = other.tag_corners_m(*tag)[static_cast<std::size_t>(c.corner)];
+      }
+      view.corners = &corners.back();
+    }
+    const auto fit = fit_intrinsics(moved, given, wide);
+    return fit ? fit->sigma_px : std::numeric_limits<double>::infinity();
+  };
+  // Golden section; one minimum, as the misfit grows with the distance from the true spacing.
+  double low = 0.5 * target.tag_spacing;
+  double high = 2.0 * target.tag_spacing;
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  double a = high - ratio * (high - low);
+  double b = low + ratio * (high - low);
+  double at_a = left_px(a);
+  double at_b = left_px(b);
+  while (high - low > 1e-4 * target.tag_spacing) {
+    if (at_a < at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - ratio * (high - low);
+      at_a = left_px(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + ratio * (high - low);
+      at_b = left_px(b);
+    }
+  }
+  if (!(kNotNoise * std::min(at_a, at_b) < as_given->sigma_px)) return {};
+  return formatted("tagSpacing: %.4f would fit ", 0.5 * (low + high)) +
+         formatted("(corners then scatter by %.2f px, now by %.2f px)", std::min(at_a, at_b),
+                   as_given->sigma_px);
+}
+
+std::string better_spacing(const CalibrationResult& result) {
+  return better_spacing(views_of(result), result.target, result.intrinsics.given);
+}
+
 void verify_intrinsics(CalibrationResult& result) {
   result.verified = false;
   result.unverified.clear();
@@ -329,6 +392,9 @@ Status check_intrinsics(CalibrationResult& result,
   IntrinsicsReport& report = result.intrinsics;
   report.contradiction.reset();
   const std::vector<CornerView> views = views_of(observations, report);
+  // Corners that lie otherwise on the board say nothing about the camera.
+  report.spacing = better_spacing(views, result.target, report.given);
+  if (!report.spacing.empty()) return Done{};
   if (report.mode != IntrinsicsMode::kFixed) {
     if (report.mode == IntrinsicsMode::kPrior && result.forward) check_against_prior(result, views);
     return Done{};

@@ -44,6 +44,7 @@ struct IntrinsicsReport {
   std::optional<IntrinsicsEvidence> evidence;
   double replicate_px = 0.0;  ///< Corner noise of replicates; 0 where there are none.
   std::optional<IntrinsicsContradiction> contradiction;
+  std::string spacing;  ///< See better_spacing(); empty if the tags lie where the target has them.
 };
 
 /// The report of a dataset before anything has been looked at.
@@ -61,6 +62,15 @@ IntrinsicsVector solve_prior(const IntrinsicsReport& report);
 
 /// If the images' corners alone contradict the given intrinsics: in words what is wrong.
 std::string contradicted_by_corners(const CalibrationResult& result);
+
+/// Where corners scatter more than twice as much as their replicates, whatever the intrinsics,
+/// three quarters of what is left are not noise: then, on a grid of tags, the spacing that fits
+/// best, if it leaves less than half of it. "tagSpacing: 0.8333 would fit (…)"; empty if there is
+/// none.
+std::string better_spacing(const std::vector<CornerView>& views, const Target& target,
+                           const Camera& given);
+/// The same for the scenes' images.
+std::string better_spacing(const CalibrationResult& result);
 
 /// Sets `verified`: whether the scenes leave intrinsics open that would move the extrinsic by more
 /// than three tolerances (95 % limit, to first order about the solution), and which scene would

@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "pipeline/diagnosis.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/scene_loading.h"
 
@@ -106,8 +107,60 @@ void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
   }
 }
 
+// Scenes before and after some moment that contradict each other, two at least on either side: one
+// alone is what judge_leverage() asks about.
+void judge_bump(const CalibrationResult& result, Verdict& verdict) {
+  if (!result.forward) return;
+  const UncertainRigid3& all = result.extrinsic.camera_from_lidar;
+  const SubsetSolver subset = result.model_fit
+                                  ? model_subsets(result.model_fit, all.transform, result.extrinsic)
+                                  : forward_subsets(*result.forward, result.extrinsic);
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < result.extrinsic.scenes.size(); ++k) {
+    if (result.extrinsic.scenes[k].used) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return result.extrinsic.scenes[a].name < result.extrinsic.scenes[b].name;
+  });
+  if (order.size() < 4) return;
+  // As many tests as moments, one in a thousand together.
+  const double gate = chi_square_gate(6, 0.001 / static_cast<double>(order.size() - 3));
+  const QualityOptions& q = result.options.quality;
+  double most = gate;
+  std::string text;
+  for (std::size_t k = 2; k + 2 <= order.size(); ++k) {
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto before = subset({order.begin(), middle});
+    const auto after = subset({middle, order.end()});
+    if (!before || !after) continue;
+    const Vector6d move = se3_log(after->transform * before->transform.inverse());
+    const Matrix6d spread = before->covariance + after->covariance;
+    const double chi = move.dot(spread.ldlt().solve(move));
+    const double move_m =
+        translation_distance_m(before->transform.inverse(), after->transform.inverse());
+    const double move_rad = rotation_distance_rad(before->transform, after->transform);
+    if (!(chi > most) || (move_m < q.tolerance_m && move_rad < q.tolerance_rad)) continue;
+    most = chi;
+    const auto names = [&](auto first, auto last) {
+      std::string list;
+      for (auto at = first; at != last; ++at)
+        list += (list.empty() ? "" : ", ") + result.extrinsic.scenes[*at].name;
+      return list;
+    };
+    text = describe_bump({names(order.begin(), middle), before->transform},
+                         {names(middle, order.end()), after->transform},
+                         result.extrinsic.scenes[*(middle - 1)].name,
+                         result.extrinsic.scenes[*middle].name);
+  }
+  if (!text.empty()) verdict.doubtful(text);
+}
+
 // Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
 void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
+  if (!result.intrinsics.spacing.empty()) {
+    verdict.doubtful("the images contradict target.yaml: " + result.intrinsics.spacing +
+                     "; measure the print");
+  }
   if (!result.intrinsics.contradiction) return;
   const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
   if (result.intrinsics.mode == IntrinsicsMode::kPrior) {
@@ -389,6 +442,49 @@ Target scaled(Target t, double s) {
   return t;
 }
 
+// Which scenes are out of use and why; equal reasons once.
+std::string unused_scenes(const CalibrationResult& result) {
+  constexpr std::size_t kMost = 6;
+  std::vector<std::pair<std::string, std::string>> by_reason;
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.used || scene.reason.empty() || scene.reason == kRejectedByUser) continue;
+    const auto same = std::find_if(by_reason.begin(), by_reason.end(),
+                                   [&](const auto& r) { return r.first == scene.reason; });
+    if (same != by_reason.end()) {
+      same->second += ", " + scene.name;
+    } else {
+      by_reason.emplace_back(scene.reason, scene.name);
+    }
+  }
+  std::string text;
+  for (std::size_t k = 0; k < by_reason.size() && k < kMost; ++k)
+    text += "; scene " + by_reason[k].second + ": " + by_reason[k].first;
+  if (by_reason.size() > kMost) text += "; and more";
+  return text;
+}
+
+// One scene agrees with itself whatever is wrong.
+void judge_count(const CalibrationResult& result, Verdict& verdict) {
+  const int used = result.extrinsic.used_scenes;
+  if (used == 2) {
+    verdict.doubtful(
+        "two scenes: a mistake in one of them could not be told from one in the other");
+  }
+  if (used >= 2) return;
+  const std::string others = unused_scenes(result);
+  verdict.doubtful("only one usable scene: nothing to check the result against; take two or more" +
+                   others);
+}
+
+// Image and cloud of one place and time belong together: two scenes cannot share one of them.
+void judge_shared_files(const CalibrationResult& result, Verdict& verdict) {
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.shared_file.empty()) continue;
+    verdict.doubtful("scene " + scene.name + " has " + scene.shared_file +
+                     ": one of the two is not the scene's own");
+  }
+}
+
 }  // namespace
 
 std::string name_of(Quality quality) {
@@ -442,9 +538,11 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   Verdict verdict(result);
   const ExtrinsicSolution& x = result.extrinsic;
   judge_intrinsics(result, verdict);
-  if (x.used_scenes < 2)
-    verdict.doubtful(
-        "only one usable scene: nothing to check the result against; take two or more");
+  judge_shared_files(result, verdict);
+  if (const std::string unseen = diagnose_unseen_tags(result); !unseen.empty())
+    verdict.doubtful(unseen);
+  judge_count(result, verdict);
+  if (const std::string bump = diagnose_bump(result); !bump.empty()) verdict.doubtful(bump);
   if (x.rank < 6)
     verdict.failed("the scenes determine only " + std::to_string(x.rank) +
                    " of 6 directions of the extrinsic");
@@ -460,10 +558,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_scene_scales(result, options, verdict);
   judge_splits(result, verdict);
   judge_leverage(result, verdict);
+  judge_bump(result, verdict);
   if (!result.unverified.empty()) verdict.note(result.unverified);
-  if (x.used_scenes == 2)
-    verdict.doubtful(
-        "two scenes: a mistake in one of them could not be told from one in the other");
   if (x.sigma_px > options.max_sigma_px) {
     verdict.doubtful(formatted(
         "tag corners miss their model by %.2f px: check the intrinsics and that the board is flat",

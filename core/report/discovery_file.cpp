@@ -10,6 +10,7 @@
 #include "base/file_io.h"
 #include "report/evidence_json.h"
 #include "report/json_values.h"
+#include "report/result_file.h"
 
 namespace lvcalib {
 namespace {
@@ -231,11 +232,13 @@ std::string discovery_summary(const Discovery& d) {
   return out;
 }
 
-Status write_discovery(const Discovery& discovery, const std::filesystem::path& folder) {
+Status write_discovery(const Discovery& discovery, const CalibrationResult& result,
+                       const std::filesystem::path& folder) {
   if (Status s = create_folder(folder); !s) return s.error();
-  if (Status s = write_file_atomically(folder / "discovery.json", discovery_as_json(discovery)); !s)
-    return s.error();
-  return write_file_atomically(folder / "discovery.txt", discovery_summary(discovery));
+  return write_files_together(folder, {{"discovery.json", discovery_as_json(discovery)},
+                                       {"discovery.txt", discovery_summary(discovery)},
+                                       {"result.yaml", result_as_yaml(result)},
+                                       {"result.json", result_as_json(result)}});
 }
 
 }  // namespace lvcalib

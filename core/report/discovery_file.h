@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "pipeline/calibration.h"
 #include "selection/discovery.h"
 
 namespace lvcalib {
@@ -17,7 +18,9 @@ std::string discovery_as_json(const Discovery& discovery);
 /// extrinsic, what is left, what to do next.
 std::string discovery_summary(const Discovery& discovery);
 
-/// Writes discovery.json and discovery.txt into a folder, each atomically.
-Status write_discovery(const Discovery& discovery, const std::filesystem::path& folder);
+/// Writes discovery.json, discovery.txt, and result.json and result.yaml of the model found into a
+/// folder (created if needed): all of one run, or none.
+Status write_discovery(const Discovery& discovery, const CalibrationResult& result,
+                       const std::filesystem::path& folder);
 
 }  // namespace lvcalib

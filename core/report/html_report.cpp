@@ -2,6 +2,7 @@
 #include "report/html_report.h"
 
 #include "base/file_io.h"
+#include "pipeline/input_hashes.h"
 #include "report/discovery_file.h"
 #include "report/json_values.h"
 #include "report/report_figures.h"
@@ -47,11 +48,37 @@ std::string page(const json& result, const std::string& body) {
          "</body>\n</html>\n";
 }
 
+// The pictures are drawn from the scenes' files: from others than those that the result was made of
+// they would show what it does not say. Files that are gone are left to the sections that miss
+// them.
+Status check_inputs(const json& result, const std::string& where, const RunContext& context) {
+  const auto inputs = result.find("inputs");
+  const auto dataset = result.find("dataset");
+  if (inputs == result.end() || !inputs->is_array() || dataset == result.end() ||
+      !dataset->is_string())
+    return Done{};
+  for (const json& file : *inputs) {
+    if (!file.is_object() || !file.contains("path") || !file["path"].is_string() ||
+        !file.contains("sha256") || !file["sha256"].is_string())
+      continue;
+    const auto path =
+        std::filesystem::path(dataset->get<std::string>()) / file["path"].get<std::string>();
+    const std::string hash = file["sha256"].get<std::string>();
+    InputFile now;
+    if (hash.empty() || !hash_file(path, context, now) || now.sha256 == hash) continue;
+    return Error::input("the file is not the one that the result was made of: its content changed",
+                        path.string(),
+                        "calibrate again (" + where + " is of the file as it was before)");
+  }
+  return context.stopped() ? Status(Error::cancelled()) : Status(Done{});
+}
+
 // `text` is a result.json, `where` names it in errors.
 Result<HtmlReport> report_of(const std::string& text, const std::string& where,
                              const json& discovery, const RunContext& context) {
   const json result = parse_json(text);
   if (result.is_discarded() || !result.is_object()) return Error::input("not a JSON object", where);
+  if (Status s = check_inputs(result, where, context); !s) return s.error();
   HtmlReport report;
   try {
     std::string body = verdict_section(result) + pose_section(result) +

@@ -380,9 +380,8 @@ std::string result_as_yaml(const CalibrationResult& result) {
 
 Status write_results(const CalibrationResult& result, const std::filesystem::path& folder) {
   if (Status s = create_folder(folder); !s) return s;
-  if (Status s = write_file_atomically(folder / "result.yaml", result_as_yaml(result)); !s)
-    return s;
-  return write_file_atomically(folder / "result.json", result_as_json(result));
+  return write_files_together(
+      folder, {{"result.yaml", result_as_yaml(result)}, {"result.json", result_as_json(result)}});
 }
 
 Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {

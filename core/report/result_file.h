@@ -23,7 +23,7 @@ std::string result_as_json(const CalibrationResult& result);
 /// The short form for people and YAML readers: pose, uncertainty, quality, scenes.
 std::string result_as_yaml(const CalibrationResult& result);
 
-/// Writes result.json and result.yaml into a folder (created if needed), each atomically.
+/// Writes result.json and result.yaml into a folder (created if needed): both of one run, or none.
 Status write_results(const CalibrationResult& result, const std::filesystem::path& folder);
 
 /// What `evaluate` needs of a result file.

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <thread>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -57,6 +58,10 @@ bool ended(pid_t child, int& status, Clock::time_point limit) {
   if (::chdir(settings.folder.c_str()) != 0) ::_exit(99);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
+  if (!settings.print_to.empty()) {
+    const int file = ::open(settings.print_to.c_str(), O_WRONLY);
+    if (file < 0 || ::dup2(file, STDOUT_FILENO) < 0) ::_exit(96);
+  }
   if (settings.unprivileged && ::geteuid() == 0 &&
       (::setgid(kNobody) != 0 || ::setuid(kNobody) != 0)) {
     ::_exit(97);

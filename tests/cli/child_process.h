@@ -25,6 +25,8 @@ struct RunSettings {
   std::chrono::milliseconds signal_after{};
   /// Run without the super-user's right to read and write everything.
   bool unprivileged = false;
+  /// Where standard output goes; empty: into the outcome.
+  std::filesystem::path print_to = {};
 };
 
 /// Runs lvcalib in a process of its own and waits for it.

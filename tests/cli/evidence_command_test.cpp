@@ -71,6 +71,66 @@ TEST_F(EvidenceCommands, TheReportIsOneFile) {
   EXPECT_THAT(read_file(at("report.html")), HasSubstr("Boundary response"));
 }
 
+TEST_F(EvidenceCommands, AFailedResultIsExportedOnlyByForce) {
+  const std::string file = at("failed.json").string();
+  write_file(file, read_file(result()));
+  replace_text(file, "\"quality\": \"good\"", "\"quality\": \"failed\"");
+  const std::string out = at("failed.txt").string();
+  const std::vector<std::string> arguments{"export", file, "--format", "matrix", "-o", out};
+  expect_refusal(run_lvcalib(arguments), 1, "has failed", out);
+  auto forced = arguments;
+  forced.emplace_back("--force");
+  const Outcome outcome = run_lvcalib(forced);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(read_file(out), HasSubstr("worked point"));
+}
+
+TEST_F(EvidenceCommands, TheReportRefusesFilesThatHaveChanged) {
+  const fs::path dataset = at("changing");
+  copy_dataset(good_dataset(), dataset);
+  const std::string folder = at("changing-out").string();
+  ASSERT_EQ(run_lvcalib({"calibrate", dataset.string(), "-o", folder}).status, 0);
+  const std::string out = at("changing.html").string();
+  EXPECT_EQ(run_lvcalib({"report", folder, "-o", out}).status, 0);
+  fs::remove(out);
+  const fs::path image = dataset / "scenes" / "B" / "image.png";
+  const std::string other = read_file(dataset / "scenes" / "C" / "image.png");
+  write_file(image, other);
+  expect_refusal(run_lvcalib({"report", folder, "-o", out}), 3, "its content changed", out);
+}
+
+TEST_F(EvidenceCommands, AnInputIsNeverOverwritten) {
+  const std::string before = read_file(result());
+  for (const auto& arguments : {std::vector<std::string>{"export", result(), "--format", "matrix"},
+                                std::vector<std::string>{"report", result_folder().string()}}) {
+    auto onto = arguments;
+    onto.insert(onto.end(), {"-o", result()});
+    const Outcome outcome = run_lvcalib(onto);
+    EXPECT_EQ(outcome.status, 2) << arguments[0];
+    EXPECT_THAT(outcome.err, HasSubstr("the output is the input itself"));
+  }
+  EXPECT_EQ(read_file(result()), before);
+  const fs::path among = good_dataset() / "scenes" / "D";
+  for (const char* command : {"calibrate", "discover"}) {
+    expect_refusal(run_lvcalib({command, good_dataset().string(), "-o", among.string()}), 2,
+                   "among the dataset's scenes", among);
+  }
+}
+
+TEST_F(EvidenceCommands, OutputThatIsLostIsAnError) {
+  RunSettings settings;
+  settings.print_to = "/dev/full";
+  fs::path truth = good_dataset();
+  truth += "-truth.json";
+  for (const auto& arguments :
+       {std::vector<std::string>{"evaluate", result(), "--truth", truth.string()},
+        std::vector<std::string>{"--help"}, std::vector<std::string>{"calibrate", "--version"}}) {
+    const Outcome outcome = run_lvcalib(arguments, settings);
+    EXPECT_EQ(outcome.status, 3) << arguments[0];
+    EXPECT_THAT(outcome.err, HasSubstr("standard output cannot be written")) << arguments[0];
+  }
+}
+
 TEST_F(EvidenceCommands, WhatCannotBeReadIsRefusedWithoutOutput) {
   const fs::path bad = at("bad");
   fs::create_directories(bad);

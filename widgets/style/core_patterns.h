@@ -55,6 +55,30 @@ inline constexpr const char* kCorePatterns[] = {
                       "the board is not found in any cloud, but it is if the clouds are %1"),
     QT_TRANSLATE_NOOP(
         "Core", "only one usable scene: nothing to check the result against; take two or more"),
+    QT_TRANSLATE_NOOP(
+        "Core", "only one usable scene: nothing to check the result against; take two or more; %1"),
+    QT_TRANSLATE_NOOP(
+        "Core", "scene %1 has the same image as scene %2: one of the two is not the scene's own"),
+    QT_TRANSLATE_NOOP(
+        "Core", "scene %1 has the same cloud as scene %2: one of the two is not the scene's own"),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 t = [%2] m, %3 t = [%4] m, %5 mm and %6 mrad apart: did a sensor move "
+                      "between scenes %7 and %8?"),
+    QT_TRANSLATE_NOOP("Core", "scenes %1 give"),
+    QT_TRANSLATE_NOOP("Core", "scene %1 gives"),
+    QT_TRANSLATE_NOOP(
+        "Core", "no image shows the tags of the right columns that target.yaml has: %1 would fit"),
+    QT_TRANSLATE_NOOP(
+        "Core", "no image shows the tags of the upper rows that target.yaml has: %1 would fit"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the images contradict target.yaml: %1 would fit (corners then scatter by %2 "
+                      "px, now by %3 px); measure the print"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the images contradict target.yaml: %1 would fit (corners then scatter by %2 "
+                      "px, now by %3 px)"),
+    QT_TRANSLATE_NOOP("Core", "the tags do not lie where the target has them; they do with %1"),
+    QT_TRANSLATE_NOOP("Core",
+                      "more tags are in the image than the target has; all of them fit with %1"),
     QT_TRANSLATE_NOOP("Core", "the scenes determine only %1 of 6 directions of the extrinsic"),
     QT_TRANSLATE_NOOP("Core",
                       "the scenes leave the extrinsic open: ± %1 mm and ± %2 mrad along the worst "

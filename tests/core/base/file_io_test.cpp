@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/file_io.h"
 
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace lvcalib {
@@ -77,6 +80,50 @@ TEST_F(FileIo, FailuresAreOutputErrorsThatLeaveNothing) {
   EXPECT_EQ(file_count(), 1);
   const fs::path device = "/dev/full/file";
   refused(write_file_atomically(device, "x"), device);
+}
+
+TEST_F(FileIo, FilesThatBelongTogetherAreOfOneCallHoweverItEnds) {
+  const auto write = [&](int run) {
+    const std::string text = std::to_string(run) + std::string(20'000, 'x');
+    return write_files_together(folder_, {{"a", text}, {"b", text}});
+  };
+  ASSERT_TRUE(write(0).ok());
+  EXPECT_EQ(file_count(), 2);
+  for (int round = 0; round < 20; ++round) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (int run = 1;; ++run) static_cast<void>(write(run));
+    }
+    ::usleep(static_cast<useconds_t>(2000 + 700 * round));
+    ASSERT_EQ(::kill(child, SIGKILL), 0);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    const auto a = read_text_file(folder_ / "a", 100'000);
+    const auto b = read_text_file(folder_ / "b", 100'000);
+    if (a && b) {
+      EXPECT_EQ(*a, *b);
+    }
+  }
+}
+
+TEST_F(FileIo, WithoutRoomForAllOfThemTheEarlierOnesStay) {
+  ASSERT_TRUE(write_files_together(folder_, {{"a", "old"}, {"b", "old"}}).ok());
+  // A limit on a file's size stands for a disk that is full.
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{1000, before.rlim_max};
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Status status =
+      write_files_together(folder_, {{"a", "new"}, {"b", std::string(5000, 'x')}});
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kOutput);
+  EXPECT_EQ(status.error().where, (folder_ / "b").string());
+  EXPECT_EQ(*read_text_file(folder_ / "a", 100), "old");
+  EXPECT_EQ(*read_text_file(folder_ / "b", 100), "old");
+  EXPECT_EQ(file_count(), 2);
 }
 
 TEST_F(FileIo, ReadErrorsSayWhy) {

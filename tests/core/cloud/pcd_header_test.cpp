@@ -35,6 +35,28 @@ TEST(PcdHeader, CountAndEitherNumberOfPointsMayBeMissing) {
   EXPECT_EQ(parse(start + "WIDTH 7\nPOINTS 7\nDATA ascii\n")->points, 7U);
 }
 
+// Programs differ on whether points of a moved sensor are in its frame or in that of a map.
+TEST(PcdHeader, RefusesAViewpointThatIsNotTheOrigin) {
+  const auto with = [](const std::string& viewpoint) {
+    return parse("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nVIEWPOINT" + viewpoint +
+                 "\nPOINTS 7\nDATA ascii\n");
+  };
+  for (const char* origin :
+       {"", " 0 0 0 1 0 0 0", " 0 0 0 -1 0 0 0", " 0.0 -0 1e-9 1.0 0 0 0", " 0 0 0 0 0 0 0"}) {
+    EXPECT_TRUE(with(origin).ok()) << origin;
+  }
+  for (const char* moved :
+       {" 1 0 0 1 0 0 0", " 0 0 -0.01 1 0 0 0", " 0 0 0 0.9 0 0 0.4359", " nan 0 0 1 0 0 0"}) {
+    const auto header = with(moved);
+    ASSERT_FALSE(header.ok()) << moved;
+    EXPECT_EQ(header.error().kind, ErrorKind::kInput);
+    EXPECT_THAT(header.error().text(), HasSubstr("line 4: VIEWPOINT")) << moved;
+  }
+  EXPECT_THAT(with(" 0 0 0").error().text(), HasSubstr("found 3"));
+  EXPECT_THAT(with(" 0 0 0 1 0 0 0 0").error().text(), HasSubstr("seven numbers"));
+  EXPECT_THAT(with(" here 0 0 1 0 0 0").error().text(), HasSubstr("seven numbers"));
+}
+
 TEST(PcdHeader, RefusesWhatDoesNotAgree) {
   const std::string good = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
   const struct {

@@ -107,7 +107,7 @@ TEST_F(HtmlReportTest, TellsTheModelAndWhatItStillMisses) {
   ASSERT_TRUE(without.ok());
   EXPECT_THAT(without->html, HasSubstr("Missing effects were not looked for"));
   const Discovery discovery = example_discovery();
-  ASSERT_TRUE(write_discovery(discovery, out_.path()).ok());
+  ASSERT_TRUE(write_discovery(discovery, *result_, out_.path()).ok());
   const auto stored = html_report(out_.path(), {});
   ASSERT_TRUE(stored.ok()) << stored.error().text();
   EXPECT_EQ(nesting_error(stored->html), "");

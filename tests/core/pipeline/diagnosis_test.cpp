@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/diagnosis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.h"
+
+namespace lvcalib {
+namespace {
+
+using ::testing::HasSubstr;
+
+Rigid3 moved(double x_m, double turn_rad) {
+  Vector6d xi = Vector6d::Zero();
+  xi(0) = x_m;
+  xi(5) = turn_rad;
+  return se3_exp(xi);
+}
+
+// Scenes A, B, … whose boards were seen by a rig with these extrinsics.
+CalibrationResult with_extrinsics(const std::vector<Rigid3>& camera_from_lidar) {
+  CalibrationResult result;
+  for (std::size_t s = 0; s < camera_from_lidar.size(); ++s) {
+    SceneResult scene;
+    scene.name = std::string(1, static_cast<char>('A' + s));
+    const Rigid3 board = moved(0.2 * static_cast<double>(s), 0.1) *
+                         Rigid3{Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, 3.0)};
+    scene.view.emplace();
+    scene.view->camera_from_board = {board, 1e-8 * Matrix6d::Identity()};
+    BoardCandidate candidate;
+    candidate.lidar_from_board = {camera_from_lidar[s].inverse() * board,
+                                  1e-8 * Matrix6d::Identity()};
+    candidate.gain = 500.0;
+    scene.search.emplace();
+    scene.search->candidates = {candidate};
+    result.scenes.push_back(scene);
+  }
+  result.extrinsic.camera_from_lidar.transform = camera_from_lidar.front();
+  return result;
+}
+
+TEST(DiagnoseBump, ScenesAfterABumpAreGivenAsAGroup) {
+  const Rigid3 before = moved(0.0, 0.0);
+  const Rigid3 after = moved(0.03, 0.01);
+  CalibrationResult result = with_extrinsics({before, before, before, after, after});
+  for (std::size_t s = 0; s < 5; ++s) {
+    result.scenes[s].used = s < 3;
+    result.scenes[s].contradicts = s >= 3;
+  }
+  const std::string text = diagnose_bump(result);
+  EXPECT_THAT(text, HasSubstr("scenes A, B, C give t = [0.000 0.000 0.000] m"));
+  EXPECT_THAT(text, HasSubstr("scenes D, E give t = [0.030"));
+  EXPECT_THAT(text, HasSubstr("10.0 mrad apart"));
+  EXPECT_THAT(text, HasSubstr("did a sensor move between scenes C and D?"));
+}
+
+TEST(DiagnoseBump, OtherContradictionsAreNone) {
+  const Rigid3 before = moved(0.0, 0.0);
+  CalibrationResult scattered =
+      with_extrinsics({before, before, before, moved(0.2, 0.1), moved(-0.2, -0.1)});
+  CalibrationResult between = with_extrinsics({before, moved(0.03, 0.01), before, before});
+  for (std::size_t s = 0; s < 5; ++s) {
+    scattered.scenes[s].used = s < 3;
+    scattered.scenes[s].contradicts = s >= 3;
+  }
+  for (std::size_t s = 0; s < 4; ++s) {
+    between.scenes[s].used = s != 1;
+    between.scenes[s].contradicts = s == 1;
+  }
+  EXPECT_EQ(diagnose_bump(scattered), "");
+  EXPECT_EQ(diagnose_bump(between), "");
+  CalibrationResult clean = with_extrinsics({before, before, before});
+  for (SceneResult& scene : clean.scenes) scene.used = true;
+  EXPECT_EQ(diagnose_bump(clean), "");
+  EXPECT_EQ(diagnose_bump(CalibrationResult()), "");
+}
+
+TEST(DiagnoseUnseenTags, WholeRowsThatNoImageShowsAreNamed) {
+  CalibrationResult result = with_extrinsics({Rigid3(), Rigid3()});
+  for (SceneResult& scene : result.scenes) {
+    for (const TargetTag& tag : result.target.tags()) scene.view->corners.push_back({tag.id});
+  }
+  EXPECT_EQ(diagnose_unseen_tags(result), "");
+  result.target.tag_rows = 5;
+  EXPECT_THAT(diagnose_unseen_tags(result), HasSubstr("tagRows: 4 would fit"));
+  // One image may show a part of the board only.
+  result.scenes.pop_back();
+  EXPECT_EQ(diagnose_unseen_tags(result), "");
+}
+
+TEST(SameContent, ImagesAndCloudsAreComparedEachForItself) {
+  const test::TemporaryFolder folder;
+  Dataset dataset;
+  const auto add = [&](const std::string& name, const char* image, const char* cloud) {
+    SceneFiles files;
+    files.name = name;
+    files.image = folder.path() / (name + ".png");
+    files.cloud = folder.path() / (name + ".pcd");
+    folder.write(name + ".png", image);
+    folder.write(name + ".pcd", cloud);
+    dataset.scenes.push_back(files);
+  };
+  add("A", "image 1", "cloud 1");
+  add("B", "image 2", "cloud 1");
+  add("C", "image 1", "cloud 2");
+  add("D", "image 2", "cloud 1");
+  add("E", "image 3", "cloud 3");
+  const auto same = same_content(dataset, false, {});
+  ASSERT_EQ(same.size(), 5U);
+  EXPECT_FALSE(same[0].image || same[0].cloud);
+  EXPECT_FALSE(same[1].image.has_value());
+  EXPECT_EQ(same[1].cloud, 0U);
+  EXPECT_EQ(same[2].image, 0U);
+  EXPECT_FALSE(same[2].cloud.has_value());
+  EXPECT_EQ(same[3].image, 1U);
+  EXPECT_EQ(same[3].cloud, 0U);
+  EXPECT_FALSE(same[4].image || same[4].cloud);
+}
+
+}  // namespace
+}  // namespace lvcalib
