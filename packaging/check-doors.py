@@ -49,8 +49,8 @@ WIDGET_DOORS = {
     "pages": ["style", "views"],
     "modelling": ["style", "views", "runner"],
     "dialogs": ["style"],
-    "importing": ["style", "runner", "dialogs"],
     "tools": ["style", "runner", "dialogs"],
+    "importing": ["style", "runner", "dialogs", "tools"],
     "docks": ["style", "models"],
     "start": ["style"],
 }

@@ -111,6 +111,10 @@ were saved. Take them up again?</source>
         <source>Add scene folders (image and cloud each)</source>
         <translation>添加场景文件夹（各含图像与点云）</translation>
     </message>
+    <message>
+        <source>Open a folder of images and clouds</source>
+        <translation>打开图像和点云的文件夹</translation>
+    </message>
 </context>
 <context>
     <name>CloudSceneText</name>
@@ -2357,6 +2361,310 @@ were saved. Take them up again?</source>
         <source>Undecided: %1 is neither excluded nor confirmed by scenes held out; it may move the extrinsic by %2 mm and %3 mrad. To decide: %4.</source>
         <translation>未定：%1 既未被留出的场景排除，也未被证实；它可能使外参移动 %2 mm 和 %3 mrad。要判定：%4。</translation>
     </message>
+    <message>
+        <source>key &apos;%1&apos; is missing; expected %2</source>
+        <translation>缺少键“%1”；应为%2</translation>
+    </message>
+    <message>
+        <source>is &apos;%1&apos; a misspelling of it?</source>
+        <translation>“%1”是否为它的误拼？</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be between %2 and %3, found %4</source>
+        <translation>“%1”必须在 %2 与 %3 之间，实际为 %4</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be at least %2, found %3</source>
+        <translation>“%1”至少应为 %2，实际为 %3</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be at most %2, found %3</source>
+        <translation>“%1”至多为 %2，实际为 %3</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a number, found %2</source>
+        <translation>“%1”必须是数字，实际为 %2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a whole number, found %2</source>
+        <translation>“%1”必须是整数，实际为 %2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a word, found %2</source>
+        <translation>“%1”必须是一个词，实际为%2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a map, found %2</source>
+        <translation>“%1”必须是映射，实际为%2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a list of numbers, found %2</source>
+        <translation>“%1”必须是数字列表，实际为%2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold numbers, found %2</source>
+        <translation>“%1”只能包含数字，实际为 %2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold %2 numbers, found %3</source>
+        <translation>“%1”必须包含 %2 个数字，实际有 %3 个</translation>
+    </message>
+    <message>
+        <source>%1: unknown key &apos;%2&apos; ignored; did you mean &apos;%3&apos;?</source>
+        <translation>%1：忽略未知的键“%2”；您是指“%3”吗？</translation>
+    </message>
+    <message>
+        <source>%1: unknown key &apos;%2&apos; ignored</source>
+        <translation>%1：忽略未知的键“%2”</translation>
+    </message>
+    <message>
+        <source>not valid YAML: %1</source>
+        <translation>不是有效的 YAML：%1</translation>
+    </message>
+    <message>
+        <source>expected a YAML map of keys and values, found %1</source>
+        <translation>应为由键和值组成的 YAML 映射，实际为%1</translation>
+    </message>
+    <message>
+        <source>a number</source>
+        <translation>数字</translation>
+    </message>
+    <message>
+        <source>a word</source>
+        <translation>一个词</translation>
+    </message>
+    <message>
+        <source>a map</source>
+        <translation>映射</translation>
+    </message>
+    <message>
+        <source>a list of numbers</source>
+        <translation>数字列表</translation>
+    </message>
+    <message>
+        <source>a list of %1</source>
+        <translation>%1 项的列表</translation>
+    </message>
+    <message>
+        <source>a 3 × 3 matrix</source>
+        <translation>3 × 3 矩阵</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>无</translation>
+    </message>
+    <message>
+        <source>target_type &apos;%1&apos; is not known; expected aprilgrid_circles, aprilgrid, checkerboard, charuco or apriltag</source>
+        <translation>未知的 target_type“%1”；应为 aprilgrid_circles、aprilgrid、checkerboard、charuco 或 apriltag</translation>
+    </message>
+    <message>
+        <source>a checkerboard needs at least 3 × 3 inner corners</source>
+        <translation>棋盘格至少需要 3 × 3 个内角点</translation>
+    </message>
+    <message>
+        <source>square sizes must be positive</source>
+        <translation>方格尺寸必须为正</translation>
+    </message>
+    <message>
+        <source>the board outline is smaller than its pattern</source>
+        <translation>标定板的外形小于其图案</translation>
+    </message>
+    <message>
+        <source>measure boardWidth and boardHeight</source>
+        <translation>请测量 boardWidth 和 boardHeight</translation>
+    </message>
+    <message>
+        <source>marker ids %1 to %2 do not exist in %3, which has %4</source>
+        <translation>%3 中没有编号 %1 到 %2 的标记，它共有 %4 个</translation>
+    </message>
+    <message>
+        <source>tag ids %1 to %2 do not exist in %3, which has %4</source>
+        <translation>%3 中没有编号 %1 到 %2 的标签，它共有 %4 个</translation>
+    </message>
+    <message>
+        <source>the board is larger than 100 m</source>
+        <translation>标定板大于 100 m</translation>
+    </message>
+    <message>
+        <source>spacings and outline are in metres</source>
+        <translation>间距和外形以米为单位</translation>
+    </message>
+    <message>
+        <source>the pattern reaches beyond the board&apos;s outline</source>
+        <translation>图案超出了标定板的外形</translation>
+    </message>
+    <message>
+        <source>measure boardWidth, boardHeight and boardOffset</source>
+        <translation>请测量 boardWidth、boardHeight 和 boardOffset</translation>
+    </message>
+    <message>
+        <source>dictionary &apos;%1&apos; is not known; expected one of OpenCV&apos;s, DICT_4X4_50 to DICT_APRILTAG_36h11</source>
+        <translation>未知的字典“%1”；应为 OpenCV 的字典之一：DICT_4X4_50 到 DICT_APRILTAG_36h11</translation>
+    </message>
+    <message>
+        <source>did you mean %1?</source>
+        <translation>您是指 %1 吗？</translation>
+    </message>
+    <message>
+        <source>a ChArUco board needs at least 3 × 3 squares</source>
+        <translation>ChArUco 板至少需要 3 × 3 个方格</translation>
+    </message>
+    <message>
+        <source>squareSize must be positive and markerSize smaller than it</source>
+        <translation>squareSize 必须为正，且 markerSize 小于它</translation>
+    </message>
+    <message>
+        <source>tag family &apos;%1&apos; is not known; expected tag36h11, tag36h10, tag25h9 or tag16h5</source>
+        <translation>未知的标签族“%1”；应为 tag36h11、tag36h10、tag25h9 或 tag16h5</translation>
+    </message>
+    <message>
+        <source>tagSize must be positive</source>
+        <translation>tagSize 必须为正</translation>
+    </message>
+    <message>
+        <source>tagBorder must be 1 or 2</source>
+        <translation>tagBorder 必须为 1 或 2</translation>
+    </message>
+    <message>
+        <source>tagCols and tagRows must be at least 1</source>
+        <translation>tagCols 和 tagRows 至少为 1</translation>
+    </message>
+    <message>
+        <source>tagSize and tagSpacing must be positive, margin not negative</source>
+        <translation>tagSize 和 tagSpacing 必须为正，margin 不得为负</translation>
+    </message>
+    <message>
+        <source>circles need at least 2 × 2 tags</source>
+        <translation>要有圆，至少需要 2 × 2 个标签</translation>
+    </message>
+    <message>
+        <source>circleRadius must be positive and below %1 m, or circles run into the tags</source>
+        <translation>circleRadius 必须为正且小于 %1 m，否则圆会碰到标签</translation>
+    </message>
+    <message>
+        <source>measuredLength and drawnLength belong together, both in metres, and no print is off by more than a tenth; found %1 and %2</source>
+        <translation>measuredLength 与 drawnLength 须同时给出，均以米为单位，且任何打印的误差都不会超过十分之一；实际为 %1 和 %2</translation>
+    </message>
+    <message>
+        <source>the image size must be positive, found %1</source>
+        <translation>图像尺寸必须为正，实际为 %1</translation>
+    </message>
+    <message>
+        <source>the intrinsics must be finite numbers</source>
+        <translation>内参必须是有限的数</translation>
+    </message>
+    <message>
+        <source>a focal length of %1 px is not plausible for an image %2 px long</source>
+        <translation>对于长 %2 px 的图像，焦距 %1 px 不合理</translation>
+    </message>
+    <message>
+        <source>focal lengths are given in pixels</source>
+        <translation>焦距以像素为单位</translation>
+    </message>
+    <message>
+        <source>the principal point (%1) px lies far outside the image of %2 px</source>
+        <translation>主点 (%1) px 远在 %2 px 的图像之外</translation>
+    </message>
+    <message>
+        <source>%1: the distortion folds back inside the image: %2 of its 4 corners have no ray; are the coefficients right?</source>
+        <translation>%1：畸变在图像内部折返：4 个角中有 %2 个没有对应的射线；系数正确吗？</translation>
+    </message>
+    <message>
+        <source>standard deviations must be 0 or more</source>
+        <translation>标准差必须大于等于 0</translation>
+    </message>
+    <message>
+        <source>&apos;distortion&apos; holds %1 standard deviations, but the model has %2 coefficients</source>
+        <translation>“distortion”包含 %1 个标准差，但模型有 %2 个系数</translation>
+    </message>
+    <message>
+        <source>is no folder</source>
+        <translation>不是文件夹</translation>
+    </message>
+    <message>
+        <source>give the folder that holds the files</source>
+        <translation>请给出文件所在的文件夹</translation>
+    </message>
+    <message>
+        <source>give the folder that holds them</source>
+        <translation>请给出它们所在的文件夹</translation>
+    </message>
+    <message>
+        <source>holds no images; expected png, jpg, bmp or tiff files</source>
+        <translation>不含图像；应有 .png、.jpg、.bmp 或 .tiff 文件</translation>
+    </message>
+    <message>
+        <source>holds no clouds; expected pcd, ply or KITTI&apos;s bin files</source>
+        <translation>不含点云；应有 .pcd、.ply 或 KITTI 的 .bin 文件</translation>
+    </message>
+    <message>
+        <source>the names of its files are no times: %1</source>
+        <translation>其文件名不是时间：%1</translation>
+    </message>
+    <message>
+        <source>expected seconds, ms, µs or ns: 1650000000.25.png</source>
+        <translation>应为秒、ms、µs 或 ns：1650000000.25.png</translation>
+    </message>
+    <message>
+        <source>no image and cloud belong together: found %1 and %2</source>
+        <translation>没有图像与点云相配：找到 %1 和 %2</translation>
+    </message>
+    <message>
+        <source>give both the same name, the same number, or their times as names</source>
+        <translation>请给两者相同的名称、相同的编号，或以时间为名</translation>
+    </message>
+    <message>
+        <source>%1: no cloud belongs to it</source>
+        <translation>%1：没有与之相配的点云</translation>
+    </message>
+    <message>
+        <source>%1: no image belongs to it</source>
+        <translation>%1：没有与之相配的图像</translation>
+    </message>
+    <message>
+        <source>%1 more files without a partner</source>
+        <translation>另有 %1 个文件没有配对</translation>
+    </message>
+    <message>
+        <source>its image has %1 px, the camera&apos;s have %2</source>
+        <translation>其图像为 %1 px，而相机的图像为 %2</translation>
+    </message>
+    <message>
+        <source>no intrinsics lie with the files; put a camera.yaml into the dataset before it is calibrated</source>
+        <translation>文件旁没有内参；标定之前请在数据集中放入 camera.yaml</translation>
+    </message>
+    <message>
+        <source>none of its %1 pairs can be used; %2: %3</source>
+        <translation>其 %1 对文件均不可用；%2：%3</translation>
+    </message>
+    <message>
+        <source>none of its clouds can be read</source>
+        <translation>其点云均无法读取</translation>
+    </message>
+    <message>
+        <source>holds no clouds</source>
+        <translation>不含点云</translation>
+    </message>
+    <message>
+        <source>holds %1 bytes; expected 16 for each point: x, y, z and reflectance as 4-byte floats</source>
+        <translation>包含 %1 字节；每个点应为 16 字节：x、y、z 和反射率，均为 4 字节浮点数</translation>
+    </message>
+    <message>
+        <source>no image was taken in this time</source>
+        <translation>这段时间内没有拍摄图像</translation>
+    </message>
+    <message>
+        <source>its edges were set by hand: %1 s</source>
+        <translation>边缘由手动设定：%1 s</translation>
+    </message>
+    <message>
+        <source>the stretch moved to %1 s to %2 s overlaps that from %3 s to %4 s</source>
+        <translation>移动到 %1 s 至 %2 s 的时段与 %3 s 至 %4 s 的时段重叠</translation>
+    </message>
+    <message>
+        <source>move its edges so that both stay apart</source>
+        <translation>请移动其边缘，使两者分开</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -3094,6 +3402,33 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::BoardChoice</name>
+    <message>
+        <source>The printed board; stretches whose image does not show it are left out</source>
+        <translation>打印的标定板；图像中没有它的时段将被略去</translation>
+    </message>
+    <message>
+        <source>target.yaml beside the recording</source>
+        <translation>记录旁的 target.yaml</translation>
+    </message>
+    <message>
+        <source>Standard board: 4 × 4 tags with circles</source>
+        <translation>标准标定板：4 × 4 标签，带圆</translation>
+    </message>
+    <message>
+        <source>Board of %1</source>
+        <translation>%1 的标定板</translation>
+    </message>
+    <message>
+        <source>Choose a target.yaml…</source>
+        <translation>选择 target.yaml…</translation>
+    </message>
+    <message>
+        <source>Make a target.yaml…</source>
+        <translation>新建 target.yaml…</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::BoardIntensityView</name>
     <message>
         <source>Intensity over the board: measured, as the model predicts it, and the difference (blue: darker than predicted, red: brighter).</source>
@@ -3185,6 +3520,93 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Step %1, %2: %3 mm (left bar) and %4 mrad (right bar) from the truth</source>
         <translation>第 %1 步，%2：与真值相差 %3 mm（左柱）和 %4 mrad（右柱）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CameraForm</name>
+    <message>
+        <source>a number is expected here</source>
+        <translation>此处应为数字</translation>
+    </message>
+    <message>
+        <source>Field of view: %1° × %2°</source>
+        <translation>视场：%1° × %2°</translation>
+    </message>
+    <message>
+        <source>&amp;Distortion:</source>
+        <translation>畸变(&amp;D)：</translation>
+    </message>
+    <message>
+        <source>plumb_bob: radial and tangential</source>
+        <translation>plumb_bob：径向和切向</translation>
+    </message>
+    <message>
+        <source>rational_polynomial: wide angles</source>
+        <translation>rational_polynomial：广角</translation>
+    </message>
+    <message>
+        <source>equidistant: fisheye</source>
+        <translation>equidistant：鱼眼</translation>
+    </message>
+    <message>
+        <source>What the lens makes of straight lines</source>
+        <translation>镜头把直线变成的样子</translation>
+    </message>
+    <message>
+        <source>Image width</source>
+        <translation>图像宽度</translation>
+    </message>
+    <message>
+        <source>Of the images as they are given to the calibration</source>
+        <translation>指提供给标定的图像</translation>
+    </message>
+    <message>
+        <source>Image height</source>
+        <translation>图像高度</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>May stay blank</source>
+        <translation>可以留空</translation>
+    </message>
+    <message>
+        <source>Focal length, horizontal</source>
+        <translation>水平焦距</translation>
+    </message>
+    <message>
+        <source>In pixels; behind ± its standard deviation, blank: not stated</source>
+        <translation>以像素为单位；± 之后为其标准差，留空表示未给出</translation>
+    </message>
+    <message>
+        <source>Focal length, vertical</source>
+        <translation>垂直焦距</translation>
+    </message>
+    <message>
+        <source>Principal point, right</source>
+        <translation>主点，向右</translation>
+    </message>
+    <message>
+        <source>From the centre of the top left pixel; behind ± its standard deviation</source>
+        <translation>从左上角像素的中心算起；± 之后为其标准差</translation>
+    </message>
+    <message>
+        <source>Principal point, down</source>
+        <translation>主点，向下</translation>
+    </message>
+    <message>
+        <source>Radial %1</source>
+        <translation>径向 %1</translation>
+    </message>
+    <message>
+        <source>A coefficient of the distortion</source>
+        <translation>畸变系数</translation>
+    </message>
+    <message>
+        <source>Tangential %1</source>
+        <translation>切向 %1</translation>
     </message>
 </context>
 <context>
@@ -3307,6 +3729,10 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>There is not enough memory to show this cloud.</source>
         <translation>内存不足，无法显示该点云。</translation>
+    </message>
+    <message>
+        <source>This cloud cannot be shown: %1</source>
+        <translation>无法显示此点云：%1</translation>
     </message>
 </context>
 <context>
@@ -3950,6 +4376,185 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::FilesDialog</name>
+    <message>
+        <source>none yet</source>
+        <translation>暂无</translation>
+    </message>
+    <message>
+        <source>Choose a camera file…</source>
+        <translation>选择相机文件…</translation>
+    </message>
+    <message>
+        <source>Make a camera.yaml…</source>
+        <translation>新建 camera.yaml…</translation>
+    </message>
+    <message>
+        <source>seen</source>
+        <translation>可见</translation>
+    </message>
+    <message>
+        <source>not seen: %1</source>
+        <translation>不可见：%1</translation>
+    </message>
+    <message>
+        <source>%1 is written, without intrinsics: put a camera.yaml into it, then open it.</source>
+        <translation>已写入 %1，但没有内参：请放入 camera.yaml，然后打开。</translation>
+    </message>
+    <message>
+        <source>Matched by their names</source>
+        <translation>按名称配对</translation>
+    </message>
+    <message>
+        <source>Matched by the numbers in their names</source>
+        <translation>按名称中的编号配对</translation>
+    </message>
+    <message>
+        <source>Matched by the times that are their names</source>
+        <translation>按文件名中的时间配对</translation>
+    </message>
+    <message>
+        <source>Files of %1</source>
+        <translation>%1 的文件</translation>
+    </message>
+    <message>
+        <source>without a partner: %1</source>
+        <translation>没有配对：%1</translation>
+    </message>
+    <message>
+        <source>Choose the folder that holds the images, or all files.</source>
+        <translation>请选择图像或全部文件所在的文件夹。</translation>
+    </message>
+    <message>
+        <source>Tick the pairs that are to become scenes.</source>
+        <translation>请勾选要成为场景的文件对。</translation>
+    </message>
+    <message>
+        <source>Choose a folder for the dataset.</source>
+        <translation>请为数据集选择文件夹。</translation>
+    </message>
+    <message>
+        <source>%1 of %2 pairs become scenes</source>
+        <translation>%2 对中有 %1 对成为场景</translation>
+    </message>
+    <message>
+        <source>New from files</source>
+        <translation>从文件新建</translation>
+    </message>
+    <message>
+        <source>I&amp;mages in:</source>
+        <translation>图像位于(&amp;M)：</translation>
+    </message>
+    <message>
+        <source>C&amp;louds in:</source>
+        <translation>点云位于(&amp;L)：</translation>
+    </message>
+    <message>
+        <source>Matched &amp;by:</source>
+        <translation>配对依据(&amp;B)：</translation>
+    </message>
+    <message>
+        <source>At most a&amp;part:</source>
+        <translation>最大间隔(&amp;P)：</translation>
+    </message>
+    <message>
+        <source>I&amp;ntrinsics:</source>
+        <translation>内参(&amp;N)：</translation>
+    </message>
+    <message>
+        <source>Boa&amp;rd:</source>
+        <translation>标定板(&amp;R)：</translation>
+    </message>
+    <message>
+        <source>&amp;Dataset folder:</source>
+        <translation>数据集文件夹(&amp;D)：</translation>
+    </message>
+    <message>
+        <source>B&amp;rowse…</source>
+        <translation>浏览(&amp;R)…</translation>
+    </message>
+    <message>
+        <source>Br&amp;owse…</source>
+        <translation>浏览(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>Bro&amp;wse…</source>
+        <translation>浏览(&amp;W)…</translation>
+    </message>
+    <message>
+        <source>A folder of images, or one that holds all: of KITTI raw, cam_lidar_calibration, direct_visual_lidar_calibration, FAST-Calib, or two folders</source>
+        <translation>图像的文件夹，或包含全部文件的文件夹：KITTI raw、cam_lidar_calibration、direct_visual_lidar_calibration、FAST-Calib，或两个文件夹</translation>
+    </message>
+    <message>
+        <source>the same folder, or one in it</source>
+        <translation>同一文件夹或其中的子文件夹</translation>
+    </message>
+    <message>
+        <source>their names, or else their times</source>
+        <translation>名称，否则时间</translation>
+    </message>
+    <message>
+        <source>their names</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>the times that are their names</source>
+        <translation>文件名中的时间</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>half of the usual time between two</source>
+        <translation>通常间隔的一半</translation>
+    </message>
+    <message>
+        <source>Files whose times differ by more do not belong together</source>
+        <translation>时间相差更多的文件不配对</translation>
+    </message>
+    <message>
+        <source>Intrinsics that lie with the files, or a camera.yaml</source>
+        <translation>文件旁的内参，或 camera.yaml</translation>
+    </message>
+    <message>
+        <source>Replace the earlier import</source>
+        <translation>替换之前的导入</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>Cloud</source>
+        <translation>点云</translation>
+    </message>
+    <message>
+        <source>Apart</source>
+        <translation>间隔</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>停止(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Import and &amp;calibrate</source>
+        <translation>导入并标定(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::GuideDialog</name>
     <message>
         <source>Guide</source>
@@ -4212,6 +4817,26 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <source>&amp;Look again</source>
         <translation>重新查看(&amp;L)</translation>
     </message>
+    <message>
+        <source>&amp;Edges of the stretch:</source>
+        <translation>时段的边缘(&amp;E)：</translation>
+    </message>
+    <message>
+        <source>&amp;As found</source>
+        <translation>恢复原样(&amp;A)</translation>
+    </message>
+    <message>
+        <source>The edges as they were found, where nothing moves in between</source>
+        <translation>找到时的边缘，其间没有任何运动</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>What lies between the edges becomes the scene; they can be dragged on the time line as well</source>
+        <translation>边缘之间的内容成为场景；也可以在时间线上拖动边缘</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ImportForm</name>
@@ -4226,22 +4851,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>Choose a camera file…</source>
         <translation>选择相机文件…</translation>
-    </message>
-    <message>
-        <source>target.yaml beside the recording</source>
-        <translation>记录旁的 target.yaml</translation>
-    </message>
-    <message>
-        <source>Standard board: 4 × 4 tags with circles</source>
-        <translation>标准标定板：4 × 4 标签，带圆</translation>
-    </message>
-    <message>
-        <source>Board of %1</source>
-        <translation>%1 的标定板</translation>
-    </message>
-    <message>
-        <source>Choose a target.yaml…</source>
-        <translation>选择 target.yaml…</translation>
     </message>
     <message>
         <source>Choose a folder for the dataset.</source>
@@ -4288,12 +4897,12 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <translation>静止时间更短的时段不成为场景</translation>
     </message>
     <message>
-        <source>The printed board; stretches whose image does not show it are left out</source>
-        <translation>打印的标定板；图像中没有它的时段将被略去</translation>
-    </message>
-    <message>
         <source>CameraInfo of the recording, or a camera.yaml</source>
         <translation>记录中的 CameraInfo，或 camera.yaml</translation>
+    </message>
+    <message>
+        <source>Make a camera.yaml…</source>
+        <translation>新建 camera.yaml…</translation>
     </message>
 </context>
 <context>
@@ -4517,6 +5126,22 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <source>Draw the board for printing, exactly to scale</source>
         <translation>按精确比例绘制标定板以供打印</translation>
     </message>
+    <message>
+        <source>New from &amp;files…</source>
+        <translation>从文件新建(&amp;F)…</translation>
+    </message>
+    <message>
+        <source>Make a dataset of images and clouds that lie in folders, and calibrate it</source>
+        <translation>用文件夹中的图像和点云生成数据集并标定</translation>
+    </message>
+    <message>
+        <source>&amp;Target and camera…</source>
+        <translation>标定板与相机(&amp;T)…</translation>
+    </message>
+    <message>
+        <source>Make or edit target.yaml and camera.yaml</source>
+        <translation>新建或编辑 target.yaml 和 camera.yaml</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::MainWindow</name>
@@ -4547,6 +5172,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>The distance to the truth is shown on the Model page: %1</source>
         <translation>与真值的距离显示在“模型”页：%1</translation>
+    </message>
+    <message>
+        <source>Imported into %1: %2 of %3 pairs are scenes.</source>
+        <translation>已导入 %1：%3 对中有 %2 对是场景。</translation>
     </message>
 </context>
 <context>
@@ -5334,6 +5963,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <source>HTML (*.html)</source>
         <translation>HTML (*.html)</translation>
     </message>
+    <message>
+        <source>Written: %1. What is open was read before; open it again to use this file.</source>
+        <translation>已写入：%1。当前打开的数据是之前读取的；请重新打开以使用此文件。</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResultsDialog</name>
@@ -5928,6 +6561,296 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::TargetCameraDialog</name>
+    <message>
+        <source>YAML (*.yaml *.yml)</source>
+        <translation>YAML (*.yaml *.yml)</translation>
+    </message>
+    <message>
+        <source>Written: %1</source>
+        <translation>已写入：%1</translation>
+    </message>
+    <message>
+        <source>Not saved yet</source>
+        <translation>尚未保存</translation>
+    </message>
+    <message>
+        <source>%1 (changed)</source>
+        <translation>%1（已更改）</translation>
+    </message>
+    <message>
+        <source>Target and camera</source>
+        <translation>标定板与相机</translation>
+    </message>
+    <message>
+        <source>Target</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>&amp;Open…</source>
+        <translation>打开(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>&amp;Save</source>
+        <translation>保存(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Save &amp;as…</source>
+        <translation>另存为(&amp;A)…</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::TargetForm</name>
+    <message>
+        <source>Board of %1 × %2 mm; tags or markers: %3, circles: %4, corners of squares: %5</source>
+        <translation>标定板 %1 × %2 mm；标签或标记：%3，圆：%4，方格角点：%5</translation>
+    </message>
+    <message>
+        <source>&amp;Kind of board:</source>
+        <translation>标定板类型(&amp;K)：</translation>
+    </message>
+    <message>
+        <source>Tags with circles between them</source>
+        <translation>标签，其间有圆</translation>
+    </message>
+    <message>
+        <source>AprilGrid</source>
+        <translation>AprilGrid</translation>
+    </message>
+    <message>
+        <source>Checkerboard</source>
+        <translation>棋盘格</translation>
+    </message>
+    <message>
+        <source>ChArUco</source>
+        <translation>ChArUco</translation>
+    </message>
+    <message>
+        <source>A single AprilTag</source>
+        <translation>单个 AprilTag</translation>
+    </message>
+    <message>
+        <source>The board as it would be printed</source>
+        <translation>标定板打印出来的样子</translation>
+    </message>
+    <message>
+        <source>Tag family</source>
+        <translation>标签族</translation>
+    </message>
+    <message>
+        <source>Which set of AprilTags is printed</source>
+        <translation>打印的是哪一组 AprilTag</translation>
+    </message>
+    <message>
+        <source>Dictionary</source>
+        <translation>字典</translation>
+    </message>
+    <message>
+        <source>OpenCV&apos;s name of the set of markers</source>
+        <translation>OpenCV 中该组标记的名称</translation>
+    </message>
+    <message>
+        <source>Tags in a row</source>
+        <translation>每行标签数</translation>
+    </message>
+    <message>
+        <source>Number of tags from left to right</source>
+        <translation>从左到右的标签数</translation>
+    </message>
+    <message>
+        <source>Rows of tags</source>
+        <translation>标签行数</translation>
+    </message>
+    <message>
+        <source>Number of tags from bottom to top</source>
+        <translation>从下到上的标签数</translation>
+    </message>
+    <message>
+        <source>Inner corners in a row</source>
+        <translation>每行内角点数</translation>
+    </message>
+    <message>
+        <source>Squares in a row</source>
+        <translation>每行方格数</translation>
+    </message>
+    <message>
+        <source>Counted along the rows; of a checkerboard the corners where four squares meet, of a ChArUco board the squares</source>
+        <translation>沿行计数；棋盘格为四个方格相交的角点，ChArUco 板为方格</translation>
+    </message>
+    <message>
+        <source>Rows of inner corners</source>
+        <translation>内角点行数</translation>
+    </message>
+    <message>
+        <source>Rows of squares</source>
+        <translation>方格行数</translation>
+    </message>
+    <message>
+        <source>Counted along the columns; of a checkerboard the corners where four squares meet, of a ChArUco board the squares</source>
+        <translation>沿列计数；棋盘格为四个方格相交的角点，ChArUco 板为方格</translation>
+    </message>
+    <message>
+        <source>Number of the tag</source>
+        <translation>标签编号</translation>
+    </message>
+    <message>
+        <source>Its number in the family</source>
+        <translation>在标签族中的编号</translation>
+    </message>
+    <message>
+        <source>Tag size</source>
+        <translation>标签尺寸</translation>
+    </message>
+    <message>
+        <source>Outer edge of the tag&apos;s black border</source>
+        <translation>标签黑边的外缘边长</translation>
+    </message>
+    <message>
+        <source>Gap over tag size</source>
+        <translation>间隙与标签尺寸之比</translation>
+    </message>
+    <message>
+        <source>White gap between two tags as a part of the tag size</source>
+        <translation>两个标签之间的白色间隙相对于标签尺寸的比例</translation>
+    </message>
+    <message>
+        <source>Square size</source>
+        <translation>方格尺寸</translation>
+    </message>
+    <message>
+        <source>Edge of a square</source>
+        <translation>方格的边长</translation>
+    </message>
+    <message>
+        <source>Square width</source>
+        <translation>方格宽度</translation>
+    </message>
+    <message>
+        <source>From one corner to the next in a row</source>
+        <translation>同一行相邻角点的距离</translation>
+    </message>
+    <message>
+        <source>Square height</source>
+        <translation>方格高度</translation>
+    </message>
+    <message>
+        <source>From one row of corners to the next</source>
+        <translation>相邻两行角点的距离</translation>
+    </message>
+    <message>
+        <source>Marker size</source>
+        <translation>标记尺寸</translation>
+    </message>
+    <message>
+        <source>Outer edge of a marker</source>
+        <translation>标记的外缘边长</translation>
+    </message>
+    <message>
+        <source>Black border, in bits</source>
+        <translation>黑边宽度（位）</translation>
+    </message>
+    <message>
+        <source>Width of the tag&apos;s black border: 1 as AprilTag draws it, 2 as Kalibr does</source>
+        <translation>标签黑边的宽度：AprilTag 画 1，Kalibr 画 2</translation>
+    </message>
+    <message>
+        <source>First number</source>
+        <translation>起始编号</translation>
+    </message>
+    <message>
+        <source>Number of the tag at the lower left; the others follow</source>
+        <translation>左下角标签的编号；其余依次递增</translation>
+    </message>
+    <message>
+        <source>Number of the marker at the upper left; the others follow</source>
+        <translation>左上角标记的编号；其余依次递增</translation>
+    </message>
+    <message>
+        <source>White square at the top left</source>
+        <translation>左上角为白格</translation>
+    </message>
+    <message>
+        <source>Boards of OpenCV before 4.6 with an even number of rows begin with a white square</source>
+        <translation>OpenCV 4.6 之前行数为偶数的板以白格开始</translation>
+    </message>
+    <message>
+        <source>Circle radius</source>
+        <translation>圆半径</translation>
+    </message>
+    <message>
+        <source>Of the black circles between the tags</source>
+        <translation>标签之间的黑色圆</translation>
+    </message>
+    <message>
+        <source>White margin</source>
+        <translation>白边</translation>
+    </message>
+    <message>
+        <source>White border beyond the outer tags</source>
+        <translation>外侧标签之外的白边</translation>
+    </message>
+    <message>
+        <source>Board width</source>
+        <translation>板宽</translation>
+    </message>
+    <message>
+        <source>Of the plate that the print is glued to; blank: it ends with the print</source>
+        <translation>粘贴打印件的板；留空表示与打印件同样大小</translation>
+    </message>
+    <message>
+        <source>Board height</source>
+        <translation>板高</translation>
+    </message>
+    <message>
+        <source>Print off centre, right</source>
+        <translation>打印件偏心，向右</translation>
+    </message>
+    <message>
+        <source>From the middle of the plate to the middle of the print, to the right</source>
+        <translation>从板的中心到打印件的中心，向右为正</translation>
+    </message>
+    <message>
+        <source>Print off centre, up</source>
+        <translation>打印件偏心，向上</translation>
+    </message>
+    <message>
+        <source>From the middle of the plate to the middle of the print, upwards</source>
+        <translation>从板的中心到打印件的中心，向上为正</translation>
+    </message>
+    <message>
+        <source>Measured length</source>
+        <translation>测得长度</translation>
+    </message>
+    <message>
+        <source>Any length on the print as a rule tells it; blank: nobody measured</source>
+        <translation>用尺在打印件上量得的任意长度；留空表示未测量</translation>
+    </message>
+    <message>
+        <source>The same as drawn</source>
+        <translation>设计长度</translation>
+    </message>
+    <message>
+        <source>The length that was measured, as it was meant to be</source>
+        <translation>所测长度的设计值</translation>
+    </message>
+    <message>
+        <source>Its standard deviation</source>
+        <translation>其标准差</translation>
+    </message>
+    <message>
+        <source>How well the length was measured; blank: 0.5 mm, as a rule is read</source>
+        <translation>长度测量的精度；留空表示 0.5 mm，即读尺的精度</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::TermList</name>
     <message>
         <source>base model</source>
@@ -6073,8 +6996,12 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <translation>点云</translation>
     </message>
     <message>
-        <source>How much image and cloud change, above the dotted line: motion. Bands are stretches in which both stand still.</source>
-        <translation>图像和点云的变化程度，高于虚线表示有运动。色带是两者都静止的时段。</translation>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>How much image and cloud change, above the dotted line: motion. Bands are stretches in which both stand still; their edges can be dragged.</source>
+        <translation>图像和点云的变化程度，虚线以上为运动。色带是两者都静止的时段；其边缘可以拖动。</translation>
     </message>
 </context>
 <context>
@@ -6251,6 +7178,22 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>Recent (or drop a folder or a recording on this window)</source>
         <translation>最近使用（或将文件夹、记录拖到此窗口）</translation>
+    </message>
+    <message>
+        <source>New from files</source>
+        <translation>从文件新建</translation>
+    </message>
+    <message>
+        <source>Images and clouds in folders, matched by name or by time</source>
+        <translation>文件夹中的图像和点云，按名称或时间配对</translation>
+    </message>
+    <message>
+        <source>Describe a target or a camera</source>
+        <translation>描述标定板或相机</translation>
+    </message>
+    <message>
+        <source>target.yaml and camera.yaml from what you know of both</source>
+        <translation>根据已知信息生成 target.yaml 和 camera.yaml</translation>
     </message>
 </context>
 <context>

@@ -9,8 +9,10 @@
 #include "camera/camera.h"
 #include "command.h"
 #include "pipeline/board_check.h"
+#include "recording/file_pairs.h"
 #include "recording/import.h"
 #include "recording/messages.h"
+#include "recording/pair_import.h"
 #include "target/target.h"
 
 namespace lvcalib::cli {
@@ -24,6 +26,9 @@ struct ImportArguments {
   std::string target;
   std::string camera;
   std::string scenes = "auto";
+  std::string clouds;
+  std::string match = "auto";
+  double most_apart_s = 0.0;
   ImportOptions import;
 };
 
@@ -141,11 +146,72 @@ void tell_stretches(const ImportSummary& summary, const Session& session) {
   }
 }
 
+// Pairs of files in folders, instead of a recording.
+Result<PairedFiles> pairs_of(const ImportArguments& options, const Session& session) {
+  PairOptions pairs;
+  pairs.images = options.recording;
+  pairs.clouds = options.clouds;
+  pairs.rule = options.match == "name"   ? PairRule::kName
+               : options.match == "time" ? PairRule::kTime
+                                         : PairRule::kAuto;
+  pairs.most_apart_s = options.most_apart_s;
+  pairs.image_time_offset_s = options.import.image_time_offset_s;
+  auto found = find_pairs(pairs);
+  if (!found) return found;
+  for (const std::string& line : found->unmatched) session.note(line);
+  return found;
+}
+
+std::string list_pairs(const PairedFiles& files) {
+  std::string out = std::to_string(files.pairs.size()) + " pairs, " + files.layout +
+                    ", camera: " + (files.camera ? files.camera_from : std::string("none"));
+  for (const FilePair& pair : files.pairs) {
+    char apart[40] = "";
+    if (pair.apart_s) std::snprintf(apart, sizeof apart, "  %+.1f ms", 1e3 * *pair.apart_s);
+    out += "\n" + pair.name + "  " + pair.image.string() + "  " + pair.cloud.string() + apart;
+  }
+  return out;
+}
+
+Result<std::string> import_files(const ImportArguments& options, Session& session) {
+  const auto files = pairs_of(options, session);
+  if (!files) return files.error();
+  if (options.list) {
+    warn_all(files->warnings, session);
+    return list_pairs(*files);
+  }
+  ImportOptions described = options.import;
+  if (Status s = set_target(options, session, described); !s) return s.error();
+  PairImportOptions import;
+  import.target_yaml = described.target_yaml;
+  import.board_check = described.board_check;
+  import.board_is_certain = described.board_is_certain;
+  import.force = options.import.force;
+  if (!options.camera.empty()) {
+    const auto camera = read_camera(options.camera);
+    if (!camera) return camera.error();
+    warn_all(camera->warnings, session);
+    import.camera = camera->camera;
+  }
+  const auto summary = import_pairs(*files, import, options.output, session.context);
+  if (!summary) return summary.error();
+  for (const ImportedPair& pair : summary->pairs) {
+    session.note(pair.files.name + ": " +
+                 (pair.taken ? std::to_string(pair.points) + " points" : "left: " + pair.reason));
+  }
+  warn_all(summary->warnings, session);
+  return std::to_string(summary->scene_count()) + " scenes of " +
+         std::to_string(summary->pairs.size()) + " pairs (" + summary->layout + ") -> " +
+         options.output;
+}
+
 Result<std::string> run(const ImportArguments& options, Session& session) {
   if (!options.list && options.output.empty()) {
     return Error::usage("-o,--output is missing", "import",
                         "give a folder for the dataset, or --list to look only");
   }
+  if (!options.clouds.empty() || looks_like_file_pairs(options.recording))
+    return import_files(options, session);
   const auto recording = Recording::open(options.recording, session.context);
   if (!recording) return recording.error();
   warn_all(recording->warnings(), session);
@@ -174,12 +240,30 @@ Result<std::string> run(const ImportArguments& options, Session& session) {
 Command add_import_command(CLI::App& app) {
   auto options = std::make_shared<ImportArguments>();
   ImportOptions& import = options->import;
-  CLI::App* command =
-      app.add_subcommand("import", "Make a dataset of a recording (ROS 1 bag, rosbag2, MCAP)");
+  CLI::App* command = app.add_subcommand(
+      "import",
+      "Make a dataset of a recording (ROS 1 bag, rosbag2, MCAP) or of folders of "
+      "images and clouds");
   command
       ->add_option("RECORDING", options->recording,
-                   "a .bag, .db3 or .mcap file, or a rosbag2 folder")
+                   "a .bag, .db3 or .mcap file, or a rosbag2 folder; or a folder of images and "
+                   "clouds, also of KITTI raw, cam_lidar_calibration, "
+                   "direct_visual_lidar_calibration and FAST-Calib")
       ->required();
+  command->add_option("--clouds", options->clouds,
+                      "folder of the clouds, where it is another one than that of the images");
+  command
+      ->add_option("--match", options->match,
+                   "images and clouds belong together by their name, or by the time that is their "
+                   "name; auto: by name where names agree")
+      ->check(CLI::IsMember({"auto", "name", "time"}))
+      ->capture_default_str();
+  command
+      ->add_option("--most-apart", options->most_apart_s,
+                   "matched by time, no further apart than this, s (0: half of the usual time "
+                   "between two files)")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
   command->add_option("-o,--output", options->output,
                       "folder of the dataset; import.json in it says what became of each stretch");
   command->add_flag("--list", options->list,

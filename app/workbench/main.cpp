@@ -4,7 +4,6 @@
 #include <QIcon>
 #include <QSurfaceFormat>
 #include <QTimer>
-#include <cstdlib>
 
 #include "start/app_settings.h"
 #include "workbench/language.h"
@@ -76,7 +75,8 @@ int main(int argc, char** argv) {
   QApplication::setWindowIcon(QIcon::fromTheme(
       QStringLiteral("lvcalib-workbench"), QIcon(QStringLiteral(":/icons/lvcalib-workbench.svg"))));
   const int status = run(application);
-  // A stage that could not stop at once must not run while the program is torn down.
-  if (!lvcalib::widgets::Runner::wait_for_workers(2000)) std::_Exit(status);
+  // A stage that could not stop at once must not run while the program is torn down. All have been
+  // asked to stop, and look for that many times a second.
+  lvcalib::widgets::Runner::wait_for_workers(-1);
   return status;
 }

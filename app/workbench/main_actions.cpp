@@ -39,6 +39,7 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   run_menu_->addSeparator();
   use_crops = add(run_menu_, "use_crops", {});
   use_crops->setCheckable(true);
+  target_camera = add(tools_, "target_camera", {});
   print_board = add(tools_, "print_board", {});
   correct = add(tools_, "correct_clouds", {});
   compare = add(tools_, "compare_results", {});
@@ -78,6 +79,7 @@ QAction* MainActions::add(QMenu* menu, const char* name, const QKeySequence& key
 
 void MainActions::make_file_menu(QMainWindow& window) {
   import_recording = add(file_, "import_recording", QKeySequence::New);
+  import_files = add(file_, "import_files", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_N));
   open_dataset = add(file_, "open_dataset", QKeySequence::Open);
   open_project = add(file_, "open_project", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
   recent_ = file_->addMenu(QString());
@@ -188,6 +190,8 @@ void MainActions::retranslate() {
   };
   describe(import_recording, tr("&New from recording…"),
            tr("Make a dataset of a ROS bag, rosbag2 or MCAP, and calibrate it"));
+  describe(import_files, tr("New from &files…"),
+           tr("Make a dataset of images and clouds that lie in folders, and calibrate it"));
   describe(open_dataset, tr("&Open dataset…"), tr("Open a dataset folder"));
   describe(open_project, tr("Open &project…"), tr("Open a .lvcalib file"));
   describe(demo, tr("Try the &demo"), tr("Simulate four scenes and open them, with a guided tour"));
@@ -200,6 +204,8 @@ void MainActions::retranslate() {
   describe(cancel, tr("&Cancel"), tr("Stop what is running"));
   describe(use_crops, tr("Use board.pcd &files"),
            tr("Take a scene's board.pcd instead of its whole cloud where there is one"));
+  describe(target_camera, tr("&Target and camera…"),
+           tr("Make or edit target.yaml and camera.yaml"));
   describe(print_board, tr("&Print the board…"),
            tr("Draw the board for printing, exactly to scale"));
   describe(correct, tr("&Correct clouds…"),

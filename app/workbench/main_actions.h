@@ -34,9 +34,9 @@ class MainActions : public QObject {
   /// must outlive this.
   void follow(AppSettings& settings);
 
-  QAction *import_recording, *open_dataset, *open_project, *demo, *save, *save_as, *results,
-      *report, *quit;
-  QAction *print_board, *correct, *compare;
+  QAction *import_recording, *import_files, *open_dataset, *open_project, *demo, *save, *save_as,
+      *results, *report, *quit;
+  QAction *target_camera, *print_board, *correct, *compare;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;
   QActionGroup* themes;     ///< data(): name_of(Theme).
   QActionGroup* languages;  ///< data(): code of the language.

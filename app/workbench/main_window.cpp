@@ -137,6 +137,12 @@ void MainWindow::connect_actions() {
   on(actions_->results, [this] { results_->show(final_result()); });
   on(actions_->report,
      [this] { results_->write_report(final_result(), model_work_->discovery()); });
+  const auto target_camera = [this] {
+    results_->edit_target_camera(workspace_->is_open()
+                                     ? QString::fromStdString(workspace_->dataset().path.string())
+                                     : QString());
+  };
+  on(actions_->target_camera, target_camera);
   on(actions_->print_board, [this] {
     results_->print_board(workspace_->is_open() ? std::optional(workspace_->dataset().target)
                                                 : std::nullopt);
@@ -155,6 +161,7 @@ void MainWindow::connect_actions() {
   const WelcomePage& welcome = pages_->welcome();
   connect(&welcome, &WelcomePage::open_dataset_wanted, this, open_dataset);
   connect(&welcome, &WelcomePage::open_project_wanted, this, open_project);
+  connect(&welcome, &WelcomePage::target_camera_wanted, this, target_camera);
   connect(&welcome, &WelcomePage::demo_wanted, this, demo);
   connect(&welcome, &WelcomePage::guide_wanted, this, guide);
   connect(&welcome, &WelcomePage::recent_wanted, this, &MainWindow::open);

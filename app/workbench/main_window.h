@@ -18,6 +18,7 @@
 namespace lvcalib::widgets {
 
 class DemoTour;
+class FilesDialog;
 class ImportDialog;
 class LogDock;
 class MainActions;
@@ -66,7 +67,9 @@ class MainWindow : public QMainWindow {
   void connect_model();
   void connect_import();
   void import_recording(const QString& path);
+  void import_files(const QString& folder);
   void take_imported(const QString& dataset, const ImportSummary& summary);
+  void calibrate_new(const QString& dataset);
   void read_truth_of(const Dataset& dataset);
   void add_scenes(const QStringList& folders);
   void start_tour();
@@ -104,6 +107,7 @@ class MainWindow : public QMainWindow {
   ResultActions* results_;
   DemoTour* tour_ = nullptr;
   QPointer<ImportDialog> import_;
+  QPointer<FilesDialog> files_;
   bool demo_opening_ = false;     // What opens next is the demo.
   bool run_when_opened_ = false;  // What opens next is to be calibrated at once.
 };

@@ -3,7 +3,9 @@
 #include <QFileInfo>
 
 #include "docks/log_dock.h"
+#include "importing/files_dialog.h"
 #include "importing/import_dialog.h"
+#include "recording/file_pairs.h"
 #include "recording/recording.h"
 #include "start/welcome_page.h"
 #include "style/texts.h"
@@ -32,9 +34,19 @@ void MainWindow::connect_import() {
   };
   connect(actions_->import_recording, &QAction::triggered, this, choose);
   connect(&pages_->welcome(), &WelcomePage::import_wanted, this, choose);
+  const auto choose_files = [this] {
+    const QString path = choices_.files_to_import(this, settings_.last_folder());
+    if (!path.isEmpty()) import_files(path);
+  };
+  connect(actions_->import_files, &QAction::triggered, this, choose_files);
+  connect(&pages_->welcome(), &WelcomePage::import_files_wanted, this, choose_files);
 }
 
 void MainWindow::open(const QString& path) {
+  if (looks_like_file_pairs(path.toStdString())) {
+    import_files(path);
+    return;
+  }
   if (is_to_be_imported(path)) {
     import_recording(path);
     return;
@@ -72,6 +84,34 @@ void MainWindow::take_imported(const QString& dataset, const ImportSummary& summ
                          : tr("%1: left: %2").arg(time, core_text(s.reason)));
   }
   for (const std::string& warning : summary.warnings) log_->append(core_text(warning));
+  calibrate_new(dataset);
+}
+
+void MainWindow::import_files(const QString& folder) {
+  if (!files_) {
+    files_ = new FilesDialog(choices_, settings_.recent(), this);
+    connect(files_, &FilesDialog::imported, this,
+            [this](const QString& dataset, const PairImportSummary& summary) {
+              log_->append(tr("Imported into %1: %2 of %3 pairs are scenes.")
+                               .arg(dataset)
+                               .arg(summary.scene_count())
+                               .arg(summary.pairs.size()));
+              for (const ImportedPair& pair : summary.pairs) {
+                const QString name = QString::fromStdString(pair.files.name);
+                if (!pair.taken) log_->append(tr("%1: left: %2").arg(name, core_text(pair.reason)));
+              }
+              for (const std::string& warning : summary.warnings) log_->append(core_text(warning));
+              calibrate_new(dataset);
+            });
+  }
+  settings_.set_last_folder(QFileInfo(folder).absolutePath());
+  files_->open(folder);
+  files_->show();
+  files_->raise();
+  files_->activateWindow();
+}
+
+void MainWindow::calibrate_new(const QString& dataset) {
   if (!may_drop_decisions()) return;
   run_when_opened_ = true;
   workspace_->open_dataset(dataset);

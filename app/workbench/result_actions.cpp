@@ -8,6 +8,7 @@
 #include "tools/compare_dialog.h"
 #include "tools/correct_dialog.h"
 #include "tools/print_dialog.h"
+#include "tools/target_camera_dialog.h"
 
 namespace lvcalib::widgets {
 
@@ -72,6 +73,19 @@ void ResultActions::compare(const std::shared_ptr<const CalibrationResult>& resu
   if (path.isEmpty()) return;
   auto* dialog = new CompareDialog(result, choices_, settings_.last_folder(), &window_);
   dialog->open(path);
+  dialog->show();
+}
+
+void ResultActions::edit_target_camera(const QString& folder) {
+  auto* dialog = new TargetCameraDialog(
+      choices_, folder.isEmpty() ? settings_.last_folder() : folder, &window_);
+  const auto saved = [this](const QString& path) {
+    remember(path);
+    Q_EMIT logged(tr("Written: %1. What is open was read before; open it again to use this file.")
+                      .arg(QDir::toNativeSeparators(path)));
+  };
+  connect(dialog, &TargetCameraDialog::targetSaved, this, saved);
+  connect(dialog, &TargetCameraDialog::cameraSaved, this, saved);
   dialog->show();
 }
 

@@ -28,6 +28,8 @@ class ResultActions : public QObject {
   /// Nothing without a result.
   void correct_clouds(const std::shared_ptr<const CalibrationResult>& result);
   void compare(const std::shared_ptr<const CalibrationResult>& result);
+  /// `folder`: whose target.yaml and camera.yaml are opened; empty: nothing is.
+  void edit_target_camera(const QString& folder);
   /// `present`: the board of what is open.
   void print_board(const std::optional<Target>& present);
   void cancel() { report_.cancel(); }

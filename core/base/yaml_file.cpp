@@ -148,13 +148,12 @@ Result<double> YamlFile::number(std::string_view key, double low, double high) c
                     "'" + std::string(key) + "' must be a number, found " + describe(*value));
   }
   if (number < low || number > high) {
-    const std::string range = low == std::numeric_limits<double>::lowest()
-                                  ? "at most " + short_number(high)
-                              : high == std::numeric_limits<double>::max()
-                                  ? "at least " + short_number(low)
-                                  : "between " + short_number(low) + " and " + short_number(high);
-    return error_at(*value,
-                    "'" + std::string(key) + "' must be " + range + ", found " + describe(*value));
+    const std::string range =
+        low == std::numeric_limits<double>::lowest() ? "' must be at most " + short_number(high)
+        : high == std::numeric_limits<double>::max()
+            ? "' must be at least " + short_number(low)
+            : "' must be between " + short_number(low) + " and " + short_number(high);
+    return error_at(*value, "'" + std::string(key) + range + ", found " + describe(*value));
   }
   return number;
 }

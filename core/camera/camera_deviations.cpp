@@ -3,8 +3,10 @@
 
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "base/yaml_file.h"
+#include "camera/camera_text.h"
 
 namespace lvcalib {
 namespace {
@@ -39,11 +41,7 @@ Result<CameraDeviations> read_section(const YamlFile& section, const Camera& cam
   return out;
 }
 
-}  // namespace
-
-Result<std::optional<CameraDeviations>> read_camera_deviations(const std::filesystem::path& path,
-                                                               const Camera& camera) {
-  auto file = YamlFile::load(path);
+Result<std::optional<CameraDeviations>> deviations_of(Result<YamlFile> file, const Camera& camera) {
   if (!file) return file.error();
   // A camchain has them with its first camera.
   const bool nested = !file->has(kKey) && file->has("cam0");
@@ -55,6 +53,19 @@ Result<std::optional<CameraDeviations>> read_camera_deviations(const std::filesy
   auto read = read_section(*section, camera);
   if (!read) return read.error();
   return std::optional<CameraDeviations>(*read);
+}
+
+}  // namespace
+
+Result<std::optional<CameraDeviations>> read_camera_deviations(const std::filesystem::path& path,
+                                                               const Camera& camera) {
+  return deviations_of(YamlFile::load(path), camera);
+}
+
+Result<std::optional<CameraDeviations>> camera_deviations_from_text(std::string text,
+                                                                    const std::string& name,
+                                                                    const Camera& camera) {
+  return deviations_of(YamlFile::parse(std::move(text), name), camera);
 }
 
 std::string to_yaml(const Camera& camera, const CameraDeviations& deviations) {

@@ -9,6 +9,7 @@
 
 #include "base/yaml_file.h"
 #include "camera/camera.h"
+#include "camera/camera_text.h"
 
 namespace lvcalib {
 namespace {
@@ -310,6 +311,19 @@ void warn_of_fold(CameraFile& out, const std::string& where) {
   }
 }
 
+Result<CameraFile> camera_of(const Result<YamlFile>& file) {
+  if (!file) return file.error();
+  auto out = read_any(*file);
+  if (!out) return out;
+  if (Status status = check(out->camera); !status) {
+    Error error = status.error();
+    error.where = file->name();
+    return error;
+  }
+  warn_of_fold(*out, file->name());
+  return out;
+}
+
 std::string text(double value) {
   std::array<char, 32> buffer{};
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
@@ -337,17 +351,11 @@ Result<CameraFile> read_camera(const std::filesystem::path& path) {
     return Error::input("XML intrinsics are not read", path.string(),
                         "save them as YAML: OpenCV's FileStorage does for a name ending in .yaml");
   }
-  const auto file = YamlFile::load(path);
-  if (!file) return file.error();
-  auto out = read_any(*file);
-  if (!out) return out;
-  if (Status status = check(out->camera); !status) {
-    Error error = status.error();
-    error.where = path.string();
-    return error;
-  }
-  warn_of_fold(*out, path.string());
-  return out;
+  return camera_of(YamlFile::load(path));
+}
+
+Result<CameraFile> camera_from_text(std::string text, const std::string& name) {
+  return camera_of(YamlFile::parse(std::move(text), name));
 }
 
 std::string to_yaml(const Camera& c) {

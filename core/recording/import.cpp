@@ -152,6 +152,8 @@ std::string import_json(const Recording& recording, const ImportSummary& summary
     nlohmann::ordered_json entry;
     entry["first_s"] = s.first_s;
     entry["last_s"] = s.last_s;
+    entry["by_hand"] = s.by_hand;
+    if (s.by_hand) entry["found_s"] = {s.found_first_s, s.found_last_s};
     entry["taken"] = s.taken;
     entry["scene"] = nullptr;
     if (s.taken) entry["scene"] = s.scene;

@@ -50,6 +50,13 @@ TopicCandidates list_candidates(const Recording& recording);
 Result<std::vector<std::string>> check_recording(const Recording& recording,
                                                  const RunContext& context);
 
+/// Edges that a still stretch is given by hand. Times in s from the recording's first message.
+struct MovedEdges {
+  double found_s = 0.0;  ///< A time within the stretch as it was found.
+  double first_s = 0.0;
+  double last_s = 0.0;
+};
+
 struct ImportOptions {
   TopicNames topics;
   StillOptions still;
@@ -59,6 +66,9 @@ struct ImportOptions {
   double image_time_offset_s = 0.0;
   /// Times of scenes, s from the recording's first message; empty: all still stretches.
   std::vector<double> scene_times_s;
+  /// Stretches with other edges than found; scene_times_s are times within the moved edges. Edges
+  /// of what is no stretch (with another least length there may be others) are left out.
+  std::vector<MovedEdges> moved_edges;
   std::string target_yaml;       ///< Content of the dataset's target.yaml.
   std::optional<Camera> camera;  ///< Instead of CameraInfo.
   /// Says why the board cannot be seen in an image (a file of the dataset); empty: it can. Not
@@ -74,6 +84,9 @@ struct ImportedStretch {
   double first_s = 0.0;
   double last_s = 0.0;
   bool taken = false;
+  bool by_hand = false;  ///< first_s and last_s were moved by hand; the found ones are below.
+  double found_first_s = 0.0;
+  double found_last_s = 0.0;
   bool usable = false;  ///< Is a scene if its time is asked for, unless its files say otherwise.
   std::string scene;    ///< Name of the scene, if taken.
   std::string reason;   ///< In words, why it was taken or left.
@@ -100,7 +113,7 @@ struct ImportSummary {
 /// left. Two passes over the recording; memory holds one scene. DATASET takes its name only when
 /// all of it is written.
 /// Errors: those of choose_topics(); DATASET exists; no stretch that can be used (naming why); a
-/// time asked for at which something moves; a stop.
+/// time asked for at which something moves; edges that overlap; a stop.
 Result<ImportSummary> import_recording(const Recording& recording, const ImportOptions& options,
                                        const std::filesystem::path& dataset,
                                        const RunContext& context);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace lvcalib {
 namespace {
@@ -145,6 +146,19 @@ SampleRun samples_within(const Track<Look>& track, SampleRun run, std::int64_t f
                          std::int64_t last_ns) {
   while (run.first < run.last && track.time_ns(run.first) < first_ns) ++run.first;
   while (run.last > run.first && track.time_ns(run.last) > last_ns) --run.last;
+  return run;
+}
+
+// All samples between two times; none if nothing was recorded there.
+template <class Look>
+std::optional<SampleRun> samples_between(const Track<Look>& track, std::int64_t first_ns,
+                                         std::int64_t last_ns) {
+  std::optional<SampleRun> run;
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    if (track.time_ns(i) < first_ns || track.time_ns(i) > last_ns) continue;
+    if (!run) run = {i, i};
+    run->last = i;
+  }
   return run;
 }
 
@@ -372,7 +386,38 @@ std::vector<StillStretch> find_still_stretches(const ImageTrack& images, const C
     add_stretches(images, run, clouds, cloud_runs, options, out);
   }
   drop_repeats(images, comparison, clouds, options, out);
+  for (StillStretch& stretch : out) {
+    stretch.found_first_ns = stretch.first_ns;
+    stretch.found_last_ns = stretch.last_ns;
+  }
   return out;
+}
+
+void set_edges(StillStretch& stretch, std::int64_t first_ns, std::int64_t last_ns,
+               const ImageTrack& images, const CloudTrack& clouds, const StillOptions& options) {
+  stretch.by_hand = true;
+  stretch.first_ns = first_ns;
+  stretch.last_ns = last_ns;
+  const auto image_run = samples_between(images, first_ns, last_ns);
+  const auto cloud_run = samples_between(clouds, first_ns, last_ns);
+  if (image_run) {
+    stretch.first_image = image_run->first;
+    stretch.last_image = image_run->last;
+    stretch.sharpest_image = sharpest(images, image_run->first, image_run->last);
+  }
+  if (cloud_run) {
+    stretch.first_cloud = cloud_run->first;
+    stretch.last_cloud = cloud_run->last;
+  }
+  if (stretch.length_s() < options.min_still_s) {
+    stretch.verdict = StretchVerdict::kTooShort;
+  } else if (!image_run) {
+    stretch.verdict = StretchVerdict::kNoImage;
+  } else if (!cloud_run) {
+    stretch.verdict = StretchVerdict::kNoCloud;
+  } else if (stretch.verdict != StretchVerdict::kRepeat) {
+    stretch.verdict = StretchVerdict::kTaken;
+  }
 }
 
 }  // namespace lvcalib

@@ -113,6 +113,7 @@ enum class StretchVerdict {
   kTaken,
   kTooShort,
   kNoCloud,     ///< The images stand still, and no sweep was recorded meanwhile.
+  kNoImage,     ///< No image was taken between the edges that it was given.
   kCloudMoves,  ///< The images stand still, the clouds do not.
   kRepeat,      ///< The pose of another stretch that is longer.
   kNotAsked,    ///< Scenes were asked for by their times, and this is none of them.
@@ -126,7 +127,9 @@ struct StillStretch {
   std::size_t first_image = 0, last_image = 0;  ///< Samples of the image track.
   std::size_t first_cloud = 0, last_cloud = 0;  ///< Samples of the cloud track.
   std::size_t sharpest_image = 0;
-  std::size_t repeat_of = 0;  ///< Index of the other stretch.
+  std::size_t repeat_of = 0;                           ///< Index of the other stretch.
+  bool by_hand = false;                                ///< Its edges were given by set_edges().
+  std::int64_t found_first_ns = 0, found_last_ns = 0;  ///< Edges as they were found.
 
   [[nodiscard]] double length_s() const { return 1e-9 * static_cast<double>(last_ns - first_ns); }
 };
@@ -135,5 +138,10 @@ struct StillStretch {
 /// verdict on each. A stretch reaches half a sample's period beyond its first and last sample.
 std::vector<StillStretch> find_still_stretches(const ImageTrack& images, const CloudTrack& clouds,
                                                const StillOptions& options);
+
+/// Gives a stretch other edges, within which its user says that everything stands still: motion is
+/// not looked for, but it must be long enough and hold an image and a sweep. A repeat stays one.
+void set_edges(StillStretch& stretch, std::int64_t first_ns, std::int64_t last_ns,
+               const ImageTrack& images, const CloudTrack& clouds, const StillOptions& options);
 
 }  // namespace lvcalib

@@ -20,6 +20,41 @@ bool is_usable(const StillStretch& stretch) {
          stretch.verdict == StretchVerdict::kNotAsked;
 }
 
+// Edges that the user has moved take the place of those that were found.
+Status move_edges(const Recording& recording, const RecordingSurvey& survey,
+                  const ImportOptions& options, std::vector<StillStretch>& stretches) {
+  const auto as_time = [&](double seconds) {
+    return recording.span().first_ns + static_cast<std::int64_t>(std::llround(1e9 * seconds));
+  };
+  const std::vector<StillStretch> found = stretches;
+  for (const MovedEdges& edges : options.moved_edges) {
+    const std::int64_t inside = as_time(edges.found_s);
+    const auto place = std::find_if(found.begin(), found.end(), [&](const StillStretch& s) {
+      return s.first_ns <= inside && inside <= s.last_ns;
+    });
+    if (place == found.end()) continue;
+    set_edges(stretches[static_cast<std::size_t>(place - found.begin())], as_time(edges.first_s),
+              as_time(edges.last_s), survey.images, survey.clouds, options.still);
+  }
+  // Two scenes may not share messages. Edges are meant to the millisecond.
+  constexpr std::int64_t tolerance_ns = 1'000'000;
+  const auto seconds = [&](std::int64_t t) { return seconds_from_start(recording, t); };
+  for (const StillStretch& s : stretches) {
+    if (!s.by_hand || !is_usable(s)) continue;
+    for (const StillStretch& other : stretches) {
+      if (&other == &s || !is_usable(other)) continue;
+      if (other.last_ns < s.first_ns + tolerance_ns) continue;
+      if (s.last_ns < other.first_ns + tolerance_ns) continue;
+      return Error::usage(formatted("the stretch moved to %.2f s to %.2f s", seconds(s.first_ns),
+                                    seconds(s.last_ns)) +
+                              formatted(" overlaps that from %.2f s to %.2f s",
+                                        seconds(other.first_ns), seconds(other.last_ns)),
+                          recording.path().string(), "move its edges so that both stay apart");
+    }
+  }
+  return Done{};
+}
+
 class Surveyor {
  public:
   Surveyor(const Recording& recording, TopicChoice topics, const RunContext& context)
@@ -126,6 +161,7 @@ Result<std::vector<StillStretch>> choose_stretches(const Recording& recording,
                                                    const RecordingSurvey& survey,
                                                    const ImportOptions& options) {
   auto stretches = find_still_stretches(survey.images, survey.clouds, options.still);
+  if (Status s = move_edges(recording, survey, options, stretches); !s) return s.error();
   if (options.scene_times_s.empty()) return stretches;
   std::vector<char> asked(stretches.size(), 0);
   for (const double time_s : options.scene_times_s) {
@@ -165,6 +201,9 @@ ImportedStretch describe_stretch(const Recording& recording, const RecordingSurv
   ImportedStretch out;
   out.first_s = seconds(stretch.first_ns);
   out.last_s = seconds(stretch.last_ns);
+  out.by_hand = stretch.by_hand;
+  out.found_first_s = seconds(stretch.found_first_ns);
+  out.found_last_s = seconds(stretch.found_last_ns);
   out.images = stretch.last_image - stretch.first_image + 1;
   out.image_s = seconds(survey.images.time_ns(stretch.sharpest_image));
   out.image_ns = survey.images.time_ns(stretch.sharpest_image) - survey.image_offset_ns;
@@ -172,11 +211,16 @@ ImportedStretch describe_stretch(const Recording& recording, const RecordingSurv
   out.usable = is_usable(stretch);
   switch (stretch.verdict) {
     case StretchVerdict::kTaken:
-      out.reason = formatted("rig and board stand still for %.1f s", stretch.length_s());
+      out.reason = stretch.by_hand
+                       ? formatted("its edges were set by hand: %.1f s", stretch.length_s())
+                       : formatted("rig and board stand still for %.1f s", stretch.length_s());
       break;
     case StretchVerdict::kTooShort:
       out.reason = formatted("stands still for %.1f s only; %.1f s are needed", stretch.length_s(),
                              options.still.min_still_s);
+      break;
+    case StretchVerdict::kNoImage:
+      out.reason = "no image was taken in this time";
       break;
     case StretchVerdict::kNoCloud:
       out.reason = "no sweep was recorded in this time";

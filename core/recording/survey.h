@@ -38,7 +38,7 @@ Result<RecordingSurvey> survey_recording(const Recording& recording, const Impor
                                          const RunContext& context);
 
 /// The still stretches; with times of scenes given, only those that hold one are taken. Errors: a
-/// time asked for at which something moves.
+/// time asked for at which something moves; edges moved by hand that overlap another stretch.
 Result<std::vector<StillStretch>> choose_stretches(const Recording& recording,
                                                    const RecordingSurvey& survey,
                                                    const ImportOptions& options);

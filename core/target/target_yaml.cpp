@@ -2,9 +2,11 @@
 #include <charconv>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/yaml_file.h"
 #include "target/target.h"
+#include "target/target_text.h"
 
 namespace lvcalib {
 namespace {
@@ -164,10 +166,7 @@ std::optional<Error> read_measured_length(Reader& reader, const YamlFile& file, 
   return std::nullopt;
 }
 
-}  // namespace
-
-Result<TargetFile> read_target(const std::filesystem::path& path) {
-  auto file = YamlFile::load(path);
+Result<TargetFile> target_of(const Result<YamlFile>& file) {
   if (!file) return file.error();
   auto type = file->string("target_type");
   if (!type) return type.error();
@@ -214,10 +213,20 @@ Result<TargetFile> read_target(const std::filesystem::path& path) {
   }
   if (Status status = check(target); !status) {
     Error error = status.error();
-    error.where = path.string();
+    error.where = file->name();
     return error;
   }
   return TargetFile{target, std::move(warnings)};
+}
+
+}  // namespace
+
+Result<TargetFile> read_target(const std::filesystem::path& path) {
+  return target_of(YamlFile::load(path));
+}
+
+Result<TargetFile> target_from_text(std::string text, const std::string& name) {
+  return target_of(YamlFile::parse(std::move(text), name));
 }
 
 std::string to_yaml(const Target& t) {

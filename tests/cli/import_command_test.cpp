@@ -60,6 +60,44 @@ TEST_F(ImportCommand, ListsTopics) {
   EXPECT_THAT(outcome.err, Not(HasSubstr("warning")));
 }
 
+TEST_F(ImportCommand, MakesADatasetOfImagesAndCloudsInFolders) {
+  const fs::path good = good_dataset();
+  const fs::path files = folder_.path() / "files";
+  fs::create_directories(files / "images");
+  fs::create_directories(files / "clouds");
+  int scenes = 0;
+  for (const auto& scene : fs::directory_iterator(good / "scenes")) {
+    const std::string name = scene.path().filename().string();
+    fs::copy_file(scene.path() / "image.png", files / "images" / (name + ".png"));
+    fs::copy_file(scene.path() / "cloud.pcd", files / "clouds" / (name + ".pcd"));
+    ++scenes;
+  }
+  fs::copy_file(good / "camera.yaml", files / "camera.yaml");
+  fs::copy_file(good / "target.yaml", files / "target.yaml");
+  write_file(files / "images" / "alone.png", "x");
+  const Outcome listed = run_lvcalib({"import", files, "--list"});
+  ASSERT_EQ(listed.status, 0) << listed.err;
+  EXPECT_THAT(listed.out, HasSubstr("files of the same name"));
+  const Outcome outcome = import(files);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(std::to_string(scenes) + " scenes of"));
+  EXPECT_THAT(outcome.err, HasSubstr("alone.png"));
+  for (const char* name : {"target.yaml", "camera.yaml", "import.json"})
+    EXPECT_TRUE(fs::exists(dataset_ / name)) << name;
+}
+
+TEST_F(ImportCommand, FoldersWhoseFilesDoNotBelongTogetherAreRefused) {
+  write_file(folder_.path() / "i" / "front.png", "x");
+  write_file(folder_.path() / "c" / "scan.pcd", "x");
+  expect_refused(import(folder_.path() / "i", {"--clouds", folder_.path() / "c"}), 3,
+                 "no image and cloud belong together");
+  expect_refused(import(folder_.path() / "i", {"--clouds", folder_.path() / "none"}), 3,
+                 "is no folder");
+  expect_refused(
+      import(folder_.path() / "i", {"--clouds", folder_.path() / "c", "--match", "guess"}), 2,
+      "--match");
+}
+
 TEST_F(ImportCommand, WritesADatasetAndSaysWhatBecameOfEachStretch) {
   write_file(folder_.path() / "target.yaml", to_yaml(Target{}));
   const Outcome outcome = import(bag(), {"--target", folder_.path() / "target.yaml"});

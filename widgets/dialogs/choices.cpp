@@ -101,6 +101,11 @@ QString Choices::clouds_to_open(QWidget* parent, const QString& folder) {
       parent, words(QT_TRANSLATE_NOOP("Choices", "Open a folder of clouds")), folder);
 }
 
+QString Choices::files_to_import(QWidget* parent, const QString& folder) {
+  return QFileDialog::getExistingDirectory(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a folder of images and clouds")), folder);
+}
+
 QString Choices::clouds_to_save(QWidget* parent, const QString& suggestion) {
   return QFileDialog::getSaveFileName(
       parent, words(QT_TRANSLATE_NOOP("Choices", "Place of the corrected clouds")), suggestion, {},

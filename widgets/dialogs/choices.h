@@ -30,6 +30,8 @@ class Choices {
   virtual QString transform_to_open(QWidget* parent, const QString& folder);
   /// A recording's file; of a rosbag2 folder its metadata.yaml.
   virtual QString recording_to_open(QWidget* parent, const QString& folder);
+  /// A folder of images and clouds.
+  virtual QString files_to_import(QWidget* parent, const QString& folder);
   virtual QString target_to_open(QWidget* parent, const QString& folder);
   virtual QString camera_to_open(QWidget* parent, const QString& folder);
   /// A folder that need not exist yet.

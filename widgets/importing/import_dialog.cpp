@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importing/import_dialog.h"
 
+#include <QDoubleSpinBox>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QSplitter>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -30,6 +32,10 @@ ImportDialog::ImportDialog(Choices& choices, const QStringList& recent, QWidget*
       warnings_(new QListWidget(this)),
       time_line_(new TimeLine(this)),
       stretches_(new StretchList(this)),
+      edges_(new QLabel(this)),
+      first_(new QDoubleSpinBox(this)),
+      last_(new QDoubleSpinBox(this)),
+      as_found_(new QPushButton(this)),
       count_(new QLabel(this)),
       problem_(new QLabel(this)),
       progress_(new QProgressBar(this)),
@@ -57,7 +63,8 @@ void ImportDialog::build() {
   const std::pair<QWidget*, const char*> named[] = {
       {title_, "import_title"},       {warnings_, "import_warnings"}, {problem_, "import_problem"},
       {progress_, "import_progress"}, {stop_, "import_stop"},         {import_, "import_start"},
-      {close_, "import_close"},       {other_, "import_other"},       {count_, "import_count"}};
+      {close_, "import_close"},       {other_, "import_other"},       {count_, "import_count"},
+      {first_, "stretch_first"},      {last_, "stretch_last"},        {as_found_, "as_found"}};
   for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
   title_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   QFont bold = title_->font();
@@ -73,7 +80,7 @@ void ImportDialog::build() {
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);
   // Enter imports, and nothing else.
-  for (QPushButton* button : {other_, stop_, close_}) button->setAutoDefault(false);
+  for (QPushButton* button : {other_, stop_, close_, as_found_}) button->setAutoDefault(false);
   import_->setDefault(true);
 
   auto* head = new QHBoxLayout;
@@ -85,10 +92,24 @@ void ImportDialog::build() {
   above->addWidget(form_);
   above->setStretchFactor(0, 1);
   above->setSizes({600, 460});
+  for (QDoubleSpinBox* edge : {first_, last_}) {
+    edge->setDecimals(2);
+    edge->setSingleStep(0.1);
+    edge->setKeyboardTracking(false);  // A number is taken when it is complete.
+  }
+  edges_->setBuddy(first_);
+  auto* edges = new QHBoxLayout;
+  edges->addWidget(edges_);
+  edges->addWidget(first_);
+  edges->addWidget(new QLabel(QStringLiteral("–"), this));
+  edges->addWidget(last_);
+  edges->addWidget(as_found_);
+  edges->addStretch();
   auto* lower = new QWidget(this);
   auto* lower_layout = new QVBoxLayout(lower);
   lower_layout->setContentsMargins(0, 0, 0, 0);
   lower_layout->addWidget(time_line_);
+  lower_layout->addLayout(edges);
   lower_layout->addWidget(stretches_, 1);
   auto* parts = new QSplitter(Qt::Vertical, this);
   parts->setChildrenCollapsible(false);
@@ -129,7 +150,19 @@ void ImportDialog::connectParts() {
   connect(stretches_, &StretchList::takenChanged, this, &ImportDialog::showTaken);
   connect(stretches_, &QTreeWidget::currentItemChanged, this, [this] {
     time_line_->setCurrent(stretches_->indexOfTopLevelItem(stretches_->currentItem()));
+    showEdges();
   });
+  connect(time_line_, &TimeLine::edgesMoved, this, [this](int stretch, double first, double last) {
+    stretches_->setCurrentItem(stretches_->topLevelItem(stretch));
+    moveEdges(stretch, first, last);
+  });
+  for (QDoubleSpinBox* edge : {first_, last_}) {
+    connect(edge, &QDoubleSpinBox::valueChanged, this, [this] {
+      moveEdges(stretches_->indexOfTopLevelItem(stretches_->currentItem()), first_->value(),
+                last_->value());
+    });
+  }
+  connect(as_found_, &QPushButton::clicked, this, &ImportDialog::takeAsFound);
   connect(stop_, &QPushButton::clicked, this, [this] {
     if (work_.busy()) {
       work_.cancel();
@@ -146,8 +179,14 @@ void ImportDialog::connectParts() {
   connect(&work_, &RecordingWork::looked, this, &ImportDialog::takeLook);
   connect(&work_, &RecordingWork::pictured, stretches_, &StretchList::setPicture);
   connect(&work_, &RecordingWork::imported, this, &ImportDialog::takeImported);
-  connect(&work_, &RecordingWork::failed, this, [this](const Error& error) { showProblem(error); });
-  connect(&work_, &RecordingWork::cancelled, this, [this] { refresh(); });
+  connect(&work_, &RecordingWork::failed, this, [this](const Error& error) {
+    takeBackEdges();
+    showProblem(error);
+  });
+  connect(&work_, &RecordingWork::cancelled, this, [this] {
+    takeBackEdges();
+    refresh();
+  });
   connect(&work_, &RecordingWork::progressed, this,
           [this](const QString& stage, double fraction, const QString& text) {
             progress_->setValue(static_cast<int>(1000 * fraction));
@@ -163,6 +202,7 @@ void ImportDialog::open(const QString& path) {
   if (info.fileName() == QLatin1String("metadata.yaml")) path_ = info.absolutePath();
   opened_.reset();
   look_.reset();
+  moved_.clear();
   error_.reset();
   note_.clear();
   form_->clear();
@@ -190,26 +230,87 @@ void ImportDialog::takeOpened(const OpenedRecording& opened) {
 void ImportDialog::lookAgain(bool with_topics) {
   if (!opened_) return;
   error_.reset();
-  if (with_topics) look_.reset();
-  work_.look(opened_->recording, form_->options(), look_ ? look_->survey : nullptr);
+  if (with_topics) {
+    look_.reset();
+    moved_.clear();
+  }
+  work_.look(opened_->recording, options(), look_ ? look_->survey : nullptr);
   refresh();
+}
+
+ImportOptions ImportDialog::options() const {
+  ImportOptions out = form_->options();
+  out.moved_edges = moved_;
+  return out;
+}
+
+void ImportDialog::moveEdges(int stretch, double first_s, double last_s) {
+  if (!look_ || stretch < 0) return;
+  const ImportedStretch& s = stretches_->stretches()[static_cast<std::size_t>(stretch)];
+  const double found_s = 0.5 * (s.found_first_s + s.found_last_s);
+  std::erase_if(moved_, [&](const MovedEdges& edges) { return edges.found_s == found_s; });
+  moved_.push_back({found_s, first_s, last_s});
+  lookAgain(false);
+}
+
+// The stretch that is looked at.
+void ImportDialog::takeAsFound() {
+  const int stretch = stretches_->indexOfTopLevelItem(stretches_->currentItem());
+  if (!look_ || stretch < 0) return;
+  const ImportedStretch& s = stretches_->stretches()[static_cast<std::size_t>(stretch)];
+  std::erase_if(moved_, [&](const MovedEdges& edges) {
+    return s.found_first_s <= edges.found_s && edges.found_s <= s.found_last_s;
+  });
+  lookAgain(false);
+}
+
+void ImportDialog::showEdges() {
+  const int stretch = stretches_->indexOfTopLevelItem(stretches_->currentItem());
+  const bool any = look_.has_value() && stretch >= 0;
+  for (QWidget* part : std::initializer_list<QWidget*>{edges_, first_, last_})
+    part->setEnabled(any);
+  as_found_->setEnabled(any && stretches_->stretches()[static_cast<std::size_t>(stretch)].by_hand);
+  if (!any) return;
+  const ImportedStretch& s = stretches_->stretches()[static_cast<std::size_t>(stretch)];
+  const QSignalBlocker a(first_), b(last_);
+  const auto show = [&](QDoubleSpinBox* edge, bool last, double value) {
+    const auto [least, most] = time_line_->rangeOf(stretch, last);
+    edge->setRange(least, most);
+    edge->setValue(value);
+  };
+  show(first_, false, s.first_s);
+  show(last_, true, s.last_s);
 }
 
 void ImportDialog::takeLook(const RecordingLook& look) {
   look_ = look;
-  const TimeSpan span = opened_->recording->span();
-  time_line_->setRecording(1e-9 * static_cast<double>(span.last_ns - span.first_ns), look.motion,
-                           look.stretches);
-  stretches_->setStretches(look.stretches);
+  moved_shown_ = moved_;
+  showStretches();
   showWarnings();
   showPictures();
   refresh();
 }
 
+void ImportDialog::showStretches() {
+  const TimeSpan span = opened_->recording->span();
+  time_line_->setRecording(1e-9 * static_cast<double>(span.last_ns - span.first_ns), look_->motion,
+                           look_->stretches);
+  stretches_->setStretches(look_->stretches);
+  time_line_->setCurrent(stretches_->indexOfTopLevelItem(stretches_->currentItem()));
+  showEdges();
+}
+
+// Edges that were refused, or not waited for, are where they were.
+void ImportDialog::takeBackEdges() {
+  if (!look_) return;
+  moved_ = moved_shown_;
+  showStretches();
+}
+
 void ImportDialog::showPictures() {
   if (!look_ || !form_->target()) return;
   const ImportOptions options = form_->options();
-  work_.show_pictures(opened_->recording, *look_, *form_->target(),
+  work_.show_pictures(opened_->recording, *look_, stretches_->withoutPicture(), *form_->target(),
                       options.camera ? options.camera : look_->survey->camera);
 }
 
@@ -244,7 +345,7 @@ void ImportDialog::showProblem(const std::optional<Error>& error) {
 
 void ImportDialog::startImport() {
   if (!look_ || !form_->target()) return;
-  ImportOptions options = form_->options();
+  ImportOptions options = this->options();
   options.scene_times_s = stretches_->sceneTimes();
   error_.reset();
   note_.clear();
@@ -311,6 +412,15 @@ void ImportDialog::retranslate() {
   other_->setText(tr("&Other recording…"));
   import_->setText(tr("Import and &calibrate"));
   close_->setText(tr("Close"));
+  edges_->setText(tr("&Edges of the stretch:"));
+  as_found_->setText(tr("&As found"));
+  as_found_->setToolTip(tr("The edges as they were found, where nothing moves in between"));
+  for (QDoubleSpinBox* edge : {first_, last_}) {
+    edge->setSuffix(tr(" s"));
+    edge->setToolTip(
+        tr("What lies between the edges becomes the scene; they can be dragged on the "
+           "time line as well"));
+  }
   showWarnings();
   showTaken();
 }

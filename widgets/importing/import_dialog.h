@@ -7,6 +7,7 @@
 #include "dialogs/choices.h"
 #include "runner/recording_work.h"
 
+class QDoubleSpinBox;
 class QLabel;
 class QListWidget;
 class QProgressBar;
@@ -48,6 +49,12 @@ class ImportDialog : public QDialog {
   void takeLook(const RecordingLook& look);
   void takeImported(const ImportSummary& summary, const QString& dataset);
   void lookAgain(bool with_topics);
+  [[nodiscard]] ImportOptions options() const;
+  void moveEdges(int stretch, double first_s, double last_s);
+  void takeAsFound();
+  void showEdges();
+  void showStretches();
+  void takeBackEdges();
   void showPictures();
   void showTaken();
   void showWarnings();
@@ -60,7 +67,9 @@ class ImportDialog : public QDialog {
   std::optional<OpenedRecording> opened_;
   std::optional<RecordingLook> look_;
   std::optional<Error> error_;
-  QString note_;  // Written, but not to be opened yet.
+  std::vector<MovedEdges> moved_;
+  std::vector<MovedEdges> moved_shown_;  // Those that the look is of.
+  QString note_;                         // Written, but not to be opened yet.
 
   QLabel* title_;
   QPushButton* other_;
@@ -69,6 +78,10 @@ class ImportDialog : public QDialog {
   QListWidget* warnings_;
   TimeLine* time_line_;
   StretchList* stretches_;
+  QLabel* edges_;
+  QDoubleSpinBox* first_;
+  QDoubleSpinBox* last_;
+  QPushButton* as_found_;
   QLabel* count_;
   QLabel* problem_;
   QProgressBar* progress_;

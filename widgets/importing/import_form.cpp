@@ -13,7 +13,9 @@
 #include <QSignalBlocker>
 #include <algorithm>
 
+#include "importing/board_choice.h"
 #include "style/texts.h"
+#include "tools/target_camera_dialog.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -22,6 +24,7 @@ namespace {
 const QString kNoIntrinsics = QStringLiteral("none");
 const QString kCameraFile = QStringLiteral("file:");
 const QString kChooseFile = QStringLiteral("choose");
+const QString kMakeFile = QStringLiteral("make");
 
 QString name_of_topic(const Recording& recording, std::size_t topic) {
   return QString::fromStdString(recording.topics()[topic].name);
@@ -37,11 +40,10 @@ QDir place_of(const Recording& recording) {
 ImportForm::ImportForm(Choices& choices, const QStringList& recent, QWidget* parent)
     : QWidget(parent),
       choices_(choices),
-      recent_(recent),
       image_(new QComboBox(this)),
       cloud_(new QComboBox(this)),
       intrinsics_(new QComboBox(this)),
-      board_(new QComboBox(this)),
+      board_(new BoardChoice(choices, recent, this)),
       least_(new QDoubleSpinBox(this)),
       folder_(new QLineEdit(this)),
       browse_(new QPushButton(this)),
@@ -60,7 +62,7 @@ ImportForm::ImportForm(Choices& choices, const QStringList& recent, QWidget* par
     const bool wide = fields[row] != folder_;
     layout->addWidget(fields[row], row, 1, 1, wide ? 2 : 1);
   }
-  for (QComboBox* box : {image_, cloud_, intrinsics_, board_}) {
+  for (QComboBox* box : {image_, cloud_, intrinsics_}) {
     // Names of topics and files are long; the list shows them in full.
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(18);
@@ -81,7 +83,10 @@ ImportForm::ImportForm(Choices& choices, const QStringList& recent, QWidget* par
   });
   connect(cloud_, &QComboBox::currentIndexChanged, this, &ImportForm::topicsChanged);
   connect(intrinsics_, &QComboBox::currentIndexChanged, this, &ImportForm::chooseIntrinsics);
-  connect(board_, &QComboBox::currentIndexChanged, this, &ImportForm::chooseBoard);
+  connect(board_, &BoardChoice::boardChanged, this, [this] {
+    camera_problem_.clear();
+    Q_EMIT boardChanged();
+  });
   connect(least_, &QDoubleSpinBox::valueChanged, this, &ImportForm::limitsChanged);
   connect(folder_, &QLineEdit::textChanged, this, &ImportForm::checkFolder);
   connect(browse_, &QPushButton::clicked, this, &ImportForm::browseFolder);
@@ -103,9 +108,7 @@ void ImportForm::setRecording(const OpenedRecording& opened) {
   opened_ = opened;
   fillTopics();
   fillIntrinsics(false);
-  board_chosen_ = false;
-  board_->setProperty("beside", place_of(*opened.recording).filePath("target.yaml"));
-  fillBoards();
+  board_->setPlace(placeOfFiles());
   folder_->setText(suggestedFolder());
 }
 
@@ -136,6 +139,7 @@ void ImportForm::fillIntrinsics(bool keep) {
     info = opened_->info_of_images[static_cast<std::size_t>(image)];
   if (!info) intrinsics_->addItem(tr("none yet"), kNoIntrinsics);
   intrinsics_->addItem(tr("Choose a camera file…"), kChooseFile);
+  intrinsics_->addItem(tr("Make a camera.yaml…"), kMakeFile);
   QVariant wanted = kNoIntrinsics;
   if (info) wanted = name_of_topic(*opened_->recording, *info);
   if (camera_) wanted = kCameraFile;
@@ -145,6 +149,17 @@ void ImportForm::fillIntrinsics(bool keep) {
 }
 
 void ImportForm::chooseIntrinsics(int index) {
+  if (intrinsics_->itemData(index) == kMakeFile) {
+    {
+      const QSignalBlocker quiet(intrinsics_);
+      intrinsics_->setCurrentIndex(last_intrinsics_);
+    }
+    auto* dialog = new TargetCameraDialog(choices_, placeOfFiles(), this);
+    dialog->showPage(TargetCameraDialog::Page::kCamera);
+    dialog->show();
+    connect(dialog, &TargetCameraDialog::cameraSaved, this, &ImportForm::useCamera);
+    return;
+  }
   if (intrinsics_->itemData(index) != kChooseFile) {
     const bool topic_before = intrinsics_->itemData(last_intrinsics_).toString().startsWith('/');
     const QString now = intrinsics_->itemData(index).toString();
@@ -154,76 +169,33 @@ void ImportForm::chooseIntrinsics(int index) {
     Q_EMIT boardChanged();
     return;
   }
-  const QString folder = opened_ ? place_of(*opened_->recording).absolutePath() : QDir::homePath();
-  const QString path = choices_.camera_to_open(this, folder);
+  const QString path = choices_.camera_to_open(this, placeOfFiles());
   const QSignalBlocker quiet(intrinsics_);
   intrinsics_->setCurrentIndex(last_intrinsics_);
-  if (path.isEmpty()) return;
+  if (!path.isEmpty()) useCamera(path);
+}
+
+void ImportForm::useCamera(const QString& path) {
   const auto camera = read_camera(path.toStdString());
   if (!camera) {
-    board_problem_ = core_text(camera.error());
+    camera_problem_ = core_text(camera.error());
     Q_EMIT changed();
     return;
   }
-  board_problem_.clear();
+  camera_problem_.clear();
   camera_ = camera->camera;
   camera_path_ = path;
   fillIntrinsics(false);
   Q_EMIT boardChanged();
 }
 
-void ImportForm::fillBoards() {
-  const QSignalBlocker quiet(board_);
-  const QVariant before = board_->currentData();
-  board_->clear();
-  const QString beside = board_->property("beside").toString();
-  if (QFileInfo(beside).isFile()) board_->addItem(tr("target.yaml beside the recording"), beside);
-  board_->addItem(tr("Standard board: 4 × 4 tags with circles"), QString());
-  for (const QString& path : recent_) {
-    const QString file = QDir(path).filePath(QStringLiteral("target.yaml"));
-    if (!QFileInfo(file).isFile()) continue;
-    board_->addItem(tr("Board of %1").arg(QFileInfo(path).fileName()), file);
-  }
-  const QString chosen = before.toString();
-  if (board_chosen_ && !chosen.isEmpty() && board_->findData(chosen) < 0)
-    board_->addItem(QDir::toNativeSeparators(chosen), chosen);
-  board_->addItem(tr("Choose a target.yaml…"), kChooseFile);
-  board_->setCurrentIndex(board_chosen_ ? std::max(0, board_->findData(before)) : 0);
-  last_board_ = board_->currentIndex();
-  readBoard();
+// Beside the recording.
+QString ImportForm::placeOfFiles() const {
+  return opened_ ? place_of(*opened_->recording).absolutePath() : QDir::homePath();
 }
 
-void ImportForm::chooseBoard(int index) {
-  if (board_->itemData(index) == kChooseFile) {
-    const QString folder =
-        opened_ ? place_of(*opened_->recording).absolutePath() : QDir::homePath();
-    const QString path = choices_.target_to_open(this, folder);
-    const QSignalBlocker quiet(board_);
-    if (path.isEmpty()) {
-      board_->setCurrentIndex(last_board_);
-      return;
-    }
-    board_->insertItem(index, QDir::toNativeSeparators(path), path);
-    board_->setCurrentIndex(index);
-  }
-  board_chosen_ = true;
-  last_board_ = board_->currentIndex();
-  readBoard();
-  Q_EMIT boardChanged();
-}
-
-void ImportForm::readBoard() {
-  const QString path = board_->currentData().toString();
-  board_problem_.clear();
-  target_ = Target{};
-  if (path.isEmpty()) return;
-  const auto file = read_target(path.toStdString());
-  if (file) {
-    target_ = file->target;
-  } else {
-    target_.reset();
-    board_problem_ = core_text(file.error());
-  }
+const std::optional<Target>& ImportForm::target() const {
+  return board_->target();
 }
 
 ImportOptions ImportForm::options() const {
@@ -237,7 +209,7 @@ ImportOptions ImportForm::options() const {
     out.topics.info = intrinsics.toStdString();
   }
   out.still.min_still_s = least_->value();
-  out.board_is_certain = board_chosen_ || !board_->currentData().toString().isEmpty();
+  out.board_is_certain = board_->certain();
   out.force = replace_->isVisibleTo(this) && replace_->isChecked();
   return out;
 }
@@ -247,7 +219,8 @@ QString ImportForm::folder() const {
 }
 
 QString ImportForm::problem() const {
-  if (!board_problem_.isEmpty()) return board_problem_;
+  if (!board_->problem().isEmpty()) return board_->problem();
+  if (!camera_problem_.isEmpty()) return camera_problem_;
   if (folder().isEmpty()) return tr("Choose a folder for the dataset.");
   return {};
 }
@@ -280,11 +253,9 @@ void ImportForm::retranslate() {
   replace_->setText(tr("Re&place the earlier import"));
   least_->setSuffix(tr(" s"));
   least_->setToolTip(tr("Stretches in which everything stands still for less give no scene"));
-  board_->setToolTip(tr("The printed board; stretches whose image does not show it are left out"));
   intrinsics_->setToolTip(tr("CameraInfo of the recording, or a camera.yaml"));
   if (!opened_) return;
   fillIntrinsics(true);
-  fillBoards();
 }
 
 }  // namespace lvcalib::widgets

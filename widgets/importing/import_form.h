@@ -17,6 +17,8 @@ class QPushButton;
 
 namespace lvcalib::widgets {
 
+class BoardChoice;
+
 /// What an import is asked for: topics, intrinsics, board, folder.
 class ImportForm : public QWidget {
   Q_OBJECT
@@ -30,7 +32,7 @@ class ImportForm : public QWidget {
   /// Topics, intrinsics, shortest stretch, replacing; not the times of scenes.
   [[nodiscard]] ImportOptions options() const;
   /// The board; nothing if its file cannot be used (problem() says why).
-  [[nodiscard]] std::optional<Target> target() const { return target_; }
+  [[nodiscard]] const std::optional<Target>& target() const;
   [[nodiscard]] QString folder() const;
   /// Why nothing can be imported; empty: nothing stands in the way.
   [[nodiscard]] QString problem() const;
@@ -48,29 +50,24 @@ class ImportForm : public QWidget {
   void retranslate();
   void fillTopics();
   void fillIntrinsics(bool keep);
-  void fillBoards();
   void chooseIntrinsics(int index);
-  void chooseBoard(int index);
-  void readBoard();
+  void useCamera(const QString& path);
+  [[nodiscard]] QString placeOfFiles() const;
   void browseFolder();
   void checkFolder();
   [[nodiscard]] QString suggestedFolder() const;
 
   Choices& choices_;
-  QStringList recent_;
   std::optional<OpenedRecording> opened_;
-  std::optional<Target> target_ = Target{};
   std::optional<Camera> camera_;  // From a file.
   QString camera_path_;
-  QString board_problem_;
-  bool board_chosen_ = false;  // By the user, or by a file beside the recording.
+  QString camera_problem_;
   int last_intrinsics_ = 0;
-  int last_board_ = 0;
 
   QComboBox* image_;
   QComboBox* cloud_;
   QComboBox* intrinsics_;
-  QComboBox* board_;
+  BoardChoice* board_;
   QDoubleSpinBox* least_;
   QLineEdit* folder_;
   QPushButton* browse_;

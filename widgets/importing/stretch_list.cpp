@@ -3,6 +3,8 @@
 
 #include <QHeaderView>
 #include <QSignalBlocker>
+#include <algorithm>
+#include <utility>
 
 #include "style/marks.h"
 #include "style/texts.h"
@@ -38,15 +40,32 @@ StretchList::StretchList(QWidget* parent) : QTreeWidget(parent) {
 void StretchList::setStretches(const std::vector<ImportedStretch>& stretches) {
   {
     const QSignalBlocker quiet(this);
+    const int current = indexOfTopLevelItem(currentItem());
+    const std::vector<bool> ticks = taken();
+    const std::vector<ImportedStretch> before = std::exchange(stretches_, stretches);
+    const std::vector<Board> boards = std::exchange(boards_, std::vector<Board>(stretches.size()));
+    std::vector<QIcon> icons;
+    for (int i = 0; i < topLevelItemCount(); ++i) icons.push_back(topLevelItem(i)->icon(kTime));
     clear();
-    stretches_ = stretches;
-    boards_.assign(stretches.size(), {});
     for (const ImportedStretch& s : stretches) {
       auto* item = new QTreeWidgetItem(this);
       Qt::ItemFlags flags = Qt::ItemIsSelectable;
       if (s.usable) flags |= Qt::ItemIsEnabled | Qt::ItemIsUserCheckable;
       item->setFlags(flags);
-      item->setCheckState(kTime, s.taken ? Qt::Checked : Qt::Unchecked);
+      bool tick = s.taken;
+      const auto same = std::find_if(before.begin(), before.end(), [&](const ImportedStretch& b) {
+        return b.found_first_s == s.found_first_s && b.found_last_s == s.found_last_s;
+      });
+      if (same != before.end()) {
+        const auto old = static_cast<std::size_t>(same - before.begin());
+        if (ticks[old] != same->taken) tick = ticks[old] && s.usable;
+        if (same->image_ns == s.image_ns && s.usable) {
+          boards_[static_cast<std::size_t>(topLevelItemCount() - 1)] = boards[old];
+          item->setIcon(kTime, icons[old]);
+        }
+        if (static_cast<int>(old) == current) setCurrentItem(item);
+      }
+      item->setCheckState(kTime, tick ? Qt::Checked : Qt::Unchecked);
       showRow(topLevelItemCount() - 1);
     }
   }
@@ -59,10 +78,19 @@ void StretchList::setPicture(int stretch, const QImage& thumbnail, bool checked,
   {
     const QSignalBlocker quiet(this);
     topLevelItem(stretch)->setIcon(kTime, QIcon(QPixmap::fromImage(thumbnail)));
-    boards_[static_cast<std::size_t>(stretch)] = {checked, complaint};
+    boards_[static_cast<std::size_t>(stretch)] = {true, checked, complaint};
     showRow(stretch);
   }
   Q_EMIT takenChanged();
+}
+
+std::vector<int> StretchList::withoutPicture() const {
+  std::vector<int> out;
+  for (int i = 0; i < topLevelItemCount(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (stretches_[at].usable && !boards_[at].pictured) out.push_back(i);
+  }
+  return out;
 }
 
 void StretchList::forgetBoards() {

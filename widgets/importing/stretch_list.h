@@ -15,9 +15,13 @@ class StretchList : public QTreeWidget {
  public:
   explicit StretchList(QWidget* parent = nullptr);
 
+  /// Of stretches that were there before, with other edges or not, ticks of the user and pictures
+  /// stay.
   void setStretches(const std::vector<ImportedStretch>& stretches);
   [[nodiscard]] const std::vector<ImportedStretch>& stretches() const { return stretches_; }
   void setPicture(int stretch, const QImage& thumbnail, bool checked, const QString& complaint);
+  /// Those that can be used and of whose image nothing is known yet.
+  [[nodiscard]] std::vector<int> withoutPicture() const;
   /// The board or the camera is another one: whether it is seen is open again.
   void forgetBoards();
 
@@ -38,6 +42,7 @@ class StretchList : public QTreeWidget {
 
  private:
   struct Board {
+    bool pictured = false;
     bool checked = false;
     QString complaint;
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importing/time_line.h"
 
+#include <QApplication>
 #include <QHelpEvent>
 #include <QMouseEvent>
 #include <QPainter>
@@ -8,6 +9,7 @@
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "style/theme.h"
 
@@ -15,6 +17,10 @@ namespace lvcalib::widgets {
 namespace {
 
 constexpr int kMargin = 6;
+// So near to an edge the mouse holds it.
+constexpr int kHandle = 5;
+// No stretch becomes narrower by dragging.
+constexpr double kLeast_s = 0.1;
 // Motion of the whole view; the curves' upper edge.
 constexpr double kMostMotion = 300.0;
 
@@ -54,6 +60,7 @@ void TimeLine::setRecording(double length_s, const RecordedMotion& motion,
   taken_.assign(stretches.size(), false);
   texts_.clear();
   current_ = -1;
+  drag_.reset();
   update();
 }
 
@@ -85,6 +92,24 @@ double TimeLine::xOf(double time_s) const {
   return plot.left() + plot.width() * std::clamp(time_s / std::max(1e-9, length_s_), 0.0, 1.0);
 }
 
+double TimeLine::timeOf(int x) const {
+  const QRect plot = plotRect();
+  return length_s_ * (x - plot.left()) / std::max(1, plot.width());
+}
+
+std::pair<double, double> TimeLine::rangeOf(int stretch, bool last) const {
+  const ImportedStretch& s = stretches_[static_cast<std::size_t>(stretch)];
+  double least = last ? s.first_s + kLeast_s : 0.0;
+  double most = last ? length_s_ : s.last_s - kLeast_s;
+  for (std::size_t i = 0; i < stretches_.size(); ++i) {
+    const ImportedStretch& other = stretches_[i];
+    if (static_cast<int>(i) == stretch || !other.usable) continue;
+    if (!last && other.last_s <= s.last_s) least = std::max(least, other.last_s);
+    if (last && other.first_s >= s.first_s) most = std::min(most, other.first_s);
+  }
+  return {std::min(least, most), most};
+}
+
 QRect TimeLine::stretchRect(int stretch) const {
   if (stretch < 0 || static_cast<std::size_t>(stretch) >= stretches_.size()) return {};
   const ImportedStretch& s = stretches_[static_cast<std::size_t>(stretch)];
@@ -101,6 +126,37 @@ int TimeLine::stretchAt(const QPoint& at) const {
   return -1;
 }
 
+// Of the nearest edge; a third of a narrow stretch is left for clicks.
+std::optional<TimeLine::Handle> TimeLine::handleAt(const QPoint& at) const {
+  std::optional<Handle> best;
+  int nearest = kHandle + 1;
+  for (int i = 0; i < static_cast<int>(stretches_.size()); ++i) {
+    const QRect band = stretchRect(i);
+    if (at.y() < band.top() || at.y() > band.bottom()) continue;
+    const int inside = std::min(kHandle, band.width() / 3);
+    for (const bool last : {false, true}) {
+      const int beyond = last ? at.x() - band.right() : band.left() - at.x();
+      if (beyond < -inside || std::abs(beyond) >= nearest) continue;
+      nearest = std::abs(beyond);
+      best = Handle{i, last};
+    }
+  }
+  return best;
+}
+
+void TimeLine::drag(const QPoint& at, const QPoint& global) {
+  if (!drag_->moved && std::abs(at.x() - drag_->from_x) < QApplication::startDragDistance() / 2)
+    return;
+  drag_->moved = true;
+  const auto [stretch, last] = drag_->handle;
+  const auto [least, most] = rangeOf(stretch, last);
+  ImportedStretch& s = stretches_[static_cast<std::size_t>(stretch)];
+  const double time_s = std::clamp(timeOf(at.x()), least, most);
+  (last ? s.last_s : s.first_s) = time_s;
+  QToolTip::showText(global, tr("%1 s").arg(QString::number(time_s, 'f', 2)), this);
+  update();
+}
+
 void TimeLine::paintBands(QPainter& painter) const {
   const StateColors colors = state_colors(palette());
   for (int i = 0; i < static_cast<int>(stretches_.size()); ++i) {
@@ -111,6 +167,19 @@ void TimeLine::paintBands(QPainter& painter) const {
     // Told apart by shape as well as colour: what is left is hatched, what is taken has a bar.
     painter.fillRect(band, QBrush(color, taken ? Qt::SolidPattern : Qt::BDiagPattern));
     if (taken) painter.fillRect(QRect(band.left(), band.top(), band.width(), 4), colors.good);
+    const ImportedStretch& s = stretches_[static_cast<std::size_t>(i)];
+    if (s.by_hand) {
+      painter.setPen(QPen(palette().color(QPalette::Text), 1, Qt::DashLine));
+      for (const double found_s : {s.found_first_s, s.found_last_s}) {
+        const int x = static_cast<int>(std::lround(xOf(found_s)));
+        painter.drawLine(x, band.top(), x, band.bottom());
+      }
+    }
+    // Grips in the middle of the edges.
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(i == current_ ? colors.accent : palette().color(QPalette::Mid));
+    for (const int x : {band.left(), band.right()})
+      painter.drawRoundedRect(QRect(x - 2, band.center().y() - 9, 5, 18), 2, 2);
     if (i == current_) {
       painter.setPen(QPen(colors.accent, 2));
       painter.setBrush(Qt::NoBrush);
@@ -192,14 +261,38 @@ void TimeLine::paintEvent(QPaintEvent*) {
 }
 
 void TimeLine::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  if (const auto handle = handleAt(event->pos())) {
+    drag_ = Drag{*handle, event->pos().x()};
+    return;
+  }
   const int stretch = stretchAt(event->pos());
-  if (stretch >= 0 && event->button() == Qt::LeftButton) Q_EMIT clicked(stretch);
+  if (stretch >= 0) Q_EMIT clicked(stretch);
 }
 
 void TimeLine::mouseMoveEvent(QMouseEvent* event) {
+  if (drag_) {
+    drag(event->pos(), event->globalPosition().toPoint());
+    return;
+  }
+  if (handleAt(event->pos())) {
+    setCursor(Qt::SizeHorCursor);
+    return;
+  }
   const int stretch = stretchAt(event->pos());
   const bool usable = stretch >= 0 && stretches_[static_cast<std::size_t>(stretch)].usable;
   setCursor(usable ? Qt::PointingHandCursor : Qt::ArrowCursor);
+}
+
+void TimeLine::mouseReleaseEvent(QMouseEvent* event) {
+  if (!drag_ || event->button() != Qt::LeftButton) return;
+  const Drag drag = *std::exchange(drag_, std::nullopt);
+  const ImportedStretch& s = stretches_[static_cast<std::size_t>(drag.handle.stretch)];
+  if (drag.moved) {
+    Q_EMIT edgesMoved(drag.handle.stretch, s.first_s, s.last_s);
+  } else if (stretchRect(drag.handle.stretch).contains(event->pos())) {
+    Q_EMIT clicked(drag.handle.stretch);  // Not a drag after all.
+  }
 }
 
 bool TimeLine::event(QEvent* event) {
@@ -211,7 +304,8 @@ bool TimeLine::event(QEvent* event) {
     } else {
       QToolTip::showText(help->globalPos(),
                          tr("How much image and cloud change, above the dotted line: motion. "
-                            "Bands are stretches in which both stand still."),
+                            "Bands are stretches in which both stand still; their edges can be "
+                            "dragged."),
                          this);
     }
     return true;

@@ -3,6 +3,7 @@
 
 #include <QString>
 #include <QWidget>
+#include <optional>
 #include <vector>
 
 #include "recording/survey.h"
@@ -10,8 +11,8 @@
 namespace lvcalib::widgets {
 
 /// A recording from its first to its last message: how much image and cloud move, and the still
-/// stretches as bands, which a click takes or leaves. The list beside it offers the same to the
-/// keyboard.
+/// stretches as bands, which a click takes or leaves, and whose edges can be dragged. The list and
+/// the fields beside it offer the same to the keyboard.
 class TimeLine : public QWidget {
   Q_OBJECT
 
@@ -30,27 +31,45 @@ class TimeLine : public QWidget {
 
   /// Where a stretch is drawn.
   [[nodiscard]] QRect stretchRect(int stretch) const;
+  /// Between which times an edge may lie, so that no two stretches share a moment.
+  [[nodiscard]] std::pair<double, double> rangeOf(int stretch, bool last) const;
   [[nodiscard]] QSize sizeHint() const override { return {600, 150}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {260, 120}; }
 
  Q_SIGNALS:
   /// A click on a stretch.
   void clicked(int stretch);
+  /// An edge was dragged and let go.
+  void edgesMoved(int stretch, double first_s, double last_s);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   bool event(QEvent* event) override;
 
  private:
+  // An edge under the mouse, or held by it.
+  struct Handle {
+    int stretch = 0;
+    bool last = false;
+  };
+  struct Drag {
+    Handle handle;
+    int from_x = 0;
+    bool moved = false;  // Further than a hand shakes.
+  };
   struct Lane {
     QString name;
     const std::vector<MotionSample>* samples;
   };
   [[nodiscard]] QRect plotRect() const;
   [[nodiscard]] double xOf(double time_s) const;
+  [[nodiscard]] double timeOf(int x) const;
   [[nodiscard]] int stretchAt(const QPoint& at) const;
+  [[nodiscard]] std::optional<Handle> handleAt(const QPoint& at) const;
+  void drag(const QPoint& at, const QPoint& global);
   void paintBands(QPainter& painter) const;
   void paintLane(QPainter& painter, const QRect& rect, const Lane& lane) const;
   void paintAxis(QPainter& painter) const;
@@ -61,6 +80,7 @@ class TimeLine : public QWidget {
   std::vector<bool> taken_;
   QStringList texts_;
   int current_ = -1;
+  std::optional<Drag> drag_;
 };
 
 }  // namespace lvcalib::widgets

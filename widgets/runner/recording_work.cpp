@@ -104,15 +104,15 @@ void RecordingWork::look(const std::shared_ptr<const Recording>& recording,
 }
 
 void RecordingWork::show_pictures(const std::shared_ptr<const Recording>& recording,
-                                  const RecordingLook& look, const Target& target,
-                                  const std::optional<Camera>& camera) {
-  pictures_.start([this, recording, survey = look.survey, stretches = look.stretches, target,
+                                  const RecordingLook& look, const std::vector<int>& which,
+                                  const Target& target, const std::optional<Camera>& camera) {
+  pictures_.start([this, recording, survey = look.survey, stretches = look.stretches, which, target,
                    camera](const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
-    for (std::size_t i = 0; i < stretches.size() && !context.stopped(); ++i) {
-      if (!stretches[i].usable) continue;
-      const auto picture = picture_of(*recording, *survey, stretches[i], kThumbnailPx, context);
+    for (const int index : which) {
+      if (context.stopped()) break;
+      const auto picture = picture_of(
+          *recording, *survey, stretches[static_cast<std::size_t>(index)], kThumbnailPx, context);
       if (!picture) continue;  // The import says why.
-      const int index = static_cast<int>(i);
       const QImage image = as_image(picture->thumbnail);
       if (!camera) {
         post([this, index, image] { Q_EMIT pictured(index, image, false, {}); });

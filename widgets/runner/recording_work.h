@@ -50,10 +50,11 @@ class RecordingWork : public QObject {
   /// found anew.
   void look(const std::shared_ptr<const Recording>& recording, const ImportOptions& options,
             const std::shared_ptr<const RecordingSurvey>& survey = nullptr);
-  /// pictured() follows for each stretch that can be used, in the background. Whether the board is
+  /// pictured() follows for each of the stretches `which`, in the background. Whether the board is
   /// seen is told where the camera is known.
   void show_pictures(const std::shared_ptr<const Recording>& recording, const RecordingLook& look,
-                     const Target& target, const std::optional<Camera>& camera);
+                     const std::vector<int>& which, const Target& target,
+                     const std::optional<Camera>& camera);
   /// imported() follows.
   void import(const std::shared_ptr<const Recording>& recording,
               const std::shared_ptr<const RecordingSurvey>& survey, const Target& target,

@@ -1,27 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "runner/runner.h"
 
+#include <QCoreApplication>
+#include <QDeadlineTimer>
+#include <QThread>
 #include <QTimer>
-#include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 namespace lvcalib::widgets {
 namespace {
 
-// Counts the worker threads of the process.
-struct Workers {
-  std::mutex mutex;
-  std::condition_variable ended;
-  int count = 0;
+const QString kWorkerName = QStringLiteral("runner_worker");
+
+// The thread of one job. The application owns it, not the runner: an abandoned job outlives its
+// runner, and is stopped and joined at the latest when the application goes.
+class Worker final : public QThread {
+ public:
+  Worker(std::stop_source stop, std::function<void()> job)
+      : QThread(QCoreApplication::instance()), stop_(std::move(stop)), job_(std::move(job)) {
+    setObjectName(kWorkerName);
+    connect(this, &QThread::finished, this, &QObject::deleteLater);
+  }
+  ~Worker() override {
+    stop_.request_stop();
+    wait();
+  }
+
+ protected:
+  // What the job holds goes with it, in its thread.
+  void run() override { std::exchange(job_, {})(); }
+
+ private:
+  std::stop_source stop_;
+  std::function<void()> job_;
 };
 
-Workers& workers() {
-  static Workers* const all = new Workers;  // Outlives abandoned threads at the program's end.
-  return *all;
+// What became of a call that may throw: why it failed, empty if it did not.
+QString complaint_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::exception& e) {
+    const QString what = QString::fromUtf8(e.what());
+    return what.isEmpty() ? QStringLiteral("exception") : what;
+  } catch (...) {
+    return QStringLiteral("exception of unknown type");
+  }
+  return {};
 }
 
 }  // namespace
@@ -61,44 +87,38 @@ quint64 Runner::start(Work work) {
   }
   task_ = std::make_shared<Task>();
   task_->id = ++id_;
-  {
-    const std::lock_guard lock(workers().mutex);
-    ++workers().count;
+  auto* worker = new Worker(
+      task_->stop, [mailbox = mailbox_, task = task_, work = std::move(work), this]() mutable {
+        RunContext context;
+        context.stop = task->stop.get_token();
+        context.progress = [mailbox, task, this](const Progress& p) {
+          if (task->stop.stop_requested()) return;
+          mailbox->post([this, task, p] {
+            if (task != task_) return;
+            Q_EMIT progressed(task->id, QString::fromStdString(p.stage), p.fraction,
+                              QString::fromStdString(p.text));
+          });
+        };
+        const Post post = [mailbox, task, this](Deliver call) {
+          if (task->stop.stop_requested()) return;
+          mailbox->post([this, task, call = std::move(call)] {
+            if (task == task_) call();
+          });
+        };
+        Deliver deliver;
+        const QString error = complaint_of([&] { deliver = work(context, post); });
+        work = {};  // What the job held goes before its results are handed over.
+        mailbox->post(
+            [this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
+      });
+  worker->start();
+  // Without a thread nobody else would say that nothing comes of it.
+  if (!worker->isRunning() && !worker->isFinished()) {
+    delete worker;
+    mailbox_->post([this, task = task_] {
+      take(task, {}, QStringLiteral("the system has no thread left for it"));
+    });
   }
-  std::thread([mailbox = mailbox_, task = task_, work = std::move(work), this]() mutable {
-    RunContext context;
-    context.stop = task->stop.get_token();
-    context.progress = [mailbox, task, this](const Progress& p) {
-      if (task->stop.stop_requested()) return;
-      mailbox->post([this, task, p] {
-        if (task != task_) return;
-        Q_EMIT progressed(task->id, QString::fromStdString(p.stage), p.fraction,
-                          QString::fromStdString(p.text));
-      });
-    };
-    const Post post = [mailbox, task, this](Deliver call) {
-      if (task->stop.stop_requested()) return;
-      mailbox->post([this, task, call = std::move(call)] {
-        if (task == task_) call();
-      });
-    };
-    Deliver deliver;
-    QString error;
-    try {
-      deliver = work(context, post);
-    } catch (const std::exception& e) {
-      error = QString::fromUtf8(e.what());
-      if (error.isEmpty()) error = QStringLiteral("exception");
-    } catch (...) {
-      error = QStringLiteral("exception of unknown type");
-    }
-    work = {};  // What the job held goes before the thread counts as ended.
-    mailbox->post(
-        [this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
-    const std::lock_guard lock(workers().mutex);
-    --workers().count;
-    workers().ended.notify_all();
-  }).detach();
   Q_EMIT started(id_);
   return id_;
 }
@@ -117,11 +137,11 @@ void Runner::take(const std::shared_ptr<Task>& task, const Deliver& deliver, con
   if (task != task_) return;  // Abandoned.
   const bool stopped = task->stop.stop_requested();
   task_.reset();
-  if (deliver) deliver();
+  const QString complaint = deliver ? complaint_of(deliver) : error;
   if (stopped) {
     Q_EMIT cancelled(task->id);
-  } else if (!error.isEmpty()) {
-    Q_EMIT failed(task->id, error);
+  } else if (!complaint.isEmpty()) {
+    Q_EMIT failed(task->id, complaint);
   } else {
     Q_EMIT finished(task->id);
   }
@@ -134,9 +154,12 @@ void Runner::abandon() {
 }
 
 bool Runner::wait_for_workers(int milliseconds) {
-  std::unique_lock lock(workers().mutex);
-  return workers().ended.wait_for(lock, std::chrono::milliseconds(milliseconds),
-                                  [] { return workers().count == 0; });
+  const QDeadlineTimer end(milliseconds);  // Negative: never.
+  const auto workers =
+      QCoreApplication::instance()->findChildren<QThread*>(kWorkerName, Qt::FindDirectChildrenOnly);
+  bool all = true;
+  for (QThread* worker : workers) all = worker->wait(end) && all;
+  return all;
 }
 
 }  // namespace lvcalib::widgets

@@ -11,12 +11,14 @@
 
 namespace lvcalib::widgets {
 
-/// Runs one job at a time in a worker thread. A job gets a RunContext (progress, stop token) and
-/// returns a function that is then called in the thread of the runner, to hand over its results.
+/// Runs one job at a time in a thread of its own (QThread). A job gets a RunContext (progress, stop
+/// token) and returns a function that is then called in the thread of the runner, to hand over its
+/// results.
 ///
 /// A new job takes the place of a running one; cancel() gives the running one kPatience to stop.
 /// A job that does not stop in time is abandoned: it runs to its end unseen and its results are
-/// dropped, so that two runs never mix and nobody waits for it. Exceptions become failed().
+/// dropped, so that two runs never mix and nobody waits for it. Exceptions become failed(). The
+/// threads belong to the application, which joins them when it ends.
 class Runner : public QObject {
   Q_OBJECT
 
@@ -30,6 +32,7 @@ class Runner : public QObject {
   /// How long a cancelled job may take to stop before it is abandoned.
   static constexpr int kPatienceMs = 100;
 
+  /// In the application's own thread.
   explicit Runner(QObject* parent = nullptr);
   /// Abandons what runs.
   ~Runner() override;
@@ -42,8 +45,9 @@ class Runner : public QObject {
   [[nodiscard]] bool running() const { return task_ != nullptr; }
   [[nodiscard]] quint64 current() const { return id_; }
 
-  /// Waits until every worker thread of the process has ended; false after the time. For the end
-  /// of a program, before what the workers use is torn down.
+  /// Waits until the threads of all jobs, abandoned ones too, have ended; false after the time.
+  /// Negative: as long as it takes. For the end of a program, before what the jobs use is torn
+  /// down.
   static bool wait_for_workers(int milliseconds);
 
  Q_SIGNALS:

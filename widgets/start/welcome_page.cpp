@@ -19,6 +19,8 @@ WelcomePage::WelcomePage(QWidget* parent)
       dataset_(new QCommandLinkButton(this)),
       project_(new QCommandLinkButton(this)),
       import_(new QCommandLinkButton(this)),
+      import_files_(new QCommandLinkButton(this)),
+      target_camera_(new QCommandLinkButton(this)),
       demo_(new QCommandLinkButton(this)),
       guide_(new QCommandLinkButton(this)),
       recent_title_(new QLabel(this)),
@@ -32,8 +34,10 @@ WelcomePage::WelcomePage(QWidget* parent)
   recent_title_->setBuddy(recent_);
   auto* buttons = new QVBoxLayout;
   const std::pair<QCommandLinkButton*, const char*> named[] = {{import_, "import_recording"},
+                                                               {import_files_, "import_files"},
                                                                {dataset_, "open_dataset"},
                                                                {project_, "open_project"},
+                                                               {target_camera_, "target_camera"},
                                                                {demo_, "demo"},
                                                                {guide_, "guide"}};
   for (const auto& [button, name] : named) {
@@ -57,6 +61,8 @@ WelcomePage::WelcomePage(QWidget* parent)
   connect(dataset_, &QCommandLinkButton::clicked, this, &WelcomePage::open_dataset_wanted);
   connect(project_, &QCommandLinkButton::clicked, this, &WelcomePage::open_project_wanted);
   connect(import_, &QCommandLinkButton::clicked, this, &WelcomePage::import_wanted);
+  connect(import_files_, &QCommandLinkButton::clicked, this, &WelcomePage::import_files_wanted);
+  connect(target_camera_, &QCommandLinkButton::clicked, this, &WelcomePage::target_camera_wanted);
   connect(demo_, &QCommandLinkButton::clicked, this, &WelcomePage::demo_wanted);
   connect(guide_, &QCommandLinkButton::clicked, this, &WelcomePage::guide_wanted);
   connect(recent_, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
@@ -93,6 +99,10 @@ void WelcomePage::retranslate() {
   project_->setDescription(tr("A dataset with your decisions about it (.lvcalib)"));
   import_->setText(tr("New from a recording"));
   import_->setDescription(tr("A ROS bag, rosbag2 or MCAP in which board and rig stood still"));
+  import_files_->setText(tr("New from files"));
+  import_files_->setDescription(tr("Images and clouds in folders, matched by name or by time"));
+  target_camera_->setText(tr("Describe a target or a camera"));
+  target_camera_->setDescription(tr("target.yaml and camera.yaml from what you know of both"));
   demo_->setText(tr("Try the demo"));
   demo_->setDescription(
       tr("Simulates four scenes with an effect hidden in them, and a tour to find it"));

@@ -23,6 +23,8 @@ class WelcomePage : public QWidget {
   void open_dataset_wanted();
   void open_project_wanted();
   void import_wanted();
+  void import_files_wanted();
+  void target_camera_wanted();
   void demo_wanted();
   void guide_wanted();
   void recent_wanted(const QString& path);
@@ -38,6 +40,8 @@ class WelcomePage : public QWidget {
   QCommandLinkButton* dataset_;
   QCommandLinkButton* project_;
   QCommandLinkButton* import_;
+  QCommandLinkButton* import_files_;
+  QCommandLinkButton* target_camera_;
   QCommandLinkButton* demo_;
   QCommandLinkButton* guide_;
   QLabel* recent_title_;

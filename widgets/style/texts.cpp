@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "style/core_patterns.h"
+#include "style/file_patterns.h"
 #include "style/import_patterns.h"
 #include "style/model_patterns.h"
 
@@ -61,6 +62,7 @@ const std::vector<Pattern>& patterns() {
     std::vector<Pattern> out;
     for (const char* source : kModelPatterns) out.push_back(compiled(source));
     for (const char* source : kImportPatterns) out.push_back(compiled(source));
+    for (const char* source : kFilePatterns) out.push_back(compiled(source));
     for (const char* source : kCorePatterns) out.push_back(compiled(source));
     return out;
   }();

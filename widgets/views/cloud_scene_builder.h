@@ -2,9 +2,9 @@
 #pragma once
 
 #include <QObject>
+#include <QThreadPool>
 #include <memory>
 #include <stop_token>
-#include <thread>
 
 #include "views/cloud_scene.h"
 
@@ -29,11 +29,12 @@ class CloudSceneBuilder : public QObject {
  private:
   void startNext();
 
-  std::jthread worker_;
   std::unique_ptr<CloudSceneInput> next_;
   int newest_ = 0;
   bool running_ = false;
   bool busy_ = false;
+  std::stop_source stop_;  // Of the one that runs.
+  QThreadPool pool_;       // One thread.
 };
 
 }  // namespace lvcalib::widgets

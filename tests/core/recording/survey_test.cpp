@@ -107,6 +107,57 @@ TEST_F(Survey, StretchesThatAreNotAskedForStayUsable) {
   }
 }
 
+// The second stretch rests from 2.8 s to 4.8 s.
+TEST_F(Survey, EdgesMovedByHandAreThoseOfTheScene) {
+  ImportOptions options;
+  options.target_yaml = "targetCols: 4\n";
+  options.moved_edges = {{3.8, 3.15, 4.25}};
+  const auto preview = preview_stretches(*recording_, *survey_, options);
+  ASSERT_TRUE(preview.ok()) << preview.error().text();
+  ASSERT_EQ(preview->size(), 3U);
+  const ImportedStretch& moved = (*preview)[1];
+  EXPECT_TRUE(moved.by_hand && moved.taken && moved.usable);
+  EXPECT_DOUBLE_EQ(moved.first_s, 3.15);
+  EXPECT_DOUBLE_EQ(moved.last_s, 4.25);
+  EXPECT_LT(moved.found_first_s, 3.0);
+  EXPECT_GT(moved.found_last_s, 4.5);
+  EXPECT_EQ(moved.images, 11U);  // One each tenth of a second, 3.2 to 4.2.
+  EXPECT_GE(moved.image_s, 3.15);
+  EXPECT_LE(moved.image_s, 4.25);
+  EXPECT_THAT(moved.reason, ::testing::HasSubstr("set by hand: 1.1 s"));
+  EXPECT_FALSE((*preview)[0].by_hand);
+  // A time within the moved edges asks for it, one within the found edges alone does not.
+  options.scene_times_s = {3.2};
+  const auto summary =
+      import_recording(*recording_, *survey_, options, folder_->path() / "moved", RunContext{});
+  ASSERT_TRUE(summary.ok()) << summary.error().text();
+  EXPECT_EQ(summary->scene_count(), 1U);
+  const ImportedStretch& written = summary->stretches[1];
+  EXPECT_TRUE(written.taken);
+  const auto whole = import_recording(*recording_, *survey_, {}, folder_->path() / "whole", {});
+  ASSERT_TRUE(whole.ok());
+  EXPECT_LE(written.sweeps, 11U);
+  EXPECT_LT(written.sweeps, whole->stretches[1].sweeps);
+  options.scene_times_s = {4.5};
+  EXPECT_FALSE(preview_stretches(*recording_, *survey_, options).ok());
+}
+
+TEST_F(Survey, EdgesMovedByHandMayNotOverlapNorBeTooShort) {
+  ImportOptions options;
+  options.moved_edges = {{3.8, 1.0, 4.0}};
+  const auto overlapping = preview_stretches(*recording_, *survey_, options);
+  ASSERT_FALSE(overlapping.ok());
+  EXPECT_THAT(overlapping.error().text(), ::testing::HasSubstr("overlaps"));
+  options.moved_edges = {{3.8, 3.5, 3.6}};
+  const auto narrow = preview_stretches(*recording_, *survey_, options);
+  ASSERT_TRUE(narrow.ok());
+  EXPECT_FALSE((*narrow)[1].usable);
+  options.moved_edges = {{2.5, 2.1, 2.7}};  // Where nothing was found.
+  const auto nothing = preview_stretches(*recording_, *survey_, options);
+  ASSERT_TRUE(nothing.ok());
+  for (const ImportedStretch& s : *nothing) EXPECT_FALSE(s.by_hand);
+}
+
 TEST_F(Survey, ThumbnailsAreSmallAndOfTheStretch) {
   const auto preview = preview_stretches(*recording_, *survey_, {});
   ASSERT_TRUE(preview.ok());

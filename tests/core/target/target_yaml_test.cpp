@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "target/target.h"
+#include "target/target_text.h"
 
 namespace lvcalib {
 namespace {
@@ -288,6 +289,17 @@ TEST_F(TargetYaml, AMeasuredLengthIsThePrintsSize) {
        {"measuredLength: 0.5\n", "drawnLength: 0.5\n", "measuredLength: 500\ndrawnLength: 0.5\n",
         "measuredLength: -0.5\ndrawnLength: 0.5\n", "measuredLength: abc\ndrawnLength: 0.5\n"})
     EXPECT_THAT(error(std::string(kGrid) + wrong), HasSubstr("Length")) << wrong;
+}
+
+TEST_F(TargetYaml, ATextIsReadAsItsFileWouldBe) {
+  const auto file = read(kGrid);
+  const auto text = target_from_text(kGrid, "the form");
+  ASSERT_TRUE(file && text);
+  EXPECT_EQ(to_yaml(text->target), to_yaml(file->target));
+  const auto wrong = target_from_text(replaced(kGrid, "tagCols", "tagColumns"), "the form");
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().message, read(replaced(kGrid, "tagCols", "tagColumns")).error().message);
+  EXPECT_THAT(wrong.error().text(), HasSubstr("the form"));
 }
 
 }  // namespace

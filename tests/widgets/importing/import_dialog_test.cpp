@@ -4,9 +4,13 @@
 
 #include <QComboBox>
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
@@ -110,6 +114,54 @@ TEST_F(ImportDialogTest, AStretchThatIsUntickedIsNoScene) {
   ASSERT_TRUE(wait_until([&] { return window_->workspace().is_open(); }));
   EXPECT_EQ(window_->workspace().dataset().scenes.size(), 2U);
   window_->workspace().cancel();
+}
+
+TEST_F(ImportDialogTest, DraggedEdgesAreThoseOfTheScene) {
+  look_at(test::small_walk().path);
+  ASSERT_TRUE(wait_for_pictures());
+  auto* line = find<TimeLine>(*dialog(), "time_line");
+  auto* as_found = find<QPushButton>(*dialog(), "as_found");
+  EXPECT_FALSE(as_found->isEnabled());
+  stretches().toggle(0);  // Stays unticked whatever becomes of the others.
+  const QRect band = line->stretchRect(1);
+  const double found_s = stretches().stretches()[1].first_s;
+  const QPoint from(band.left(), band.center().y());
+  const auto drag = [&] {
+    QTest::mousePress(line, Qt::LeftButton, {}, from);
+    QTest::mouseMove(line, from + QPoint(band.width() / 4, 0));
+    QTest::mouseMove(line, from + QPoint(band.width() / 3, 0));
+    QTest::mouseRelease(line, Qt::LeftButton, {}, from + QPoint(band.width() / 3, 0));
+    return wait_until([&] { return stretches().stretches()[1].by_hand && !dialog()->busy(); });
+  };
+  ASSERT_TRUE(drag());
+  EXPECT_GT(stretches().stretches()[1].first_s, found_s + 0.4);
+  EXPECT_NEAR(find<QDoubleSpinBox>(*dialog(), "stretch_first")->value(),
+              stretches().stretches()[1].first_s, 0.006);
+  EXPECT_TRUE(as_found->isEnabled());
+  as_found->click();
+  ASSERT_TRUE(wait_until([&] { return !stretches().stretches()[1].by_hand && !dialog()->busy(); }));
+  EXPECT_EQ(stretches().stretches()[1].first_s, found_s);
+  ASSERT_TRUE(drag());
+  // The keyboard's way to the other edge.
+  auto* last = find<QDoubleSpinBox>(*dialog(), "stretch_last");
+  const double last_s = last->value() - 0.4;
+  last->setValue(last_s);
+  ASSERT_TRUE(wait_until(
+      [&] { return stretches().stretches()[1].last_s < last_s + 0.01 && !dialog()->busy(); }));
+  EXPECT_EQ(stretches().taken(), (std::vector<bool>{false, true, true}));
+  const ImportedStretch wanted = stretches().stretches()[1];
+  button("import_start").click();
+  ASSERT_TRUE(wait_until([&] { return window_->workspace().is_open(); }));
+  window_->workspace().cancel();
+  QFile file(dataset() + "/import.json");
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  const auto stretches = QJsonDocument::fromJson(file.readAll())["stretches"].toArray();
+  ASSERT_EQ(stretches.size(), 3);
+  EXPECT_FALSE(stretches[0]["taken"].toBool());
+  EXPECT_TRUE(stretches[1]["taken"].toBool());
+  EXPECT_NEAR(stretches[1]["first_s"].toDouble(), wanted.first_s, 1e-6);
+  EXPECT_NEAR(stretches[1]["last_s"].toDouble(), wanted.last_s, 1e-6);
+  EXPECT_GE(stretches[1]["image_s"].toDouble(), wanted.first_s);
 }
 
 TEST_F(ImportDialogTest, WithNothingTickedNothingIsImported) {

@@ -6,11 +6,13 @@
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSignalSpy>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tools/target_camera_dialog.h"
 #include "widgets/importing/recorded_walk.h"
 #include "widgets/support/driver.h"
 
@@ -91,6 +93,27 @@ TEST_F(ImportFormTest, ACameraFileStandsInForCameraInfo) {
   choose("intrinsics", "/camera/camera_info");
   EXPECT_FALSE(form_.options().camera.has_value());
   EXPECT_EQ(form_.options().topics.info, "/camera/camera_info");
+}
+
+TEST_F(ImportFormTest, ABoardThatIsMadeThereIsUsed) {
+  form_.setRecording(opened_);
+  QSignalSpy changed(&form_, &ImportForm::boardChanged);
+  choose("board", "make");
+  auto* dialog = form_.findChild<TargetCameraDialog*>();
+  ASSERT_NE(dialog, nullptr);
+  EXPECT_EQ(find<QComboBox>(form_, "board")->currentData().toString(), "") << "until it is saved";
+  find<QLineEdit>(*dialog, "tagSize")->setText("100");
+  answers_.export_to = folder_.filePath("mine.yaml");
+  find<QPushButton>(*dialog, "target_camera_save")->click();
+  ASSERT_TRUE(form_.target().has_value()) << form_.problem().toStdString();
+  EXPECT_DOUBLE_EQ(form_.target()->tag_size_m, 0.1);
+  EXPECT_EQ(find<QComboBox>(form_, "board")->currentData().toString(), answers_.export_to);
+  EXPECT_EQ(changed.size(), 1);
+  EXPECT_TRUE(form_.options().board_is_certain);
+  // Saved once more: the form has what the file has now.
+  find<QLineEdit>(*dialog, "tagSize")->setText("90");
+  find<QPushButton>(*dialog, "target_camera_save")->click();
+  EXPECT_DOUBLE_EQ(form_.target()->tag_size_m, 0.09);
 }
 
 TEST_F(ImportFormTest, WithoutCameraInfoThereMayBeNoIntrinsicsYet) {

@@ -43,6 +43,40 @@ TEST(TimeLine, StretchesStandWhereTheirTimesAreAndCanBeClicked) {
   EXPECT_EQ(clicked[0][0].toInt(), 1);
 }
 
+TEST(TimeLine, EdgesCanBeDraggedAsFarAsTheNextStretch) {
+  TimeLine line;
+  line.resize(600, 150);
+  line.setRecording(10.0, motion_of(0.2, 40.0), {stretch(1.0, 3.0), stretch(6.0, 9.0)});
+  QSignalSpy clicked(&line, &TimeLine::clicked);
+  QSignalSpy moved(&line, &TimeLine::edgesMoved);
+  const auto drag = [&](const QPoint& from, const QPoint& to) {
+    QTest::mousePress(&line, Qt::LeftButton, {}, from);
+    QTest::mouseMove(&line, (from + to) / 2);
+    QTest::mouseMove(&line, to);
+    QTest::mouseRelease(&line, Qt::LeftButton, {}, to);
+  };
+  const QRect second = line.stretchRect(1);
+  const int third = second.width() / 3;  // One second.
+  const QPoint edge(second.left(), second.center().y());
+  drag(edge, edge + QPoint(third, 20));
+  ASSERT_EQ(moved.size(), 1);
+  EXPECT_EQ(moved[0][0].toInt(), 1);
+  EXPECT_NEAR(moved[0][1].toDouble(), 7.0, 0.05);
+  EXPECT_EQ(moved[0][2].toDouble(), 9.0);
+  EXPECT_NEAR(line.stretchRect(1).left(), second.left() + third, 2);
+  // Not into the stretch before it, and not beyond its own end.
+  drag(QPoint(line.stretchRect(1).left(), edge.y()), QPoint(0, edge.y()));
+  EXPECT_EQ(moved.last()[1].toDouble(), 3.0);
+  drag(QPoint(line.stretchRect(1).left() + 3, edge.y()), QPoint(599, edge.y()));
+  EXPECT_NEAR(moved.last()[1].toDouble(), 8.9, 1e-9);
+  EXPECT_TRUE(clicked.isEmpty());
+  // A press without a move on an edge is a click on the stretch.
+  QTest::mouseClick(&line, Qt::LeftButton, {}, line.stretchRect(0).topLeft() + QPoint(1, 30));
+  ASSERT_EQ(clicked.size(), 1);
+  EXPECT_EQ(clicked[0][0].toInt(), 0);
+  EXPECT_EQ(moved.size(), 3);
+}
+
 TEST(TimeLine, TakenAndLeftStretchesLookDifferent) {
   TimeLine line;
   line.resize(600, 150);

@@ -66,11 +66,12 @@ TEST_F(RecordingWorkTest, WhatIsCancelledIsNotHandedOverAnyMore) {
 TEST_F(RecordingWorkTest, PicturesSayWhetherTheBoardIsSeen) {
   ASSERT_TRUE(look());
   QSignalSpy pictured(&work_, &RecordingWork::pictured);
-  work_.show_pictures(opened_->recording, *look_, test::small_walk().rig.target, std::nullopt);
+  work_.show_pictures(opened_->recording, *look_, {0, 1, 2}, test::small_walk().rig.target,
+                      std::nullopt);
   ASSERT_TRUE(QTest::qWaitFor([&] { return pictured.size() == 3; }, 60'000));
   EXPECT_FALSE(pictured[0][2].toBool()) << "without a camera nobody looks for the board";
   EXPECT_EQ(pictured[0][1].value<QImage>().width(), RecordingWork::kThumbnailPx);
-  work_.show_pictures(opened_->recording, *look_, test::small_walk().rig.target,
+  work_.show_pictures(opened_->recording, *look_, {0, 1, 2}, test::small_walk().rig.target,
                       look_->survey->camera);
   ASSERT_TRUE(QTest::qWaitFor([&] { return pictured.size() == 6; }, 60'000));
   EXPECT_TRUE(pictured[3][2].toBool());

@@ -52,6 +52,12 @@ TEST(Runner, ExceptionsBecomeMessages) {
   runner.start([](const RunContext&, const Post&) -> Deliver { throw 7; });
   ASSERT_TRUE(failed.wait(5000));
   EXPECT_FALSE(failed.last().at(1).toString().isEmpty());
+  // While the results are handed over as well.
+  runner.start([](const RunContext&, const Post&) -> Deliver {
+    return [] { throw std::runtime_error("broken delivery"); };
+  });
+  ASSERT_TRUE(failed.wait(5000));
+  EXPECT_EQ(failed.last().at(1).toString(), "broken delivery");
   EXPECT_FALSE(runner.running());
 }
 

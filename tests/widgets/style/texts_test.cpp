@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "style/core_patterns.h"
+#include "style/file_patterns.h"
 #include "style/import_patterns.h"
 #include "style/model_patterns.h"
 
@@ -81,6 +82,7 @@ TEST(CoreText, EveryPatternIsSomethingThatTheCoreSays) {
   std::vector<const char*> patterns(std::begin(kCorePatterns), std::end(kCorePatterns));
   patterns.insert(patterns.end(), std::begin(kModelPatterns), std::end(kModelPatterns));
   patterns.insert(patterns.end(), std::begin(kImportPatterns), std::end(kImportPatterns));
+  patterns.insert(patterns.end(), std::begin(kFilePatterns), std::end(kFilePatterns));
   for (const char* pattern : patterns) {
     QString longest;
     for (const QString& part : QString::fromUtf8(pattern).split(places)) {

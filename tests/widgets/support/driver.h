@@ -47,6 +47,7 @@ class Answers : public widgets::Choices {
  public:
   QString dataset, project, save_as, export_to, transform, moved_to;
   QString recording, target, camera, new_dataset, cloud, clouds, clouds_to, other_result;
+  QString files;
   QStringList scenes;
   widgets::UnsavedAnswer unsaved_answer = widgets::UnsavedAnswer::kDiscard;
   bool recover_answer = false;
@@ -59,6 +60,7 @@ class Answers : public widgets::Choices {
   QString file_to_export(QWidget*, const QString&, const QString&) override { return export_to; }
   QString transform_to_open(QWidget*, const QString&) override { return transform; }
   QString recording_to_open(QWidget*, const QString&) override { return recording; }
+  QString files_to_import(QWidget*, const QString&) override { return files; }
   QString target_to_open(QWidget*, const QString&) override { return target; }
   QString camera_to_open(QWidget*, const QString&) override { return camera; }
   QString dataset_to_make(QWidget*, const QString&) override { return new_dataset; }

@@ -129,6 +129,12 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   take("compare_dialog", QStringLiteral("compare"));
   test::trigger(window, "correct_clouds");
   take("correct_dialog", QStringLiteral("correct"));
+  test::trigger(window, "target_camera");
+  if (auto* forms = test::find<QDialog>(window, "target_camera_dialog")) {
+    camera.take(QStringLiteral("target-") + theme, forms);
+    test::find<QTabWidget>(*forms, "target_camera_tabs")->setCurrentIndex(1);
+  }
+  take("target_camera_dialog", QStringLiteral("camera"));
   test::trigger(window, "print_board");
   take("print_dialog", QStringLiteral("print"));
   test::trigger(window, "guide");

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recording/pair_import.h"
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "base/file_io.h"
+#include "base/image_header.h"
+#include "cloud/cloud.h"
+#include "cloud/kitti_points.h"
+#include "recording/import.h"
+#include "recording/messages.h"
+#include "recording/recording.h"
+#include "recording/unfinished_folder.h"
+
+namespace lvcalib {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostImageBytes = 256U << 20U;
+// As of a stretch: what a calibration takes in its stride, and 100 MB in memory.
+constexpr std::size_t kMostPoints = 5'000'000;
+
+std::string lower_extension(const fs::path& path) {
+  std::string out = path.extension().string();
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+// All clouds of a recording as one: it was made at rest, of one board pose. Fields that one sweep
+// lacks are dropped from all.
+Result<Cloud> cloud_of_recording(const fs::path& path, const RunContext& context) {
+  RunContext silent = context;
+  silent.progress = nullptr;
+  const auto recording = Recording::open(path, silent);
+  if (!recording) return recording.error();
+  const auto candidates = list_candidates(*recording);
+  if (candidates.clouds.empty())
+    return Error::input("holds no clouds", path.string(), "expected PointCloud2 or CustomMsg");
+  const std::size_t index = candidates.clouds.front();
+  const Topic& topic = recording->topics()[index];
+  Cloud out;
+  std::string complaint;
+  std::int64_t first_ns = 0;
+  const auto read = recording->read(
+      {index}, {}, silent, "scene", [&](const RecordedMessage& message) -> Result<bool> {
+        const auto sweep = decode_cloud(topic, message.data);
+        if (!sweep) {
+          if (complaint.empty()) complaint = sweep.error().message;
+          return true;
+        }
+        const bool first = out.points_m.empty();
+        if (first) first_ns = message.time_ns;
+        const auto later_s =
+            static_cast<float>(1e-9 * static_cast<double>(message.time_ns - first_ns));
+        std::vector<float> times = sweep->cloud.time_s;
+        for (float& time : times) time += later_s;
+        const auto keep = [&](auto& column, const auto& more) {
+          if (column.size() != out.points_m.size() || more.empty()) {
+            column.clear();
+          } else {
+            column.insert(column.end(), more.begin(), more.end());
+          }
+        };
+        keep(out.intensity, sweep->cloud.intensity);
+        keep(out.time_s, times);
+        keep(out.line, sweep->cloud.line);
+        out.points_m.insert(out.points_m.end(), sweep->cloud.points_m.begin(),
+                            sweep->cloud.points_m.end());
+        return out.points_m.size() < kMostPoints;
+      });
+  if (!read) return read.error();
+  if (out.points_m.empty()) {
+    return Error::input(
+        "none of its clouds can be read" + (complaint.empty() ? "" : ": " + complaint),
+        path.string());
+  }
+  return out;
+}
+
+Status copy_whole(const fs::path& from, const fs::path& to) {
+  std::error_code code;
+  fs::copy_file(from, to, code);
+  if (code) return Error::output("cannot be written: " + code.message(), to.string());
+  return Done{};
+}
+
+// A cloud as a file of the scene; the number of its points.
+Result<std::size_t> write_cloud(const fs::path& from, const fs::path& folder,
+                                const RunContext& context) {
+  const std::string extension = lower_extension(from);
+  const bool as_it_is = extension == ".pcd" || extension == ".ply";
+  const auto cloud = as_it_is              ? read_cloud(from, context.stop)
+                     : extension == ".bin" ? read_kitti_points(from, context.stop)
+                                           : cloud_of_recording(from, context);
+  if (!cloud) return cloud.error();
+  const Status written = as_it_is ? copy_whole(from, folder / ("cloud" + extension))
+                                  : write_pcd(folder / "cloud.pcd", *cloud);
+  if (!written) return written.error();
+  return cloud->size();
+}
+
+// Why the image cannot be used; empty: it can.
+std::string image_complaint(const fs::path& image, const std::optional<Camera>& camera) {
+  const auto bytes = read_text_file(image, kMostImageBytes);
+  if (!bytes) return bytes.error().message;
+  const auto header = read_image_header(*bytes);
+  if (!header) return header.error().message;
+  if (!camera || (header->width_px == camera->width_px && header->height_px == camera->height_px))
+    return {};
+  return "its image has " + std::to_string(header->width_px) + " × " +
+         std::to_string(header->height_px) + " px, the camera's have " +
+         std::to_string(camera->width_px) + " × " + std::to_string(camera->height_px);
+}
+
+// Writes the scene of a pair. A reason to leave it goes to `out`; an error ends the import.
+Status write_scene(const PairImportOptions& options, const std::optional<Camera>& camera,
+                   const fs::path& folder, const RunContext& context, ImportedPair& out) {
+  out.reason = image_complaint(out.files.image, camera);
+  if (!out.reason.empty()) return Done{};
+  if (Status s = create_folder(folder); !s) return s;
+  const fs::path image = folder / ("image" + lower_extension(out.files.image));
+  if (Status s = copy_whole(out.files.image, image); !s) return s;
+  if (camera && options.board_check) {
+    const std::string complaint = options.board_check(image, *camera);
+    if (context.stopped()) return Error::cancelled();
+    if (!complaint.empty())
+      out.board_complaint = "the board is not found in its image: " + complaint;
+    if (!complaint.empty() && options.board_is_certain) {
+      out.reason = out.board_complaint;
+      return Done{};
+    }
+  }
+  const auto points = write_cloud(out.files.cloud, folder, context);
+  if (!points) {
+    if (points.error().kind != ErrorKind::kInput) return points.error();
+    out.reason = points.error().message;
+    return Done{};
+  }
+  out.points = *points;
+  if (!out.files.board_points.empty()) {
+    // Nothing of the calibration rests on it unless it is asked for.
+    if (read_cloud(out.files.board_points, context.stop)) {
+      if (Status s = copy_whole(out.files.board_points, folder / "board.pcd"); !s) return s;
+    }
+  }
+  out.taken = true;
+  return Done{};
+}
+
+// Where some scenes show the guessed board it was guessed well, and the others do not show it.
+void judge_guessed_board(const fs::path& folder, PairImportSummary& out) {
+  const auto shows = [](const ImportedPair& p) { return p.taken && p.board_complaint.empty(); };
+  if (std::none_of(out.pairs.begin(), out.pairs.end(), shows)) {
+    out.warnings.push_back(
+        "no scene shows the default board, which target.yaml describes; put the description of "
+        "yours in its place, or import with --target");
+    return;
+  }
+  for (ImportedPair& pair : out.pairs) {
+    if (!pair.taken || pair.board_complaint.empty()) continue;
+    std::error_code code;
+    fs::remove_all(folder / "scenes" / pair.files.name, code);
+    pair.taken = false;
+    pair.reason = pair.board_complaint;
+  }
+}
+
+std::string import_json(const PairedFiles& files, const PairImportSummary& summary) {
+  nlohmann::ordered_json out;
+  out["layout"] = summary.layout;
+  out["camera_from"] = nullptr;
+  if (!files.camera_from.empty()) out["camera_from"] = files.camera_from;
+  out["pairs"] = nlohmann::ordered_json::array();
+  for (const ImportedPair& pair : summary.pairs) {
+    nlohmann::ordered_json entry;
+    entry["scene"] = pair.files.name;
+    entry["image"] = pair.files.image.string();
+    entry["cloud"] = pair.files.cloud.string();
+    entry["apart_s"] = nullptr;
+    if (pair.files.apart_s) entry["apart_s"] = *pair.files.apart_s;
+    entry["taken"] = pair.taken;
+    entry["reason"] = pair.reason;
+    entry["points"] = pair.points;
+    out["pairs"].push_back(entry);
+  }
+  out["unmatched"] = files.unmatched;
+  out["warnings"] = summary.warnings;
+  return out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::size_t PairImportSummary::scene_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return p.taken; }));
+}
+
+Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImportOptions& options,
+                                       const fs::path& dataset, const RunContext& context) {
+  auto folder = UnfinishedFolder::create(dataset, options.force);
+  if (!folder) return folder.error();
+  const std::optional<Camera> camera = options.camera ? options.camera : files.camera;
+  PairImportSummary out;
+  out.layout = files.layout;
+  out.has_camera = camera.has_value();
+  out.warnings = files.warnings;
+  if (!camera)
+    out.warnings.push_back(
+        "no intrinsics lie with the files; put a camera.yaml into the dataset before it is "
+        "calibrated");
+  for (std::size_t i = 0; i < files.pairs.size(); ++i) {
+    if (context.stopped()) return Error::cancelled();
+    context.report("write", static_cast<double>(i) / static_cast<double>(files.pairs.size()),
+                   "scene " + files.pairs[i].name);
+    ImportedPair pair;
+    pair.files = files.pairs[i];
+    const fs::path place = folder->path() / "scenes" / pair.files.name;
+    if (Status s = write_scene(options, camera, place, context, pair); !s) return s.error();
+    if (!pair.taken) {
+      std::error_code code;
+      fs::remove_all(place, code);
+    }
+    out.pairs.push_back(std::move(pair));
+  }
+  if (out.scene_count() == 0) {
+    const ImportedPair* first = out.pairs.empty() ? nullptr : &out.pairs.front();
+    return Error::input(
+        "none of its " + std::to_string(out.pairs.size()) + " pairs can be used" +
+            (first == nullptr ? "" : "; " + first->files.name + ": " + first->reason),
+        files.pairs.empty() ? "" : files.pairs.front().image.parent_path().string());
+  }
+  if (camera && options.board_check && !options.board_is_certain)
+    judge_guessed_board(folder->path(), out);
+  std::vector<std::pair<std::string, std::string>> texts = {
+      {"target.yaml", options.target_yaml}, {"import.json", import_json(files, out)}};
+  if (camera) texts.emplace_back("camera.yaml", to_yaml(*camera));
+  for (const auto& [name, text] : texts) {
+    if (Status s = write_file_atomically(folder->path() / name, text); !s) return s.error();
+  }
+  if (context.stopped()) return Error::cancelled();
+  if (Status s = folder->finish(); !s) return s.error();
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "recording/file_pairs.h"
+
+namespace lvcalib {
+
+struct PairImportOptions {
+  std::string target_yaml;       ///< Content of the dataset's target.yaml.
+  std::optional<Camera> camera;  ///< Instead of intrinsics that lie with the files.
+  /// Says why the board cannot be seen in an image; empty: it can. Not asked without intrinsics.
+  std::function<std::string(const std::filesystem::path& image, const Camera& camera)> board_check;
+  /// False if the board is a guess: pairs without it are left only if others show it.
+  bool board_is_certain = true;
+  bool force = false;  ///< Replace an earlier import.
+};
+
+/// One pair and what became of it.
+struct ImportedPair {
+  FilePair files;
+  bool taken = false;
+  std::string reason;  ///< In words, why it was left; empty if it was taken.
+  std::size_t points = 0;
+  std::string board_complaint;  ///< Why a scene that was taken does not show the guessed board.
+};
+
+struct PairImportSummary {
+  std::string layout;
+  bool has_camera = false;  ///< The dataset has a camera.yaml.
+  std::vector<ImportedPair> pairs;
+  std::vector<std::string> warnings;
+  [[nodiscard]] std::size_t scene_count() const;
+};
+
+/// Makes a dataset folder of pairs of files: one scene each, with the image as it is, the cloud as
+/// it is (KITTI's bin and recordings as PCD), target.yaml, camera.yaml if intrinsics are known, and
+/// import.json, which says what became of each. Pairs whose image or cloud cannot be read, or whose
+/// image is of another size than the camera's, are left with their reason. DATASET takes its name
+/// only when all of it is written.
+/// Errors: DATASET exists; no pair can be used (naming why); a stop.
+Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImportOptions& options,
+                                       const std::filesystem::path& dataset,
+                                       const RunContext& context);
+
+}  // namespace lvcalib

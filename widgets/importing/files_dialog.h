@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <optional>
+
+#include "dialogs/choices.h"
+#include "runner/files_work.h"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QProgressBar;
+class QPushButton;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace lvcalib::widgets {
+
+class BoardChoice;
+
+/// From folders of images and clouds to a dataset: which belong together, which become scenes.
+class FilesDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  /// `choices` must outlive this; `recent`: datasets whose boards are offered.
+  FilesDialog(Choices& choices, const QStringList& recent, QWidget* parent = nullptr);
+  ~FilesDialog() override;
+
+  /// Looks through a folder.
+  void open(const QString& folder);
+  [[nodiscard]] bool busy() const { return work_.busy(); }
+
+ Q_SIGNALS:
+  /// The dataset is complete and can be opened.
+  void imported(const QString& dataset, const lvcalib::PairImportSummary& summary);
+
+ private:
+  void build();
+  void connectParts();
+  void retranslate();
+  void fillCameras(bool keep);
+  void chooseCamera(int index);
+  void useCamera(const QString& path);
+  void look();
+  void takeFound(const PairedFiles& files);
+  void takeImported(const PairImportSummary& summary, const QString& dataset);
+  void showPictures();
+  void showPicture(int pair, const QImage& thumbnail, bool checked, const QString& complaint);
+  void showRow(QTreeWidgetItem* item);
+  void startImport();
+  void refresh();
+  void checkFolder();
+  [[nodiscard]] std::optional<Camera> camera() const;
+  [[nodiscard]] QString imagesFolder() const;
+  [[nodiscard]] QString datasetFolder() const;
+  [[nodiscard]] QString summaryText() const;
+
+  struct Seen {
+    bool checked = false;
+    QString complaint;
+  };
+  Choices& choices_;
+  std::optional<PairedFiles> files_;
+  std::vector<Seen> seen_;
+  std::optional<Error> error_;
+  std::optional<Camera> camera_;  // From a file.
+  QString camera_path_;
+  QString note_;  // Written, but not to be opened yet.
+  int last_camera_ = 0;
+
+  QLabel* labels_[7];
+  QLineEdit* images_;
+  QPushButton* browse_images_;
+  QLineEdit* clouds_;
+  QPushButton* browse_clouds_;
+  QComboBox* rule_;
+  QDoubleSpinBox* apart_;
+  QComboBox* cameras_;
+  BoardChoice* board_;
+  QLineEdit* dataset_;
+  QPushButton* browse_dataset_;
+  QCheckBox* replace_;
+  QLabel* layout_text_;
+  QListWidget* warnings_;
+  QTreeWidget* pairs_;
+  QLabel* problem_;
+  QProgressBar* progress_;
+  QLabel* progress_text_;
+  QPushButton* stop_;
+  QLabel* count_;
+  QPushButton* import_;
+  QPushButton* close_;
+  FilesWork work_;  // Last: stopped before what it tells goes.
+};
+
+}  // namespace lvcalib::widgets
