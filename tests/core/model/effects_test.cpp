@@ -213,7 +213,7 @@ std::vector<HandCase> edge_cases() {
       {"Bias", "boundary_bias", Hook::kEdge, {along_x(1.0)}},
       {"InkGain", "ink_gain", Hook::kEdge, {along_x(1.0)}},
       {"Divergence", "beam_divergence", Hook::kBlur, {{1, 0, 1}}},
-      {"Anisotropy", "footprint_anisotropy", Hook::kBlur, {{1, 0, 0}, {0, 0, 1}}},
+      {"Anisotropy", "footprint_anisotropy", Hook::kBlur, {{0.5, 0, -0.5}}},
       {"FootprintOffset", "footprint_offset", Hook::kSpot, {{0, 4, 0}, {0, 0, 4}}},
       {"Blooming", "blooming", Hook::kEdge, {along_x(-0.02)}},
       {"DetectorLag", "detector_lag", Hook::kEdge, {along_x(40.0)}},

@@ -71,6 +71,20 @@ TEST_F(Findings, PresentTellsValueUncertaintyAndWhatItDoes) {
   EXPECT_THAT(f.explanation, ::testing::AllOf(HasSubstr("± "), HasSubstr("mm"), HasSubstr("mrad")));
 }
 
+// The table's beam is round.
+TEST_F(Findings, WhatTheBaseModelMeasuresOfTheBeamIsTold) {
+  const auto all = judged(with_walk());
+  const EffectFinding divergence = finding_of(all, "beam_divergence");
+  EXPECT_EQ(divergence.verdict, EffectVerdict::kNotTestable);
+  ASSERT_EQ(divergence.parameters.size(), 1U);
+  const ParameterEstimate& width = divergence.parameters.front();
+  EXPECT_GT(width.sigma, 0.0);
+  EXPECT_NEAR(width.value, test::kTableBeam_rad * test::kTableBeam_rad, 4.0 * width.sigma);
+  const EffectFinding anisotropy = finding_of(all, "footprint_anisotropy");
+  ASSERT_EQ(anisotropy.parameters.size(), 1U);
+  EXPECT_NEAR(anisotropy.parameters.front().value, 0.0, 4.0 * anisotropy.parameters.front().sigma);
+}
+
 TEST_F(Findings, AliasedNamesTheOthersAndTheSceneThatTells) {
   const EffectFinding f =
       finding_of(judged(with_walk(), {"range_walk"}, {"range_near"}), "range_walk");
