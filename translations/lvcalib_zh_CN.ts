@@ -254,8 +254,8 @@ were saved. Take them up again?</source>
         <translation>标签不在标定板描述的位置上；若 %1 则相符</translation>
     </message>
     <message>
-        <source>more tags are in the image than the target has; all of them fit with %1</source>
-        <translation>图像中的标签多于标定板描述的；若 %1 则全部相符</translation>
+        <source>the image shows tags %1 of %2; the target has %3; all of them fit with %4</source>
+        <translation>图像中有 %2 的标签 %1，标定板描述的是 %3；若 %4 则全部相符</translation>
     </message>
     <message>
         <source>the scenes determine only %1 of 6 directions of the extrinsic</source>
@@ -1966,10 +1966,6 @@ were saved. Take them up again?</source>
         <translation>偏离标定板位姿，超出门限</translation>
     </message>
     <message>
-        <source>off the board&apos;s plane, or beside what stands before it</source>
-        <translation>偏离标定板平面，或紧邻其前方的遮挡物</translation>
-    </message>
-    <message>
         <source>%1: the image file is empty</source>
         <translation>%1：图像文件为空</translation>
     </message>
@@ -2664,6 +2660,14 @@ were saved. Take them up again?</source>
     <message>
         <source>move its edges so that both stay apart</source>
         <translation>请移动其边缘，使两者分开</translation>
+    </message>
+    <message>
+        <source>off the board&apos;s plane</source>
+        <translation>偏离标定板平面</translation>
+    </message>
+    <message>
+        <source>something stands before the board there or lies on it</source>
+        <translation>该处有东西挡在标定板前或贴在标定板上</translation>
     </message>
 </context>
 <context>
@@ -5931,6 +5935,12 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>Nothing: everything found is used.</source>
         <translation>无：找到的全部采用。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Scene %1, %n points at x %2 to %3 m, y %4 to %5 m on the board:</source>
+        <translation>
+            <numerusform>场景 %1，标定板上 x %2 至 %3 m、y %4 至 %5 m 处的 %n 个点：</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -182,9 +182,8 @@ std::optional<Error> other_count(const GrayImage& image, const Target& target, c
     return std::nullopt;
   const auto grid = other_grid(all, target, camera, options);
   if (!grid) return std::nullopt;
-  return Error::input(
-      "more tags are in the image than the target has; all of them fit with " + *grid, {},
-      "correct target.yaml, or use the right board");
+  return Error::input(tags_against_target(all, target) + "; all of them fit with " + *grid, {},
+                      "correct target.yaml, or use the right board");
 }
 
 // Where a quarter of the board should be in the image and shows no tag of the target's: with ids

@@ -57,6 +57,11 @@ std::string expected_ids(const Target& target) {
          std::to_string(target.first_tag_id + target.tag_count() - 1);
 }
 
+std::string ids_against_target(const std::set<int>& ids, const Target& target) {
+  return "the image shows tags " + listed(ids) + " of " + target.tag_family + "; the target has " +
+         expected_ids(target);
+}
+
 std::string checked_fields(const Target& target) {
   switch (target.type) {
     case TargetType::kCharuco:
@@ -124,6 +129,12 @@ std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
       std::count_if(ids.begin(), ids.end(), [&](int id) { return target.tag(id).has_value(); }));
 }
 
+std::string tags_against_target(const std::vector<BoardTag>& seen, const Target& target) {
+  std::set<int> ids;
+  for (const BoardTag& tag : seen) ids.insert(tag.id);
+  return ids_against_target(ids, target);
+}
+
 std::vector<BoardTag> all_tags_of_family(const GrayImage& image, const Target& target,
                                          const DetectionOptions& options,
                                          const RunContext& context) {
@@ -157,9 +168,7 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
   const bool foreign =
       std::any_of(same.begin(), same.end(), [&](int id) { return !target.tag(id).has_value(); });
   if (foreign) {
-    return Error::input("the image shows tags " + listed(same) + " of " + target.tag_family +
-                            "; the target has " + expected_ids(target),
-                        {}, checked_fields(target));
+    return Error::input(ids_against_target(same, target), {}, checked_fields(target));
   }
   if (found > 0) {
     return Error::input("only " + std::to_string(found) + " of the board's " +

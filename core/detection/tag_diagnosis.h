@@ -23,6 +23,9 @@ std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
 /// The image, or the print, is mirrored.
 Error explain_mirrored();
 
+/// "the image shows tags 8, 9 of tag36h11; the target has 0 to 3".
+std::string tags_against_target(const std::vector<BoardTag>& seen, const Target& target);
+
 /// Every tag of the target's family that the image shows without a wrong bit, also those that the
 /// target does not have. None where the search is stopped.
 std::vector<BoardTag> all_tags_of_family(const GrayImage& image, const Target& target,

@@ -78,7 +78,7 @@ inline constexpr const char* kCorePatterns[] = {
                       "px, now by %3 px)"),
     QT_TRANSLATE_NOOP("Core", "the tags do not lie where the target has them; they do with %1"),
     QT_TRANSLATE_NOOP("Core",
-                      "more tags are in the image than the target has; all of them fit with %1"),
+                      "the image shows tags %1 of %2; the target has %3; all of them fit with %4"),
     QT_TRANSLATE_NOOP("Core", "the scenes determine only %1 of 6 directions of the extrinsic"),
     QT_TRANSLATE_NOOP("Core",
                       "the scenes leave the extrinsic open: ± %1 mm and ± %2 mrad along the worst "

@@ -50,6 +50,7 @@ TEST(TagDiagnosis, NamesTheOtherIds) {
   const std::string text = complaint(picture(other), small_target());
   EXPECT_NE(text.find("100, 101, 102, 103"), std::string::npos) << text;
   EXPECT_NE(text.find("0 to 3"), std::string::npos) << text;
+  EXPECT_NE(text.find("firstTagId: 100"), std::string::npos) << text;
 }
 
 TEST(TagDiagnosis, NamesTheOtherFamily) {
