@@ -221,6 +221,7 @@ class Calibration {
       return Done{};
     }
     if (agreeing >= 2) return Done{};
+    if (const auto error = shared_files()) return *error;
     if (const auto error = diagnose_mirrored(dataset_, request_, result_, scenes, context_))
       return *error;
     return context_.stopped() ? Status(Error::cancelled()) : Status(Done{});
@@ -374,7 +375,20 @@ class Calibration {
                             "calibrate the camera again, or use --intrinsics free");
   }
 
+  // Files that stand in for others' contradict their scenes in ways that other faults would
+  // explain, too: what is known for sure comes first.
+  [[nodiscard]] std::optional<Error> shared_files() const {
+    for (const SceneResult& scene : result_.scenes) {
+      if (scene.shared_file.empty()) continue;
+      return Error::input("scene " + scene.name + " has " + scene.shared_file +
+                              ": one of the two is not the scene's own",
+                          result_.dataset, "give each scene its own image and cloud");
+    }
+    return std::nullopt;
+  }
+
   Status not_found() {
+    if (const auto error = shared_files()) return *error;
     if (const std::string spacing = better_spacing(result_); !spacing.empty())
       return wrong_target(spacing);
     if (const std::string what = contradicted_by_corners(result_); !what.empty())

@@ -209,9 +209,10 @@ std::string diagnose_unseen_tags(const CalibrationResult& result) {
   if (columns < target.tag_columns) fields += "tagCols: " + std::to_string(columns);
   if (rows < target.tag_rows)
     fields += (fields.empty() ? "" : ", ") + ("tagRows: " + std::to_string(rows));
-  return "no image shows the tags of the " +
-         std::string(columns < target.tag_columns ? "right columns" : "upper rows") +
-         " that target.yaml has: " + fields + " would fit";
+  if (columns < target.tag_columns)
+    return "no image shows the tags of the right columns that target.yaml has: " + fields +
+           " would fit";
+  return "no image shows the tags of the upper rows that target.yaml has: " + fields + " would fit";
 }
 
 SceneHypotheses hypotheses_of(const SceneResult& scene) {

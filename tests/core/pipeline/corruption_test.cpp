@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A dozen corruptions of a small rig: none may give a good result that is wrong, and where a
+// Forty corruptions of a small rig: none may give a good result that is wrong, and where a
 // right diagnosis exists it must be said.
 #include <algorithm>
 
@@ -23,16 +23,19 @@ simulation::SimulatedRig small_rig() {
   return std::move(*rig);
 }
 
-// Runs the kinds of these names.
-void run_kinds(const std::vector<std::string>& names) {
+// Runs the kinds whose names start with one of the words; how many those are.
+int run_kinds(const std::vector<std::string>& starts) {
   static const simulation::SimulatedRig rig = small_rig();
   const TemporaryFolder folder;
-  std::size_t runs = 0;
+  int runs = 0;
   for (const Corruption& corruption : corruptions()) {
-    if (std::find(names.begin(), names.end(), corruption.name) == names.end()) continue;
-    ++runs;
+    const bool wanted = std::any_of(starts.begin(), starts.end(), [&](const std::string& start) {
+      return corruption.name.starts_with(start);
+    });
+    if (!wanted) continue;
     const CorruptionOutcome out = run_corruption(rig, corruption, folder.path());
-    EXPECT_TRUE(out.applies) << corruption.name;
+    if (!out.applies) continue;
+    ++runs;
     EXPECT_NE(out.outcome, Outcome::kSilentlyWrong)
         << corruption.name << ": " << out.error_mm << " mm, " << out.error_mrad << " mrad, "
         << out.sigmas << " σ";
@@ -42,21 +45,31 @@ void run_kinds(const std::vector<std::string>& names) {
       EXPECT_EQ(out.outcome, Outcome::kRight) << out.said;
     }
   }
-  EXPECT_EQ(runs, names.size());
+  return runs;
 }
 
 TEST(Corruption, OfTheIntrinsicsIsNeverGood) {
-  run_kinds({"clean", "focal -1 %", "focal +5 %", "focal -20 %", "only fx +2 %",
-             "principal point +10 +0 px", "principal point +0 +20 px"});
+  EXPECT_GE(run_kinds({"clean", "focal -1 %", "focal +5 %", "focal -20 %", "only fx +2 %",
+                       "principal point +10", "principal point +0 +20"}),
+            7);
+}
+
+TEST(Corruption, OfTheCloudsIsNeverGood) {
+  EXPECT_GE(run_kinds({"cloud in", "cloud mirrored", "all clouds"}), 6);
+}
+
+TEST(Corruption, OfTheImagesIsNeverGood) {
+  EXPECT_GE(run_kinds({"images mirrored", "images upside down", "images turned", "images at",
+                       "images of two", "clouds of two", "all images"}),
+            8);
 }
 
 TEST(Corruption, OfTheBoardIsNeverGood) {
-  run_kinds({"ids from 4", "ids from 100", "ids from the top row"});
+  EXPECT_GE(run_kinds({"board ", "ids from 4", "ids from 100", "ids from the top row"}), 8);
 }
 
-TEST(Corruption, OfTheScenesIsNeverGood) {
-  run_kinds({"all clouds of the first scene", "all images of the first scene",
-             "rig bumped by 20 mm before the last scene"});
+TEST(Corruption, OfTheRigIsNeverGood) {
+  EXPECT_GE(run_kinds({"rig bumped by 20 mm", "rig.yaml"}), 3);
 }
 
 }  // namespace
