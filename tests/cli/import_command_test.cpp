@@ -87,6 +87,8 @@ TEST_F(ImportCommand, MakesADatasetOfImagesAndCloudsInFolders) {
 }
 
 TEST_F(ImportCommand, FoldersWhoseFilesDoNotBelongTogetherAreRefused) {
+  fs::create_directories(folder_.path() / "i");
+  fs::create_directories(folder_.path() / "c");
   write_file(folder_.path() / "i" / "front.png", "x");
   write_file(folder_.path() / "c" / "scan.pcd", "x");
   expect_refused(import(folder_.path() / "i", {"--clouds", folder_.path() / "c"}), 3,
