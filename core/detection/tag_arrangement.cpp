@@ -74,7 +74,7 @@ std::size_t fitting_as_is(const std::vector<BoardTag>& tags, const Target& targe
 std::pair<std::size_t, std::string> best_counting(const std::vector<BoardTag>& tags,
                                                   const Target& target, const Camera& camera,
                                                   const DetectionOptions& options) {
-  constexpr int kMostColumns = 16;
+  constexpr int kMostColumns = 16;  // No board that fits a sheet has more tags side by side.
   const auto [low, high] = std::minmax_element(
       tags.begin(), tags.end(), [](const BoardTag& a, const BoardTag& b) { return a.id < b.id; });
   std::pair<std::size_t, std::string> best{0, {}};
@@ -126,7 +126,7 @@ std::optional<std::string> other_grid(const std::vector<BoardTag>& tags, const T
       tags.size() < 4)
     return std::nullopt;
   const std::size_t given = fitting_as_is(tags, target, camera, options);
-  constexpr std::size_t kMore = 3;
+  constexpr std::size_t kMore = 3;  // One or two tags fit another grid by chance of their place.
   const auto better = [&](const std::pair<std::size_t, std::string>& found) {
     return !found.second.empty() && found.first >= given + kMore &&
            4 * found.first >= 3 * tags.size();

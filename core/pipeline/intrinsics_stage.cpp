@@ -295,6 +295,7 @@ std::string contradicted_by_corners(const CalibrationResult& result) {
 
 std::string better_spacing(const std::vector<CornerView>& views, const Target& target,
                            const Camera& given) {
+  // Twice the noise is four times its square: with dozens of corners no chance.
   constexpr double kNotNoise = 2.0;
   if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
       target.tag_count() < 2)

@@ -444,7 +444,7 @@ Target scaled(Target t, double s) {
 
 // Which scenes are out of use and why; equal reasons once.
 std::string unused_scenes(const CalibrationResult& result) {
-  constexpr std::size_t kMost = 6;
+  constexpr std::size_t kMost = 6;  // As many as a reader takes in at once.
   std::vector<std::pair<std::string, std::string>> by_reason;
   for (const SceneResult& scene : result.scenes) {
     if (scene.used || scene.reason.empty() || scene.reason == kRejectedByUser) continue;

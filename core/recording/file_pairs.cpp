@@ -24,7 +24,7 @@ namespace {
 
 using Paths = std::vector<fs::path>;
 
-constexpr std::size_t kMostNamed = 40;
+constexpr std::size_t kMostNamed = 40;  // Of files without a partner: a screen full.
 constexpr std::size_t kMostText = 16U << 20U;
 constexpr std::size_t kMostImage = 256U << 20U;
 

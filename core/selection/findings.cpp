@@ -432,6 +432,8 @@ ScenesTaken scenes_taken(const EffectSearch& search) {
 
 OpenQuestions open_questions(const EffectSearch& search,
                              const std::vector<EffectFinding>& findings) {
+  // Each is a search over all poses and a sentence: the largest are what the next outing can
+  // settle.
   constexpr std::size_t kMostPairs = 3;
   constexpr std::size_t kMostUnseen = 2;
   constexpr double kUnseenMove_mm = 1.0;
