@@ -9,19 +9,56 @@
 namespace lvcalib {
 namespace {
 
-// Columns of a scene's products that a subset uses.
-struct Indices {
-  int local = 0;
-  std::vector<int> global;  // extrinsic, then the subset
-  int residual = 0;
+// Which of a scene's own unknowns take part.
+enum class Locals {
+  kFixed,    // Pose and levels,
+  kPresent,  // and the random effects whose variance is not held absent: the others stay zero,
+  kAll,      // or all of them.
 };
 
-Indices indices_of(const SceneProducts& scene, const ColumnSubset& subset) {
-  Indices out;
-  out.local = scene.layout.size();
-  for (int k = 0; k < 6; ++k) out.global.push_back(out.local + k);
-  for (const int c : subset.columns) out.global.push_back(out.local + 6 + c);
-  out.residual = static_cast<int>(scene.products[0].cols()) - 1;
+// Columns of a scene's products that take part: the scene's own unknowns, the extrinsic, the
+// subset, the residual.
+struct Columns {
+  std::vector<int> joint;
+  Eigen::Index locals = 0;
+  Eigen::Index globals = 0;
+  // Where each group of random effects stands among the unknowns; no columns if it is left out.
+  std::array<std::pair<Eigen::Index, Eigen::Index>, kVarianceGroups> groups{};
+};
+
+Columns columns_of(const SceneProducts& scene, const ColumnSubset& subset,
+                   const ModelVariances& variances, Locals locals) {
+  Columns out;
+  for (int c = 0; c < LocalLayout::kFixed; ++c) out.joint.push_back(c);
+  for (std::size_t k = 0; k < kVarianceGroups && locals != Locals::kFixed; ++k) {
+    if (locals == Locals::kPresent && variances.group[k] <= kAbsentVariance[k]) continue;
+    const auto [first, count] = scene.layout.columns_of(static_cast<VarianceGroup>(k));
+    out.groups[k] = {static_cast<Eigen::Index>(out.joint.size()), count};
+    for (int c = first; c < first + count; ++c) out.joint.push_back(c);
+  }
+  out.locals = static_cast<Eigen::Index>(out.joint.size());
+  out.globals = static_cast<Eigen::Index>(6 + subset.columns.size());
+  const int extrinsic = scene.layout.size();
+  for (int k = 0; k < 6; ++k) out.joint.push_back(extrinsic + k);
+  for (const int c : subset.columns) out.joint.push_back(extrinsic + 6 + c);
+  out.joint.push_back(static_cast<int>(scene.products[0].cols()) - 1);
+  return out;
+}
+
+// Products of the columns that take part, per channel; empty where a channel has no rows.
+using JointProducts = std::array<Eigen::MatrixXd, kChannels>;
+JointProducts gather(const SceneProducts& scene, const Columns& at) {
+  JointProducts out;
+  const auto size = static_cast<Eigen::Index>(at.joint.size());
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    if (scene.rows[c] == 0) continue;
+    out[c].resize(size, size);
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const auto column = scene.products[c].col(at.joint[static_cast<std::size_t>(j)]);
+      for (Eigen::Index i = 0; i < size; ++i)
+        out[c](i, j) = column(at.joint[static_cast<std::size_t>(i)]);
+    }
+  }
   return out;
 }
 
@@ -35,54 +72,38 @@ struct Blocks {
   double squares = 0.0;
 };
 
-Blocks blocks_of(const SceneProducts& scene, const Indices& at,
-                 const std::array<double, kChannels>& channel) {
-  const auto g = static_cast<Eigen::Index>(at.global.size());
-  Blocks out;
-  out.local.setZero(at.local, at.local);
-  out.cross.setZero(at.local, g);
-  out.global.setZero(g, g);
-  out.local_gradient.setZero(at.local);
-  out.global_gradient.setZero(g);
+// With what is believed of the scene's own unknowns beforehand.
+Blocks blocks_of(const JointProducts& products, const Columns& at,
+                 const ModelVariances& variances) {
+  const auto size = static_cast<Eigen::Index>(at.joint.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (scene.rows[c] == 0) continue;
-    const double w = 1.0 / channel[c];
-    const Eigen::MatrixXd& m = scene.products[c];
-    out.local += w * m.topLeftCorner(at.local, at.local);
-    out.local_gradient += w * m.col(at.residual).head(at.local);
-    for (Eigen::Index j = 0; j < g; ++j) {
-      const int column = at.global[static_cast<std::size_t>(j)];
-      out.cross.col(j) += w * m.col(column).head(at.local);
-      out.global_gradient(j) += w * m(column, at.residual);
-      for (Eigen::Index i = 0; i < g; ++i)
-        out.global(i, j) += w * m(at.global[static_cast<std::size_t>(i)], column);
-    }
-    out.squares += w * m(at.residual, at.residual);
+    if (products[c].size() > 0) sum += 1.0 / variances.channel[c] * products[c];
   }
-  return out;
-}
-
-// The scene's own unknowns with what is believed of them beforehand.
-void add_priors(const LocalLayout& layout, const ModelVariances& variances, Blocks& b) {
   for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-    const auto [first, count] = layout.columns_of(static_cast<VarianceGroup>(k));
-    for (int c = first; c < first + count; ++c) b.local(c, c) += 1.0 / variances.group[k];
+    const auto [first, count] = at.groups[k];
+    sum.diagonal().segment(first, count).array() += 1.0 / variances.group[k];
   }
   // What this scene does not measure (levels without intensity) must not make it singular.
   for (int c = 0; c < LocalLayout::kFixed; ++c) {
-    if (b.local(c, c) <= 0.0) b.local(c, c) = 1.0;
+    if (sum(c, c) <= 0.0) sum(c, c) = 1.0;
   }
+  const Eigen::Index n = at.locals;
+  const Eigen::Index g = at.globals;
+  return {sum.topLeftCorner(n, n),   sum.block(0, n, n, g),           sum.block(n, n, g, g),
+          sum.col(size - 1).head(n), sum.col(size - 1).segment(n, g), sum(size - 1, size - 1)};
 }
 
-// A channel's products on the joint unknowns of a scene, times a vector or traced with a matrix.
-double squares_of(const Eigen::MatrixXd& m, const Indices& at, const Eigen::VectorXd& local,
+Blocks blocks_of(const SceneProducts& scene, const Columns& at, const ModelVariances& variances) {
+  return blocks_of(gather(scene, at), at, variances);
+}
+
+// A channel's squared residuals at given unknowns.
+double squares_of(const Eigen::MatrixXd& products, const Eigen::VectorXd& local,
                   const Eigen::VectorXd& global) {
-  Eigen::VectorXd full = Eigen::VectorXd::Zero(m.cols());
-  full.head(at.local) = local;
-  for (std::size_t k = 0; k < at.global.size(); ++k)
-    full(at.global[k]) = global(static_cast<Eigen::Index>(k));
-  full(at.residual) = -1.0;
-  return std::max(0.0, full.dot(m.selfadjointView<Eigen::Upper>() * full));
+  Eigen::VectorXd full(products.rows());
+  full << local, global, -1.0;
+  return std::max(0.0, full.dot(products * full));
 }
 
 class Fitter {
@@ -92,7 +113,10 @@ class Fitter {
       : linear_(linear), options_(options) {
     fit_.subset = subset;
     fit_.variances = start;
-    for (const SceneProducts& scene : linear.scenes) indices_.push_back(indices_of(scene, subset));
+    for (const SceneProducts& scene : linear.scenes) {
+      columns_.push_back(columns_of(scene, subset, start, Locals::kPresent));
+      products_.push_back(gather(scene, columns_.back()));
+    }
     const auto g = static_cast<Eigen::Index>(6 + subset.columns.size());
     fit_.prior.information.setZero(g, g);
     fit_.prior.gradient.setZero(g);
@@ -159,12 +183,11 @@ class Fitter {
 
   void eliminate(std::size_t s) {
     const SceneProducts& scene = linear_.scenes[s];
-    Blocks b = blocks_of(scene, indices_[s], fit_.variances.channel);
+    Blocks b = blocks_of(products_[s], columns_[s], fit_.variances);
     double log_prior = 0.0;
-    add_priors(scene.layout, fit_.variances, b);
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-      const int count = scene.layout.columns_of(static_cast<VarianceGroup>(k)).second;
-      log_prior -= 0.5 * count * std::log(fit_.variances.group[k]);
+      log_prior -= 0.5 * static_cast<double>(columns_[s].groups[k].second) *
+                   std::log(fit_.variances.group[k]);
     }
     Eigen::LLT<Eigen::MatrixXd> llt(b.local);
     SceneTerm term;
@@ -211,39 +234,38 @@ class Fitter {
   void collect(std::size_t s, std::array<double, kVarianceGroups>& squares,
                std::array<double, kVarianceGroups>& determined,
                std::array<double, kChannels>& residual, std::array<double, kChannels>& freedom) {
-    const SceneProducts& scene = linear_.scenes[s];
-    const Indices& at = indices_[s];
+    const Columns& at = columns_[s];
+    const Eigen::Index n = at.locals;
+    const Eigen::Index g = at.globals;
+    // Covariance of local and global unknowns together.
     const Eigen::MatrixXd x = factors_[s].solve(blocks_[s].cross);
-    const Eigen::MatrixXd cross = -x * fit_.covariance;  // local × global covariance
-    Eigen::MatrixXd local = factors_[s].solve(Eigen::MatrixXd::Identity(at.local, at.local));
-    local.noalias() -= cross * x.transpose();
+    Eigen::MatrixXd covariance(n + g, n + g);
+    covariance.topRightCorner(n, g).noalias() = -x * fit_.covariance;
+    covariance.bottomLeftCorner(g, n) = covariance.topRightCorner(n, g).transpose();
+    covariance.bottomRightCorner(g, g) = fit_.covariance;
+    covariance.topLeftCorner(n, n) = factors_[s].solve(Eigen::MatrixXd::Identity(n, n));
+    covariance.topLeftCorner(n, n).noalias() -= covariance.topRightCorner(n, g) * x.transpose();
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-      const auto [first, count] = scene.layout.columns_of(static_cast<VarianceGroup>(k));
+      const auto [first, count] = at.groups[k];
       if (count == 0) continue;
       squares[k] += fit_.local[s].segment(first, count).squaredNorm();
-      determined[k] +=
-          count - local.diagonal().segment(first, count).sum() / fit_.variances.group[k];
+      determined[k] += static_cast<double>(count) -
+                       covariance.diagonal().segment(first, count).sum() / fit_.variances.group[k];
     }
     for (std::size_t c = 0; c < kChannels; ++c) {
-      if (scene.rows[c] == 0) continue;
-      const Eigen::MatrixXd& m = scene.products[c];
-      residual[c] += squares_of(m, at, fit_.local[s], fit_.solution);
-      double used = local.cwiseProduct(m.topLeftCorner(at.local, at.local)).sum();
-      const auto g = static_cast<Eigen::Index>(at.global.size());
-      for (Eigen::Index j = 0; j < g; ++j) {
-        const int column = at.global[static_cast<std::size_t>(j)];
-        used += 2.0 * cross.col(j).dot(m.col(column).head(at.local));
-        for (Eigen::Index i = 0; i < g; ++i)
-          used += fit_.covariance(i, j) * m(at.global[static_cast<std::size_t>(i)], column);
-      }
-      freedom[c] += scene.rows[c] - used / fit_.variances.channel[c];
+      const Eigen::MatrixXd& m = products_[s][c];
+      if (m.size() == 0) continue;
+      residual[c] += squares_of(m, fit_.local[s], fit_.solution);
+      const double used = covariance.cwiseProduct(m.topLeftCorner(n + g, n + g)).sum();
+      freedom[c] += linear_.scenes[s].rows[c] - used / fit_.variances.channel[c];
     }
   }
 
   const Linearization& linear_;
   const MixedModelOptions& options_;
   ModelFit fit_;
-  std::vector<Indices> indices_;
+  std::vector<Columns> columns_;  // Per scene, as the next ones.
+  std::vector<JointProducts> products_;
   std::vector<Blocks> blocks_;
   std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
 };
@@ -282,8 +304,8 @@ double misfit(const Linearization& linear, const ColumnSubset& subset,
   for (std::size_t k = 0; k < subset.columns.size(); ++k)
     out += std::pow(subset.prior_mean[k] / subset.prior_sigma[k], 2);
   for (const SceneProducts& scene : linear.scenes) {
-    Blocks b = blocks_of(scene, indices_of(scene, subset), variances.channel);
-    add_priors(scene.layout, variances, b);
+    const Blocks b =
+        blocks_of(scene, columns_of(scene, subset, variances, Locals::kPresent), variances);
     const Eigen::Index random = b.local.rows() - LocalLayout::kFixed;
     const Eigen::VectorXd gradient = b.local_gradient.tail(random);
     out +=
@@ -294,8 +316,8 @@ double misfit(const Linearization& linear, const ColumnSubset& subset,
 
 SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
                      const ModelVariances& variances) {
-  Blocks b = blocks_of(products, indices_of(products, subset), variances.channel);
-  add_priors(products.layout, variances, b);
+  const Blocks b =
+      blocks_of(products, columns_of(products, subset, variances, Locals::kPresent), variances);
   SceneTerm out;
   const Eigen::LLT<Eigen::MatrixXd> llt(b.local);
   out.information = b.global - b.cross.transpose() * llt.solve(b.cross);
@@ -309,23 +331,23 @@ std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear
   std::array<double, kVarianceGroups> second{};
   for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
     const SceneProducts& scene = linear.scenes[s];
-    const Indices at = indices_of(scene, fit.subset);
-    Blocks b = blocks_of(scene, at, fit.variances.channel);
-    add_priors(scene.layout, fit.variances, b);
+    const Columns at = columns_of(scene, fit.subset, fit.variances, Locals::kAll);
+    const Blocks b = blocks_of(scene, at, fit.variances);
     const Eigen::LLT<Eigen::MatrixXd> llt(b.local);
     const Eigen::MatrixXd x = llt.solve(b.cross);
+    const Eigen::VectorXd local = llt.solve(b.local_gradient - b.cross * fit.solution);
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
       const double v = fit.variances.group[k];
-      const auto [first, count] = scene.layout.columns_of(static_cast<VarianceGroup>(k));
+      const auto [first, count] = at.groups[k];
       if (v > kAbsentVariance[k] || count == 0) continue;
       // What the rows tell of these: I − C/v, C their covariance.
       const Eigen::MatrixXd own =
-          llt.solve(Eigen::MatrixXd::Identity(at.local, at.local).middleCols(first, count))
+          llt.solve(Eigen::MatrixXd::Identity(at.locals, at.locals).middleCols(first, count))
               .middleRows(first, count);
       const Eigen::MatrixXd rows = x.middleRows(first, count);
       const Eigen::MatrixXd told = Eigen::MatrixXd::Identity(count, count) -
                                    (own + rows * fit.covariance * rows.transpose()) / v;
-      out[k].squares += fit.local[s].segment(first, count).squaredNorm();
+      out[k].squares += local.segment(first, count).squaredNorm();
       out[k].determined += told.trace();
       second[k] += told.squaredNorm();
     }
@@ -365,19 +387,13 @@ std::array<double, kChannels> squares_at(const Linearization& linear, std::size_
                                          const ColumnSubset& subset, const Eigen::VectorXd& globals,
                                          const ModelVariances& variances) {
   const SceneProducts& products = linear.scenes[scene];
-  const Indices at = indices_of(products, subset);
-  const Blocks b = blocks_of(products, at, variances.channel);
-  constexpr int kFixed = LocalLayout::kFixed;
-  Eigen::MatrixXd fixed = b.local.topLeftCorner<kFixed, kFixed>();
-  for (int c = 0; c < kFixed; ++c) {
-    if (fixed(c, c) <= 0.0) fixed(c, c) = 1.0;
-  }
-  Eigen::VectorXd local = Eigen::VectorXd::Zero(at.local);
-  local.head<kFixed>() =
-      fixed.llt().solve(b.local_gradient.head<kFixed>() - b.cross.topRows<kFixed>() * globals);
+  const Columns at = columns_of(products, subset, variances, Locals::kFixed);
+  const JointProducts joint = gather(products, at);
+  const Blocks b = blocks_of(joint, at, variances);
+  const Eigen::VectorXd local = b.local.llt().solve(b.local_gradient - b.cross * globals);
   std::array<double, kChannels> out{};
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (products.rows[c] > 0) out[c] = squares_of(products.products[c], at, local, globals);
+    if (joint[c].size() > 0) out[c] = squares_of(joint[c], local, globals);
   }
   return out;
 }

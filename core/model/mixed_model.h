@@ -49,8 +49,9 @@ struct ModelFit {
   std::vector<SceneTerm> scenes;
   SceneTerm prior;
   ModelVariances variances;
-  double log_likelihood = 0.0;         ///< Restricted (REML), up to a constant of the data.
-  std::vector<Eigen::VectorXd> local;  ///< Per scene: pose, levels, random effects.
+  double log_likelihood = 0.0;  ///< Restricted (REML), up to a constant of the data.
+  /// Per scene: pose, levels, and the random effects that are not held absent.
+  std::vector<Eigen::VectorXd> local;
   [[nodiscard]] Eigen::VectorXd parameters() const { return solution.tail(solution.size() - 6); }
   [[nodiscard]] Eigen::MatrixXd parameter_covariance() const {
     const Eigen::Index p = solution.size() - 6;
@@ -65,7 +66,8 @@ struct MixedModelOptions {
 
 /// Fits extrinsic, poses, levels, effect columns and random effects, and re-estimates all variances
 /// by restricted maximum likelihood (fixed-point updates σ² = uᵀu/γ with γ the number of effects
-/// that the data determine; MacKay 1992, equal to REML at the fixed point).
+/// that the data determine; MacKay 1992, equal to REML at the fixed point). Groups that start at
+/// kAbsentVariance stay out: held there they would move nothing but the time it takes.
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options);
 

@@ -148,19 +148,23 @@ class DiscProfile {
 };
 
 // Cubic Hermite weights at t in [0, 1]: of the values and slopes at 0 and 1; with derivatives.
+template <class Real>
 struct HermiteWeights {
-  double v0, s0, v1, s1;
+  Real v0, s0, v1, s1;
 };
-HermiteWeights hermite(double t) {
-  const double u = 1.0 - t;
-  return {(1.0 + 2.0 * t) * u * u, t * u * u, t * t * (3.0 - 2.0 * t), -t * t * u};
+template <class Real>
+HermiteWeights<Real> hermite(Real t) {
+  const Real u = 1 - t;
+  return {(1 + 2 * t) * u * u, t * u * u, t * t * (3 - 2 * t), -t * t * u};
 }
-HermiteWeights hermite_slope(double t) {
-  const double u = 1.0 - t;
-  return {-6.0 * t * u, u * (1.0 - 3.0 * t), 6.0 * t * u, t * (3.0 * t - 2.0)};
+template <class Real>
+HermiteWeights<Real> hermite_slope(Real t) {
+  const Real u = 1 - t;
+  return {-6 * t * u, u * (1 - 3 * t), 6 * t * u, t * (3 * t - 2)};
 }
-HermiteWeights hermite_curvature(double t) {
-  return {12.0 * t - 6.0, 6.0 * t - 4.0, 6.0 - 12.0 * t, 6.0 * t - 2.0};
+template <class Real>
+HermiteWeights<Real> hermite_curvature(Real t) {
+  return {12 * t - 6, 6 * t - 4, 6 - 12 * t, 6 * t - 2};
 }
 
 // Quadrature along the longer axis, in units of its excess width: exact to 5·10⁻⁴ of the contrast
@@ -245,7 +249,7 @@ struct LevelBlend {
   std::array<double, 2> value, heat, slope;  // `heat`: weight of ∇²A.
   LevelBlend(double v0, double v1, double v) {
     const double step = v1 - v0;
-    const HermiteWeights w = hermite((v - v0) / step);
+    const HermiteWeights<double> w = hermite((v - v0) / step);
     value = {w.v0, w.v1};
     heat = {0.5 * step * w.s0, 0.5 * step * w.s1};
     const double near = 1.0 / std::sqrt(v0);
@@ -357,55 +361,64 @@ struct BlurredPrint::Level {
     return static_cast<double>(sample(c, r)[0]);
   }
 
-  // Value, slopes and second derivatives, per step, summed over places with weights.
-  struct Sum {
-    double white = 0.0;
-    double x = 0.0, y = 0.0;
-    double xx = 0.0, xy = 0.0, yy = 0.0;
+  // Value, slopes and second derivatives, per step, summed over places with weights: each in four
+  // parts, of value and y slope on the rows below and above, which are added at the end.
+  class Sum {
+   public:
+    [[nodiscard]] double white() const { return outside_ + of(white_); }
+    [[nodiscard]] double x() const { return of(x_); }
+    [[nodiscard]] double y() const { return of(y_); }
+    [[nodiscard]] double xx() const { return of(xx_); }
+    [[nodiscard]] double xy() const { return of(xy_); }
+    [[nodiscard]] double yy() const { return of(yy_); }
+
+   private:
+    friend struct Level;
+    using Four = Eigen::Array4f;
+    static double of(const Four& four) { return static_cast<double>(four.sum()); }
+    double outside_ = 0.0;  // White beyond the samples.
+    Four white_ = Four::Zero(), x_ = Four::Zero(), y_ = Four::Zero();
+    Four xx_ = Four::Zero(), xy_ = Four::Zero(), yy_ = Four::Zero();
   };
 
-  // Adds weight × what is seen at a place. Hot: all six come from the three
-  // interpolations along x, each of value and y slope at once.
+  // Adds weight × what is seen at a place. Hot: four numbers of single precision at once, as the
+  // samples have; all six come from the three interpolations along x.
   void add(const Eigen::Vector2d& p, double weight, Sum& out) const {
     const double ax = (p.x() - origin.x()) * per_step;
     const double ay = (p.y() - origin.y()) * per_step;
     if (!(ax >= 0.0 && ay >= 0.0 && ax < columns - 1 && ay < rows - 1)) {
-      out.white += weight;
+      out.outside_ += weight;
       return;
     }
     const int c = static_cast<int>(ax);
     const int r = static_cast<int>(ay);
-    const double tx = ax - c;
-    const double ty = ay - r;
+    const auto tx = static_cast<float>(ax - c);
+    const auto ty = static_cast<float>(ay - r);
     const std::array<float, 4>* lower = &sample(c, r);
     const std::array<float, 4>* upper = lower + columns;
-    using Pair = Eigen::Array2d;
-    const auto pair = [](const std::array<float, 4>& s, std::size_t k) {
-      return Pair(static_cast<double>(s[k]), static_cast<double>(s[k + 1]));
+    using Four = Eigen::Array4f;
+    const auto four = [](const std::array<float, 4>& below, const std::array<float, 4>& above,
+                         std::size_t k) {
+      return Four(below[k], below[k + 1], above[k], above[k + 1]);
     };
-    const Pair a = pair(lower[0], 0), as = pair(lower[0], 2);
-    const Pair b = pair(lower[1], 0), bs = pair(lower[1], 2);
-    const Pair d = pair(upper[0], 0), ds = pair(upper[0], 2);
-    const Pair e = pair(upper[1], 0), es = pair(upper[1], 2);
-    struct Rows {
-      Pair lower, upper;  // Value and y slope on the rows below and above.
+    const Four a = four(lower[0], upper[0], 0), as = four(lower[0], upper[0], 2);
+    const Four b = four(lower[1], upper[1], 0), bs = four(lower[1], upper[1], 2);
+    const auto along = [&](const HermiteWeights<float>& w) -> Four {
+      return w.v0 * a + w.s0 * as + w.v1 * b + w.s1 * bs;
     };
-    const auto along = [&](const HermiteWeights& w) -> Rows {
-      return {w.v0 * a + w.s0 * as + w.v1 * b + w.s1 * bs,
-              w.v0 * d + w.s0 * ds + w.v1 * e + w.s1 * es};
+    const auto across = [weight](const HermiteWeights<float>& w) -> Four {
+      return static_cast<float>(weight) * Four(w.v0, w.s0, w.v1, w.s1);
     };
-    const auto across = [](const Rows& rows, const HermiteWeights& w) {
-      return (rows.lower * Pair(w.v0, w.s0) + rows.upper * Pair(w.v1, w.s1)).sum();
-    };
-    const Rows value = along(hermite(tx)), slope = along(hermite_slope(tx)),
+    const Four value = along(hermite(tx)), slope = along(hermite_slope(tx)),
                curvature = along(hermite_curvature(tx));
-    const HermiteWeights y = hermite(ty), dy = hermite_slope(ty);
-    out.white += weight * across(value, y);
-    out.x += weight * across(slope, y);
-    out.y += weight * across(value, dy);
-    out.xx += weight * across(curvature, y);
-    out.xy += weight * across(slope, dy);
-    out.yy += weight * across(value, hermite_curvature(ty));
+    const Four y = across(hermite(ty)), dy = across(hermite_slope(ty)),
+               ddy = across(hermite_curvature(ty));
+    out.white_ += value * y;
+    out.x_ += slope * y;
+    out.y_ += value * dy;
+    out.xx_ += curvature * y;
+    out.xy_ += slope * dy;
+    out.yy_ += value * ddy;
   }
 };
 
@@ -514,11 +527,13 @@ PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix
       source.add(board_m + q.at[j] * axis, q.weight[j], sum);
     }
     const double second = source.per_step * source.per_step;
-    out.white += blend.value[i] * sum.white + blend.heat[i] * second * (sum.xx + sum.yy);
-    out.gradient_per_m += blend.slope[i] * source.per_step * Eigen::Vector2d(sum.x, sum.y);
-    out.hessian_per_m2(0, 0) += blend.slope[i] * second * sum.xx;
-    out.hessian_per_m2(0, 1) += blend.slope[i] * second * sum.xy;
-    out.hessian_per_m2(1, 1) += blend.slope[i] * second * sum.yy;
+    const double xx = sum.xx();
+    const double yy = sum.yy();
+    out.white += blend.value[i] * sum.white() + blend.heat[i] * second * (xx + yy);
+    out.gradient_per_m += blend.slope[i] * source.per_step * Eigen::Vector2d(sum.x(), sum.y());
+    out.hessian_per_m2(0, 0) += blend.slope[i] * second * xx;
+    out.hessian_per_m2(0, 1) += blend.slope[i] * second * sum.xy();
+    out.hessian_per_m2(1, 1) += blend.slope[i] * second * yy;
   }
   out.hessian_per_m2(1, 0) = out.hessian_per_m2(0, 1);
   return out;
