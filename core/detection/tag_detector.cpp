@@ -195,7 +195,7 @@ std::size_t memory_needed(const image_u8_t& image, const Pass& pass, std::size_t
                              : max_hamming == 1 ? 1 + kBits
                                                 : 1 + kBits + kBits * (kBits - 1) / 2;
   constexpr double kFull = 4.0;  // Copies of the image at full size, a byte a pixel.
-  constexpr double kReduced = 140.0;
+  constexpr double kReduced = 12.0 + 4 * 16.0 * 2.0;  // Regions; edge points, their lists grown.
   constexpr std::size_t kOther = std::size_t{24} << 20U;
   return kOther + codes * errors * 3 * 16 +
          static_cast<std::size_t>(pixels * (kFull + kReduced / (pass.decimate * pass.decimate)));

@@ -240,6 +240,7 @@ std::vector<BoundarySample> collect_edge_samples(const ResponseInput& scene, con
 
 double overlap_half_width_m(const BoundarySample& sample, const Target& target,
                             const ResponseOptions& options) {
+  // Half a millimetre: far below the width of any transition that a LiDAR's beam leaves.
   constexpr double kStep = 5e-4;
   const NodeWindow window = node_window(target);
   const double width = static_cast<double>(sample.width_m);

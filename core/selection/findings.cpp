@@ -436,7 +436,6 @@ OpenQuestions open_questions(const EffectSearch& search,
   // settle.
   constexpr std::size_t kMostPairs = 3;
   constexpr std::size_t kMostUnseen = 2;
-  constexpr double kUnseenMove_mm = 1.0;
   // Where an effect stands in the linearisation: the candidate that predicts best.
   const auto place = [&](const std::string& id) -> std::optional<std::size_t> {
     for (const Candidate& c : search.candidates()) {
@@ -459,8 +458,7 @@ OpenQuestions open_questions(const EffectSearch& search,
   }
   for (const EffectFinding& f : findings) {
     const auto effect = place(f.id);
-    if (f.verdict == EffectVerdict::kNotTestable && !f.parameters.empty() &&
-        f.extrinsic_move_mm >= kUnseenMove_mm && effect)
+    if (f.verdict == EffectVerdict::kNotTestable && !f.parameters.empty() && f.matters && effect)
       out.unseen.push_back({*effect, f.extrinsic_move_mm, f.extrinsic_move_mrad});
   }
   std::stable_sort(out.unseen.begin(), out.unseen.end(),

@@ -231,9 +231,10 @@ class SceneRows {
       if (cloud.has_line()) r.beam.line = cloud.line[i];
       if (!velocities_.empty()) r.beam.scan_rad_s = velocities_[i];
       // What an edge grown by effects does to the spot is seen as by the print displaced.
-      const double beside = beside_edge(*p, beam);
+      const PrintView view = view_print(*p, levels_, beam);
+      const double beside = beside_edge(*p, view);
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
-                                                near_edge(*p, beam, beside), log_contrast(levels_));
+                                                near_edge(view, beside), log_contrast(levels_));
       r.ranged = r.moved = r.seen;
       auto ranged = p;
       if (!sum.range_shift_m.isZero())
@@ -261,8 +262,7 @@ class SceneRows {
   }
 
   // What edges beside the nearest add to the intensity that growing black takes, per metre.
-  [[nodiscard]] double beside_edge(const ReturnPrediction& p, const BeamSpread& beam) const {
-    const PrintView view = view_print(p, levels_, beam);
+  [[nodiscard]] double beside_edge(const ReturnPrediction& p, const PrintView& view) const {
     if (!(view.slope > 0.0)) return 0.0;
     const double contrast = levels_.white - levels_.black;
     const double light = p.intensity / (levels_.black + contrast * p.white);
@@ -271,11 +271,10 @@ class SceneRows {
   }
 
   // The edge that a spot sees, or of which plain print has a trace.
-  [[nodiscard]] std::optional<NearEdge> near_edge(const ReturnPrediction& p, const BeamSpread& beam,
-                                                  double beside_per_m) const {
+  [[nodiscard]] static std::optional<NearEdge> near_edge(const PrintView& view,
+                                                         double beside_per_m) {
     // More than one edge adds is more than one edge.
     constexpr double kMost = 2.0;
-    const PrintView view = view_print(p, levels_, beam);
     if (!(view.slope > 0.0)) return std::nullopt;
     return NearEdge{view.distance_m, view.psi_rad, view.width_m,
                     std::clamp(1.0 + beside_per_m / view.slope, 1.0 / kMost, kMost)};
@@ -291,7 +290,7 @@ class SceneRows {
     r.print = view.kind;
     if (view.kind != PrintView::Kind::kEdge) return;
     r.slope = view.slope;
-    r.beam.edge = near_edge(p, beam, beside_per_m);
+    r.beam.edge = near_edge(view, beside_per_m);
   }
 
   void measure_noise(const SceneNoise& fallback) {
