@@ -104,16 +104,16 @@ were saved. Take them up again?</source>
         <translation>比较对象</translation>
     </message>
     <message>
-        <source>Results and truths (*.json)</source>
-        <translation>结果和真值 (*.json)</translation>
-    </message>
-    <message>
         <source>Add scene folders (image and cloud each)</source>
         <translation>添加场景文件夹（各含图像与点云）</translation>
     </message>
     <message>
         <source>Open a folder of images and clouds</source>
         <translation>打开图像和点云的文件夹</translation>
+    </message>
+    <message>
+        <source>Results and truths (*.json *.yaml)</source>
+        <translation>结果与真值 (*.json *.yaml)</translation>
     </message>
 </context>
 <context>
@@ -3813,16 +3813,8 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
 <context>
     <name>lvcalib::widgets::CompareDialog</name>
     <message>
-        <source>Choose another result.json, or the truth of a simulation, to compare with.</source>
-        <translation>请选择另一个 result.json 或仿真的真值进行比较。</translation>
-    </message>
-    <message>
         <source>They differ by %1 mm and %2 mrad.</source>
         <translation>两者相差 %1 mm 和 %2 mrad。</translation>
-    </message>
-    <message>
-        <source>The other file states no uncertainty.</source>
-        <translation>另一个文件没有给出不确定度。</translation>
     </message>
     <message>
         <source>They contradict each other: the stated uncertainties explain such a difference in %1 % of all cases only.</source>
@@ -3847,14 +3839,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Difference</source>
         <translation>差异</translation>
-    </message>
-    <message>
-        <source>± this result</source>
-        <translation>± 本结果</translation>
-    </message>
-    <message>
-        <source>± the other</source>
-        <translation>± 另一结果</translation>
     </message>
     <message>
         <source>± of the difference</source>
@@ -3897,47 +3881,52 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>尚未选择</translation>
     </message>
     <message>
-        <source>&amp;Choose…</source>
-        <translation>选择(&amp;C)…</translation>
-    </message>
-    <message>
         <source>Close</source>
         <translation>关闭</translation>
     </message>
-</context>
-<context>
-    <name>lvcalib::widgets::CompareStepsDialog</name>
     <message>
-        <source>Compare steps</source>
-        <translation>比较步骤</translation>
+        <source>File %1</source>
+        <translation>文件 %1</translation>
     </message>
     <message>
-        <source>&amp;From</source>
-        <translation>从(&amp;F)</translation>
+        <source>Project %1</source>
+        <translation>项目 %1</translation>
     </message>
     <message>
-        <source>&amp;To</source>
-        <translation>到(&amp;T)</translation>
+        <source>This project</source>
+        <translation>本项目</translation>
     </message>
     <message>
-        <source>%1: %2</source>
-        <translation>%1：%2</translation>
+        <source>This project, step %1: %2</source>
+        <translation>本项目，第 %1 步：%2</translation>
     </message>
     <message>
-        <source>In the camera&apos;s axes</source>
-        <translation>沿相机坐标轴</translation>
+        <source>Being compared …</source>
+        <translation>正在比较…</translation>
     </message>
     <message>
-        <source>Difference</source>
-        <translation>差异</translation>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Choose another result, the truth of a simulation, or another project to compare with.</source>
+        <translation>请选择要与之比较的另一个结果、仿真真值或另一个项目。</translation>
+    </message>
+    <message>
+        <source>Both rest on the same scenes: chance moves both alike, and what differs is what was decided or the model. The ± of the difference would hold for results from data of their own.</source>
+        <translation>两者基于相同的场景：偶然误差对两者的影响相同，不同的是所作的决定或模型。差值的 ± 适用于各自使用独立数据的结果。</translation>
+    </message>
+    <message>
+        <source>One of them states no uncertainty.</source>
+        <translation>其中一个没有给出不确定度。</translation>
     </message>
     <message>
         <source>± from</source>
-        <translation>± 起</translation>
+        <translation>± 起始</translation>
     </message>
     <message>
         <source>± to</source>
-        <translation>± 止</translation>
+        <translation>± 目标</translation>
     </message>
     <message>
         <source>Scene</source>
@@ -3945,51 +3934,107 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     </message>
     <message>
         <source>px from</source>
-        <translation>px 起</translation>
+        <translation>px 起始</translation>
     </message>
     <message>
         <source>px to</source>
-        <translation>px 止</translation>
+        <translation>px 目标</translation>
     </message>
     <message>
         <source>mm from</source>
-        <translation>mm 起</translation>
+        <translation>mm 起始</translation>
     </message>
     <message>
         <source>mm to</source>
-        <translation>mm 止</translation>
+        <translation>mm 目标</translation>
     </message>
     <message>
-        <source>Being compared …</source>
-        <translation>正在比较……</translation>
+        <source>Moves, px</source>
+        <translation>移动 px</translation>
     </message>
     <message>
-        <source>The pose moves by %1 mm and %2 mrad. Both steps rest on the same measurements: what differs is the model.</source>
-        <translation>位姿移动 %1 mm 和 %2 mrad。两步基于相同的测量，不同之处在于模型。</translation>
+        <source>Root mean square of the corners&apos; residuals</source>
+        <translation>角点残差的均方根</translation>
     </message>
     <message>
-        <source>translation x, mm</source>
-        <translation>平移 x，mm</translation>
+        <source>Root mean square of the LiDAR&apos;s residuals</source>
+        <translation>激光雷达残差的均方根</translation>
     </message>
     <message>
-        <source>translation y, mm</source>
-        <translation>平移 y，mm</translation>
+        <source>How far the board of the scene moves in the picture, root mean square over it</source>
+        <translation>该场景的标定板在图像中移动多少（板面上的均方根）</translation>
     </message>
     <message>
-        <source>translation z, mm</source>
-        <translation>平移 z，mm</translation>
+        <source>Left out of one result, or of both</source>
+        <translation>未用于其中一个或两个结果</translation>
     </message>
     <message>
-        <source>rotation about x, mrad</source>
-        <translation>绕 x 旋转，mrad</translation>
+        <source>The image is being loaded …</source>
+        <translation>正在载入图像…</translation>
     </message>
     <message>
-        <source>rotation about y, mrad</source>
-        <translation>绕 y 旋转，mrad</translation>
+        <source>This scene is not in the project that is open.</source>
+        <translation>打开的项目中没有该场景。</translation>
     </message>
     <message>
-        <source>rotation about z, mrad</source>
-        <translation>绕 z 旋转，mrad</translation>
+        <source>There is no image: %1</source>
+        <translation>没有图像：%1</translation>
+    </message>
+    <message>
+        <source>from</source>
+        <translation>起始</translation>
+    </message>
+    <message>
+        <source>to</source>
+        <translation>目标</translation>
+    </message>
+    <message>
+        <source>&amp;From</source>
+        <translation>起始(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;To</source>
+        <translation>目标(&amp;T)</translation>
+    </message>
+    <message>
+        <source>&amp;Result file…</source>
+        <translation>结果文件(&amp;R)…</translation>
+    </message>
+    <message>
+        <source>A result.json or result.yaml, or the truth of a simulation</source>
+        <translation>result.json 或 result.yaml，或仿真真值</translation>
+    </message>
+    <message>
+        <source>&amp;Project…</source>
+        <translation>项目(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>Another project: it is calibrated for this</source>
+        <translation>另一个项目：为此对其进行标定</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>点</translation>
+    </message>
+    <message>
+        <source>The LiDAR&apos;s points on the board, as either projects them</source>
+        <translation>标定板上的激光雷达点，按两者各自的投影</translation>
+    </message>
+    <message>
+        <source>&amp;Arrows</source>
+        <translation>箭头(&amp;A)</translation>
+    </message>
+    <message>
+        <source>How much longer than they are the arrows are drawn, which lead from where the one projects the board to where the other does</source>
+        <translation>箭头放大的倍数；箭头由一方投影的标定板位置指向另一方投影的位置</translation>
+    </message>
+    <message>
+        <source>Enlargement of the arrows</source>
+        <translation>箭头的放大倍数</translation>
     </message>
 </context>
 <context>
@@ -5119,10 +5164,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <translation>比较(&amp;W)…</translation>
     </message>
     <message>
-        <source>The difference to another result, or to a simulation&apos;s truth</source>
-        <translation>与另一结果或仿真真值的差异</translation>
-    </message>
-    <message>
         <source>&amp;Print the board…</source>
         <translation>打印标定板(&amp;P)…</translation>
     </message>
@@ -5145,6 +5186,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>Make or edit target.yaml and camera.yaml</source>
         <translation>新建或编辑 target.yaml 和 camera.yaml</translation>
+    </message>
+    <message>
+        <source>The difference to another result, an earlier step, another project, or a truth</source>
+        <translation>与另一结果、较早步骤、另一项目或真值的差异</translation>
     </message>
 </context>
 <context>

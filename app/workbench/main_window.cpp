@@ -148,7 +148,7 @@ void MainWindow::connect_actions() {
                                                 : std::nullopt);
   });
   on(actions_->correct, [this] { results_->correct_clouds(final_result()); });
-  on(actions_->compare, [this] { results_->compare(final_result()); });
+  on(actions_->compare, [this] { compare(); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();

@@ -66,6 +66,7 @@ class MainWindow : public QMainWindow {
   void connect_results();
   void connect_model();
   void connect_import();
+  void compare();
   void import_recording(const QString& path);
   void import_files(const QString& folder);
   void take_imported(const QString& dataset, const ImportSummary& summary);

@@ -115,16 +115,16 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
         formats->findItems(QStringLiteral("kalibr"), Qt::MatchExactly).value(0));
   }
   take("results_dialog", QStringLiteral("exports"));
-  static test::Answers nobody;
   const QTemporaryDir folder;
   const auto result = window.workspace().result();
   CalibrationResult other = *result;
   other.extrinsic.camera_from_lidar.transform.translation.x() += 2e-4;
   const auto written = folder.filePath(QStringLiteral("rig-in-spring")).toStdString();
   if (write_results(other, written).ok()) {
-    auto* compare = new widgets::CompareDialog(result, nobody, folder.path(), &window);
-    compare->open(QString::fromStdString(written + "/result.json"));
-    compare->show();
+    test::trigger(window, "compare_results");
+    test::find<widgets::CompareDialog>(window, "compare_dialog")
+        ->add(widgets::ComparedResult::Kind::kFile,
+              QString::fromStdString(written + "/result.json"));
   }
   take("compare_dialog", QStringLiteral("compare"));
   test::trigger(window, "correct_clouds");
@@ -268,6 +268,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (quick) {
     photograph_pages(window, camera, QStringLiteral("light"));
     photograph_left_out(window, camera, QStringLiteral("light"));
+    photograph_dialogs(window, camera, QStringLiteral("light"));
     return 0;
   }
   for (const char* theme : {"light", "dark"}) {
