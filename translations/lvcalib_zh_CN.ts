@@ -2764,6 +2764,10 @@ were saved. Take them up again?</source>
         <source>Used all the same: %1.</source>
         <translation>仍然采用：%1。</translation>
     </message>
+    <message>
+        <source>Left out by the program: %1.</source>
+        <translation>程序未采用：%1。</translation>
+    </message>
 </context>
 <context>
     <name>ModelText</name>
@@ -4349,14 +4353,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>各场景精化后的激光节点与标定板模型之差的均方根 (mm)；没有圆时为平面高度之差</translation>
     </message>
     <message>
-        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
-        <translation>各场景角点残差的长度 (px)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
-    </message>
-    <message>
-        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
-        <translation>各场景节点残差的长度 (mm)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
-    </message>
-    <message>
         <source>How far the LiDAR&apos;s origin moves when the scene is left out (mm)</source>
         <translation>去掉该场景时激光雷达原点的移动量 (mm)</translation>
     </message>
@@ -4391,6 +4387,14 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>All scenes</source>
         <translation>全部场景</translation>
+    </message>
+    <message>
+        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out</source>
+        <translation>各场景角点残差的长度 (px)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用</translation>
+    </message>
+    <message>
+        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out</source>
+        <translation>各场景节点残差的长度 (mm)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用</translation>
     </message>
 </context>
 <context>
@@ -5862,6 +5866,22 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <source>%1: not usable</source>
         <translation>%1：不可用</translation>
     </message>
+    <message>
+        <source>left out by hand</source>
+        <translation>手动剔除</translation>
+    </message>
+    <message>
+        <source>%1: left out</source>
+        <translation>%1：未采用</translation>
+    </message>
+    <message>
+        <source>Left out: %1.</source>
+        <translation>未采用：%1。</translation>
+    </message>
+    <message>
+        <source>Use it all the same</source>
+        <translation>仍然采用</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResidualMapPlot</name>
@@ -6381,6 +6401,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>circles %1</source>
         <translation>圆 %1</translation>
+    </message>
+    <message>
+        <source>Drawn in red. A click on one says why, and offers to use it all the same where that is possible.</source>
+        <translation>以红色绘出。点击其中之一可查看原因，并在可能时仍然采用。</translation>
     </message>
 </context>
 <context>
@@ -6967,20 +6991,12 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
 <context>
     <name>lvcalib::widgets::ThresholdPane</name>
     <message>
-        <source>What tags and circles miss the board&apos;s pose by, in standard deviations. Those beyond the line are left out. Drag it (or use the arrow keys) to see what another place would do.</source>
-        <translation>标签和圆偏离标定板位姿的程度，以标准差计。超出竖线者不采用。拖动竖线（或用方向键）可查看换一个位置的效果。</translation>
-    </message>
-    <message>
         <source>a tag&apos;s worst corner (σ)</source>
         <translation>标签最差的角点 (σ)</translation>
     </message>
     <message>
         <source>a circle&apos;s centre (σ)</source>
         <translation>圆心 (σ)</translation>
-    </message>
-    <message>
-        <source>Red: left out at this place of the line</source>
-        <translation>红色：竖线在此处时不采用</translation>
     </message>
     <message>
         <source>Use this threshold</source>
@@ -7031,6 +7047,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 mrad.</source>
         <translation>外参将移动 %1 mm 和 %2 mrad；其不确定度为 %3 mm 和 %4 mrad。</translation>
+    </message>
+    <message>
+        <source>What tags and circles miss the board&apos;s pose by, in standard deviations. Red ones are left out. Drag the line (or use the arrow keys) to see what another place would do.</source>
+        <translation>标签和圆偏离标定板位姿的程度，以标准差计。红色的未采用。拖动该线（或用方向键）查看其他位置的效果。</translation>
+    </message>
+    <message>
+        <source>Red: left out at this place of the line. Before the solve has answered, what lies beyond the line; the solve may judge a few of them otherwise, since the board moves too.</source>
+        <translation>红色：线在此处时未采用。求解给出结果之前，指线以外的部分；由于标定板也会移动，求解可能对其中少数作出不同判断。</translation>
     </message>
 </context>
 <context>

@@ -108,6 +108,7 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     row.used = scene.used;
     row.can_be_insisted_on = lvcalib::can_be_insisted_on(scene);
     row.edited = edits_text(scene);
+    row.refused = refusals_text(result, scene.name);
     row.objection = QString::fromStdString(scene.objection);
     row.reason = QString::fromStdString(scene.reason);
     if (scene.view && result.target.has_tags()) row.tags = scene.view->tag_count;
@@ -296,8 +297,14 @@ QString SceneModel::tool_tip(const Row& row, int column) const {
       if (row.used || !row.rms_px) break;
       return tr("Left out: how it fits what the other scenes give.");
     case kState:
-      return row.edited.isEmpty() ? state_words(row)
-                                  : state_words(row) + QLatin1Char('\n') + row.edited;
+      return QStringList({state_words(row), row.edited, row.refused})
+          .join(QLatin1Char('\n'))
+          .trimmed();
+    case kTags:
+    case kPoints:
+      if (row.refused.isEmpty()) break;
+      return headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString() + QLatin1Char('\n') +
+             row.refused;
     case kNote:
       if (row.note.isEmpty()) break;
       return row.note;

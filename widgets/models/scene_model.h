@@ -91,6 +91,7 @@ class SceneModel : public QAbstractTableModel {
     bool can_be_insisted_on = false;
     QString reason;
     QString edited;     // What is left out by hand, in words.
+    QString refused;    // What the program refused of it, in words.
     QString objection;  // What speaks against a scene that the user insists on.
   };
   void fill_result(Row& row, const CalibrationResult& result) const;

@@ -24,19 +24,20 @@
 namespace lvcalib::widgets {
 namespace {
 
-std::vector<double> corner_distances_px(const SceneSolution& solution) {
-  std::vector<double> out;
-  for (const CornerResidual& r : solution.corners) {
-    if (r.used) out.push_back(r.residual_px.norm());
-  }
+// Lengths of residuals as a box, with those that are refused beside it.
+BoxPlot::Box corner_box(const QString& name, const SceneSolution* solution) {
+  BoxPlot::Box out{name, {}};
+  if (solution == nullptr) return out;
+  for (const CornerResidual& r : solution->corners)
+    (r.used ? out.values : out.refused).push_back(r.residual_px.norm());
   return out;
 }
 
-std::vector<double> node_distances_mm(const SceneSolution& solution) {
-  std::vector<double> out;
-  for (const NodeResidual& r : solution.nodes) {
-    if (r.used) out.push_back(1e3 * r.residual_m.norm());
-  }
+BoxPlot::Box node_box(const QString& name, const SceneSolution* solution) {
+  BoxPlot::Box out{name, {}};
+  if (solution == nullptr) return out;
+  for (const NodeResidual& r : solution->nodes)
+    (r.used ? out.values : out.refused).push_back(1e3 * r.residual_m.norm());
   return out;
 }
 
@@ -121,10 +122,10 @@ void ExtrinsicPage::retranslate() {
          "per scene (mm); without circles, of the plane's height"));
   boxes_px_->setToolTip(
       tr("Lengths of the corner residuals per scene (px): median, quartiles, "
-         "whiskers to 1.5 box lengths, circles beyond"));
+         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out"));
   boxes_mm_->setToolTip(
       tr("Lengths of the node residuals per scene (mm): median, quartiles, "
-         "whiskers to 1.5 box lengths, circles beyond"));
+         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out"));
   influence_mm_->setToolTip(tr("How far the LiDAR's origin moves when the scene is left out (mm)"));
   influence_mrad_->setToolTip(tr("How far the extrinsic turns when the scene is left out (mrad)"));
   setResult(result_);
@@ -190,10 +191,8 @@ void ExtrinsicPage::fillPlots() {
       const double nothing = std::numeric_limits<double>::quiet_NaN();
       px.push_back({name, solution != nullptr ? solution->rms_px : nothing, scene.used});
       mm.push_back({name, solution != nullptr ? solution->rms_mm : nothing, scene.used});
-      px_boxes.push_back(
-          {name, solution != nullptr ? corner_distances_px(*solution) : std::vector<double>()});
-      mm_boxes.push_back(
-          {name, solution != nullptr ? node_distances_mm(*solution) : std::vector<double>()});
+      px_boxes.push_back(corner_box(name, solution));
+      mm_boxes.push_back(node_box(name, solution));
     }
   }
   bars_px_->setBars(std::move(px));

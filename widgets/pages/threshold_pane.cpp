@@ -93,13 +93,15 @@ double ThresholdPane::presentGate() const {
 }
 
 void ThresholdPane::retranslate() {
-  intro_->setText(
-      tr("What tags and circles miss the board's pose by, in standard deviations. Those beyond the "
-         "line are left out. Drag it (or use the arrow keys) to see what another place would do."));
+  intro_->setText(tr(
+      "What tags and circles miss the board's pose by, in standard deviations. Red ones are left "
+      "out. Drag the line (or use the arrow keys) to see what another place would do."));
   tags_->setValueLabel(tr("a tag's worst corner (σ)"), QStringLiteral("worst_corner_sigmas"));
   circles_->setValueLabel(tr("a circle's centre (σ)"), QStringLiteral("circle_sigmas"));
   for (ThresholdPlot* plot : {tags_, circles_})
-    plot->setToolTip(tr("Red: left out at this place of the line"));
+    plot->setToolTip(tr(
+        "Red: left out at this place of the line. Before the solve has answered, what lies beyond "
+        "the line; the solve may judge a few of them otherwise, since the board moves too."));
   use_->setText(tr("Use this threshold"));
   back_->setText(tr("Back"));
   setResult(result_);
@@ -107,20 +109,31 @@ void ThresholdPane::retranslate() {
 
 void ThresholdPane::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
+  back();
+}
+
+// What a result misses the boards by, and which of it the result refuses.
+void ThresholdPane::showDistances(const CalibrationResult* result) {
   std::vector<double> tags;
   std::vector<double> circles;
-  if (result_) {
-    for (const GateDistance& d : gate_distances(*result_))
-      (d.what == Refusal::What::kTag ? tags : circles).push_back(d.sigmas);
+  std::vector<bool> refused_tags;
+  std::vector<bool> refused_circles;
+  if (result != nullptr) {
+    for (const GateDistance& d : gate_distances(*result)) {
+      const bool tag = d.what == Refusal::What::kTag;
+      (tag ? tags : circles).push_back(d.sigmas);
+      (tag ? refused_tags : refused_circles).push_back(!d.used);
+    }
   }
-  const QString none = result_ ? QString() : tr("Run the calibration first.");
-  tags_->setValues(std::move(tags), none);
-  circles_->setValues(std::move(circles), result_ ? tr("No circles are in use.") : none);
-  back();
+  const QString none = result != nullptr ? QString() : tr("Run the calibration first.");
+  tags_->setValues(std::move(tags), none, std::move(refused_tags));
+  circles_->setValues(std::move(circles), result != nullptr ? tr("No circles are in use.") : none,
+                      std::move(refused_circles));
 }
 
 void ThresholdPane::back() {
   moveLines(presentGate());
+  showDistances(result_.get());
   preview_->clear();
 }
 
@@ -176,6 +189,7 @@ void ThresholdPane::setPreview(const CalibrationResult& present, const Calibrati
               .arg(1e3 * std::sqrt(covariance.diagonal().head<3>().sum()), 0, 'f', 3)
               .arg(1e3 * std::sqrt(covariance.diagonal().tail<3>().sum()), 0, 'f', 3);
   preview_->setText(text);
+  if (preview.options.extrinsic.rejection_gate == tags_->threshold()) showDistances(&preview);
 }
 
 }  // namespace lvcalib::widgets

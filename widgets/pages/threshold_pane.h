@@ -41,6 +41,7 @@ class ThresholdPane : public QWidget {
  private:
   void retranslate();
   void moveLines(double gate);
+  void showDistances(const CalibrationResult* result);
   void back();
   [[nodiscard]] double presentGate() const;
 

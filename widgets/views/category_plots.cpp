@@ -101,10 +101,19 @@ void BoxPlot::rebuild() {
   plot->setMedianPen(QPen(colors().fit, 2.2));
   plot->setWhiskerPen(QPen(colors().axis));
   plot->setWhiskerBarPen(QPen(colors().axis));
-  plot->setOutlierStyle({QCPScatterStyle::ssCircle, QPen(colors().refused), Qt::NoBrush, 4});
+  // Red is for what is refused; an outlier is used.
+  plot->setOutlierStyle({QCPScatterStyle::ssCircle, QPen(colors().axis), Qt::NoBrush, 4});
+  QCPGraph* refused = addGraph();
+  refused->setLineStyle(QCPGraph::lsNone);
+  refused->setScatterStyle({QCPScatterStyle::ssCross, QPen(colors().refused, 1.6), Qt::NoBrush, 7});
   for (std::size_t k = 0; k < boxes_.size(); ++k) {
     names.push_back(boxes_[k].name);
-    for (const double v : boxes_[k].values) rows.push_back({boxes_[k].name, csv_number(v)});
+    for (const double v : boxes_[k].values) rows.push_back({boxes_[k].name, csv_number(v), "1"});
+    for (const double v : boxes_[k].refused) {
+      rows.push_back({boxes_[k].name, csv_number(v), "0"});
+      refused->addData(static_cast<double>(k + 1), v);
+      high = std::max(high, v);
+    }
     const BoxSummary box = box_summary(boxes_[k].values);
     if (box.count == 0) continue;
     const QVector<double> outliers(box.outliers.begin(), box.outliers.end());
@@ -115,7 +124,7 @@ void BoxPlot::rebuild() {
   }
   layoutColumns(names, low, high);
   if (rows.empty()) showMessage(message_.isEmpty() ? tr("no data") : message_);
-  setTable({"name", csvName()}, std::move(rows));
+  setTable({"name", csvName(), "used"}, std::move(rows));
   replot(rpQueuedReplot);
 }
 

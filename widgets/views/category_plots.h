@@ -62,6 +62,7 @@ class BoxPlot : public CategoryPlot {
   struct Box {
     QString name;
     std::vector<double> values;
+    std::vector<double> refused = {};  ///< Crosses beside the box, and no part of it.
   };
   using CategoryPlot::CategoryPlot;
   void setBoxes(std::vector<Box> boxes, const QString& message = {});

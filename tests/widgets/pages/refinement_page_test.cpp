@@ -2,6 +2,7 @@
 #include "pages/refinement_page.h"
 
 #include <QLabel>
+#include <QSignalSpy>
 #include <QSlider>
 #include <QTableWidget>
 #include <QTest>
@@ -68,6 +69,33 @@ TEST_F(RefinementPageTest, AClickEnlargesANodeAndListsItsBins) {
     EXPECT_EQ(bins()->item(row, 3)->text().toInt(), bin.samples);
   }
   EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("bins used"));
+}
+
+TEST_F(RefinementPageTest, CirclesThatTheSolveRefusedAreStruckThroughAndCanBeUsed) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  NodeResidual& node = changed->extrinsic.scenes[0].nodes[4];
+  node.used = false;
+  node.residual_m = Eigen::Vector3d(0.008, 0.0, 0.0);
+  changed->scenes[0].edits.circles = {7};
+  page_.setResult(changed);
+  page_.setScene(0);
+  for (int id = 0; id < 9; ++id) EXPECT_EQ(plot(id)->isRefused(), id == node.id || id == 7) << id;
+  page_.chooseNode(node.id);
+  auto* verdict = page_.findChild<QLabel*>("node-verdict");
+  EXPECT_TRUE(verdict->text().contains("Left out: misses the board's pose by 8.0 mm") ||
+              verdict->text().contains("Left out: misses the board&#39;s pose by 8.0 mm"))
+      << verdict->text().toStdString();
+  QSignalSpy wanted(&page_, &RefinementPage::keepWanted);
+  Q_EMIT verdict->linkActivated("keep");
+  ASSERT_EQ(wanted.count(), 1);
+  EXPECT_EQ(wanted[0][0].toString(), "A");
+  EXPECT_FALSE(wanted[0][1].toBool());
+  EXPECT_EQ(wanted[0][2].toInt(), node.id);
+  page_.chooseNode(7);
+  EXPECT_TRUE(verdict->text().contains("left out by hand"));
+  EXPECT_FALSE(verdict->text().contains("href"));
+  load();
+  EXPECT_FALSE(plot(node.id)->isRefused());
 }
 
 TEST_F(RefinementPageTest, RefusedBinsTellWhy) {

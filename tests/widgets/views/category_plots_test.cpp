@@ -49,6 +49,19 @@ TEST(BoxPlot, BoxesFromValues) {
   EXPECT_EQ(test::rows_of(plot.csv()).size(), 6);
 }
 
+TEST(BoxPlot, WhatIsRefusedStandsBesideTheBoxInRed) {
+  BoxPlot plot;
+  plot.setValueLabel("residual (mm)", "residual_mm");
+  plot.resize(400, 300);
+  plot.setBoxes({{"A", {1, 2, 3, 4, 5, 40}}});
+  EXPECT_FALSE(test::shows(plot, plot.colors().refused)) << "an outlier is used";
+  plot.setBoxes({{"A", {1, 2, 3, 4, 5}, {60.0}}});
+  EXPECT_TRUE(test::shows(plot, plot.colors().refused));
+  EXPECT_GE(plot.yAxis->range().upper, 60.0);
+  EXPECT_TRUE(plot.csv().contains("A,60,0"));
+  EXPECT_TRUE(plot.csv().contains("A,5,1"));
+}
+
 TEST(BoxPlot, EmptySaysWhy) {
   BoxPlot plot;
   plot.resize(300, 200);
