@@ -4313,14 +4313,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>位姿与质量</translation>
     </message>
     <message>
-        <source>Residuals and influence</source>
-        <translation>残差与影响</translation>
-    </message>
-    <message>
-        <source>Coloured cloud</source>
-        <translation>相机着色的点云</translation>
-    </message>
-    <message>
         <source>corner RMS (px)</source>
         <translation>角点 RMS (px)</translation>
     </message>
@@ -4395,6 +4387,42 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out</source>
         <translation>各场景节点残差的长度 (mm)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>着色</translation>
+    </message>
+    <message>
+        <source>Residuals and influence of every scene</source>
+        <translation>每个场景的残差与影响</translation>
+    </message>
+    <message>
+        <source>The cloud in the camera&apos;s colours</source>
+        <translation>以相机颜色着色的点云</translation>
+    </message>
+    <message>
+        <source>Leave these scenes out</source>
+        <translation>剔除这些场景</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>返回</translation>
+    </message>
+    <message>
+        <source>Drag the dashed line down over the bars to see what the extrinsic would be without the scenes above it.</source>
+        <translation>将虚线向下拖过柱形，可查看去掉线以上的场景后外参会怎样。</translation>
+    </message>
+    <message>
+        <source>Solving without %1 …</source>
+        <translation>正在求解（不含 %1）…</translation>
+    </message>
+    <message>
+        <source>Without %1:</source>
+        <translation>不含 %1：</translation>
     </message>
 </context>
 <context>
@@ -4650,22 +4678,6 @@ Cloud and image of the scene that is selected in the list, with what was found i
 </translation>
     </message>
     <message>
-        <source># Refinement
-How each circle&apos;s centre was found, bin by bin: marks where the intensity crosses its middle level, and the fitted wave. A centred circle has a flat line at zero. A click enlarges a circle and says why bins were refused.
-</source>
-        <translation># 精化
-各圆心如何逐个角度区间求得：标记为强度越过中间水平之处，曲线为拟合的波。居中的圆在零处为一条平线。单击可放大一个圆，并说明为何拒绝某些区间。
-</translation>
-    </message>
-    <message>
-        <source># Extrinsic
-The pose, its standard deviations and the verdict. *Residuals and influence* has a column for each scene; *Methods* solves the same scenes in other ways; *Thresholds* shows what tags and circles miss the board&apos;s pose by, with the gate as a line to drag: what would be refused and where the extrinsic would go is told before it is decided. *All scenes* shows every board about the rig.
-</source>
-        <translation># 外参
-位姿、其标准差与结论。“残差与影响”中每个场景一列；“方法”用其他方法求解同样的场景；“阈值”显示标签和圆偏离标定板位姿的程度，门限是一条可拖动的竖线：决定之前即可看到哪些会被拒绝、外参会移到哪里。“全部场景”显示传感器周围的所有标定板。
-</translation>
-    </message>
-    <message>
         <source># Boundary response
 How returns scatter at the circles&apos; edges: the transition of the intensity, pitch and yaw with their ellipse, and ranges off the plane. The table has the numbers for all scenes and each one. *Left out* lists what the program refused, with its reasons.
 </source>
@@ -4674,19 +4686,47 @@ How returns scatter at the circles&apos; edges: the transition of the intensity,
 </translation>
     </message>
     <message>
-        <source># Model
-What the model misses, and what it does to the pose. Bars on top: the error beyond the noise after each step, red where it is unexplained. On the right, what is missing, with the evidence; *Add* takes it into the model, *Find all* goes on until nothing is missing. *Compare steps…* tells how far the pose moved. Where the truth of a simulation is known, the distance to it stands beside the bars.
-</source>
-        <translation># 模型
-模型缺少什么，对位姿有何影响。上方的柱：每一步之后超出噪声的误差，未解释的部分为红色。右侧是缺少的内容及其证据；“添加”将其纳入模型，“全部查找”一直进行到不再缺少为止。“比较步骤…”给出位姿移动了多少。若已知仿真的真值，与真值的距离显示在柱旁。
-</translation>
-    </message>
-    <message>
         <source># Keys
 F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks, Alt+Up and Alt+Down move them in the list, F1 opens this guide at the page in view.
 </source>
         <translation># 快捷键
 F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页面，Ctrl+J 拒绝、Ctrl+U 接受所选场景，空格键勾选或取消勾选，Alt+上、Alt+下 在列表中移动场景，F1 在当前页面对应的章节打开本指南。
+</translation>
+    </message>
+    <message>
+        <source># Model
+Compare, locate, learn, add, watch: what the model misses, and what that does to the pose.
+
+- **Bars on top**: the error beyond the noise after each step, red where it is unexplained, green where an effect took it away, grey where chance alone may leave it. A click goes to a step; *Compare steps…* sets two of them side by side. Where the truth of a simulation is known, the distance to it stands beside the bars.
+- **Where it fails**, in the middle: residuals of a channel against whatever they may depend on, as a scatter with binned means or as maps over the image, the board and the directions. *Before* draws what was there before the last step. *Brush* selects measurements, which are then marked on the Scene page.
+- **What is missing**, on the right: effects with the evidence of the scenes held out. *Add* takes one into the model, *Find all* goes on until nothing is missing. *Cannot be seen* lists effects that these scenes would not show, and how far they could still move the pose.
+- **The model**, on the left: its effects with their values. Untick one to take it out, hold a value to fix it, *Add…* enters an effect as a formula or a curve. *What if* draws an effect over the residuals before it is in the model.
+- &quot;One of several&quot; means that these scenes cannot tell effects apart; the text names the scene that would.
+</source>
+        <translation># 模型
+比较、定位、了解、添加、观察：模型缺少什么，以及这对位姿有何影响。
+
+- **上方的柱形**：每一步之后超出噪声的误差；红色为未解释的部分，绿色为已由效应解释的部分，灰色为仅由偶然误差就可能留下的部分。单击可转到某一步；“比较步骤…” 将两步并列。若仿真真值已知，与真值的距离显示在柱形旁边。
+- **失效之处**（中间）：某一通道的残差与其可能依赖的量的关系，以散点和分箱均值，或以图像、标定板和方向上的分布图表示。“之前” 绘出上一步之前的情况。“刷选” 选择测量值，它们随后在“场景”页中标出。
+- **缺失的内容**（右侧）：各效应及留出场景给出的证据。“添加” 将其加入模型，“全部查找” 持续到不再缺失为止。“看不到的” 列出这些场景无法显示的效应，以及它们还能使位姿移动多少。
+- **模型**（左侧）：其效应及数值。取消勾选即移除，固定数值即不再拟合，“添加…” 以公式或曲线输入效应。“假如” 在效应加入模型之前将其绘在残差上。
+- “若干之一”表示这些场景无法区分几个效应；文字会指出能够区分的场景。
+</translation>
+    </message>
+    <message>
+        <source># Refinement
+How each circle&apos;s centre was found, bin by bin: marks where the intensity crosses its middle level, and the fitted wave. A centred circle has a flat line at zero. A click enlarges a circle and says why bins were refused. Circles that the solve left out are struck through.
+</source>
+        <translation># 精化
+每个圆的圆心是如何逐个角度区间找到的：强度穿过中间水平处的标记，以及拟合的波形。居中的圆在零处为一条平线。单击可放大某个圆并说明区间被拒绝的原因。求解未采用的圆被划掉。
+</translation>
+    </message>
+    <message>
+        <source># Extrinsic
+The pose, its standard deviations and the verdict. *Residuals* has a column for each scene; red crosses are left out. Drag the dashed line down over the bars to see what the extrinsic would be without the scenes above it. *Methods* solves the same scenes in other ways; *Thresholds* shows what tags and circles miss the board&apos;s pose by, with the gate as a line to drag: what would be refused and where the extrinsic would go is told before it is decided. *All scenes* shows every board about the rig.
+</source>
+        <translation># 外参
+位姿、其标准差和结论。“残差” 中每个场景占一列；红叉为未采用的部分。将虚线向下拖过柱形，可查看去掉线以上的场景后外参会怎样。“方法” 以其他方式求解相同的场景；“阈值” 显示标签和圆偏离标定板位姿的程度，门限是一条可拖动的线：在作出决定之前即说明会拒绝什么、外参会移到哪里。“全部场景” 显示设备周围的所有标定板。
 </translation>
     </message>
 </context>
@@ -5498,6 +5538,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <source>Upper 95 % limit of its largest parameter; beyond it these scenes would show it</source>
         <translation>其最大参数的 95 % 上限；超过它这些场景就会显示出来</translation>
     </message>
+    <message>
+        <source>Missing</source>
+        <translation>遗漏</translation>
+    </message>
+    <message>
+        <source>Cannot be seen</source>
+        <translation>看不到的</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ModelPage</name>
@@ -5795,10 +5843,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <translation>所选节点的每个角度区间：强度穿过中间值的位置（到圆的距离，mm）、其标准差以及被拒绝的原因</translation>
     </message>
     <message>
-        <source>Replay the iterations from the first</source>
-        <translation>从第一次迭代开始回放</translation>
-    </message>
-    <message>
         <source>Replay</source>
         <translation>回放</translation>
     </message>
@@ -5881,6 +5925,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>Use it all the same</source>
         <translation>仍然采用</translation>
+    </message>
+    <message>
+        <source>Replay the iterations from the first (P)</source>
+        <translation>从第一次开始重放迭代 (P)</translation>
     </message>
 </context>
 <context>

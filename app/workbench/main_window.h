@@ -109,6 +109,7 @@ class MainWindow : public QMainWindow {
   DemoTour* tour_ = nullptr;
   QPointer<ImportDialog> import_;
   QPointer<FilesDialog> files_;
+  bool scenes_preview_ = false;   // The last look ahead was at scenes left out.
   bool demo_opening_ = false;     // What opens next is the demo.
   bool run_when_opened_ = false;  // What opens next is to be calibrated at once.
 };

@@ -138,6 +138,13 @@ void SceneModel::set_thumbnail(const QString& scene, const QImage& image) {
   if (row >= 0) Q_EMIT dataChanged(index(row, kName), index(row, kName), {Qt::DecorationRole});
 }
 
+void SceneModel::set_thumbnail_width(int width_px) {
+  if (width_px == thumbnail_width_) return;
+  thumbnail_width_ = width_px;
+  if (!rows_.empty())
+    Q_EMIT dataChanged(index(0, kName), index(rowCount() - 1, kName), {Qt::DecorationRole});
+}
+
 void SceneModel::set_problem(const QString& scene, const QString& problem) {
   if (problems_.value(scene) == problem) return;
   if (problem.isEmpty()) {
@@ -199,7 +206,11 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
         return mark_icon(mark_of(row), QGuiApplication::palette())
             .pixmap(QSize(16, 16), qApp->devicePixelRatio());
       }
-      if (index.column() == kName) return thumbnails_.value(row.name);
+      if (index.column() == kName && thumbnail_width_ > 0) {
+        const QPixmap picture = thumbnails_.value(row.name);
+        if (picture.width() <= thumbnail_width_) return picture;
+        return picture.scaledToWidth(thumbnail_width_, Qt::SmoothTransformation);
+      }
       return {};
     case Qt::ForegroundRole:
       if (index.column() == kState && mark_of(row) == Mark::kBad)

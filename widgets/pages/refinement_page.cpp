@@ -4,6 +4,7 @@
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QShortcut>
 #include <QSlider>
 #include <QSplitter>
 #include <QTableWidget>
@@ -61,7 +62,7 @@ void RefinementPage::retranslate() {
   bins_->setToolTip(
       tr("Every angular bin of the chosen node: where the intensity crosses its middle "
          "level (mm from the circle), its standard deviation, and why it was refused"));
-  play_->setToolTip(tr("Replay the iterations from the first"));
+  play_->setToolTip(tr("Replay the iterations from the first (P)"));
   play_->setAccessibleName(tr("Replay"));
   slider_->setToolTip(tr("Iteration shown"));
   slider_->setAccessibleName(tr("Iteration"));
@@ -129,7 +130,10 @@ QWidget* RefinementPage::createReplay() {
   play_ = new QToolButton(bar);
   play_->setObjectName("play");
   play_->setText(QString(QChar(0x25B6)));  // Takes the palette's colour, unlike the style's icon.
-  play_->setShortcut(QKeySequence(Qt::Key_P));
+  // The key is the page's: in a list elsewhere the same letter chooses an entry.
+  auto* key = new QShortcut(QKeySequence(Qt::Key_P), this);
+  key->setContext(Qt::WidgetWithChildrenShortcut);
+  connect(key, &QShortcut::activated, play_, &QToolButton::click);
   slider_ = new QSlider(Qt::Horizontal, bar);
   slider_->setObjectName("iteration");
   slider_->setPageStep(1);

@@ -151,6 +151,18 @@ void ThresholdPane::setError(const Error& error) {
   preview_->setText(core_text(error));
 }
 
+QString ThresholdPane::moveText(const CalibrationResult& present,
+                                const CalibrationResult& preview) {
+  const ExtrinsicDifference d = difference_of(stated(present), stated(preview));
+  const Matrix6d& covariance = preview.extrinsic.camera_from_lidar.covariance;
+  return tr("The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 "
+            "mrad.")
+      .arg(d.translation_mm, 0, 'f', 3)
+      .arg(d.rotation_mrad, 0, 'f', 3)
+      .arg(1e3 * std::sqrt(covariance.diagonal().head<3>().sum()), 0, 'f', 3)
+      .arg(1e3 * std::sqrt(covariance.diagonal().tail<3>().sum()), 0, 'f', 3);
+}
+
 void ThresholdPane::setPreview(const CalibrationResult& present, const CalibrationResult& preview) {
   const auto now = refused_features(present);
   const auto then = refused_features(preview);
@@ -171,8 +183,6 @@ void ThresholdPane::setPreview(const CalibrationResult& present, const Calibrati
     if (more > 0) names << tr("%n more", nullptr, more);
     return names.join(QStringLiteral(", "));
   };
-  const ExtrinsicDifference d = difference_of(stated(present), stated(preview));
-  const Matrix6d& covariance = preview.extrinsic.camera_from_lidar.covariance;
   QString text = tr("With %1 σ, %2 tags and circles are left out (now %3).")
                      .arg(preview.options.extrinsic.rejection_gate, 0, 'f', 1)
                      .arg(then.size())
@@ -181,13 +191,7 @@ void ThresholdPane::setPreview(const CalibrationResult& present, const Calibrati
   const QString in = named(now, then);
   if (!out.isEmpty()) text += QLatin1Char(' ') + tr("Newly left out: %1.").arg(out);
   if (!in.isEmpty()) text += QLatin1Char(' ') + tr("Used again: %1.").arg(in);
-  text += QLatin1Char('\n') +
-          tr("The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 "
-             "mrad.")
-              .arg(d.translation_mm, 0, 'f', 3)
-              .arg(d.rotation_mrad, 0, 'f', 3)
-              .arg(1e3 * std::sqrt(covariance.diagonal().head<3>().sum()), 0, 'f', 3)
-              .arg(1e3 * std::sqrt(covariance.diagonal().tail<3>().sum()), 0, 'f', 3);
+  text += QLatin1Char('\n') + moveText(present, preview);
   preview_->setText(text);
   if (preview.options.extrinsic.rejection_gate == tags_->threshold()) showDistances(&preview);
 }

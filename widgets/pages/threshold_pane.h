@@ -30,6 +30,9 @@ class ThresholdPane : public QWidget {
   void setPreview(const CalibrationResult& present, const CalibrationResult& preview);
   void setError(const Error& error);
 
+  /// How far a preview moves the extrinsic, and how well it would be known: a sentence.
+  static QString moveText(const CalibrationResult& present, const CalibrationResult& preview);
+
  Q_SIGNALS:
   /// The line stands elsewhere: what would that give?
   void previewWanted(double gate);

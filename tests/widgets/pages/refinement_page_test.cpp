@@ -146,6 +146,20 @@ TEST_F(RefinementPageTest, LiveIterationsAreShown) {
   EXPECT_EQ(page_.iteration(), static_cast<int>(refinement().history.size()) - 1);
 }
 
+// In a list beside the page the letter chooses an entry.
+TEST_F(RefinementPageTest, TheKeyReplaysOnlyOnThePage) {
+  load();
+  const int last = page_.iteration();
+  ASSERT_GT(last, 0);
+  page_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&page_));
+  plot(4)->setFocus();
+  QTest::keyClick(plot(4), Qt::Key_P);
+  EXPECT_EQ(page_.iteration(), 0);
+  for (const auto* button : page_.findChildren<QToolButton*>())
+    EXPECT_TRUE(button->shortcut().isEmpty()) << button->objectName().toStdString();
+}
+
 // A partial refinement may have no final nodes yet.
 TEST_F(RefinementPageTest, LiveWithoutPointsAndNodes) {
   page_.setScene(0);

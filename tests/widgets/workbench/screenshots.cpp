@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick]. Opens a
-// dataset (without one: the demo), runs it and writes a picture of every page and dialog to the
-// folder, in light and dark; quick: of every page, in light. The size is the window's.
+// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick
+// [dark]]. Opens a dataset (without one: the demo), runs it and writes a picture of every page and
+// dialog to the folder, in light and dark; quick: in one of both. The size is the window's.
 
 #include <QApplication>
 #include <QComboBox>
@@ -239,7 +239,7 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
 }
 
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset,
-               bool quick) {
+               bool quick, const QString& quick_theme) {
   Photographer camera(window, folder);
   window.move(0, 0);
   window.show();
@@ -266,9 +266,10 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   camera.take(QStringLiteral("model-tour"));
   if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
   if (quick) {
-    photograph_pages(window, camera, QStringLiteral("light"));
-    photograph_left_out(window, camera, QStringLiteral("light"));
-    photograph_dialogs(window, camera, QStringLiteral("light"));
+    choose(window, "theme", quick_theme);
+    photograph_pages(window, camera, quick_theme);
+    photograph_left_out(window, camera, quick_theme);
+    photograph_dialogs(window, camera, quick_theme);
     return 0;
   }
   for (const char* theme : {"light", "dark"}) {
@@ -296,7 +297,7 @@ int main(int argc, char** argv) {
   if (arguments.size() < 2) {
     std::fprintf(stderr,
                  "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] "
-                 "[quick]\n");
+                 "[quick [dark]]\n");
     return 2;
   }
   QDir().mkpath(arguments.at(1));
@@ -313,7 +314,9 @@ int main(int argc, char** argv) {
     if (size.size() == 2) window.resize(size[0].toInt(), size[1].toInt());
     status =
         photograph(window, arguments.at(1), dataset == QLatin1String("demo") ? QString() : dataset,
-                   arguments.contains(QLatin1String("quick")));
+                   arguments.contains(QLatin1String("quick")),
+                   arguments.contains(QLatin1String("dark")) ? QStringLiteral("dark")
+                                                             : QStringLiteral("light"));
   }
   widgets::Runner::wait_for_workers(10'000);
   return status;
