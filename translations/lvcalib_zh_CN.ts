@@ -4381,14 +4381,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>全部场景</translation>
     </message>
     <message>
-        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out</source>
-        <translation>各场景角点残差的长度 (px)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用</translation>
-    </message>
-    <message>
-        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out</source>
-        <translation>各场景节点残差的长度 (mm)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用</translation>
-    </message>
-    <message>
         <source>Residuals</source>
         <translation>残差</translation>
     </message>
@@ -4423,6 +4415,14 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Without %1:</source>
         <translation>不含 %1：</translation>
+    </message>
+    <message>
+        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher than drawn)</source>
+        <translation>各场景角点残差的长度 (px)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用（三角：实际更高）</translation>
+    </message>
+    <message>
+        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher than drawn)</source>
+        <translation>各场景节点残差的长度 (mm)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用（三角：实际更高）</translation>
     </message>
 </context>
 <context>

@@ -5,6 +5,7 @@
 #include <QScrollBar>
 #include <QTextBlock>
 #include <QTextBrowser>
+#include <QTextFrame>
 #include <QTimer>
 #include <QVBoxLayout>
 
@@ -102,6 +103,11 @@ void GuideDialog::retranslate() {
 void GuideDialog::showChapter() {
   constexpr int kModelTab = 4;
   const int chapter = page_ < 0 ? 0 : page_ == kModelTab ? 1 : page_ + 2;
+  // Room below, so that the last chapters too can stand at the top.
+  QTextFrame* frame = browser_->document()->rootFrame();
+  QTextFrameFormat format = frame->frameFormat();
+  format.setBottomMargin(0.7 * browser_->viewport()->height());
+  frame->setFrameFormat(format);
   int heading = -1;
   for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
     if (block.blockFormat().headingLevel() != 1 || ++heading != chapter) continue;

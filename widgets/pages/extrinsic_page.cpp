@@ -149,10 +149,12 @@ void ExtrinsicPage::retranslate() {
          "per scene (mm); without circles, of the plane's height"));
   boxes_px_->setToolTip(
       tr("Lengths of the corner residuals per scene (px): median, quartiles, "
-         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out"));
+         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher "
+         "than drawn)"));
   boxes_mm_->setToolTip(
       tr("Lengths of the node residuals per scene (mm): median, quartiles, "
-         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out"));
+         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher "
+         "than drawn)"));
   influence_mm_->setToolTip(tr("How far the LiDAR's origin moves when the scene is left out (mm)"));
   influence_mrad_->setToolTip(tr("How far the extrinsic turns when the scene is left out (mrad)"));
   setResult(result_);

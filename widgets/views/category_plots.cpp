@@ -5,8 +5,15 @@
 #include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lvcalib::widgets {
+namespace {
+
+// How far above the highest value in use what is refused is still drawn where it lies.
+constexpr double kRefusedReach = 1.5;
+
+}  // namespace
 
 CategoryPlot::CategoryPlot(QWidget* parent) : PlotView(parent) {
   setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
@@ -188,14 +195,14 @@ void BoxPlot::rebuild() {
   QCPGraph* refused = addGraph();
   refused->setLineStyle(QCPGraph::lsNone);
   refused->setScatterStyle({QCPScatterStyle::ssCross, QPen(colors().refused, 1.6), Qt::NoBrush, 7});
+  QCPGraph* beyond = addGraph();
+  beyond->setLineStyle(QCPGraph::lsNone);
+  beyond->setScatterStyle(
+      {QCPScatterStyle::ssTriangle, QPen(colors().refused, 1.6), Qt::NoBrush, 7});
   for (std::size_t k = 0; k < boxes_.size(); ++k) {
     names.push_back(boxes_[k].name);
     for (const double v : boxes_[k].values) rows.push_back({boxes_[k].name, csv_number(v), "1"});
-    for (const double v : boxes_[k].refused) {
-      rows.push_back({boxes_[k].name, csv_number(v), "0"});
-      refused->addData(static_cast<double>(k + 1), v);
-      high = std::max(high, v);
-    }
+    for (const double v : boxes_[k].refused) rows.push_back({boxes_[k].name, csv_number(v), "0"});
     const BoxSummary box = box_summary(boxes_[k].values);
     if (box.count == 0) continue;
     const QVector<double> outliers(box.outliers.begin(), box.outliers.end());
@@ -203,6 +210,15 @@ void BoxPlot::rebuild() {
                   box.upper_quartile, box.upper_whisker, outliers);
     low = std::min({low, box.lower_whisker, outliers.isEmpty() ? 0.0 : outliers.front()});
     high = std::max({high, box.upper_whisker, outliers.isEmpty() ? 0.0 : outliers.back()});
+  }
+  // What was refused may be so far off that it would flatten the boxes: it is drawn at the edge
+  // then.
+  const double edge = high > 0.0 ? kRefusedReach * high : std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < boxes_.size(); ++k) {
+    for (const double v : boxes_[k].refused) {
+      (v > edge ? beyond : refused)->addData(static_cast<double>(k + 1), std::min(v, edge));
+      high = std::max(high, std::min(v, edge));
+    }
   }
   layoutColumns(names, low, high);
   if (rows.empty()) showMessage(message_.isEmpty() ? tr("no data") : message_);

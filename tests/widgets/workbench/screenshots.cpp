@@ -20,6 +20,7 @@
 
 #include "importing/stretch_list.h"
 #include "modelling/residual_plot.h"
+#include "pipeline/refusals.h"
 #include "report/result_file.h"
 #include "tools/compare_dialog.h"
 #include "widgets/importing/recorded_walk.h"
@@ -78,6 +79,25 @@ void photograph_pages(widgets::MainWindow& window, Photographer& camera, const Q
       camera.take(QStringLiteral("%1-%2-%3").arg(name).arg(k + 1).arg(theme));
     }
     if (inner != nullptr) inner->setCurrentIndex(0);
+  }
+}
+
+// A scene of which the program refused a circle, on the pages that show it.
+void photograph_refused(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  for (const Refusal& refusal : refusals(*window.workspace().result())) {
+    if (refusal.what != Refusal::What::kCircle) continue;
+    test::click_scene(window, QString::fromStdString(refusal.scene), false);
+    auto* tabs = test::find<QTabWidget>(window, "pages");
+    tabs->setCurrentIndex(0);
+    QTest::qWait(1500);
+    camera.take(QStringLiteral("refused-") + theme);
+    tabs->setCurrentIndex(1);
+    auto* page = tabs->currentWidget();
+    QMetaObject::invokeMethod(page, "chooseNode", Q_ARG(int, refusal.id));
+    camera.take(QStringLiteral("refused-2-") + theme);
+    const std::string& first = window.workspace().dataset().scenes.front().name;
+    test::click_scene(window, QString::fromStdString(first), false);
+    return;
   }
 }
 
@@ -268,6 +288,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (quick) {
     choose(window, "theme", quick_theme);
     photograph_pages(window, camera, quick_theme);
+    photograph_refused(window, camera, quick_theme);
     photograph_left_out(window, camera, quick_theme);
     photograph_dialogs(window, camera, quick_theme);
     return 0;
@@ -275,6 +296,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   for (const char* theme : {"light", "dark"}) {
     choose(window, "theme", QString::fromLatin1(theme));
     photograph_pages(window, camera, QString::fromLatin1(theme));
+    photograph_refused(window, camera, QString::fromLatin1(theme));
     tabs->setCurrentIndex(4);
     photograph_model(window, camera, QLatin1String(theme));
     photograph_dialogs(window, camera, QString::fromLatin1(theme));
