@@ -49,7 +49,7 @@ WIDGET_DOORS = {
     "pages": ["style", "views"],
     "modelling": ["style", "views", "runner"],
     "dialogs": ["style"],
-    "tools": ["style", "runner", "dialogs"],
+    "tools": ["style", "views", "runner", "modelling", "dialogs"],
     "importing": ["style", "runner", "dialogs", "tools"],
     "docks": ["style", "models"],
     "start": ["style"],

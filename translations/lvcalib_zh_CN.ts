@@ -104,16 +104,16 @@ were saved. Take them up again?</source>
         <translation>比较对象</translation>
     </message>
     <message>
-        <source>Results and truths (*.json)</source>
-        <translation>结果和真值 (*.json)</translation>
-    </message>
-    <message>
         <source>Add scene folders (image and cloud each)</source>
         <translation>添加场景文件夹（各含图像与点云）</translation>
     </message>
     <message>
         <source>Open a folder of images and clouds</source>
         <translation>打开图像和点云的文件夹</translation>
+    </message>
+    <message>
+        <source>Results and truths (*.json *.yaml)</source>
+        <translation>结果与真值 (*.json *.yaml)</translation>
     </message>
 </context>
 <context>
@@ -2764,6 +2764,10 @@ were saved. Take them up again?</source>
         <source>Used all the same: %1.</source>
         <translation>仍然采用：%1。</translation>
     </message>
+    <message>
+        <source>Left out by the program: %1.</source>
+        <translation>程序未采用：%1。</translation>
+    </message>
 </context>
 <context>
     <name>ModelText</name>
@@ -3813,16 +3817,8 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
 <context>
     <name>lvcalib::widgets::CompareDialog</name>
     <message>
-        <source>Choose another result.json, or the truth of a simulation, to compare with.</source>
-        <translation>请选择另一个 result.json 或仿真的真值进行比较。</translation>
-    </message>
-    <message>
         <source>They differ by %1 mm and %2 mrad.</source>
         <translation>两者相差 %1 mm 和 %2 mrad。</translation>
-    </message>
-    <message>
-        <source>The other file states no uncertainty.</source>
-        <translation>另一个文件没有给出不确定度。</translation>
     </message>
     <message>
         <source>They contradict each other: the stated uncertainties explain such a difference in %1 % of all cases only.</source>
@@ -3847,14 +3843,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Difference</source>
         <translation>差异</translation>
-    </message>
-    <message>
-        <source>± this result</source>
-        <translation>± 本结果</translation>
-    </message>
-    <message>
-        <source>± the other</source>
-        <translation>± 另一结果</translation>
     </message>
     <message>
         <source>± of the difference</source>
@@ -3897,47 +3885,52 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>尚未选择</translation>
     </message>
     <message>
-        <source>&amp;Choose…</source>
-        <translation>选择(&amp;C)…</translation>
-    </message>
-    <message>
         <source>Close</source>
         <translation>关闭</translation>
     </message>
-</context>
-<context>
-    <name>lvcalib::widgets::CompareStepsDialog</name>
     <message>
-        <source>Compare steps</source>
-        <translation>比较步骤</translation>
+        <source>File %1</source>
+        <translation>文件 %1</translation>
     </message>
     <message>
-        <source>&amp;From</source>
-        <translation>从(&amp;F)</translation>
+        <source>Project %1</source>
+        <translation>项目 %1</translation>
     </message>
     <message>
-        <source>&amp;To</source>
-        <translation>到(&amp;T)</translation>
+        <source>This project</source>
+        <translation>本项目</translation>
     </message>
     <message>
-        <source>%1: %2</source>
-        <translation>%1：%2</translation>
+        <source>This project, step %1: %2</source>
+        <translation>本项目，第 %1 步：%2</translation>
     </message>
     <message>
-        <source>In the camera&apos;s axes</source>
-        <translation>沿相机坐标轴</translation>
+        <source>Being compared …</source>
+        <translation>正在比较…</translation>
     </message>
     <message>
-        <source>Difference</source>
-        <translation>差异</translation>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Choose another result, the truth of a simulation, or another project to compare with.</source>
+        <translation>请选择要与之比较的另一个结果、仿真真值或另一个项目。</translation>
+    </message>
+    <message>
+        <source>Both rest on the same scenes: chance moves both alike, and what differs is what was decided or the model. The ± of the difference would hold for results from data of their own.</source>
+        <translation>两者基于相同的场景：偶然误差对两者的影响相同，不同的是所作的决定或模型。差值的 ± 适用于各自使用独立数据的结果。</translation>
+    </message>
+    <message>
+        <source>One of them states no uncertainty.</source>
+        <translation>其中一个没有给出不确定度。</translation>
     </message>
     <message>
         <source>± from</source>
-        <translation>± 起</translation>
+        <translation>± 起始</translation>
     </message>
     <message>
         <source>± to</source>
-        <translation>± 止</translation>
+        <translation>± 目标</translation>
     </message>
     <message>
         <source>Scene</source>
@@ -3945,51 +3938,107 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     </message>
     <message>
         <source>px from</source>
-        <translation>px 起</translation>
+        <translation>px 起始</translation>
     </message>
     <message>
         <source>px to</source>
-        <translation>px 止</translation>
+        <translation>px 目标</translation>
     </message>
     <message>
         <source>mm from</source>
-        <translation>mm 起</translation>
+        <translation>mm 起始</translation>
     </message>
     <message>
         <source>mm to</source>
-        <translation>mm 止</translation>
+        <translation>mm 目标</translation>
     </message>
     <message>
-        <source>Being compared …</source>
-        <translation>正在比较……</translation>
+        <source>Moves, px</source>
+        <translation>移动 px</translation>
     </message>
     <message>
-        <source>The pose moves by %1 mm and %2 mrad. Both steps rest on the same measurements: what differs is the model.</source>
-        <translation>位姿移动 %1 mm 和 %2 mrad。两步基于相同的测量，不同之处在于模型。</translation>
+        <source>Root mean square of the corners&apos; residuals</source>
+        <translation>角点残差的均方根</translation>
     </message>
     <message>
-        <source>translation x, mm</source>
-        <translation>平移 x，mm</translation>
+        <source>Root mean square of the LiDAR&apos;s residuals</source>
+        <translation>激光雷达残差的均方根</translation>
     </message>
     <message>
-        <source>translation y, mm</source>
-        <translation>平移 y，mm</translation>
+        <source>How far the board of the scene moves in the picture, root mean square over it</source>
+        <translation>该场景的标定板在图像中移动多少（板面上的均方根）</translation>
     </message>
     <message>
-        <source>translation z, mm</source>
-        <translation>平移 z，mm</translation>
+        <source>Left out of one result, or of both</source>
+        <translation>未用于其中一个或两个结果</translation>
     </message>
     <message>
-        <source>rotation about x, mrad</source>
-        <translation>绕 x 旋转，mrad</translation>
+        <source>The image is being loaded …</source>
+        <translation>正在载入图像…</translation>
     </message>
     <message>
-        <source>rotation about y, mrad</source>
-        <translation>绕 y 旋转，mrad</translation>
+        <source>This scene is not in the project that is open.</source>
+        <translation>打开的项目中没有该场景。</translation>
     </message>
     <message>
-        <source>rotation about z, mrad</source>
-        <translation>绕 z 旋转，mrad</translation>
+        <source>There is no image: %1</source>
+        <translation>没有图像：%1</translation>
+    </message>
+    <message>
+        <source>from</source>
+        <translation>起始</translation>
+    </message>
+    <message>
+        <source>to</source>
+        <translation>目标</translation>
+    </message>
+    <message>
+        <source>&amp;From</source>
+        <translation>起始(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;To</source>
+        <translation>目标(&amp;T)</translation>
+    </message>
+    <message>
+        <source>&amp;Result file…</source>
+        <translation>结果文件(&amp;R)…</translation>
+    </message>
+    <message>
+        <source>A result.json or result.yaml, or the truth of a simulation</source>
+        <translation>result.json 或 result.yaml，或仿真真值</translation>
+    </message>
+    <message>
+        <source>&amp;Project…</source>
+        <translation>项目(&amp;P)…</translation>
+    </message>
+    <message>
+        <source>Another project: it is calibrated for this</source>
+        <translation>另一个项目：为此对其进行标定</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>点</translation>
+    </message>
+    <message>
+        <source>The LiDAR&apos;s points on the board, as either projects them</source>
+        <translation>标定板上的激光雷达点，按两者各自的投影</translation>
+    </message>
+    <message>
+        <source>&amp;Arrows</source>
+        <translation>箭头(&amp;A)</translation>
+    </message>
+    <message>
+        <source>How much longer than they are the arrows are drawn, which lead from where the one projects the board to where the other does</source>
+        <translation>箭头放大的倍数；箭头由一方投影的标定板位置指向另一方投影的位置</translation>
+    </message>
+    <message>
+        <source>Enlargement of the arrows</source>
+        <translation>箭头的放大倍数</translation>
     </message>
 </context>
 <context>
@@ -4264,14 +4313,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>位姿与质量</translation>
     </message>
     <message>
-        <source>Residuals and influence</source>
-        <translation>残差与影响</translation>
-    </message>
-    <message>
-        <source>Coloured cloud</source>
-        <translation>相机着色的点云</translation>
-    </message>
-    <message>
         <source>corner RMS (px)</source>
         <translation>角点 RMS (px)</translation>
     </message>
@@ -4302,14 +4343,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Root mean square of the refined LiDAR nodes against the board&apos;s model, per scene (mm); without circles, of the plane&apos;s height</source>
         <translation>各场景精化后的激光节点与标定板模型之差的均方根 (mm)；没有圆时为平面高度之差</translation>
-    </message>
-    <message>
-        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
-        <translation>各场景角点残差的长度 (px)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
-    </message>
-    <message>
-        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond</source>
-        <translation>各场景节点残差的长度 (mm)：中位数、四分位数、须线至 1.5 倍箱长，圆圈为更远者</translation>
     </message>
     <message>
         <source>How far the LiDAR&apos;s origin moves when the scene is left out (mm)</source>
@@ -4346,6 +4379,50 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>All scenes</source>
         <translation>全部场景</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>着色</translation>
+    </message>
+    <message>
+        <source>Residuals and influence of every scene</source>
+        <translation>每个场景的残差与影响</translation>
+    </message>
+    <message>
+        <source>The cloud in the camera&apos;s colours</source>
+        <translation>以相机颜色着色的点云</translation>
+    </message>
+    <message>
+        <source>Leave these scenes out</source>
+        <translation>剔除这些场景</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>返回</translation>
+    </message>
+    <message>
+        <source>Drag the dashed line down over the bars to see what the extrinsic would be without the scenes above it.</source>
+        <translation>将虚线向下拖过柱形，可查看去掉线以上的场景后外参会怎样。</translation>
+    </message>
+    <message>
+        <source>Solving without %1 …</source>
+        <translation>正在求解（不含 %1）…</translation>
+    </message>
+    <message>
+        <source>Without %1:</source>
+        <translation>不含 %1：</translation>
+    </message>
+    <message>
+        <source>Lengths of the corner residuals per scene (px): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher than drawn)</source>
+        <translation>各场景角点残差的长度 (px)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用（三角：实际更高）</translation>
+    </message>
+    <message>
+        <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher than drawn)</source>
+        <translation>各场景节点残差的长度 (mm)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用（三角：实际更高）</translation>
     </message>
 </context>
 <context>
@@ -4601,22 +4678,6 @@ Cloud and image of the scene that is selected in the list, with what was found i
 </translation>
     </message>
     <message>
-        <source># Refinement
-How each circle&apos;s centre was found, bin by bin: marks where the intensity crosses its middle level, and the fitted wave. A centred circle has a flat line at zero. A click enlarges a circle and says why bins were refused.
-</source>
-        <translation># 精化
-各圆心如何逐个角度区间求得：标记为强度越过中间水平之处，曲线为拟合的波。居中的圆在零处为一条平线。单击可放大一个圆，并说明为何拒绝某些区间。
-</translation>
-    </message>
-    <message>
-        <source># Extrinsic
-The pose, its standard deviations and the verdict. *Residuals and influence* has a column for each scene; *Methods* solves the same scenes in other ways; *Thresholds* shows what tags and circles miss the board&apos;s pose by, with the gate as a line to drag: what would be refused and where the extrinsic would go is told before it is decided. *All scenes* shows every board about the rig.
-</source>
-        <translation># 外参
-位姿、其标准差与结论。“残差与影响”中每个场景一列；“方法”用其他方法求解同样的场景；“阈值”显示标签和圆偏离标定板位姿的程度，门限是一条可拖动的竖线：决定之前即可看到哪些会被拒绝、外参会移到哪里。“全部场景”显示传感器周围的所有标定板。
-</translation>
-    </message>
-    <message>
         <source># Boundary response
 How returns scatter at the circles&apos; edges: the transition of the intensity, pitch and yaw with their ellipse, and ranges off the plane. The table has the numbers for all scenes and each one. *Left out* lists what the program refused, with its reasons.
 </source>
@@ -4625,19 +4686,47 @@ How returns scatter at the circles&apos; edges: the transition of the intensity,
 </translation>
     </message>
     <message>
-        <source># Model
-What the model misses, and what it does to the pose. Bars on top: the error beyond the noise after each step, red where it is unexplained. On the right, what is missing, with the evidence; *Add* takes it into the model, *Find all* goes on until nothing is missing. *Compare steps…* tells how far the pose moved. Where the truth of a simulation is known, the distance to it stands beside the bars.
-</source>
-        <translation># 模型
-模型缺少什么，对位姿有何影响。上方的柱：每一步之后超出噪声的误差，未解释的部分为红色。右侧是缺少的内容及其证据；“添加”将其纳入模型，“全部查找”一直进行到不再缺少为止。“比较步骤…”给出位姿移动了多少。若已知仿真的真值，与真值的距离显示在柱旁。
-</translation>
-    </message>
-    <message>
         <source># Keys
 F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks, Alt+Up and Alt+Down move them in the list, F1 opens this guide at the page in view.
 </source>
         <translation># 快捷键
 F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页面，Ctrl+J 拒绝、Ctrl+U 接受所选场景，空格键勾选或取消勾选，Alt+上、Alt+下 在列表中移动场景，F1 在当前页面对应的章节打开本指南。
+</translation>
+    </message>
+    <message>
+        <source># Model
+Compare, locate, learn, add, watch: what the model misses, and what that does to the pose.
+
+- **Bars on top**: the error beyond the noise after each step, red where it is unexplained, green where an effect took it away, grey where chance alone may leave it. A click goes to a step; *Compare steps…* sets two of them side by side. Where the truth of a simulation is known, the distance to it stands beside the bars.
+- **Where it fails**, in the middle: residuals of a channel against whatever they may depend on, as a scatter with binned means or as maps over the image, the board and the directions. *Before* draws what was there before the last step. *Brush* selects measurements, which are then marked on the Scene page.
+- **What is missing**, on the right: effects with the evidence of the scenes held out. *Add* takes one into the model, *Find all* goes on until nothing is missing. *Cannot be seen* lists effects that these scenes would not show, and how far they could still move the pose.
+- **The model**, on the left: its effects with their values. Untick one to take it out, hold a value to fix it, *Add…* enters an effect as a formula or a curve. *What if* draws an effect over the residuals before it is in the model.
+- &quot;One of several&quot; means that these scenes cannot tell effects apart; the text names the scene that would.
+</source>
+        <translation># 模型
+比较、定位、了解、添加、观察：模型缺少什么，以及这对位姿有何影响。
+
+- **上方的柱形**：每一步之后超出噪声的误差；红色为未解释的部分，绿色为已由效应解释的部分，灰色为仅由偶然误差就可能留下的部分。单击可转到某一步；“比较步骤…” 将两步并列。若仿真真值已知，与真值的距离显示在柱形旁边。
+- **失效之处**（中间）：某一通道的残差与其可能依赖的量的关系，以散点和分箱均值，或以图像、标定板和方向上的分布图表示。“之前” 绘出上一步之前的情况。“刷选” 选择测量值，它们随后在“场景”页中标出。
+- **缺失的内容**（右侧）：各效应及留出场景给出的证据。“添加” 将其加入模型，“全部查找” 持续到不再缺失为止。“看不到的” 列出这些场景无法显示的效应，以及它们还能使位姿移动多少。
+- **模型**（左侧）：其效应及数值。取消勾选即移除，固定数值即不再拟合，“添加…” 以公式或曲线输入效应。“假如” 在效应加入模型之前将其绘在残差上。
+- “若干之一”表示这些场景无法区分几个效应；文字会指出能够区分的场景。
+</translation>
+    </message>
+    <message>
+        <source># Refinement
+How each circle&apos;s centre was found, bin by bin: marks where the intensity crosses its middle level, and the fitted wave. A centred circle has a flat line at zero. A click enlarges a circle and says why bins were refused. Circles that the solve left out are struck through.
+</source>
+        <translation># 精化
+每个圆的圆心是如何逐个角度区间找到的：强度穿过中间水平处的标记，以及拟合的波形。居中的圆在零处为一条平线。单击可放大某个圆并说明区间被拒绝的原因。求解未采用的圆被划掉。
+</translation>
+    </message>
+    <message>
+        <source># Extrinsic
+The pose, its standard deviations and the verdict. *Residuals* has a column for each scene; red crosses are left out. Drag the dashed line down over the bars to see what the extrinsic would be without the scenes above it. *Methods* solves the same scenes in other ways; *Thresholds* shows what tags and circles miss the board&apos;s pose by, with the gate as a line to drag: what would be refused and where the extrinsic would go is told before it is decided. *All scenes* shows every board about the rig.
+</source>
+        <translation># 外参
+位姿、其标准差和结论。“残差” 中每个场景占一列；红叉为未采用的部分。将虚线向下拖过柱形，可查看去掉线以上的场景后外参会怎样。“方法” 以其他方式求解相同的场景；“阈值” 显示标签和圆偏离标定板位姿的程度，门限是一条可拖动的线：在作出决定之前即说明会拒绝什么、外参会移到哪里。“全部场景” 显示设备周围的所有标定板。
 </translation>
     </message>
 </context>
@@ -5119,10 +5208,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <translation>比较(&amp;W)…</translation>
     </message>
     <message>
-        <source>The difference to another result, or to a simulation&apos;s truth</source>
-        <translation>与另一结果或仿真真值的差异</translation>
-    </message>
-    <message>
         <source>&amp;Print the board…</source>
         <translation>打印标定板(&amp;P)…</translation>
     </message>
@@ -5145,6 +5230,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>Make or edit target.yaml and camera.yaml</source>
         <translation>新建或编辑 target.yaml 和 camera.yaml</translation>
+    </message>
+    <message>
+        <source>The difference to another result, an earlier step, another project, or a truth</source>
+        <translation>与另一结果、较早步骤、另一项目或真值的差异</translation>
     </message>
 </context>
 <context>
@@ -5449,6 +5538,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <source>Upper 95 % limit of its largest parameter; beyond it these scenes would show it</source>
         <translation>其最大参数的 95 % 上限；超过它这些场景就会显示出来</translation>
     </message>
+    <message>
+        <source>Missing</source>
+        <translation>遗漏</translation>
+    </message>
+    <message>
+        <source>Cannot be seen</source>
+        <translation>看不到的</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ModelPage</name>
@@ -5746,10 +5843,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
         <translation>所选节点的每个角度区间：强度穿过中间值的位置（到圆的距离，mm）、其标准差以及被拒绝的原因</translation>
     </message>
     <message>
-        <source>Replay the iterations from the first</source>
-        <translation>从第一次迭代开始回放</translation>
-    </message>
-    <message>
         <source>Replay</source>
         <translation>回放</translation>
     </message>
@@ -5816,6 +5909,26 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>%1: not usable</source>
         <translation>%1：不可用</translation>
+    </message>
+    <message>
+        <source>left out by hand</source>
+        <translation>手动剔除</translation>
+    </message>
+    <message>
+        <source>%1: left out</source>
+        <translation>%1：未采用</translation>
+    </message>
+    <message>
+        <source>Left out: %1.</source>
+        <translation>未采用：%1。</translation>
+    </message>
+    <message>
+        <source>Use it all the same</source>
+        <translation>仍然采用</translation>
+    </message>
+    <message>
+        <source>Replay the iterations from the first (P)</source>
+        <translation>从第一次开始重放迭代 (P)</translation>
     </message>
 </context>
 <context>
@@ -6336,6 +6449,10 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>circles %1</source>
         <translation>圆 %1</translation>
+    </message>
+    <message>
+        <source>Drawn in red. A click on one says why, and offers to use it all the same where that is possible.</source>
+        <translation>以红色绘出。点击其中之一可查看原因，并在可能时仍然采用。</translation>
     </message>
 </context>
 <context>
@@ -6922,20 +7039,12 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
 <context>
     <name>lvcalib::widgets::ThresholdPane</name>
     <message>
-        <source>What tags and circles miss the board&apos;s pose by, in standard deviations. Those beyond the line are left out. Drag it (or use the arrow keys) to see what another place would do.</source>
-        <translation>标签和圆偏离标定板位姿的程度，以标准差计。超出竖线者不采用。拖动竖线（或用方向键）可查看换一个位置的效果。</translation>
-    </message>
-    <message>
         <source>a tag&apos;s worst corner (σ)</source>
         <translation>标签最差的角点 (σ)</translation>
     </message>
     <message>
         <source>a circle&apos;s centre (σ)</source>
         <translation>圆心 (σ)</translation>
-    </message>
-    <message>
-        <source>Red: left out at this place of the line</source>
-        <translation>红色：竖线在此处时不采用</translation>
     </message>
     <message>
         <source>Use this threshold</source>
@@ -6986,6 +7095,14 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
     <message>
         <source>The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 mrad.</source>
         <translation>外参将移动 %1 mm 和 %2 mrad；其不确定度为 %3 mm 和 %4 mrad。</translation>
+    </message>
+    <message>
+        <source>What tags and circles miss the board&apos;s pose by, in standard deviations. Red ones are left out. Drag the line (or use the arrow keys) to see what another place would do.</source>
+        <translation>标签和圆偏离标定板位姿的程度，以标准差计。红色的未采用。拖动该线（或用方向键）查看其他位置的效果。</translation>
+    </message>
+    <message>
+        <source>Red: left out at this place of the line. Before the solve has answered, what lies beyond the line; the solve may judge a few of them otherwise, since the board moves too.</source>
+        <translation>红色：线在此处时未采用。求解给出结果之前，指线以外的部分；由于标定板也会移动，求解可能对其中少数作出不同判断。</translation>
     </message>
 </context>
 <context>

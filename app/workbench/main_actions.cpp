@@ -211,7 +211,7 @@ void MainActions::retranslate() {
   describe(correct, tr("&Correct clouds…"),
            tr("Take the effects of the model in force out of clouds of this LiDAR"));
   describe(compare, tr("Compare &with…"),
-           tr("The difference to another result, or to a simulation's truth"));
+           tr("The difference to another result, an earlier step, another project, or a truth"));
   describe(guide, tr("&Guide"), tr("From the printed board to a result"));
   describe(about, tr("&About"), tr("Version and licence"));
   const QStringList names = {tr("As the &system"), tr("&Light"), tr("&Dark")};

@@ -20,6 +20,7 @@
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
 #include "modelling/model_page.h"
+#include "pages/extrinsic_page.h"
 #include "pages/threshold_pane.h"
 #include "report/result_file.h"
 #include "runner/demo.h"
@@ -126,7 +127,7 @@ void MainWindow::connect_actions() {
     demo_opening_ = true;
     workspace_->open_demo(demo_);
   };
-  const auto guide = [this] { (new GuideDialog(pages_->tab() + 1, this))->show(); };
+  const auto guide = [this] { (new GuideDialog(pages_->tab(), this))->show(); };
   on(actions_->open_dataset, open_dataset);
   on(actions_->open_project, open_project);
   on(actions_->demo, demo);
@@ -148,7 +149,7 @@ void MainWindow::connect_actions() {
                                                 : std::nullopt);
   });
   on(actions_->correct, [this] { results_->correct_clouds(final_result()); });
-  on(actions_->compare, [this] { results_->compare(final_result()); });
+  on(actions_->compare, [this] { compare(); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();
@@ -281,6 +282,7 @@ void MainWindow::connect_preview() {
   connect(pane, &ThresholdPane::previewWanted, this, [this, pane](double gate) {
     Decisions decisions = workspace_->decisions();
     decisions.options.extrinsic.rejection_gate = gate;
+    scenes_preview_ = false;
     preview_->request(decisions);
     pane->setBusy();
   });
@@ -291,10 +293,31 @@ void MainWindow::connect_preview() {
       if (option.key == "extrinsic.rejection_gate") workspace_->set_option(option, gate);
     }
   });
-  connect(
-      preview_.get(), &PreviewWork::ready, pane,
-      [pane](const auto& present, const auto& preview) { pane->setPreview(*present, *preview); });
-  connect(preview_.get(), &PreviewWork::failed, pane, &ThresholdPane::setError);
+  ExtrinsicPage* page = pages_->extrinsic_page();
+  connect(page, &ExtrinsicPage::scenesPreviewWanted, this, [this](const QStringList& without) {
+    Decisions decisions = workspace_->decisions();
+    for (const QString& scene : without) decisions.scenes[scene.toStdString()].use = false;
+    scenes_preview_ = true;
+    preview_->request(decisions);
+  });
+  connect(page, &ExtrinsicPage::scenesPreviewDropped, this, [this] {
+    if (scenes_preview_) preview_->cancel();
+  });
+  connect(page, &ExtrinsicPage::rejectWanted, this, [this](const QStringList& scenes) {
+    preview_->cancel();
+    workspace_->set_use(scenes, false);
+  });
+  connect(preview_.get(), &PreviewWork::ready, this,
+          [this, pane, page](const auto& present, const auto& preview) {
+            if (scenes_preview_) {
+              page->setScenesPreview(*present, *preview);
+            } else {
+              pane->setPreview(*present, *preview);
+            }
+          });
+  connect(preview_.get(), &PreviewWork::failed, this, [this, pane, page](const Error& error) {
+    scenes_preview_ ? page->setScenesError(error) : pane->setError(error);
+  });
 }
 
 void MainWindow::connect_results() {

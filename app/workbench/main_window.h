@@ -66,6 +66,7 @@ class MainWindow : public QMainWindow {
   void connect_results();
   void connect_model();
   void connect_import();
+  void compare();
   void import_recording(const QString& path);
   void import_files(const QString& folder);
   void take_imported(const QString& dataset, const ImportSummary& summary);
@@ -108,6 +109,7 @@ class MainWindow : public QMainWindow {
   DemoTour* tour_ = nullptr;
   QPointer<ImportDialog> import_;
   QPointer<FilesDialog> files_;
+  bool scenes_preview_ = false;   // The last look ahead was at scenes left out.
   bool demo_opening_ = false;     // What opens next is the demo.
   bool run_when_opened_ = false;  // What opens next is to be calibrated at once.
 };

@@ -7,6 +7,7 @@
 #include "workbench/main_actions.h"
 #include "workbench/main_window.h"
 #include "workbench/page_stack.h"
+#include "workbench/result_actions.h"
 #include "workbench/status_line.h"
 
 namespace lvcalib::widgets {
@@ -33,10 +34,16 @@ void MainWindow::connect_model() {
   });
   connect(work, &ModelWork::logged, log_, &LogDock::append);
   connect(work, &ModelWork::result_changed, this, &MainWindow::show_result);
+  connect(pages_->model_page(), &ModelPage::compareWanted, this, &MainWindow::compare);
 }
 
 std::shared_ptr<const CalibrationResult> MainWindow::final_result() const {
   return model_work_->result() ? model_work_->result() : workspace_->result();
+}
+
+void MainWindow::compare() {
+  results_->compare({final_result(), model_work_->source(), model_work_->steps(),
+                     model_work_->current(), workspace_->dataset().scenes});
 }
 
 void MainWindow::start_tour() {

@@ -42,6 +42,7 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::patchExcluded, this, &PageStack::patch_excluded);
   connect(scene_, &ScenePage::insistWanted, this, &PageStack::insist_wanted);
   connect(response_, &ResponsePage::keepWanted, this, &PageStack::keep_wanted);
+  connect(refinement_, &RefinementPage::keepWanted, this, &PageStack::keep_wanted);
   connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {
     for (std::size_t s = 0; result_ && s < result_->scenes.size(); ++s) {
       if (result_->scenes[s].name == name.toStdString()) Q_EMIT insist_wanted(static_cast<int>(s));

@@ -36,6 +36,7 @@ class PageStack : public QStackedWidget {
   void add_model_page(ModelWork& work);
   [[nodiscard]] ModelPage* model_page() const { return model_; }
   [[nodiscard]] ThresholdPane* thresholds() const;
+  [[nodiscard]] ExtrinsicPage* extrinsic_page() const { return extrinsic_; }
   [[nodiscard]] WelcomePage& welcome() const { return *welcome_; }
   void show_welcome();
   void show_pages();

@@ -67,13 +67,9 @@ void ResultActions::correct_clouds(const std::shared_ptr<const CalibrationResult
   (new CorrectDialog(result, choices_, settings_.last_folder(), &window_))->show();
 }
 
-void ResultActions::compare(const std::shared_ptr<const CalibrationResult>& result) {
-  if (!result) return;
-  const QString path = choices_.result_to_open(&window_, settings_.last_folder());
-  if (path.isEmpty()) return;
-  auto* dialog = new CompareDialog(result, choices_, settings_.last_folder(), &window_);
-  dialog->open(path);
-  dialog->show();
+void ResultActions::compare(const ComparisonBasis& basis) {
+  if (!basis.result) return;
+  (new CompareDialog(basis, choices_, settings_.last_folder(), &window_))->show();
 }
 
 void ResultActions::edit_target_camera(const QString& folder) {

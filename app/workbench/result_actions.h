@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "dialogs/choices.h"
+#include "runner/comparison_work.h"
 #include "runner/report_writer.h"
 #include "start/app_settings.h"
 
@@ -27,7 +28,8 @@ class ResultActions : public QObject {
                     const std::shared_ptr<const Discovery>& discovery);
   /// Nothing without a result.
   void correct_clouds(const std::shared_ptr<const CalibrationResult>& result);
-  void compare(const std::shared_ptr<const CalibrationResult>& result);
+  /// Nothing without a result.
+  void compare(const ComparisonBasis& basis);
   /// `folder`: whose target.yaml and camera.yaml are opened; empty: nothing is.
   void edit_target_camera(const QString& folder);
   /// `present`: the board of what is open.

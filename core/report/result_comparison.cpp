@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/result_comparison.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
+#include "base/yaml_file.h"
 #include "report/json_values.h"
 #include "report/result_file.h"
 
@@ -38,31 +40,192 @@ double chance_of(double chi2) {
   return std::exp(-h) * (1.0 + h + 0.5 * h * h);
 }
 
-}  // namespace
+// Points of a board's grid along each side.
+constexpr int kGrid = 7;
 
-Result<StatedExtrinsic> read_stated_extrinsic(const std::filesystem::path& path) {
+std::optional<double> number_in(const Json& j, const char* key) {
+  const auto at = j.find(key);
+  if (at == j.end() || !at->is_number()) return std::nullopt;
+  return at->get<double>();
+}
+
+std::string text_in(const Json& j, const char* key) {
+  const auto at = j.find(key);
+  return at != j.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
+std::vector<StatedScene> scenes_in(const Json& j) {
+  std::vector<StatedScene> out;
+  const auto list = j.find("scenes");
+  if (list == j.end() || !list->is_array()) return out;
+  for (const Json& entry : *list) {
+    if (!entry.is_object() || text_in(entry, "name").empty()) continue;
+    StatedScene scene;
+    scene.name = text_in(entry, "name");
+    const auto used = entry.find("used");
+    scene.used = used == entry.end() || !used->is_boolean() || used->get<bool>();
+    scene.rms_px = number_in(entry, "rms_px");
+    scene.rms_mm = number_in(entry, "rms_mm");
+    // A result.json has zeros for a scene that was never compared with the others.
+    if (!scene.used && scene.rms_px == 0.0 && scene.rms_mm == 0.0) scene.rms_px = scene.rms_mm = {};
+    out.push_back(std::move(scene));
+  }
+  return out;
+}
+
+// A value of YAML as JSON, so that both kinds of result are read in one way. Quotes are gone in
+// what was parsed: a name that looks like a number is taken for a text where a text is expected.
+Json as_json(const YamlValue& value, bool text) {
+  Json out;
+  switch (value.kind) {
+    case YamlValue::Kind::kNull:
+      break;
+    case YamlValue::Kind::kScalar: {
+      double number = 0.0;
+      if (!text && (value.scalar == "true" || value.scalar == "false"))
+        return value.scalar == "true";
+      if (!text && parse_number(value.scalar, number)) return number;
+      return value.scalar;
+    }
+    case YamlValue::Kind::kList:
+      out = Json::array();
+      for (const YamlValue& entry : value.list) out.push_back(as_json(entry, text));
+      break;
+    case YamlValue::Kind::kMap:
+      out = Json::object();
+      for (const auto& [key, entry] : value.map)
+        out[key] = as_json(entry, key == "name" || key == "reason" || key == "dataset");
+      break;
+  }
+  return out;
+}
+
+bool is_yaml(const std::filesystem::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
+
+Result<Json> read_values(const std::filesystem::path& path) {
+  if (is_yaml(path)) {
+    const auto file = YamlFile::load(path);
+    if (!file) return file.error();
+    return as_json(file->root(), false);
+  }
   const auto text = read_text_file(path, kMaxResultBytes);
   if (!text) return text.error();
-  const Json j = parse_json(*text);
-  StatedExtrinsic out;
-  if (j.is_object() && j.contains("T_CL")) {
+  return parse_json(*text);
+}
+
+StatedScene stated_scene(const CalibrationResult& result, const SceneResult& scene) {
+  StatedScene out{scene.name, scene.used, {}, {}};
+  for (const SceneSolution& solution : result.extrinsic.scenes) {
+    if (solution.name != scene.name) continue;
+    out.rms_px = solution.rms_px;
+    out.rms_mm = solution.rms_mm;
+  }
+  return out;
+}
+
+const StatedScene* find_scene(const StatedResult& result, const std::string& name) {
+  const auto at = std::find_if(result.scenes.begin(), result.scenes.end(),
+                               [&](const StatedScene& scene) { return scene.name == name; });
+  return at == result.scenes.end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+StatedResult stated_result(const CalibrationResult& result) {
+  StatedResult out;
+  StatedExtrinsic& x = out.extrinsic;
+  x.camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
+  x.covariance = result.extrinsic.camera_from_lidar.covariance;
+  x.covariance_total = result.covariance_total.isZero() ? x.covariance : result.covariance_total;
+  for (const SceneResult& scene : result.scenes) out.scenes.push_back(stated_scene(result, scene));
+  out.dataset = result.dataset;
+  return out;
+}
+
+Result<StatedResult> read_stated_result(const std::filesystem::path& path) {
+  const auto values = read_values(path);
+  if (!values) return values.error();
+  const Json& j = *values;
+  StatedResult out;
+  StatedExtrinsic& x = out.extrinsic;
+  if (j.is_object() && j.contains("T_CL") && !is_yaml(path)) {
     const auto truth = read_truth(path);
     if (!truth) return truth.error();
-    out.camera_from_lidar = *truth;
-    out.is_truth = true;
+    x.camera_from_lidar = *truth;
+    x.is_truth = true;
     return out;
   }
   if (!j.is_object() || !j.contains("T_camera_lidar")) {
     return Error::input("holds no extrinsic; expected T_camera_lidar (a result) or T_CL (a truth)",
-                        path.string(), "give the result.json of a calibration");
+                        path.string(), "give the result.json or result.yaml of a calibration");
   }
-  const auto result = read_result(path);
+  const auto result =
+      result_from_json(j.dump(-1, ' ', false, Json::error_handler_t::replace), path);
   if (!result) return result.error();
-  out.camera_from_lidar = result->camera_from_lidar;
-  out.covariance = result->covariance;
-  out.covariance_total = covariance_in(j, "covariance_total");
-  if (out.covariance_total.isZero()) out.covariance_total = out.covariance;
+  x.camera_from_lidar = result->camera_from_lidar;
+  x.covariance = result->covariance;
+  x.covariance_total = covariance_in(j, "covariance_total");
+  if (x.covariance_total.isZero()) x.covariance_total = x.covariance;
+  out.scenes = scenes_in(j);
+  out.dataset = text_in(j, "dataset");
   return out;
+}
+
+bool share_scenes(const StatedResult& first, const StatedResult& second) {
+  return !first.dataset.empty() && first.dataset == second.dataset;
+}
+
+std::vector<SceneComparison> compare_scenes(const StatedResult& first, const StatedResult& second) {
+  std::vector<SceneComparison> out;
+  for (const StatedScene& scene : first.scenes) {
+    const StatedScene* other = find_scene(second, scene.name);
+    out.push_back({scene.name, scene, other != nullptr ? std::optional(*other) : std::nullopt});
+  }
+  for (const StatedScene& scene : second.scenes) {
+    if (find_scene(first, scene.name) == nullptr) out.push_back({scene.name, {}, scene});
+  }
+  return out;
+}
+
+ProjectionShift projection_shift(std::span<const Eigen::Vector3d> points_in_lidar_m,
+                                 const Camera& camera, const Rigid3& first_camera_from_lidar,
+                                 const Rigid3& second_camera_from_lidar) {
+  ProjectionShift out;
+  double sum = 0.0;
+  for (const Eigen::Vector3d& p : points_in_lidar_m) {
+    const auto first = camera.project(first_camera_from_lidar * p);
+    const auto second = camera.project(second_camera_from_lidar * p);
+    if (!first || !second) continue;
+    out.first_px.push_back(*first);
+    out.second_px.push_back(*second);
+    const double shift2 = (*second - *first).squaredNorm();
+    sum += shift2;
+    out.largest_px = std::max(out.largest_px, std::sqrt(shift2));
+  }
+  if (!out.first_px.empty()) out.rms_px = std::sqrt(sum / static_cast<double>(out.first_px.size()));
+  return out;
+}
+
+std::optional<ProjectionShift> board_shift(const CalibrationResult& result,
+                                           const SceneResult& scene,
+                                           const Rigid3& first_camera_from_lidar,
+                                           const Rigid3& second_camera_from_lidar) {
+  if (!scene.refinement) return std::nullopt;
+  const BoardOutline outline = result.target.outline();
+  std::vector<Eigen::Vector3d> grid;
+  for (int row = 0; row < kGrid; ++row) {
+    for (int column = 0; column < kGrid; ++column) {
+      const Eigen::Vector2d share(column / (kGrid - 1.0), row / (kGrid - 1.0));
+      const Eigen::Vector2d p = outline.lower_left_m + share.cwiseProduct(outline.size_m());
+      grid.emplace_back(scene.refinement->lidar_from_board * Eigen::Vector3d(p.x(), p.y(), 0.0));
+    }
+  }
+  ProjectionShift shift =
+      projection_shift(grid, result.camera, first_camera_from_lidar, second_camera_from_lidar);
+  if (shift.first_px.empty()) return std::nullopt;
+  return shift;
 }
 
 ExtrinsicDifference difference_of(const StatedExtrinsic& first, const StatedExtrinsic& second) {

@@ -3,9 +3,16 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "base/error.h"
 #include "base/rigid3.h"
+#include "camera/camera.h"
+#include "pipeline/calibration.h"
 
 namespace lvcalib {
 
@@ -20,8 +27,57 @@ struct StatedExtrinsic {
   [[nodiscard]] bool states_errors() const { return is_truth || covariance_total.trace() > 0.0; }
 };
 
-/// Reads a result.json, or the truth of a simulation (T_CL). Errors (kInput): neither of both.
-Result<StatedExtrinsic> read_stated_extrinsic(const std::filesystem::path& path);
+/// What a result states of one scene.
+struct StatedScene {
+  std::string name;
+  bool used = true;
+  /// Root mean squares of its corners and of its LiDAR residuals; absent where nothing is stated.
+  std::optional<double> rms_px, rms_mm;
+};
+
+/// What two results are compared by.
+struct StatedResult {
+  StatedExtrinsic extrinsic;
+  std::vector<StatedScene> scenes;  ///< None of a truth.
+  std::string dataset;              ///< Where the scenes are from; empty if it is not stated.
+};
+
+/// A calibration as its result file would state it.
+StatedResult stated_result(const CalibrationResult& result);
+
+/// Reads a result.json, a result.yaml (by its suffix), or the truth of a simulation (T_CL).
+/// Errors (kInput): none of them.
+Result<StatedResult> read_stated_result(const std::filesystem::path& path);
+
+/// Whether two results rest on the same scenes: the difference is then that of the models, and
+/// smaller than both uncertainties together allow.
+bool share_scenes(const StatedResult& first, const StatedResult& second);
+
+/// One scene in either result; absent where a result does not know it.
+struct SceneComparison {
+  std::string name;
+  std::optional<StatedScene> first, second;
+};
+
+/// The scenes of both by name, in the order of the first, then those of the second alone.
+std::vector<SceneComparison> compare_scenes(const StatedResult& first, const StatedResult& second);
+
+/// Where points of the LiDAR fall in the picture under either of two extrinsics.
+struct ProjectionShift {
+  std::vector<Eigen::Vector2d> first_px, second_px;  ///< Only of points that both image.
+  double rms_px = 0.0;                               ///< Of second − first.
+  double largest_px = 0.0;
+};
+ProjectionShift projection_shift(std::span<const Eigen::Vector3d> points_in_lidar_m,
+                                 const Camera& camera, const Rigid3& first_camera_from_lidar,
+                                 const Rigid3& second_camera_from_lidar);
+
+/// The same for a grid over the board of a scene, where the LiDAR has it. Nothing if it was not
+/// found there.
+std::optional<ProjectionShift> board_shift(const CalibrationResult& result,
+                                           const SceneResult& scene,
+                                           const Rigid3& first_camera_from_lidar,
+                                           const Rigid3& second_camera_from_lidar);
 
 /// How far one extrinsic is from another, in the camera's axes.
 struct ExtrinsicDifference {

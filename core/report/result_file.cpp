@@ -291,12 +291,16 @@ std::string yaml_rows(const Matrix& m) {
   return out;
 }
 
-Result<nlohmann::json> read_json(const std::filesystem::path& path) {
-  auto text = read_text_file(path, kMaxResultBytes);
-  if (!text) return text.error();
-  auto j = parse_json(*text);
+Result<nlohmann::json> json_object(const std::string& text, const std::filesystem::path& path) {
+  auto j = parse_json(text);
   if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", path.string());
   return j;
+}
+
+Result<nlohmann::json> read_json(const std::filesystem::path& path) {
+  const auto text = read_text_file(path, kMaxResultBytes);
+  if (!text) return text.error();
+  return json_object(*text, path);
 }
 
 // Rows of numbers as a matrix of the given size; false if they are not.
@@ -373,7 +377,13 @@ std::string result_as_yaml(const CalibrationResult& result) {
   out += "rms_px: " + yaml_number(x.rms_px) + "\nrms_mm: " + yaml_number(x.rms_mm) + "\nscenes:\n";
   for (const SceneResult& scene : result.scenes) {
     out += "  - {name: " + yaml_quoted(scene.name) + ", used: " + (scene.used ? "true" : "false") +
-           ", reason: " + yaml_quoted(scene.reason) + "}\n";
+           ", reason: " + yaml_quoted(scene.reason);
+    const SceneSolution* solution = solution_of(result, scene.name);
+    if (solution != nullptr) {
+      out += ", rms_px: " + yaml_number(solution->rms_px) +
+             ", rms_mm: " + yaml_number(solution->rms_mm);
+    }
+    out += "}\n";
   }
   return out;
 }
@@ -385,7 +395,14 @@ Status write_results(const CalibrationResult& result, const std::filesystem::pat
 }
 
 Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {
-  auto j = read_json(path);
+  const auto text = read_text_file(path, kMaxResultBytes);
+  if (!text) return text.error();
+  return result_from_json(*text, path);
+}
+
+Result<StoredExtrinsic> result_from_json(const std::string& text,
+                                         const std::filesystem::path& path) {
+  const auto j = json_object(text, path);
   if (!j) return j.error();
   const auto pose = j->find("T_camera_lidar");
   Eigen::MatrixXd m;

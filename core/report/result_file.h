@@ -34,6 +34,9 @@ struct StoredExtrinsic {
 
 /// Reads T_camera_lidar and its covariance from result.json.
 Result<StoredExtrinsic> read_result(const std::filesystem::path& path);
+/// The same from the text of a result.json, as if it stood in a file `path`.
+Result<StoredExtrinsic> result_from_json(const std::string& text,
+                                         const std::filesystem::path& path);
 
 /// What `evaluate` needs of one step of a result's ablation.
 struct StoredStep {

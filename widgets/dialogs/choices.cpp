@@ -115,7 +115,7 @@ QString Choices::clouds_to_save(QWidget* parent, const QString& suggestion) {
 QString Choices::result_to_open(QWidget* parent, const QString& folder) {
   return QFileDialog::getOpenFileName(
       parent, words(QT_TRANSLATE_NOOP("Choices", "Compare with")), folder,
-      words(QT_TRANSLATE_NOOP("Choices", "Results and truths (*.json)")));
+      words(QT_TRANSLATE_NOOP("Choices", "Results and truths (*.json *.yaml)")));
 }
 
 UnsavedAnswer Choices::unsaved(QWidget* parent, const QString& name) {

@@ -41,7 +41,7 @@ class Choices {
   virtual QString clouds_to_open(QWidget* parent, const QString& folder);
   /// A cloud's file, or the folder for several.
   virtual QString clouds_to_save(QWidget* parent, const QString& suggestion);
-  /// A result.json, or the truth of a simulation.
+  /// A result.json or result.yaml, or the truth of a simulation.
   virtual QString result_to_open(QWidget* parent, const QString& folder);
   virtual UnsavedAnswer unsaved(QWidget* parent, const QString& name);
   /// A project's dataset is not at `old_path`: where is it now?

@@ -5,6 +5,7 @@
 #include <QScrollBar>
 #include <QTextBlock>
 #include <QTextBrowser>
+#include <QTextFrame>
 #include <QTimer>
 #include <QVBoxLayout>
 
@@ -12,8 +13,8 @@
 
 namespace lvcalib::widgets {
 
-GuideDialog::GuideDialog(int chapter, QWidget* parent)
-    : QDialog(parent), browser_(new QTextBrowser(this)), chapter_(chapter) {
+GuideDialog::GuideDialog(int page, QWidget* parent)
+    : QDialog(parent), browser_(new QTextBrowser(this)), page_(page) {
   setAttribute(Qt::WA_DeleteOnClose);
   setObjectName(QStringLiteral("guide_dialog"));
   resize(680, 600);
@@ -26,7 +27,8 @@ GuideDialog::GuideDialog(int chapter, QWidget* parent)
   layout->addWidget(buttons);
 }
 
-// A chapter per heading of the first level, in the order of the pages.
+// A chapter per heading of the first level: what to do, the Model page, then the other pages in the
+// order of their tabs.
 void GuideDialog::retranslate() {
   setWindowTitle(tr("Guide"));
   const QStringList chapters = {
@@ -43,6 +45,26 @@ void GuideDialog::retranslate() {
          "deserves a look on the Scene page. Untick it and the result follows at once.\n"
          "6. **Ask what is missing** on the Model page.\n"
          "7. **Export** with Ctrl+E.\n"),
+      tr("# Model\n"
+         "Compare, locate, learn, add, watch: what the model misses, and what that does to the "
+         "pose.\n\n"
+         "- **Bars on top**: the error beyond the noise after each step, red where it is "
+         "unexplained, green where an effect took it away, grey where chance alone may leave it. A "
+         "click goes to a step; *Compare steps…* sets two of them side by side. Where the truth of "
+         "a simulation is known, the distance to it stands beside the bars.\n"
+         "- **Where it fails**, in the middle: residuals of a channel against whatever they may "
+         "depend on, as a scatter with binned means or as maps over the image, the board and the "
+         "directions. *Before* draws what was there before the last step. *Brush* selects "
+         "measurements, which are then marked on the Scene page.\n"
+         "- **What is missing**, on the right: effects with the evidence of the scenes held out. "
+         "*Add* takes one into the model, *Find all* goes on until nothing is missing. *Cannot be "
+         "seen* lists effects that these scenes would not show, and how far they could still move "
+         "the pose.\n"
+         "- **The model**, on the left: its effects with their values. Untick one to take it out, "
+         "hold a value to fix it, *Add…* enters an effect as a formula or a curve. *What if* draws "
+         "an effect over the residuals before it is in the model.\n"
+         "- \"One of several\" means that these scenes cannot tell effects apart; the text names "
+         "the scene that would.\n"),
       tr("# Scene\n"
          "Cloud and image of the scene that is selected in the list, with what was found in them. "
          "A click in one view shows the same thing in the other.\n\n"
@@ -55,39 +77,52 @@ void GuideDialog::retranslate() {
       tr("# Refinement\n"
          "How each circle's centre was found, bin by bin: marks where the intensity crosses its "
          "middle level, and the fitted wave. A centred circle has a flat line at zero. A click "
-         "enlarges a circle and says why bins were refused.\n"),
+         "enlarges a circle and says why bins were refused. Circles that the solve left out are "
+         "struck through.\n"),
       tr("# Extrinsic\n"
-         "The pose, its standard deviations and the verdict. *Residuals and influence* has a "
-         "column for each scene; *Methods* solves the same scenes in other ways; *Thresholds* "
-         "shows what tags and circles miss the board's pose by, with the gate as a line to drag: "
-         "what would be refused and where the extrinsic would go is told before it is decided. "
-         "*All scenes* shows every board about the rig.\n"),
+         "The pose, its standard deviations and the verdict. *Residuals* has a column for each "
+         "scene; red crosses are left out. Drag the dashed line down over the bars to see what the "
+         "extrinsic would be without the scenes above it. *Methods* solves the same scenes in "
+         "other "
+         "ways; *Thresholds* shows what tags and circles miss the board's pose by, with the gate "
+         "as "
+         "a line to drag: what would be refused and where the extrinsic would go is told before it "
+         "is decided. *All scenes* shows every board about the rig.\n"),
       tr("# Boundary response\n"
          "How returns scatter at the circles' edges: the transition of the intensity, pitch and "
          "yaw with their ellipse, and ranges off the plane. The table has the numbers for all "
          "scenes and each one. *Left out* lists what the program refused, with its reasons.\n"),
-      tr("# Model\n"
-         "What the model misses, and what it does to the pose. Bars on top: the error beyond the "
-         "noise after each step, red where it is unexplained. On the right, what is missing, with "
-         "the evidence; *Add* takes it into the model, *Find all* goes on until nothing is "
-         "missing. *Compare steps…* tells how far the pose moved. Where the truth of a simulation "
-         "is known, the distance to it stands beside the bars.\n"),
       tr("# Keys\n"
          "F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J "
          "rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks, Alt+Up and "
          "Alt+Down move them in the list, F1 opens this guide at the page in view.\n")};
   browser_->setMarkdown(chapters.join(QLatin1Char('\n')));
+  showChapter();
+}
+
+void GuideDialog::showChapter() {
+  constexpr int kModelTab = 4;
+  const int chapter = page_ < 0 ? 0 : page_ == kModelTab ? 1 : page_ + 2;
+  // Room below, so that the last chapters too can stand at the top.
+  QTextFrame* frame = browser_->document()->rootFrame();
+  QTextFrameFormat format = frame->frameFormat();
+  format.setBottomMargin(0.7 * browser_->viewport()->height());
+  frame->setFrameFormat(format);
   int heading = -1;
   for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
-    if (block.blockFormat().headingLevel() != 1 || ++heading != chapter_) continue;
+    if (block.blockFormat().headingLevel() != 1 || ++heading != chapter) continue;
     // To the top of the view, not just into sight.
     browser_->moveCursor(QTextCursor::End);
     browser_->setTextCursor(QTextCursor(block));
-    QTimer::singleShot(0, browser_, [this] {
-      browser_->verticalScrollBar()->setValue(browser_->verticalScrollBar()->value() +
-                                              browser_->cursorRect().top());
-    });
+    browser_->verticalScrollBar()->setValue(browser_->verticalScrollBar()->value() +
+                                            browser_->cursorRect().top());
   }
+}
+
+void GuideDialog::showEvent(QShowEvent* event) {
+  QDialog::showEvent(event);
+  // Only now is it known how the text breaks into lines.
+  QTimer::singleShot(0, this, &GuideDialog::showChapter);
 }
 
 }  // namespace lvcalib::widgets

@@ -12,14 +12,18 @@ class GuideDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// Opens at a chapter: 0 the beginning, then the pages as their tabs are counted, from 1.
-  explicit GuideDialog(int chapter, QWidget* parent = nullptr);
+  /// Opens at the chapter of a page, as their tabs are counted; −1: at the beginning.
+  explicit GuideDialog(int page, QWidget* parent = nullptr);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
 
  private:
   void retranslate();
+  void showChapter();
 
   QTextBrowser* browser_;
-  int chapter_;
+  int page_;
 };
 
 }  // namespace lvcalib::widgets

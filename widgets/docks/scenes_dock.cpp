@@ -14,6 +14,13 @@
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
+namespace {
+
+// Widths of thumbnails, the first of which is taken with which all columns are in sight.
+constexpr int kThumbnailWidths[] = {48, 24, 0};
+constexpr int kThumbnailMargin = 8;
+
+}  // namespace
 
 ScenesDock::ScenesDock(SceneModel& model, QWidget* parent)
     : QDockWidget(parent),
@@ -63,6 +70,7 @@ void ScenesDock::make_view(SceneModel& model) {
   header->setSectionResizeMode(SceneModel::kState, QHeaderView::Stretch);
   header->moveSection(SceneModel::kState, 1);
   view_->setColumnHidden(SceneModel::kNote, true);
+  view_->viewport()->installEventFilter(this);
   connect(header, &QHeaderView::sortIndicatorChanged, this, &ScenesDock::update_actions);
   connect(&model, &SceneModel::note_wanted, this, &ScenesDock::note_wanted);
   connect(&model, &SceneModel::order_wanted, this, &ScenesDock::order_wanted);
@@ -70,6 +78,8 @@ void ScenesDock::make_view(SceneModel& model) {
           &ScenesDock::update_actions);
   connect(&model, &QAbstractItemModel::modelReset, this, &ScenesDock::update_actions);
   connect(&model, &QAbstractItemModel::dataChanged, this, &ScenesDock::update_actions);
+  connect(&model, &QAbstractItemModel::modelReset, this, &ScenesDock::fit_columns);
+  connect(&model, &QAbstractItemModel::dataChanged, this, &ScenesDock::fit_columns);
   connect(view_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             const int row = sorted_->mapToSource(current).row();
@@ -156,6 +166,11 @@ void ScenesDock::update_actions() {
   if (model_.has_notes()) view_->setColumnHidden(SceneModel::kNote, false);
   // In another order than the user's there are no places to drag to.
   const bool own_order = view_->header()->sortIndicatorSection() < 0;
+  // Room for an arrow in each heading costs a column or two.
+  if (view_->header()->isSortIndicatorShown() == own_order) {
+    view_->header()->setSortIndicatorShown(!own_order);
+    fit_columns();
+  }
   view_->setDragEnabled(own_order);
   note_->setEnabled(any);
   for (QAction* action : {up_, down_}) action->setEnabled(any && own_order);
@@ -171,6 +186,32 @@ void ScenesDock::update_actions() {
   }
   insist_->setVisible(refused || insisted);
   insist_->setChecked(insisted);
+}
+
+void ScenesDock::fit_columns() {
+  const QHeaderView* header = view_->header();
+  const QAbstractItemView& rows = *view_;  // There its hints are public.
+  int needed = 0;
+  for (int column = 0; column < header->count(); ++column) {
+    if (view_->isColumnHidden(column)) continue;
+    int width = std::max(header->sectionSizeHint(column), header->minimumSectionSize());
+    // Of the state the sign is enough.
+    if (column != SceneModel::kState) width = std::max(width, rows.sizeHintForColumn(column));
+    needed += width;
+  }
+  const int shown = model_.thumbnail_width();
+  if (shown > 0) needed -= shown + kThumbnailMargin;
+  for (const int width : kThumbnailWidths) {
+    const int with = needed + (width > 0 ? width + kThumbnailMargin : 0);
+    if (with > view_->viewport()->width() && width > 0) continue;
+    model_.set_thumbnail_width(width);
+    return;
+  }
+}
+
+bool ScenesDock::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize) fit_columns();
+  return QDockWidget::eventFilter(watched, event);
 }
 
 void ScenesDock::changeEvent(QEvent* event) {

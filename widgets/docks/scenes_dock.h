@@ -39,12 +39,15 @@ class ScenesDock : public QDockWidget {
 
  protected:
   void changeEvent(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void make_view(SceneModel& model);
   void make_actions();
   void retranslate();
   void update_actions();
+  /// Gives up thumbnails where the columns would not fit otherwise.
+  void fit_columns();
   void move(int by);
   void edit_note();
 

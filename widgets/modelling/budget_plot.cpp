@@ -39,6 +39,7 @@ BudgetPlot::BudgetPlot(QWidget* parent) : PlotView(parent) {
   yAxis->setTickLabels(false);
   yAxis->grid()->setVisible(false);
   follow_language(this, [this] { rebuild(); });
+  connect(this, &QCustomPlot::afterLayout, this, &BudgetPlot::keepInside);
   connect(this, &PlotView::clicked, this, [this](const QPointF& place) {
     const int step = stepAt(xAxis->pixelToCoord(place.x()));
     if (step >= 0) Q_EMIT stepClicked(step);
@@ -92,7 +93,19 @@ int BudgetPlot::stepAt(double x) const {
                                                                                           : -1;
 }
 
+void BudgetPlot::keepInside() {
+  const QRect area = axisRect()->rect();
+  for (QCPItemText* label : figures_) {
+    const double half = 0.5 * QFontMetrics(label->font()).horizontalAdvance(label->text()) + 2.0;
+    const double wanted = xAxis->coordToPixel(label->property("place").toDouble());
+    // The room on the right of the axes is the widget's own margin.
+    const double right = std::max<double>(area.left() + half, width() - half);
+    label->position->setCoords(xAxis->pixelToCoord(std::min(wanted, right)), kFigures);
+  }
+}
+
 void BudgetPlot::rebuild() {
+  figures_.clear();
   clearFigure();
   xAxis->setTicker(QSharedPointer<QCPAxisTicker>(new QCPAxisTickerText));
   if (steps_.empty() || !steps_.front()) {
@@ -199,7 +212,10 @@ void BudgetPlot::writeFigures(const ChannelSummary& base, double middle) {
 void BudgetPlot::writeFigure(double middle, const QString& text, const QColor& color) {
   auto* label = new QCPItemText(this);
   label->position->setCoords(middle, kFigures);
+  label->setProperty("place", middle);
+  label->setClipToAxisRect(false);
   label->setText(text);
+  figures_.push_back(label);
   QFont large = font();
   large.setPointSizeF(1.25 * large.pointSizeF());
   large.setBold(true);

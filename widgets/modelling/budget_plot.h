@@ -50,6 +50,8 @@ class BudgetPlot : public PlotView {
   };
   [[nodiscard]] Distance toTruth(const ModelStep& step) const;
   void drawTruth(int first);
+  /// Figures that would leave the picture are moved back into it.
+  void keepInside();
   void frameStep(double x, double top);
   void writeFigure(double middle, const QString& text, const QColor& color);
   void showTip(const QPoint& place);
@@ -58,6 +60,7 @@ class BudgetPlot : public PlotView {
   std::vector<ModelStepPtr> steps_;
   std::size_t current_ = 0;
   std::optional<Rigid3> truth_;
+  std::vector<QCPItemText*> figures_;  // Of this picture.
 };
 
 }  // namespace lvcalib::widgets

@@ -376,8 +376,10 @@ void MissingPane::changeEvent(QEvent* event) {
 }
 
 void MissingPane::retranslate() {
-  tabs_->setTabText(0, tr("What is missing"));
-  tabs_->setTabText(1, tr("What cannot be seen"));
+  tabs_->setTabText(0, tr("Missing"));
+  tabs_->setTabToolTip(0, tr("What is missing"));
+  tabs_->setTabText(1, tr("Cannot be seen"));
+  tabs_->setTabToolTip(1, tr("What cannot be seen"));
   tabs_->setTabToolTip(1, tr("Effects that these scenes could not show, and by how much they would "
                              "spoil the extrinsic at the size that matters"));
   list_->setHeaderLabels({tr("Effect"), tr("Verdict"), tr("Error")});

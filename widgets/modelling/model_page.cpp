@@ -12,7 +12,6 @@
 
 #include "modelling/add_effect_dialog.h"
 #include "modelling/budget_plot.h"
-#include "modelling/compare_steps_dialog.h"
 #include "modelling/missing_pane.h"
 #include "modelling/model_text.h"
 #include "modelling/term_list.h"
@@ -90,7 +89,7 @@ void ModelPage::createLayout() {
 }
 
 void ModelPage::connectParts() {
-  connect(compare_, &QPushButton::clicked, this, &ModelPage::compareSteps);
+  connect(compare_, &QPushButton::clicked, this, &ModelPage::compareWanted);
   connect(budget_, &BudgetPlot::stepClicked, this, [this](int step) {
     if (!work_.busy()) work_.go_to(static_cast<std::size_t>(step));
   });
@@ -156,11 +155,6 @@ void ModelPage::setReason(const QString& reason) {
 
 void ModelPage::setTruth(const std::optional<Rigid3>& camera_from_lidar) {
   budget_->setTruth(camera_from_lidar);
-}
-
-void ModelPage::compareSteps() {
-  if (work_.source() == nullptr) return;
-  (new CompareStepsDialog(work_.source(), work_.steps(), work_.current(), this))->show();
 }
 
 void ModelPage::showEvent(QShowEvent* event) {

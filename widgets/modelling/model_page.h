@@ -36,6 +36,8 @@ class ModelPage : public QWidget {
   void setTruth(const std::optional<Rigid3>& camera_from_lidar);
 
  Q_SIGNALS:
+  /// The steps are to be set side by side.
+  void compareWanted();
   /// Measurements were selected; scenes by name.
   void samplesSelected(const QString& scene, const std::vector<Eigen::Vector3d>& points_in_lidar_m,
                        const std::vector<Eigen::Vector2d>& pixels);
@@ -56,7 +58,6 @@ class ModelPage : public QWidget {
   void describeSteps();
   void openDialog(const QString& covariate, std::optional<Channel> channel,
                   const QString& second = {});
-  void compareSteps();
   void forward(const std::vector<SelectedSample>& samples);
 
   ModelWork& work_;

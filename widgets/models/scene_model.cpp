@@ -108,6 +108,7 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     row.used = scene.used;
     row.can_be_insisted_on = lvcalib::can_be_insisted_on(scene);
     row.edited = edits_text(scene);
+    row.refused = refusals_text(result, scene.name);
     row.objection = QString::fromStdString(scene.objection);
     row.reason = QString::fromStdString(scene.reason);
     if (scene.view && result.target.has_tags()) row.tags = scene.view->tag_count;
@@ -135,6 +136,13 @@ void SceneModel::set_thumbnail(const QString& scene, const QImage& image) {
   thumbnails_[scene] = QPixmap::fromImage(image);
   const int row = row_of(scene);
   if (row >= 0) Q_EMIT dataChanged(index(row, kName), index(row, kName), {Qt::DecorationRole});
+}
+
+void SceneModel::set_thumbnail_width(int width_px) {
+  if (width_px == thumbnail_width_) return;
+  thumbnail_width_ = width_px;
+  if (!rows_.empty())
+    Q_EMIT dataChanged(index(0, kName), index(rowCount() - 1, kName), {Qt::DecorationRole});
 }
 
 void SceneModel::set_problem(const QString& scene, const QString& problem) {
@@ -198,7 +206,11 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
         return mark_icon(mark_of(row), QGuiApplication::palette())
             .pixmap(QSize(16, 16), qApp->devicePixelRatio());
       }
-      if (index.column() == kName) return thumbnails_.value(row.name);
+      if (index.column() == kName && thumbnail_width_ > 0) {
+        const QPixmap picture = thumbnails_.value(row.name);
+        if (picture.width() <= thumbnail_width_) return picture;
+        return picture.scaledToWidth(thumbnail_width_, Qt::SmoothTransformation);
+      }
       return {};
     case Qt::ForegroundRole:
       if (index.column() == kState && mark_of(row) == Mark::kBad)
@@ -296,8 +308,14 @@ QString SceneModel::tool_tip(const Row& row, int column) const {
       if (row.used || !row.rms_px) break;
       return tr("Left out: how it fits what the other scenes give.");
     case kState:
-      return row.edited.isEmpty() ? state_words(row)
-                                  : state_words(row) + QLatin1Char('\n') + row.edited;
+      return QStringList({state_words(row), row.edited, row.refused})
+          .join(QLatin1Char('\n'))
+          .trimmed();
+    case kTags:
+    case kPoints:
+      if (row.refused.isEmpty()) break;
+      return headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString() + QLatin1Char('\n') +
+             row.refused;
     case kNote:
       if (row.note.isEmpty()) break;
       return row.note;

@@ -36,6 +36,9 @@ class SceneModel : public QAbstractTableModel {
   /// Tells views that titles and words are in another language.
   void retranslate();
   void set_thumbnail(const QString& scene, const QImage& image);
+  /// Pictures are shown this wide, or smaller; 0: none.
+  void set_thumbnail_width(int width_px);
+  [[nodiscard]] int thumbnail_width() const { return thumbnail_width_; }
   /// A file of the scene is missing or cannot be read, in words; empty: no longer.
   void set_problem(const QString& scene, const QString& problem);
 
@@ -91,6 +94,7 @@ class SceneModel : public QAbstractTableModel {
     bool can_be_insisted_on = false;
     QString reason;
     QString edited;     // What is left out by hand, in words.
+    QString refused;    // What the program refused of it, in words.
     QString objection;  // What speaks against a scene that the user insists on.
   };
   void fill_result(Row& row, const CalibrationResult& result) const;
@@ -107,6 +111,7 @@ class SceneModel : public QAbstractTableModel {
   std::shared_ptr<const CalibrationResult> result_;
   std::filesystem::path dataset_;  // Whose scenes these are.
   QHash<QString, QPixmap> thumbnails_;
+  int thumbnail_width_ = 48;
   QHash<QString, QString> problems_;
 };
 

@@ -3,12 +3,16 @@
 
 #include <QEvent>
 #include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTextBrowser>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "pages/methods_pane.h"
 #include "pages/pose_text.h"
@@ -24,19 +28,20 @@
 namespace lvcalib::widgets {
 namespace {
 
-std::vector<double> corner_distances_px(const SceneSolution& solution) {
-  std::vector<double> out;
-  for (const CornerResidual& r : solution.corners) {
-    if (r.used) out.push_back(r.residual_px.norm());
-  }
+// Lengths of residuals as a box, with those that are refused beside it.
+BoxPlot::Box corner_box(const QString& name, const SceneSolution* solution) {
+  BoxPlot::Box out{name, {}};
+  if (solution == nullptr) return out;
+  for (const CornerResidual& r : solution->corners)
+    (r.used ? out.values : out.refused).push_back(r.residual_px.norm());
   return out;
 }
 
-std::vector<double> node_distances_mm(const SceneSolution& solution) {
-  std::vector<double> out;
-  for (const NodeResidual& r : solution.nodes) {
-    if (r.used) out.push_back(1e3 * r.residual_m.norm());
-  }
+BoxPlot::Box node_box(const QString& name, const SceneSolution* solution) {
+  BoxPlot::Box out{name, {}};
+  if (solution == nullptr) return out;
+  for (const NodeResidual& r : solution->nodes)
+    (r.used ? out.values : out.refused).push_back(1e3 * r.residual_m.norm());
   return out;
 }
 
@@ -93,20 +98,43 @@ QWidget* ExtrinsicPage::createPlots() {
                            boxes_mm_, influence_mm_, influence_mrad_};
   for (int k = 0; k < 6; ++k) {
     grid->addWidget(plots[k], k / 2, k % 2);
+    grid->setRowStretch(k / 2, 1);
     watch(plots[k]);
   }
+  without_ = new QLabel(page);
+  without_->setObjectName("without-scenes");
+  without_->setWordWrap(true);
+  without_->setTextFormat(Qt::PlainText);
+  reject_ = new QPushButton(page);
+  reject_->setObjectName("reject-beyond");
+  back_ = new QPushButton(page);
+  back_->setObjectName("drop-threshold");
+  auto* row = new QHBoxLayout;
+  row->addWidget(without_, 1);
+  row->addWidget(back_);
+  row->addWidget(reject_);
+  grid->addLayout(row, 3, 0, 1, 2);
+  for (BarPlot* bars : {bars_px_, bars_mm_}) {
+    bars->setThresholdShown(true);
+    connect(bars, &BarPlot::thresholdMoved, this, &ExtrinsicPage::takeThresholds);
+  }
+  connect(reject_, &QPushButton::clicked, this, [this] { Q_EMIT rejectWanted(scenesBeyond()); });
+  connect(back_, &QPushButton::clicked, this, [this] {
+    for (BarPlot* bars : {bars_px_, bars_mm_}) bars->setThreshold(std::nullopt);
+    takeThresholds();
+  });
   return page;
 }
 
 void ExtrinsicPage::retranslate() {
   pose_->setAccessibleName(tr("Pose and quality"));
-  const QStringList titles = {tr("Residuals and influence"),
-                              tr("Methods"),
-                              tr("Uncertainty"),
-                              tr("Thresholds"),
-                              tr("All scenes"),
-                              tr("Coloured cloud")};
+  const QStringList titles = {tr("Residuals"),  tr("Methods"),    tr("Uncertainty"),
+                              tr("Thresholds"), tr("All scenes"), tr("Colours")};
   for (int k = 0; k < titles.size(); ++k) tabs_->setTabText(k, titles[k]);
+  tabs_->setTabToolTip(0, tr("Residuals and influence of every scene"));
+  tabs_->setTabToolTip(5, tr("The cloud in the camera's colours"));
+  reject_->setText(tr("Leave these scenes out"));
+  back_->setText(tr("Back"));
   bars_px_->setValueLabel(tr("corner RMS (px)"), "rms_px");
   bars_mm_->setValueLabel(tr("LiDAR RMS (mm)"), "rms_mm");
   boxes_px_->setValueLabel(tr("corner residual (px)"), "residual_px");
@@ -121,13 +149,53 @@ void ExtrinsicPage::retranslate() {
          "per scene (mm); without circles, of the plane's height"));
   boxes_px_->setToolTip(
       tr("Lengths of the corner residuals per scene (px): median, quartiles, "
-         "whiskers to 1.5 box lengths, circles beyond"));
+         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher "
+         "than drawn)"));
   boxes_mm_->setToolTip(
       tr("Lengths of the node residuals per scene (mm): median, quartiles, "
-         "whiskers to 1.5 box lengths, circles beyond"));
+         "whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher "
+         "than drawn)"));
   influence_mm_->setToolTip(tr("How far the LiDAR's origin moves when the scene is left out (mm)"));
   influence_mrad_->setToolTip(tr("How far the extrinsic turns when the scene is left out (mrad)"));
   setResult(result_);
+}
+
+// Names of the scenes in use that rise above either line.
+QStringList ExtrinsicPage::scenesBeyond() const {
+  std::set<int> beyond;
+  for (const BarPlot* bars : {bars_px_, bars_mm_}) {
+    for (const int k : bars->beyond()) beyond.insert(k);
+  }
+  QStringList names;
+  for (const int k : beyond)
+    names << QString::fromStdString(result_->scenes[static_cast<std::size_t>(k)].name);
+  return names;
+}
+
+void ExtrinsicPage::takeThresholds() {
+  const QStringList names = result_ ? scenesBeyond() : QStringList();
+  const bool moved = bars_px_->threshold() || bars_mm_->threshold();
+  reject_->setEnabled(!names.isEmpty());
+  back_->setEnabled(moved);
+  if (names.isEmpty()) {
+    without_->setText(
+        tr("Drag the dashed line down over the bars to see what the extrinsic would be without the "
+           "scenes above it."));
+    Q_EMIT scenesPreviewDropped();
+    return;
+  }
+  without_->setText(tr("Solving without %1 …").arg(names.join(QStringLiteral(", "))));
+  Q_EMIT scenesPreviewWanted(names);
+}
+
+void ExtrinsicPage::setScenesPreview(const CalibrationResult& present,
+                                     const CalibrationResult& preview) {
+  without_->setText(tr("Without %1:").arg(scenesBeyond().join(QStringLiteral(", "))) +
+                    QLatin1Char(' ') + ThresholdPane::moveText(present, preview));
+}
+
+void ExtrinsicPage::setScenesError(const Error& error) {
+  without_->setText(core_text(error));
 }
 
 QWidget* ExtrinsicPage::createCloud() {
@@ -156,6 +224,7 @@ void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   world_->setResult(result_);
   fillPlots();
   fillInfluence();
+  takeThresholds();
   colourise();
 }
 
@@ -190,10 +259,8 @@ void ExtrinsicPage::fillPlots() {
       const double nothing = std::numeric_limits<double>::quiet_NaN();
       px.push_back({name, solution != nullptr ? solution->rms_px : nothing, scene.used});
       mm.push_back({name, solution != nullptr ? solution->rms_mm : nothing, scene.used});
-      px_boxes.push_back(
-          {name, solution != nullptr ? corner_distances_px(*solution) : std::vector<double>()});
-      mm_boxes.push_back(
-          {name, solution != nullptr ? node_distances_mm(*solution) : std::vector<double>()});
+      px_boxes.push_back(corner_box(name, solution));
+      mm_boxes.push_back(node_box(name, solution));
     }
   }
   bars_px_->setBars(std::move(px));

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <QImage>
+#include <QStringList>
 #include <QWidget>
 #include <memory>
 
 #include "pipeline/calibration.h"
 
 class QTabWidget;
+class QLabel;
+class QPushButton;
 class QTextBrowser;
 
 namespace lvcalib::widgets {
@@ -39,10 +42,18 @@ class ExtrinsicPage : public QWidget {
   [[nodiscard]] CloudView* cloudView() const { return cloud_; }
   [[nodiscard]] WorldPane* world() const { return world_; }
   [[nodiscard]] ThresholdPane* thresholds() const { return thresholds_; }
+  /// What the result would be without the scenes above the line.
+  void setScenesPreview(const CalibrationResult& present, const CalibrationResult& preview);
+  void setScenesError(const Error& error);
 
  Q_SIGNALS:
   /// A scene was clicked in a plot; index into the result's scenes.
   void sceneActivated(int scene);
+  /// What would the extrinsic be without these scenes?
+  void scenesPreviewWanted(const QStringList& without);
+  void scenesPreviewDropped();
+  /// These scenes are to be left out.
+  void rejectWanted(const QStringList& scenes);
   void failed(const QString& message);
 
  protected:
@@ -57,6 +68,8 @@ class ExtrinsicPage : public QWidget {
   void fillPlots();
   void fillInfluence();
   void fillTexts();
+  void takeThresholds();
+  [[nodiscard]] QStringList scenesBeyond() const;
   void colourise();
 
   std::shared_ptr<const CalibrationResult> result_;
@@ -74,6 +87,9 @@ class ExtrinsicPage : public QWidget {
   BoxPlot* boxes_mm_ = nullptr;
   BarPlot* influence_mm_ = nullptr;
   BarPlot* influence_mrad_ = nullptr;
+  QLabel* without_ = nullptr;  // What the lines over the bars would do.
+  QPushButton* reject_ = nullptr;
+  QPushButton* back_ = nullptr;
   WorldPane* world_ = nullptr;
   CloudView* cloud_ = nullptr;
   CloudSceneBuilder* builder_ = nullptr;

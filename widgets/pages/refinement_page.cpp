@@ -4,6 +4,7 @@
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QShortcut>
 #include <QSlider>
 #include <QSplitter>
 #include <QTableWidget>
@@ -12,6 +13,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "pipeline/refusals.h"
 #include "refinement/node_fit.h"
 #include "style/texts.h"
 #include "style/theme.h"
@@ -60,7 +62,7 @@ void RefinementPage::retranslate() {
   bins_->setToolTip(
       tr("Every angular bin of the chosen node: where the intensity crosses its middle "
          "level (mm from the circle), its standard deviation, and why it was refused"));
-  play_->setToolTip(tr("Replay the iterations from the first"));
+  play_->setToolTip(tr("Replay the iterations from the first (P)"));
   play_->setAccessibleName(tr("Replay"));
   slider_->setToolTip(tr("Iteration shown"));
   slider_->setAccessibleName(tr("Iteration"));
@@ -82,6 +84,12 @@ QWidget* RefinementPage::createDetail() {
   verdict_ = new QLabel(top);
   verdict_->setObjectName("node-verdict");
   verdict_->setWordWrap(true);
+  verdict_->setTextFormat(Qt::RichText);
+  connect(verdict_, &QLabel::linkActivated, this, [this] {
+    if (!result_ || scene_ < 0 || scene_ >= static_cast<int>(result_->scenes.size())) return;
+    const std::string& name = result_->scenes[static_cast<std::size_t>(scene_)].name;
+    Q_EMIT keepWanted(QString::fromStdString(name), false, chosen_);
+  });
   bins_ = new QTableWidget(0, 5, top);
   bins_->setObjectName("bins");
   bins_->horizontalHeader()->setStretchLastSection(true);
@@ -122,7 +130,10 @@ QWidget* RefinementPage::createReplay() {
   play_ = new QToolButton(bar);
   play_->setObjectName("play");
   play_->setText(QString(QChar(0x25B6)));  // Takes the palette's colour, unlike the style's icon.
-  play_->setShortcut(QKeySequence(Qt::Key_P));
+  // The key is the page's: in a list elsewhere the same letter chooses an entry.
+  auto* key = new QShortcut(QKeySequence(Qt::Key_P), this);
+  key->setContext(Qt::WidgetWithChildrenShortcut);
+  connect(key, &QShortcut::activated, play_, &QToolButton::click);
   slider_ = new QSlider(Qt::Horizontal, bar);
   slider_->setObjectName("iteration");
   slider_->setPageStep(1);
@@ -167,6 +178,7 @@ void RefinementPage::setLivePoints(int scene, std::shared_ptr<const Cloud> board
 }
 
 void RefinementPage::showResult() {
+  refused_.clear();
   if (!result_ || scene_ < 0 || scene_ >= static_cast<int>(result_->scenes.size())) {
     display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
     return;
@@ -183,7 +195,19 @@ void RefinementPage::showResult() {
     display(nullptr, nullptr, tr("This board has no circles: there is nothing to refine."));
     return;
   }
+  refused_ = refusedCircles();
   display({result_, &*scene.refinement}, {result_, &scene.board_points}, {});
+}
+
+std::map<int, RefinementPage::Refused> RefinementPage::refusedCircles() const {
+  std::map<int, Refused> out;
+  const SceneResult& scene = result_->scenes[static_cast<std::size_t>(scene_)];
+  for (const Refusal& refusal : refusals(*result_)) {
+    if (refusal.scene == scene.name && refusal.what == Refusal::What::kCircle)
+      out[refusal.id] = {core_text(refusal.reason), refusal.can_be_used};
+  }
+  for (const int id : scene.edits.circles) out[id] = {tr("left out by hand"), false};
+  return out;
 }
 
 void RefinementPage::showIteration(int scene, std::shared_ptr<const BoardRefinement> partial) {
@@ -191,6 +215,7 @@ void RefinementPage::showIteration(int scene, std::shared_ptr<const BoardRefinem
   std::shared_ptr<const Cloud> points = points_;
   if (live_points_ && live_points_scene_ == scene) points = live_points_;
   player_.stop();
+  refused_.clear();
   display(std::move(partial), std::move(points), {});
 }
 
@@ -209,6 +234,9 @@ void RefinementPage::display(std::shared_ptr<const BoardRefinement> refinement,
     // The edge's neighbourhood: what lies deeper inside is all alike.
     reach_m_ = std::min(window.inside_m, window.outside_m);
   }
+  std::set<int> refused;
+  for (const auto& entry : refused_) refused.insert(entry.first);
+  map_->setRefused(std::move(refused));
   map_->setPaths(refinement_ ? center_paths(*refinement_) : std::vector<CenterPath>());
   convergence_->setHistory(refinement_ ? refinement_->history : std::vector<IterationRecord>());
   updateReplay();
@@ -286,6 +314,7 @@ QString RefinementPage::nodeTitle(int id, bool narrow) const {
   if (node == nullptr) return tr("node %1").arg(id);
   // Nine plots side by side have no room for more.
   if (narrow) {
+    if (refused_.contains(id) && node->valid) return tr("%1: left out").arg(id);
     return node->valid
                ? tr("%1: %2 mm").arg(id).arg(kMmPerM * node->wave_m.head<2>().norm(), 0, 'f', 2)
                : tr("%1: not usable").arg(id);
@@ -298,6 +327,7 @@ void RefinementPage::updatePlots() {
   const std::vector<TargetNode> nodes = target_.nodes();
   for (std::size_t k = 0; k < plots_.size() && k < nodes.size(); ++k) {
     plots_[k]->setTitle(nodeTitle(nodes[k].id, true));
+    plots_[k]->setRefused(refused_.contains(nodes[k].id));
     if (const NodeRecord* node = record(nodes[k].id)) {
       plots_[k]->setData({*node, sampler_.around(node->center_uv_m), intensity_, reach_m_});
     } else {
@@ -322,6 +352,7 @@ void RefinementPage::updateDetail() {
   const NodeRecord* node = record(chosen_);
   large_->setChosenBin(-1);
   large_->setTitle(node != nullptr ? nodeTitle(chosen_) : QString());
+  large_->setRefused(node != nullptr && refused_.contains(chosen_));
   if (node != nullptr) {
     large_->setData({*node, sampler_.around(node->center_uv_m), intensity_, reach_m_});
   } else {
@@ -330,7 +361,7 @@ void RefinementPage::updateDetail() {
   fillBins(node);
   notice_->setText(message_);
   if (node == nullptr) {
-    verdict_->setText(plots_.empty() ? QString() : message_);
+    verdict_->setText(plots_.empty() ? QString() : message_.toHtmlEscaped());
     return;
   }
   const auto used = std::count_if(node->bins.begin(), node->bins.end(),
@@ -347,6 +378,14 @@ void RefinementPage::updateDetail() {
                 .arg(node->outer_level, 0, 'f', 0);
   } else {
     text += tr("; not usable: %1").arg(core_text(node->reason));
+  }
+  text = text.toHtmlEscaped();
+  const auto refused = refused_.find(chosen_);
+  if (refused != refused_.end() && node->valid) {
+    text = QStringLiteral("<b>%1</b> %2")
+               .arg(tr("Left out: %1.").arg(refused->second.reason).toHtmlEscaped(), text);
+    if (refused->second.can_be_used)
+      text += QStringLiteral(" <a href=\"keep\">%1</a>").arg(tr("Use it all the same"));
   }
   verdict_->setText(text);
 }

@@ -3,6 +3,7 @@
 
 #include <QTimer>
 #include <QWidget>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -50,9 +51,16 @@ class RefinementPage : public QWidget {
   void play();
 
  Q_SIGNALS:
+  /// The solve refused this circle; the user wants it used all the same.
+  void keepWanted(const QString& scene, bool tag, int id);
   void failed(const QString& message);
 
  private:
+  /// Why a circle is not used though it could be refined.
+  struct Refused {
+    QString reason;
+    bool can_be_used = false;
+  };
   QWidget* createDetail();
   QWidget* createReplay();
   void retranslate();
@@ -66,6 +74,8 @@ class RefinementPage : public QWidget {
   void updateReplay();
   void advance();
   [[nodiscard]] const NodeRecord* record(int id) const;
+  /// Of the circles of a finished scene.
+  [[nodiscard]] std::map<int, Refused> refusedCircles() const;
   [[nodiscard]] QString nodeTitle(int id, bool narrow = false) const;
 
   std::shared_ptr<const CalibrationResult> result_;
@@ -80,6 +90,7 @@ class RefinementPage : public QWidget {
   int scene_ = -1;
   int chosen_ = 0;
   QString message_;
+  std::map<int, Refused> refused_;  // None while it runs.
 
   QTimer player_;
   QWidget* grid_ = nullptr;

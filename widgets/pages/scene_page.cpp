@@ -208,9 +208,18 @@ void ScenePage::refresh() {
 void ScenePage::showRefusal() {
   const SceneResult* scene = current();
   const QString edits = scene != nullptr ? edits_text(*scene) : QString();
-  edits_->setVisible(!edits.isEmpty());
-  edits_->setText(QStringLiteral("%1 <a href=\"undo\">%2</a>")
-                      .arg(edits.toHtmlEscaped(), tr("As the program would have it")));
+  const QString unused = scene != nullptr ? refusals_text(*result_, scene->name) : QString();
+  edits_->setVisible(!edits.isEmpty() || !unused.isEmpty());
+  QStringList parts;
+  if (!edits.isEmpty())
+    parts << QStringLiteral("%1 <a href=\"undo\">%2</a>")
+                 .arg(edits.toHtmlEscaped(), tr("As the program would have it"));
+  if (!unused.isEmpty()) parts << unused.toHtmlEscaped();
+  edits_->setText(parts.join(QLatin1Char(' ')));
+  edits_->setToolTip(unused.isEmpty()
+                         ? QString()
+                         : tr("Drawn in red. A click on one says why, and offers to use "
+                              "it all the same where that is possible."));
   const bool refused = scene != nullptr && !scene->used && !scene->reason.empty() &&
                        scene->reason != kRejectedByUser;
   refusal_->setVisible(refused);

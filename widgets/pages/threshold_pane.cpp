@@ -93,13 +93,15 @@ double ThresholdPane::presentGate() const {
 }
 
 void ThresholdPane::retranslate() {
-  intro_->setText(
-      tr("What tags and circles miss the board's pose by, in standard deviations. Those beyond the "
-         "line are left out. Drag it (or use the arrow keys) to see what another place would do."));
+  intro_->setText(tr(
+      "What tags and circles miss the board's pose by, in standard deviations. Red ones are left "
+      "out. Drag the line (or use the arrow keys) to see what another place would do."));
   tags_->setValueLabel(tr("a tag's worst corner (σ)"), QStringLiteral("worst_corner_sigmas"));
   circles_->setValueLabel(tr("a circle's centre (σ)"), QStringLiteral("circle_sigmas"));
   for (ThresholdPlot* plot : {tags_, circles_})
-    plot->setToolTip(tr("Red: left out at this place of the line"));
+    plot->setToolTip(tr(
+        "Red: left out at this place of the line. Before the solve has answered, what lies beyond "
+        "the line; the solve may judge a few of them otherwise, since the board moves too."));
   use_->setText(tr("Use this threshold"));
   back_->setText(tr("Back"));
   setResult(result_);
@@ -107,20 +109,31 @@ void ThresholdPane::retranslate() {
 
 void ThresholdPane::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
+  back();
+}
+
+// What a result misses the boards by, and which of it the result refuses.
+void ThresholdPane::showDistances(const CalibrationResult* result) {
   std::vector<double> tags;
   std::vector<double> circles;
-  if (result_) {
-    for (const GateDistance& d : gate_distances(*result_))
-      (d.what == Refusal::What::kTag ? tags : circles).push_back(d.sigmas);
+  std::vector<bool> refused_tags;
+  std::vector<bool> refused_circles;
+  if (result != nullptr) {
+    for (const GateDistance& d : gate_distances(*result)) {
+      const bool tag = d.what == Refusal::What::kTag;
+      (tag ? tags : circles).push_back(d.sigmas);
+      (tag ? refused_tags : refused_circles).push_back(!d.used);
+    }
   }
-  const QString none = result_ ? QString() : tr("Run the calibration first.");
-  tags_->setValues(std::move(tags), none);
-  circles_->setValues(std::move(circles), result_ ? tr("No circles are in use.") : none);
-  back();
+  const QString none = result != nullptr ? QString() : tr("Run the calibration first.");
+  tags_->setValues(std::move(tags), none, std::move(refused_tags));
+  circles_->setValues(std::move(circles), result != nullptr ? tr("No circles are in use.") : none,
+                      std::move(refused_circles));
 }
 
 void ThresholdPane::back() {
   moveLines(presentGate());
+  showDistances(result_.get());
   preview_->clear();
 }
 
@@ -136,6 +149,18 @@ void ThresholdPane::setBusy() {
 
 void ThresholdPane::setError(const Error& error) {
   preview_->setText(core_text(error));
+}
+
+QString ThresholdPane::moveText(const CalibrationResult& present,
+                                const CalibrationResult& preview) {
+  const ExtrinsicDifference d = difference_of(stated(present), stated(preview));
+  const Matrix6d& covariance = preview.extrinsic.camera_from_lidar.covariance;
+  return tr("The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 "
+            "mrad.")
+      .arg(d.translation_mm, 0, 'f', 3)
+      .arg(d.rotation_mrad, 0, 'f', 3)
+      .arg(1e3 * std::sqrt(covariance.diagonal().head<3>().sum()), 0, 'f', 3)
+      .arg(1e3 * std::sqrt(covariance.diagonal().tail<3>().sum()), 0, 'f', 3);
 }
 
 void ThresholdPane::setPreview(const CalibrationResult& present, const CalibrationResult& preview) {
@@ -158,8 +183,6 @@ void ThresholdPane::setPreview(const CalibrationResult& present, const Calibrati
     if (more > 0) names << tr("%n more", nullptr, more);
     return names.join(QStringLiteral(", "));
   };
-  const ExtrinsicDifference d = difference_of(stated(present), stated(preview));
-  const Matrix6d& covariance = preview.extrinsic.camera_from_lidar.covariance;
   QString text = tr("With %1 σ, %2 tags and circles are left out (now %3).")
                      .arg(preview.options.extrinsic.rejection_gate, 0, 'f', 1)
                      .arg(then.size())
@@ -168,14 +191,9 @@ void ThresholdPane::setPreview(const CalibrationResult& present, const Calibrati
   const QString in = named(now, then);
   if (!out.isEmpty()) text += QLatin1Char(' ') + tr("Newly left out: %1.").arg(out);
   if (!in.isEmpty()) text += QLatin1Char(' ') + tr("Used again: %1.").arg(in);
-  text += QLatin1Char('\n') +
-          tr("The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 "
-             "mrad.")
-              .arg(d.translation_mm, 0, 'f', 3)
-              .arg(d.rotation_mrad, 0, 'f', 3)
-              .arg(1e3 * std::sqrt(covariance.diagonal().head<3>().sum()), 0, 'f', 3)
-              .arg(1e3 * std::sqrt(covariance.diagonal().tail<3>().sum()), 0, 'f', 3);
+  text += QLatin1Char('\n') + moveText(present, preview);
   preview_->setText(text);
+  if (preview.options.extrinsic.rejection_gate == tags_->threshold()) showDistances(&preview);
 }
 
 }  // namespace lvcalib::widgets

@@ -30,6 +30,9 @@ class ThresholdPane : public QWidget {
   void setPreview(const CalibrationResult& present, const CalibrationResult& preview);
   void setError(const Error& error);
 
+  /// How far a preview moves the extrinsic, and how well it would be known: a sentence.
+  static QString moveText(const CalibrationResult& present, const CalibrationResult& preview);
+
  Q_SIGNALS:
   /// The line stands elsewhere: what would that give?
   void previewWanted(double gate);
@@ -41,6 +44,7 @@ class ThresholdPane : public QWidget {
  private:
   void retranslate();
   void moveLines(double gate);
+  void showDistances(const CalibrationResult* result);
   void back();
   [[nodiscard]] double presentGate() const;
 

@@ -5,6 +5,8 @@
 #include <QStringList>
 #include <vector>
 
+#include "pipeline/refusals.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -38,6 +40,25 @@ QString edits_text(const SceneResult& scene) {
   if (!kept.isEmpty())
     all << EditsText::tr("Used all the same: %1.").arg(kept.join(QStringLiteral(", ")));
   return all.join(QLatin1Char(' '));
+}
+
+QString refusals_text(const CalibrationResult& result, const std::string& scene) {
+  std::vector<int> tags;
+  std::vector<int> circles;
+  std::size_t points = 0;
+  for (const Refusal& refusal : refusals(result)) {
+    if (refusal.scene != scene) continue;
+    if (refusal.what == Refusal::What::kTag) tags.push_back(refusal.id);
+    if (refusal.what == Refusal::What::kCircle) circles.push_back(refusal.id);
+    if (refusal.what == Refusal::What::kPoints || refusal.what == Refusal::What::kPatch)
+      points += refusal.points;
+  }
+  QStringList out;
+  if (points > 0) out << EditsText::tr("%n points", nullptr, static_cast<int>(points));
+  if (!tags.empty()) out << EditsText::tr("tags %1").arg(ids_text(tags));
+  if (!circles.empty()) out << EditsText::tr("circles %1").arg(ids_text(circles));
+  if (out.isEmpty()) return {};
+  return EditsText::tr("Left out by the program: %1.").arg(out.join(QStringLiteral(", ")));
 }
 
 }  // namespace lvcalib::widgets

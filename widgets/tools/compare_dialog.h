@@ -2,46 +2,84 @@
 #pragma once
 
 #include <QDialog>
+#include <QImage>
+#include <QLabel>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "dialogs/choices.h"
-#include "pipeline/calibration.h"
-#include "report/result_comparison.h"
+#include "runner/comparison_work.h"
+#include "runner/runner.h"
+#include "views/image_overlay.h"
 
-class QLabel;
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QProgressBar;
 class QPushButton;
 class QTreeWidget;
+class QWidget;
 
 namespace lvcalib::widgets {
 
-/// The present extrinsic beside another: a result, or the truth of a simulation.
+class ImageView;
+
+/// Two results side by side: steps of what is open, result files, truths, other projects. How far
+/// the pose differs with what either states of its errors, the residuals of every scene, and what
+/// both project into the picture of a scene.
 class CompareDialog : public QDialog {
   Q_OBJECT
 
  public:
   /// `choices` must outlive this; `folder`: where files are looked for first.
-  CompareDialog(const std::shared_ptr<const CalibrationResult>& result, Choices& choices,
-                const QString& folder, QWidget* parent = nullptr);
-  void open(const QString& path);
+  CompareDialog(ComparisonBasis basis, Choices& choices, const QString& folder,
+                QWidget* parent = nullptr);
+  /// Adds another result to those that can be chosen, and compares with it.
+  void add(ComparedResult::Kind kind, const QString& path);
 
  private:
+  void createPicture(QWidget* parent);
+  void connectParts();
   void retranslate();
-  void showTable();
+  [[nodiscard]] QString nameOf(const ComparedResult& what) const;
+  [[nodiscard]] std::optional<ComparedResult> chosen(int side) const;
+  void ask();
+  void take(const std::shared_ptr<const Comparison>& comparison);
+  void showState();
+  void showPose();
+  void showScenes();
+  void showLegend();
+  void chooseScene();
+  void showFactor();
   [[nodiscard]] QString verdict() const;
 
+  ComparisonBasis basis_;
   Choices& choices_;
-  StatedExtrinsic present_;
   QString folder_;
-  QString path_;
-  std::optional<StatedExtrinsic> other_;
-  std::optional<ExtrinsicDifference> difference_;
+  std::vector<ComparedResult> results_;  // As listed in both boxes.
+  std::shared_ptr<const Comparison> comparison_;
   std::optional<Error> error_;
-  QLabel* file_;
-  QPushButton* choose_;
+  QString scene_;  // Whose picture is shown.
+  QString picture_problem_;
+  QLabel* labels_[2];
+  QComboBox* boxes_[2];
+  QPushButton* file_;
+  QPushButton* project_;
+  QProgressBar* progress_;
+  QPushButton* cancel_;
   QLabel* verdict_;
-  QTreeWidget* table_;
+  QTreeWidget* pose_;
+  QTreeWidget* scenes_;
+  QWidget* picture_ = nullptr;
+  ImageView* image_ = nullptr;
+  QLabel* legend_ = nullptr;
+  QLabel* factor_label_ = nullptr;
+  QDoubleSpinBox* factor_ = nullptr;
+  QCheckBox* points_ = nullptr;
   QPushButton* close_;
+  Runner loader_;
+  ComparisonWork work_;
 };
 
 }  // namespace lvcalib::widgets

@@ -61,6 +61,12 @@ void AngleDistancePlot::setTitle(const QString& title) {
   rebuild();
 }
 
+void AngleDistancePlot::setRefused(bool refused) {
+  if (refused == refused_) return;
+  refused_ = refused;
+  rebuild();
+}
+
 void AngleDistancePlot::setData(AngleDistanceData data) {
   const double before = data_.reach_m;
   data_ = std::move(data);
@@ -92,6 +98,7 @@ void AngleDistancePlot::rebuild() {
   drawSamples();
   drawWave();
   drawBins();
+  drawRefusal();
   drawLabel();
   fillTable();
   replot(rpQueuedReplot);
@@ -196,6 +203,28 @@ void AngleDistancePlot::drawBins() {
   }
 }
 
+// Hatched and crossed out, as circles that are not used are in the image.
+void AngleDistancePlot::drawRefusal() {
+  if (!refused_) return;
+  const auto ratio = [](QCPItemPosition* position, double x, double y) {
+    position->setType(QCPItemPosition::ptAxisRectRatio);
+    position->setCoords(x, y);
+  };
+  QColor pale = colors().refused;
+  pale.setAlpha(90);
+  auto* hatch = new QCPItemRect(this);
+  ratio(hatch->topLeft, 0.0, 0.0);
+  ratio(hatch->bottomRight, 1.0, 1.0);
+  hatch->setPen(Qt::NoPen);
+  hatch->setBrush(QBrush(pale, Qt::BDiagPattern));
+  for (const bool down : {true, false}) {
+    auto* line = new QCPItemLine(this);
+    ratio(line->start, 0.0, down ? 0.0 : 1.0);
+    ratio(line->end, 1.0, down ? 1.0 : 0.0);
+    line->setPen(QPen(colors().refused, 1.6));
+  }
+}
+
 void AngleDistancePlot::drawLabel() {
   if (title_.isEmpty()) return;
   auto* label = new QCPItemText(this);
@@ -207,7 +236,7 @@ void AngleDistancePlot::drawLabel() {
   QColor ground = colors().background;
   ground.setAlpha(215);
   label->setBrush(ground);
-  const bool fine = data_.record.valid || data_.record.bins.empty();
+  const bool fine = !refused_ && (data_.record.valid || data_.record.bins.empty());
   label->setColor(fine ? colors().text : colors().refused);
   QFont bold = font();
   bold.setBold(true);

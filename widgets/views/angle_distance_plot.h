@@ -32,6 +32,9 @@ class AngleDistancePlot : public PlotView {
   void setTitle(const QString& title);
   void setData(AngleDistanceData data);
   void clear(const QString& message);
+  /// Strikes the plot through: its circle is not used.
+  void setRefused(bool refused);
+  [[nodiscard]] bool isRefused() const { return refused_; }
   /// Emphasises one bin; −1: none.
   void setChosenBin(int bin);
 
@@ -48,6 +51,7 @@ class AngleDistancePlot : public PlotView {
   void drawSamples();
   void drawWave();
   void drawBins();
+  void drawRefusal();
   void drawLabel();
   void fillTable();
 
@@ -55,6 +59,7 @@ class AngleDistancePlot : public PlotView {
   QString title_;
   QString message_;
   bool compact_ = false;
+  bool refused_ = false;
   int chosen_bin_ = -1;
 };
 

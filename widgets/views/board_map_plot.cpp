@@ -73,6 +73,11 @@ void BoardMapPlot::setChosenNode(int id) {
   rebuild();
 }
 
+void BoardMapPlot::setRefused(std::set<int> ids) {
+  refused_ = std::move(ids);
+  rebuild();
+}
+
 // The board in the middle, with equal scales along both axes.
 void BoardMapPlot::fit() {
   const BoardOutline outline = target_.outline();
@@ -152,6 +157,12 @@ void BoardMapPlot::drawPath(const CenterPath& path, int index) {
   refined->setScatterStyle({QCPScatterStyle::ssDiamond, QPen(colors().mark), color, 7});
   refined->addData(end.x(), end.y());
   drawEllipse(path, QPen(colors().mark, 1));
+  if (!refused_.contains(path.id)) return;
+  auto* cross = addGraph();
+  cross->setLineStyle(QCPGraph::lsNone);
+  cross->setScatterStyle(
+      {QCPScatterStyle::ssCrossCircle, QPen(colors().refused, 1.8), Qt::NoBrush, 16});
+  cross->addData(kMmPerM * path.board_m.x(), kMmPerM * path.board_m.y());
 }
 
 void BoardMapPlot::drawEllipse(const CenterPath& path, const QPen& pen) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "refinement/node_samples.h"
@@ -22,6 +23,8 @@ class BoardMapPlot : public PlotView {
   /// Draws the paths up to this iteration; −1: all.
   void setIteration(int iteration);
   void setChosenNode(int id);
+  /// Nodes that are not used though they were refined: drawn crossed out.
+  void setRefused(std::set<int> ids);
 
   /// How much larger than life the paths are drawn: 1, 2 or 5 times a power of ten, so that the
   /// longest is at most 0.4 tag pitches long.
@@ -46,6 +49,7 @@ class BoardMapPlot : public PlotView {
   std::vector<CenterPath> paths_;
   int iteration_ = -1;
   int chosen_ = -1;
+  std::set<int> refused_;
   double enlargement_ = 1.0;
   QSize fitted_to_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/statistics.h"
@@ -43,15 +44,40 @@ class BarPlot : public CategoryPlot {
     double value = 0.0;
     bool used = true;  ///< Bars of what is not used are drawn pale.
   };
-  using CategoryPlot::CategoryPlot;
+  explicit BarPlot(QWidget* parent = nullptr);
   void setBars(std::vector<Bar> bars, const QString& message = {});
+  /// A line over the bars that can be dragged, at first above them all. With new bars it is there
+  /// again.
+  void setThresholdShown(bool shown);
+  /// None: above all bars.
+  void setThreshold(std::optional<double> threshold);
+  [[nodiscard]] std::optional<double> threshold() const { return threshold_; }
+  /// Bars in use that rise above the line, by their place.
+  [[nodiscard]] std::vector<int> beyond() const;
+
+ Q_SIGNALS:
+  /// The user moves the line: while it is dragged, and at the end.
+  void thresholdMoved();
 
  protected:
   void rebuild() override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
+  void drawThreshold();
+  void moveTo(double threshold);
+  [[nodiscard]] double lineAt() const;
+  [[nodiscard]] bool isNearLine(const QPointF& place) const;
+
   std::vector<Bar> bars_;
   QString message_;
+  bool threshold_shown_ = false;
+  bool dragging_ = false;
+  double highest_ = 0.0;  // Of the bars.
+  std::optional<double> threshold_;
 };
 
 /// Box plots of values per name (Tukey).
@@ -62,6 +88,7 @@ class BoxPlot : public CategoryPlot {
   struct Box {
     QString name;
     std::vector<double> values;
+    std::vector<double> refused = {};  ///< Crosses beside the box, and no part of it.
   };
   using CategoryPlot::CategoryPlot;
   void setBoxes(std::vector<Box> boxes, const QString& message = {});

@@ -113,6 +113,7 @@ void OverlayItem::paint(QPainter* painter, const QStyleOptionGraphicsItem* optio
   if (parts_.circles) paintCircles(*painter, scale);
   if (parts_.tags) paintTags(*painter, scale);
   if (parts_.residuals) paintResiduals(*painter, scale);
+  paintShifts(*painter, scale);
   paintHighlights(*painter, scale);
 }
 
@@ -209,6 +210,17 @@ void OverlayItem::paintCircles(QPainter& painter, double scale) const {
     painter.drawLine(circle.center - QPointF(half, half), circle.center + QPointF(half, half));
     painter.drawLine(circle.center - QPointF(half, -half), circle.center + QPointF(half, -half));
   }
+}
+
+void OverlayItem::paintShifts(QPainter& painter, double scale) const {
+  painter.setBrush(Qt::NoBrush);
+  for (const ImageOverlay::Outline& outline : overlay_.outlines) {
+    painter.setPen(cosmetic(QColor::fromRgb(outline.color), 1.4));
+    painter.drawPolygon(outline.points);
+  }
+  painter.setPen(cosmetic(kResidualColor, 1.8));
+  for (const QLineF& shift : overlay_.shifts)
+    draw_arrow(painter, shift.p1(), shift.p1() + factor_ * (shift.p2() - shift.p1()), scale);
 }
 
 void OverlayItem::paintHighlights(QPainter& painter, double scale) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QGraphicsItem>
+#include <QLineF>
 #include <QPolygonF>
 #include <QRgb>
 #include <cstdint>
@@ -42,6 +43,12 @@ struct ImageOverlay {
   /// LiDAR points that the program refused, and that the user left out; drawn as crosses.
   std::vector<QPointF> refused_points;
   std::vector<QPointF> left_out_points;
+  struct Outline {
+    QPolygonF points;
+    QRgb color = 0;
+  };
+  std::vector<Outline> outlines;  ///< Closed lines in colours of their own.
+  std::vector<QLineF> shifts;     ///< Drawn as arrows, longer by the residual factor.
 };
 
 /// Which parts of an overlay are shown.
@@ -79,6 +86,7 @@ class OverlayItem : public QGraphicsItem {
   void paintTags(QPainter& painter, double scale) const;
   void paintResiduals(QPainter& painter, double scale) const;
   void paintCircles(QPainter& painter, double scale) const;
+  void paintShifts(QPainter& painter, double scale) const;
   void paintHighlights(QPainter& painter, double scale) const;
 
   ImageOverlay overlay_;

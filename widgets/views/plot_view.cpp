@@ -5,6 +5,7 @@
 #include <QFile>
 #include <QMenu>
 #include <QTemporaryDir>
+#include <algorithm>
 
 namespace lvcalib::widgets {
 
@@ -19,6 +20,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent), colors_(PlotColors::o
   actions_ = new FigureActions(this, {"figure", [this] { return toPixmap(0, 0, 2.0).toImage(); },
                                       [this] { return pdf(); }, [this] { return csv(); }});
   applyColors();
+  connect(this, &QCustomPlot::beforeReplot, this, &PlotView::fitLabels);
 }
 
 QByteArray PlotView::csv() const {
@@ -130,6 +132,19 @@ void PlotView::applyColors() {
   legend->setTextColor(colors_.text);
   legend->setBorderPen(QPen(colors_.grid));
   legend->setFont(font());
+}
+
+void PlotView::fitLabels() {
+  constexpr double kOtherParts_px = 36.0;  // Margins, and the numbers below the figure.
+  constexpr double kSmallest = 0.6;
+  for (QCPAxis* axis : {yAxis, yAxis2}) {
+    if (axis->label().isEmpty()) continue;
+    QFont fitting = font();
+    const double wanted = QFontMetricsF(fitting).horizontalAdvance(axis->label());
+    const double share = std::clamp((height() - kOtherParts_px) / wanted, kSmallest, 1.0);
+    fitting.setPointSizeF(share * fitting.pointSizeF());
+    if (axis->labelFont() != fitting) axis->setLabelFont(fitting);
+  }
 }
 
 QByteArray PlotView::pdf() {

@@ -52,6 +52,8 @@ class PlotView : public QCustomPlot {
 
  private:
   void applyColors();
+  /// Labels of upright axes get letters as small as a low figure needs.
+  void fitLabels();
   [[nodiscard]] QByteArray pdf();
 
   FigureActions* actions_;

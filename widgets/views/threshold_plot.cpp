@@ -26,8 +26,11 @@ void ThresholdPlot::setValueLabel(const QString& label, const QString& csv_name)
   figureActions()->setName(csv_name);
 }
 
-void ThresholdPlot::setValues(std::vector<double> values, const QString& message) {
+void ThresholdPlot::setValues(std::vector<double> values, const QString& message,
+                              std::vector<bool> refused) {
   values_ = std::move(values);
+  refused_ = std::move(refused);
+  if (refused_.size() != values_.size()) refused_.clear();
   message_ = message;
   rebuild();
 }
@@ -35,7 +38,9 @@ void ThresholdPlot::setValues(std::vector<double> values, const QString& message
 void ThresholdPlot::setThreshold(double threshold, double low, double high) {
   low_ = low;
   high_ = high;
-  threshold_ = std::clamp(threshold, low, high);
+  const double wanted = std::clamp(threshold, low, high);
+  if (wanted != threshold_) refused_.clear();
+  threshold_ = wanted;
   rebuild();
 }
 
@@ -59,8 +64,9 @@ void ThresholdPlot::rebuild() {
   std::vector<int> within(kBins, 0);
   std::vector<int> beyond(kBins, 0);
   std::vector<QStringList> rows;
-  for (const double value : values_) {
-    const bool refused = value > threshold_;
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    const double value = values_[k];
+    const bool refused = refused_.empty() ? value > threshold_ : refused_[k];
     const int bin = std::clamp(static_cast<int>(value / width), 0, kBins - 1);
     ++(refused ? beyond : within)[static_cast<std::size_t>(bin)];
     rows.push_back({csv_number(value), refused ? "1" : "0"});
@@ -104,6 +110,7 @@ void ThresholdPlot::moveTo(double threshold) {
   const double wanted = std::clamp(std::round(10.0 * threshold) / 10.0, low_, high_);
   if (wanted == threshold_) return;
   threshold_ = wanted;
+  refused_.clear();
   rebuild();
   Q_EMIT thresholdMoved(threshold_);
 }

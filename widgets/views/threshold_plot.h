@@ -17,8 +17,11 @@ class ThresholdPlot : public PlotView {
 
   /// `label` of the values, with their unit, and the name of their column in CSV files.
   void setValueLabel(const QString& label, const QString& csv_name);
-  /// `message` stands where there is nothing to show.
-  void setValues(std::vector<double> values, const QString& message = {});
+  /// `message` stands where there is nothing to show. `refused` says of each value whether it is
+  /// refused where the line stands; without it, and once the line has moved on, that is taken from
+  /// the side of the line on which it lies.
+  void setValues(std::vector<double> values, const QString& message = {},
+                 std::vector<bool> refused = {});
   /// Where the line stands, and where it may: `low` … `high`.
   void setThreshold(double threshold, double low, double high);
   [[nodiscard]] double threshold() const { return threshold_; }
@@ -40,6 +43,7 @@ class ThresholdPlot : public PlotView {
   [[nodiscard]] double reach() const;
 
   std::vector<double> values_;
+  std::vector<bool> refused_;  // As many, or none.
   QString message_;
   QString csv_name_;
   double threshold_ = 0.0;

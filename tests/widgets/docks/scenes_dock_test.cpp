@@ -48,6 +48,78 @@ TEST_F(ScenesDockTest, ActionsAreForTheSelectedScenesThatExist) {
   EXPECT_TRUE(use.at(1).at(1).toBool());
 }
 
+// No heading has an arrow, and room for one, before the list is sorted.
+TEST_F(ScenesDockTest, AClickOnAHeadingSortsAndTheThirdBringsTheOwnOrderBack) {
+  dock_.resize(600, 300);
+  QTest::qWait(20);
+  QHeaderView* header = view_->header();
+  EXPECT_FALSE(header->isSortIndicatorShown());
+  const int unsorted = header->sectionSizeHint(SceneModel::kTags);
+  const auto click = [&] {
+    QTest::mouseClick(header->viewport(), Qt::LeftButton, {},
+                      {header->sectionViewportPosition(SceneModel::kName) + 8, 6});
+  };
+  click();
+  EXPECT_TRUE(header->isSortIndicatorShown());
+  EXPECT_GT(header->sectionSizeHint(SceneModel::kTags), unsorted);
+  EXPECT_EQ(header->sortIndicatorSection(), SceneModel::kName);
+  click();
+  EXPECT_EQ(view_->model()->index(0, 0).data().toString(), "Z");
+  click();
+  EXPECT_FALSE(header->isSortIndicatorShown());
+  EXPECT_EQ(view_->model()->index(0, 0).data().toString(), "A");
+}
+
+TEST_F(ScenesDockTest, ANarrowListGivesUpPicturesAndNoColumn) {
+  for (const char* name : {"A", "B", "C"}) {
+    QImage picture(48, 30, QImage::Format_RGB32);
+    picture.fill(Qt::gray);
+    model_.set_thumbnail(name, picture);
+  }
+  auto result = std::make_shared<CalibrationResult>();
+  for (const char* name : {"A", "B", "C"}) {
+    SceneResult scene;
+    scene.name = name;
+    scene.used = true;
+    scene.view.emplace().tag_count = 16;
+    scene.refinement.emplace().board_points = 74642;
+    result->scenes.push_back(scene);
+    SceneSolution solved;
+    solved.name = name;
+    solved.rms_px = 0.123;
+    solved.rms_mm = 12.3;
+    result->extrinsic.scenes.push_back(solved);
+    result->extrinsic.leave_one_out.push_back({name, 0.12, 0.1});
+  }
+  model_.set_result(result);
+  dock_.resize(700, 300);
+  QTest::qWait(20);
+  EXPECT_EQ(model_.thumbnail_width(), 48);
+  const auto in_sight = [this] {
+    int right = 0;
+    for (int column = 0; column < view_->header()->count(); ++column) {
+      if (view_->isColumnHidden(column)) continue;
+      right = std::max(right, view_->columnViewportPosition(column) + view_->columnWidth(column));
+    }
+    return right <= view_->viewport()->width();
+  };
+  EXPECT_TRUE(in_sight());
+  int narrow = 700;
+  while (narrow > 100 && model_.thumbnail_width() > 0) {
+    dock_.resize(narrow -= 10, 300);
+    QTest::qWait(5);
+    EXPECT_TRUE(in_sight() || model_.thumbnail_width() == 0) << narrow;
+  }
+  EXPECT_EQ(model_.thumbnail_width(), 0);
+  EXPECT_TRUE(in_sight()) << narrow;
+  // The heading of the state is whole.
+  EXPECT_GE(view_->columnWidth(SceneModel::kState),
+            view_->header()->sectionSizeHint(SceneModel::kState));
+  dock_.resize(700, 300);
+  QTest::qWait(20);
+  EXPECT_EQ(model_.thumbnail_width(), 48);
+}
+
 TEST_F(ScenesDockTest, SpaceTicksAndArrowsChangeTheSceneLookedAt) {
   dock_.select("A");
   QSignalSpy activated(&dock_, &ScenesDock::scene_activated);

@@ -53,6 +53,30 @@ TEST(BudgetPlotTest, TheFiguresSayBeforeAndAfter) {
   EXPECT_GT(red, 0.5);
 }
 
+// Also in a low and narrow figure, whatever its neighbours need.
+TEST(BudgetPlotTest, NoFigureLeavesThePicture) {
+  const auto& example = test::model_example();
+  BudgetPlot plot;
+  plot.setSteps({example.base, example.mended}, 1);
+  plot.setTruth(Rigid3());
+  for (const QSize& size : {QSize(930, 140), QSize(700, 100), QSize(1500, 200)}) {
+    plot.resize(size);
+    plot.replot();
+    int texts = 0;
+    for (int k = 0; k < plot.itemCount(); ++k) {
+      const auto* text = qobject_cast<QCPItemText*>(plot.item(k));
+      if (text == nullptr) continue;
+      ++texts;
+      const double half = 0.5 * QFontMetrics(text->font()).horizontalAdvance(text->text());
+      EXPECT_LE(text->position->pixelPosition().x() + half, size.width()) << size.width();
+    }
+    EXPECT_GT(texts, 2);
+    // The axis' name is no longer than the figure is high.
+    EXPECT_LE(QFontMetrics(plot.yAxis->labelFont()).horizontalAdvance(plot.yAxis->label()),
+              size.height());
+  }
+}
+
 TEST(BudgetPlotTest, TheDistanceToTheTruthStandsBesideTheHistory) {
   const auto& example = test::model_example();
   BudgetPlot plot;

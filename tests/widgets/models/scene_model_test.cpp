@@ -89,6 +89,26 @@ TEST_F(SceneModelTest, ARefusedSceneKeepsItsFigures) {
                   .contains("Left out by hand: tags 3."));
 }
 
+TEST_F(SceneModelTest, WhatTheProgramRefusedOfASceneIsSaid) {
+  auto changed = std::make_shared<CalibrationResult>(*result());
+  SceneSolution& solved = changed->extrinsic.scenes[0];
+  NodeResidual circle;
+  circle.id = 4;
+  circle.used = false;
+  solved.nodes = {circle};
+  CornerResidual corner;
+  corner.feature_id = 7;
+  corner.used = false;
+  solved.corners = {corner};
+  model_.set_result(changed);
+  for (const int column : {SceneModel::kState, SceneModel::kTags, SceneModel::kPoints}) {
+    const QString tip = model_.index(0, column).data(Qt::ToolTipRole).toString();
+    EXPECT_TRUE(tip.contains("Left out by the program: tags 7, circles 4.")) << tip.toStdString();
+  }
+  EXPECT_FALSE(
+      model_.index(1, SceneModel::kState).data(Qt::ToolTipRole).toString().contains("program"));
+}
+
 TEST_F(SceneModelTest, DecisionsShowAndTicksOnlyAsk) {
   Decisions decisions;
   decisions.scenes["B"].use = false;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pages/extrinsic_page.h"
 
+#include <QLabel>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTabWidget>
 #include <QTest>
 #include <QTextBrowser>
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +62,49 @@ TEST_F(ExtrinsicPageTest, AClickGoesToTheScene) {
                     QPoint(static_cast<int>(plot->xAxis->coordToPixel(2)), plot->height() / 2));
   ASSERT_EQ(activated.size(), 1);
   EXPECT_EQ(activated[0][0].toInt(), 1);
+}
+
+TEST_F(ExtrinsicPageTest, ALineOverTheBarsAsksWhatTheResultIsWithoutTheScenesAboveIt) {
+  page_.setResult(demo_.result);
+  QSignalSpy wanted(&page_, &ExtrinsicPage::scenesPreviewWanted);
+  QSignalSpy dropped(&page_, &ExtrinsicPage::scenesPreviewDropped);
+  QSignalSpy rejected(&page_, &ExtrinsicPage::rejectWanted);
+  auto* bars = page_.findChildren<BarPlot*>().front();
+  auto* label = page_.findChild<QLabel*>("without-scenes");
+  auto* reject = page_.findChild<QPushButton*>("reject-beyond");
+  EXPECT_FALSE(reject->isEnabled());
+  EXPECT_TRUE(label->text().contains("dashed line"));
+  const auto& scenes = demo_.result->extrinsic.scenes;
+  const auto worst = std::max_element(
+      scenes.begin(), scenes.end(),
+      [](const SceneSolution& a, const SceneSolution& b) { return a.rms_px < b.rms_px; });
+  const QString name = QString::fromStdString(worst->name);
+  while (bars->beyond().empty()) QTest::keyClick(bars, Qt::Key_Down);
+  ASSERT_FALSE(wanted.isEmpty());
+  EXPECT_EQ(wanted.last()[0].toStringList(), QStringList{name});
+  EXPECT_TRUE(label->text().contains("Solving without " + name));
+  CalibrationResult other = *demo_.result;
+  other.extrinsic.camera_from_lidar.transform.translation.x() += 4e-4;
+  page_.setScenesPreview(*demo_.result, other);
+  EXPECT_TRUE(label->text().contains("Without " + name + ":")) << label->text().toStdString();
+  EXPECT_TRUE(label->text().contains("move by 0.400 mm"));
+  QTest::mouseClick(reject, Qt::LeftButton);
+  ASSERT_EQ(rejected.count(), 1);
+  EXPECT_EQ(rejected[0][0].toStringList(), QStringList{name});
+  dropped.clear();
+  QTest::mouseClick(page_.findChild<QPushButton*>("drop-threshold"), Qt::LeftButton);
+  EXPECT_EQ(dropped.count(), 1);
+  EXPECT_FALSE(bars->threshold().has_value());
+  EXPECT_FALSE(reject->isEnabled());
+}
+
+TEST_F(ExtrinsicPageTest, WhatTheSolveRefusedStandsBesideItsBox) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  NodeResidual& node = changed->extrinsic.scenes[1].nodes[2];
+  node.used = false;
+  node.residual_m = Eigen::Vector3d(0.0125, 0.0, 0.0);
+  page_.setResult(changed);
+  EXPECT_TRUE(csv("Lengths of the node").contains("B,12.5,0"));
 }
 
 TEST_F(ExtrinsicPageTest, ColourisesTheCloud) {

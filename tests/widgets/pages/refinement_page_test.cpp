@@ -2,6 +2,7 @@
 #include "pages/refinement_page.h"
 
 #include <QLabel>
+#include <QSignalSpy>
 #include <QSlider>
 #include <QTableWidget>
 #include <QTest>
@@ -70,6 +71,33 @@ TEST_F(RefinementPageTest, AClickEnlargesANodeAndListsItsBins) {
   EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("bins used"));
 }
 
+TEST_F(RefinementPageTest, CirclesThatTheSolveRefusedAreStruckThroughAndCanBeUsed) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  NodeResidual& node = changed->extrinsic.scenes[0].nodes[4];
+  node.used = false;
+  node.residual_m = Eigen::Vector3d(0.008, 0.0, 0.0);
+  changed->scenes[0].edits.circles = {7};
+  page_.setResult(changed);
+  page_.setScene(0);
+  for (int id = 0; id < 9; ++id) EXPECT_EQ(plot(id)->isRefused(), id == node.id || id == 7) << id;
+  page_.chooseNode(node.id);
+  auto* verdict = page_.findChild<QLabel*>("node-verdict");
+  EXPECT_TRUE(verdict->text().contains("Left out: misses the board's pose by 8.0 mm") ||
+              verdict->text().contains("Left out: misses the board&#39;s pose by 8.0 mm"))
+      << verdict->text().toStdString();
+  QSignalSpy wanted(&page_, &RefinementPage::keepWanted);
+  Q_EMIT verdict->linkActivated("keep");
+  ASSERT_EQ(wanted.count(), 1);
+  EXPECT_EQ(wanted[0][0].toString(), "A");
+  EXPECT_FALSE(wanted[0][1].toBool());
+  EXPECT_EQ(wanted[0][2].toInt(), node.id);
+  page_.chooseNode(7);
+  EXPECT_TRUE(verdict->text().contains("left out by hand"));
+  EXPECT_FALSE(verdict->text().contains("href"));
+  load();
+  EXPECT_FALSE(plot(node.id)->isRefused());
+}
+
 TEST_F(RefinementPageTest, RefusedBinsTellWhy) {
   auto changed = std::make_shared<CalibrationResult>(*demo_.result);
   NodeRecord& node = changed->scenes[0].refinement->history.back().nodes[2];
@@ -116,6 +144,20 @@ TEST_F(RefinementPageTest, LiveIterationsAreShown) {
   other->history.resize(1);
   page_.showIteration(1, other);
   EXPECT_EQ(page_.iteration(), static_cast<int>(refinement().history.size()) - 1);
+}
+
+// In a list beside the page the letter chooses an entry.
+TEST_F(RefinementPageTest, TheKeyReplaysOnlyOnThePage) {
+  load();
+  const int last = page_.iteration();
+  ASSERT_GT(last, 0);
+  page_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&page_));
+  plot(4)->setFocus();
+  QTest::keyClick(plot(4), Qt::Key_P);
+  EXPECT_EQ(page_.iteration(), 0);
+  for (const auto* button : page_.findChildren<QToolButton*>())
+    EXPECT_TRUE(button->shortcut().isEmpty()) << button->objectName().toStdString();
 }
 
 // A partial refinement may have no final nodes yet.

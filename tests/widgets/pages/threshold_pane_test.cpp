@@ -39,6 +39,23 @@ TEST_F(ThresholdPaneTest, ShowsEveryTagAndCircleAndTheGateInForce) {
   EXPECT_FALSE(button("use_gate").isEnabled());
 }
 
+// The line is no oracle: what the solve used is not drawn as refused, wherever it lies.
+TEST_F(ThresholdPaneTest, OnlyWhatIsRefusedIsRed) {
+  CalibrationResult other = *demo_.result;
+  std::vector<NodeResidual>& nodes = other.extrinsic.scenes[1].nodes;
+  ASSERT_GT(nodes.size(), 2U);
+  nodes[0].residual_m = Eigen::Vector3d(0.05, 0.05, 0.0);  // Far beyond, and used.
+  nodes[1].used = false;
+  pane_.setResult(std::make_shared<const CalibrationResult>(other));
+  EXPECT_EQ(plot("gate_circles").csv().count(",1\n"), 1)
+      << plot("gate_circles").csv().toStdString();
+  QTest::keyClick(&plot("gate_circles"), Qt::Key_Right);
+  other.options.extrinsic.rejection_gate = plot("gate_circles").threshold();
+  nodes[2].used = false;
+  pane_.setPreview(*demo_.result, other);
+  EXPECT_EQ(plot("gate_circles").csv().count(",1\n"), 2);
+}
+
 TEST_F(ThresholdPaneTest, BothLinesMoveTogetherAndAskForAPreview) {
   QSignalSpy wanted(&pane_, &ThresholdPane::previewWanted);
   QTest::keyClick(&plot("gate_circles"), Qt::Key_Left);

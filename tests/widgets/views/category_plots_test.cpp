@@ -30,6 +30,40 @@ TEST(BarPlot, BarsAndClicks) {
   EXPECT_EQ(clicked[0][0].toInt(), 1);
 }
 
+TEST(BarPlot, TheLineIsDraggedAndBarsAboveItAreRed) {
+  BarPlot plot;
+  plot.setValueLabel("RMS (px)", "rms_px");
+  plot.resize(400, 300);
+  plot.setBars({{"A", 1.0, true}, {"B", 4.0, true}, {"C", 3.0, false}});
+  plot.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&plot));
+  const auto at = [&](double y) {
+    return QPoint(200, static_cast<int>(std::lround(plot.yAxis->coordToPixel(y))));
+  };
+  QTest::mousePress(&plot, Qt::LeftButton, {}, at(4.2));
+  QTest::mouseMove(&plot, at(2.0));
+  QTest::mouseRelease(&plot, Qt::LeftButton, {}, at(2.0));
+  EXPECT_FALSE(plot.threshold().has_value()) << "there is no line yet";
+  plot.setBars({{"A", 1.0, true}, {"B", 4.0, true}, {"C", 3.0, false}});
+  plot.setThresholdShown(true);
+  EXPECT_TRUE(plot.beyond().empty());
+  QTest::qWait(20);
+  QSignalSpy moved(&plot, &BarPlot::thresholdMoved);
+  QTest::mousePress(&plot, Qt::LeftButton, {}, at(4.2));
+  QTest::mouseMove(&plot, at(2.0));
+  QTest::mouseRelease(&plot, Qt::LeftButton, {}, at(2.0));
+  ASSERT_TRUE(plot.threshold().has_value());
+  EXPECT_NEAR(*plot.threshold(), 2.0, 0.1);
+  EXPECT_EQ(plot.beyond(), std::vector<int>{1});  // The third is not used anyway.
+  EXPECT_TRUE(test::shows(plot, plot.colors().refused));
+  EXPECT_GE(moved.count(), 1);
+  for (int k = 0; k < 60; ++k) QTest::keyClick(&plot, Qt::Key_Up);
+  EXPECT_FALSE(plot.threshold().has_value());
+  plot.setThreshold(0.5);
+  plot.setBars({{"A", 1.0, true}});
+  EXPECT_FALSE(plot.threshold().has_value()) << "other bars, another question";
+}
+
 TEST(BarPlot, ManyNamesAreTurned) {
   BarPlot plot;
   std::vector<BarPlot::Bar> bars;
@@ -47,6 +81,20 @@ TEST(BoxPlot, BoxesFromValues) {
   EXPECT_TRUE(test::shows(plot, plot.colors().fit));  // The median.
   EXPECT_GE(plot.yAxis->range().upper, 40.0);         // Outliers are in sight.
   EXPECT_EQ(test::rows_of(plot.csv()).size(), 6);
+}
+
+TEST(BoxPlot, WhatIsRefusedStandsBesideTheBoxInRed) {
+  BoxPlot plot;
+  plot.setValueLabel("residual (mm)", "residual_mm");
+  plot.resize(400, 300);
+  plot.setBoxes({{"A", {1, 2, 3, 4, 5, 40}}});
+  EXPECT_FALSE(test::shows(plot, plot.colors().refused)) << "an outlier is used";
+  plot.setBoxes({{"A", {1, 2, 3, 4, 5}, {60.0}}});
+  EXPECT_TRUE(test::shows(plot, plot.colors().refused));
+  EXPECT_GE(plot.yAxis->range().upper, 7.0);
+  EXPECT_LT(plot.yAxis->range().upper, 10.0) << "the box must not be flattened";
+  EXPECT_TRUE(plot.csv().contains("A,60,0"));
+  EXPECT_TRUE(plot.csv().contains("A,5,1"));
 }
 
 TEST(BoxPlot, EmptySaysWhy) {

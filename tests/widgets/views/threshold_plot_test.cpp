@@ -44,6 +44,14 @@ TEST_F(ThresholdPlotTest, TheLineIsDraggedAndWhatIsBeyondIsRefused) {
   EXPECT_EQ(moved.last().first().toDouble(), plot_.threshold());
 }
 
+// The solve has the last word where the line stands; elsewhere nobody knows yet.
+TEST_F(ThresholdPlotTest, WhatIsRefusedIsSaidByTheSolveUntilTheLineMoves) {
+  plot_.setValues({0.5, 4.0, 6.0, 7.0}, {}, {false, false, false, true});
+  EXPECT_EQ(refused(), 1);
+  QTest::keyClick(&plot_, Qt::Key_Right);
+  EXPECT_EQ(refused(), 2);
+}
+
 TEST_F(ThresholdPlotTest, ADragElsewhereMovesNoLine) {
   QTest::mousePress(&plot_, Qt::LeftButton, {}, at(2.0));
   QTest::mouseMove(&plot_, at(1.0));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick]. Opens a
-// dataset (without one: the demo), runs it and writes a picture of every page and dialog to the
-// folder, in light and dark; quick: of every page, in light. The size is the window's.
+// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick
+// [dark]]. Opens a dataset (without one: the demo), runs it and writes a picture of every page and
+// dialog to the folder, in light and dark; quick: in one of both. The size is the window's.
 
 #include <QApplication>
 #include <QComboBox>
@@ -20,6 +20,7 @@
 
 #include "importing/stretch_list.h"
 #include "modelling/residual_plot.h"
+#include "pipeline/refusals.h"
 #include "report/result_file.h"
 #include "tools/compare_dialog.h"
 #include "widgets/importing/recorded_walk.h"
@@ -81,6 +82,25 @@ void photograph_pages(widgets::MainWindow& window, Photographer& camera, const Q
   }
 }
 
+// A scene of which the program refused a circle, on the pages that show it.
+void photograph_refused(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  for (const Refusal& refusal : refusals(*window.workspace().result())) {
+    if (refusal.what != Refusal::What::kCircle) continue;
+    test::click_scene(window, QString::fromStdString(refusal.scene), false);
+    auto* tabs = test::find<QTabWidget>(window, "pages");
+    tabs->setCurrentIndex(0);
+    QTest::qWait(1500);
+    camera.take(QStringLiteral("refused-") + theme);
+    tabs->setCurrentIndex(1);
+    auto* page = tabs->currentWidget();
+    QMetaObject::invokeMethod(page, "chooseNode", Q_ARG(int, refusal.id));
+    camera.take(QStringLiteral("refused-2-") + theme);
+    const std::string& first = window.workspace().dataset().scenes.front().name;
+    test::click_scene(window, QString::fromStdString(first), false);
+    return;
+  }
+}
+
 // The Scene page with a tag, a circle and points left out by hand.
 void photograph_left_out(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
   const CalibrationResult& result = *window.workspace().result();
@@ -115,16 +135,16 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
         formats->findItems(QStringLiteral("kalibr"), Qt::MatchExactly).value(0));
   }
   take("results_dialog", QStringLiteral("exports"));
-  static test::Answers nobody;
   const QTemporaryDir folder;
   const auto result = window.workspace().result();
   CalibrationResult other = *result;
   other.extrinsic.camera_from_lidar.transform.translation.x() += 2e-4;
   const auto written = folder.filePath(QStringLiteral("rig-in-spring")).toStdString();
   if (write_results(other, written).ok()) {
-    auto* compare = new widgets::CompareDialog(result, nobody, folder.path(), &window);
-    compare->open(QString::fromStdString(written + "/result.json"));
-    compare->show();
+    test::trigger(window, "compare_results");
+    test::find<widgets::CompareDialog>(window, "compare_dialog")
+        ->add(widgets::ComparedResult::Kind::kFile,
+              QString::fromStdString(written + "/result.json"));
   }
   take("compare_dialog", QStringLiteral("compare"));
   test::trigger(window, "correct_clouds");
@@ -239,7 +259,7 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
 }
 
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset,
-               bool quick) {
+               bool quick, const QString& quick_theme) {
   Photographer camera(window, folder);
   window.move(0, 0);
   window.show();
@@ -266,13 +286,17 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   camera.take(QStringLiteral("model-tour"));
   if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
   if (quick) {
-    photograph_pages(window, camera, QStringLiteral("light"));
-    photograph_left_out(window, camera, QStringLiteral("light"));
+    choose(window, "theme", quick_theme);
+    photograph_pages(window, camera, quick_theme);
+    photograph_refused(window, camera, quick_theme);
+    photograph_left_out(window, camera, quick_theme);
+    photograph_dialogs(window, camera, quick_theme);
     return 0;
   }
   for (const char* theme : {"light", "dark"}) {
     choose(window, "theme", QString::fromLatin1(theme));
     photograph_pages(window, camera, QString::fromLatin1(theme));
+    photograph_refused(window, camera, QString::fromLatin1(theme));
     tabs->setCurrentIndex(4);
     photograph_model(window, camera, QLatin1String(theme));
     photograph_dialogs(window, camera, QString::fromLatin1(theme));
@@ -295,7 +319,7 @@ int main(int argc, char** argv) {
   if (arguments.size() < 2) {
     std::fprintf(stderr,
                  "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] "
-                 "[quick]\n");
+                 "[quick [dark]]\n");
     return 2;
   }
   QDir().mkpath(arguments.at(1));
@@ -312,7 +336,9 @@ int main(int argc, char** argv) {
     if (size.size() == 2) window.resize(size[0].toInt(), size[1].toInt());
     status =
         photograph(window, arguments.at(1), dataset == QLatin1String("demo") ? QString() : dataset,
-                   arguments.contains(QLatin1String("quick")));
+                   arguments.contains(QLatin1String("quick")),
+                   arguments.contains(QLatin1String("dark")) ? QStringLiteral("dark")
+                                                             : QStringLiteral("light"));
   }
   widgets::Runner::wait_for_workers(10'000);
   return status;
