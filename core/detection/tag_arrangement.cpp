@@ -35,19 +35,35 @@ std::vector<CornerObservation> rearranged(const std::vector<BoardTag>& tags, con
   return out;
 }
 
-// Tags all of whose corners lie where the best pose has them.
-std::size_t fitting(const std::vector<CornerObservation>& corners, const Camera& camera,
-                    const DetectionOptions& options) {
-  const auto pose = estimate_board_pose(corners, camera, options);
-  if (!pose) return 0;
+// Tags all of whose corners lie where the best pose has them, and their mean square distance from
+// there: a spacing that is off shows as a range that is off, and within the gate for outliers.
+struct Fit {
   std::size_t count = 0;
+  double mean_square_px2 = 0.0;
+  [[nodiscard]] bool better_than(const Fit& other) const {
+    constexpr double kLike_px2 = 0.1 * 0.1;  // A tenth of a pixel more or less is noise.
+    return count > other.count || (count > 0 && count == other.count &&
+                                   mean_square_px2 < other.mean_square_px2 - kLike_px2);
+  }
+};
+Fit fitting(const std::vector<CornerObservation>& corners, const Camera& camera,
+            const DetectionOptions& options) {
+  const auto pose = estimate_board_pose(corners, camera, options);
+  Fit out;
+  if (!pose) return out;
   for (std::size_t i = 0; i + 3 < corners.size(); i += 4) {
     bool fits = true;
-    for (std::size_t k = i; k < i + 4; ++k)
+    double squares = 0.0;
+    for (std::size_t k = i; k < i + 4; ++k) {
       fits = fits && pose->residual_px[k] <= options.max_reprojection_px;
-    count += fits ? 1 : 0;
+      squares += 0.25 * pose->residual_px[k] * pose->residual_px[k];
+    }
+    if (!fits) continue;
+    ++out.count;
+    out.mean_square_px2 += squares;
   }
-  return count;
+  if (out.count > 0) out.mean_square_px2 /= static_cast<double>(out.count);
+  return out;
 }
 
 std::string described(const Arrangement& how) {
@@ -64,20 +80,19 @@ std::string described(const Arrangement& how) {
 }
 
 // Tags that lie where a target has them.
-std::size_t fitting_as_is(const std::vector<BoardTag>& tags, const Target& target,
-                          const Camera& camera, const DetectionOptions& options) {
+Fit fitting_as_is(const std::vector<BoardTag>& tags, const Target& target, const Camera& camera,
+                  const DetectionOptions& options) {
   return fitting(rearranged(tags, target, {}), camera, options);
 }
 
 // The grid with another number of columns or another first id that most tags fit. Which rows are
 // there the tags say themselves.
-std::pair<std::size_t, std::string> best_counting(const std::vector<BoardTag>& tags,
-                                                  const Target& target, const Camera& camera,
-                                                  const DetectionOptions& options) {
+std::pair<Fit, std::string> best_counting(const std::vector<BoardTag>& tags, const Target& target,
+                                          const Camera& camera, const DetectionOptions& options) {
   constexpr int kMostColumns = 16;  // No board that fits a sheet has more tags side by side.
   const auto [low, high] = std::minmax_element(
       tags.begin(), tags.end(), [](const BoardTag& a, const BoardTag& b) { return a.id < b.id; });
-  std::pair<std::size_t, std::string> best{0, {}};
+  std::pair<Fit, std::string> best;
   for (int columns = 1; columns <= kMostColumns; ++columns) {
     // Ids that differ by whole rows lie alike but for a shift of the whole board.
     for (int k = 0; k < columns; ++k) {
@@ -86,8 +101,8 @@ std::pair<std::size_t, std::string> best_counting(const std::vector<BoardTag>& t
       other.first_tag_id = low->id - k;
       if (other.first_tag_id < 0) break;
       other.tag_rows = (high->id - other.first_tag_id) / columns + 1;
-      const std::size_t count = fitting_as_is(tags, other, camera, options);
-      if (count <= best.first) continue;
+      const Fit fit = fitting_as_is(tags, other, camera, options);
+      if (!fit.better_than(best.first)) continue;
       std::string fields;
       const auto say = [&](const char* field, int value, int given) {
         if (value == given) return;
@@ -97,23 +112,22 @@ std::pair<std::size_t, std::string> best_counting(const std::vector<BoardTag>& t
       say("tagCols", columns, target.tag_columns);
       if (other.tag_rows > target.tag_rows || columns != target.tag_columns)
         say("tagRows", other.tag_rows, target.tag_rows);
-      best = {count, fields};
+      best = {fit, fields};
     }
   }
   return best;
 }
 
 // The spacing that most tags fit, to two per cent: what corners tell within the gate.
-std::pair<std::size_t, std::string> best_spacing(const std::vector<BoardTag>& tags,
-                                                 const Target& target, const Camera& camera,
-                                                 const DetectionOptions& options) {
+std::pair<Fit, std::string> best_spacing(const std::vector<BoardTag>& tags, const Target& target,
+                                         const Camera& camera, const DetectionOptions& options) {
   constexpr double kStep = 1.02;
-  std::pair<std::size_t, std::string> best{0, {}};
+  std::pair<Fit, std::string> best;
   for (double spacing = 0.05; spacing < 3.0; spacing *= kStep) {
     Target other = target;
     other.tag_spacing = spacing;
-    const std::size_t count = fitting_as_is(tags, other, camera, options);
-    if (count > best.first) best = {count, formatted("tagSpacing: about %.2f", spacing)};
+    const Fit fit = fitting_as_is(tags, other, camera, options);
+    if (fit.better_than(best.first)) best = {fit, formatted("tagSpacing: about %.2f", spacing)};
   }
   return best;
 }
@@ -125,11 +139,11 @@ std::optional<std::string> other_grid(const std::vector<BoardTag>& tags, const T
   if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
       tags.size() < 4)
     return std::nullopt;
-  const std::size_t given = fitting_as_is(tags, target, camera, options);
+  const std::size_t given = fitting_as_is(tags, target, camera, options).count;
   constexpr std::size_t kMore = 3;  // One or two tags fit another grid by chance of their place.
-  const auto better = [&](const std::pair<std::size_t, std::string>& found) {
-    return !found.second.empty() && found.first >= given + kMore &&
-           4 * found.first >= 3 * tags.size();
+  const auto better = [&](const std::pair<Fit, std::string>& found) {
+    return !found.second.empty() && found.first.count >= given + kMore &&
+           4 * found.first.count >= 3 * tags.size();
   };
   if (const auto found = best_counting(tags, target, camera, options); better(found))
     return found.second;
@@ -152,7 +166,7 @@ std::optional<std::string> other_arrangement(const std::vector<BoardTag>& tags,
         // Nothing changed, or the whole board turned.
         if (turn == 0 && !from_right && !from_top) continue;
         if (turn == 2 && from_right && from_top) continue;
-        const std::size_t count = fitting(rearranged(tags, target, how), camera, options);
+        const std::size_t count = fitting(rearranged(tags, target, how), camera, options).count;
         if (count <= best || 4 * count < 3 * tags.size()) continue;
         best = count;
         out = described(how);

@@ -9,7 +9,7 @@ namespace lvcalib {
 namespace {
 
 // The tags of a board as its image shows them, to a twentieth of a pixel.
-class TagArrangement : public ::testing::Test {
+class OtherTagGrid : public ::testing::Test {
  protected:
   [[nodiscard]] std::vector<BoardTag> seen(const Target& board) const {
     const Rigid3 pose = testing::facing_pose(board, 2.0, 0.1, 0.3, -0.2);
@@ -29,12 +29,12 @@ class TagArrangement : public ::testing::Test {
   Target board_;  // 4 × 4 tags
 };
 
-TEST_F(TagArrangement, TheRightDescriptionNeedsNoOther) {
+TEST_F(OtherTagGrid, TheRightDescriptionNeedsNoOther) {
   EXPECT_EQ(other_grid(seen(board_), board_, camera_, {}), std::nullopt);
   EXPECT_EQ(other_arrangement(seen(board_), board_, camera_, {}), std::nullopt);
 }
 
-TEST_F(TagArrangement, AnotherCountIsNamed) {
+TEST_F(OtherTagGrid, AnotherCountIsNamed) {
   const auto tags = seen(board_);
   Target said = board_;
   said.first_tag_id = 4;
@@ -51,7 +51,7 @@ TEST_F(TagArrangement, AnotherCountIsNamed) {
   EXPECT_EQ(other_grid(tags, said, camera_, {}), "tagRows: 4");
 }
 
-TEST_F(TagArrangement, AnotherSpacingIsNamed) {
+TEST_F(OtherTagGrid, AnotherSpacingIsNamed) {
   Target said = board_;
   said.tag_spacing = 0.3;
   const auto grid = other_grid(seen(board_), said, camera_, {});
@@ -61,7 +61,7 @@ TEST_F(TagArrangement, AnotherSpacingIsNamed) {
   EXPECT_NEAR(spacing, board_.tag_spacing, 0.03);
 }
 
-TEST_F(TagArrangement, WithoutAFitNothingIsSaid) {
+TEST_F(OtherTagGrid, WithoutAFitNothingIsSaid) {
   auto tags = seen(board_);
   // Corners drawn from nowhere.
   for (std::size_t t = 0; t < tags.size(); ++t) {
