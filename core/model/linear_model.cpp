@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/parallel.h"
@@ -64,6 +65,24 @@ LocalLayout layout_of(const MeasurementTable& table, std::size_t scene) {
   return layout;
 }
 
+int scene_of(const CornerRow& row) {
+  return row.scene;
+}
+template <class Row>
+int scene_of(const Row& row) {
+  return row.beam.scene;
+}
+
+// Rows are grouped by scene, in the order of the scenes: only the scene's own are touched.
+template <class Row>
+std::span<const Row> rows_of(const std::vector<Row>& rows, int scene) {
+  const auto first = std::partition_point(rows.begin(), rows.end(),
+                                          [&](const Row& row) { return scene_of(row) < scene; });
+  const auto last = std::partition_point(first, rows.end(),
+                                         [&](const Row& row) { return scene_of(row) == scene; });
+  return {first, last};
+}
+
 // Accumulates one channel of one scene.
 class SceneAccumulator {
  public:
@@ -93,26 +112,19 @@ class SceneAccumulator {
   void run(Channel channel, SceneProducts& out) {
     switch (channel) {
       case Channel::kRange:
-        for (const RangeRow& row : table_.range) {
-          if (row.beam.scene == scene_) range(row);
-        }
+        for (const RangeRow& row : rows_of(table_.range, scene_)) range(row);
         break;
       case Channel::kBoundary:
-        for (const BoundaryRow& row : table_.boundary) {
-          if (row.beam.scene != scene_) continue;
+        for (const BoundaryRow& row : rows_of(table_.boundary, scene_)) {
           const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
           reading({row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
         }
         break;
       case Channel::kCorner:
-        for (const CornerRow& row : table_.corner) {
-          if (row.scene == scene_) corner(row);
-        }
+        for (const CornerRow& row : rows_of(table_.corner, scene_)) corner(row);
         break;
       case Channel::kIntensity:
-        for (const IntensityRow& row : table_.intensity) {
-          if (row.beam.scene == scene_) reading(row, nullptr);
-        }
+        for (const IntensityRow& row : rows_of(table_.intensity, scene_)) reading(row, nullptr);
         break;
     }
     products_.triangularView<Eigen::StrictlyLower>() = products_.transpose();
