@@ -3522,10 +3522,6 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <translation>与真值的距离</translation>
     </message>
     <message>
-        <source>%1 mm, %2 mrad</source>
-        <translation>%1 mm，%2 mrad</translation>
-    </message>
-    <message>
         <source>Step %1, %2: %3 mm (left bar) and %4 mrad (right bar) from the truth</source>
         <translation>第 %1 步，%2：与真值相差 %3 mm（左柱）和 %4 mrad（右柱）</translation>
     </message>

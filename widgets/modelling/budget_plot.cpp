@@ -96,7 +96,7 @@ int BudgetPlot::stepAt(double x) const {
 void BudgetPlot::keepInside() {
   const QRect area = axisRect()->rect();
   for (QCPItemText* label : figures_) {
-    const double half = 0.5 * QFontMetrics(label->font()).horizontalAdvance(label->text()) + 2.0;
+    const double half = 0.5 * QFontMetrics(label->font()).size(0, label->text()).width() + 2.0;
     const double wanted = xAxis->coordToPixel(label->property("place").toDouble());
     // The room on the right of the axes is the widget's own margin.
     const double right = std::max<double>(area.left() + half, width() - half);
@@ -259,12 +259,18 @@ void BudgetPlot::drawTruth(int first) {
   const ModelStepPtr shown = current_ < steps_.size() ? steps_[current_] : nullptr;
   const Distance before = toTruth(*steps_.front());
   const Distance now = shown ? toTruth(*shown) : before;
-  const auto pair = [](const Distance& d) {
-    return tr("%1 mm, %2 mrad").arg(d.mm, 0, 'g', 2).arg(d.mrad, 0, 'g', 2);
+  const auto change = [&](double from, double to, const char* unit) {
+    QString text = QString::number(from, 'g', 2);
+    const QString then = QString::number(to, 'g', 2);
+    if (current_ > 0 && then != text) text += QStringLiteral(" → ") + then;
+    return text + QLatin1Char(' ') + QLatin1String(unit);
   };
-  QString text = pair(before);
-  if (current_ > 0 && pair(now) != text) text += QStringLiteral(" → ") + pair(now);
-  writeFigure(first + 0.5 * (static_cast<double>(steps_.size()) - 1.0), text, colors().text);
+  // One below the other: side by side they run into the neighbour's.
+  writeFigure(
+      first + 0.5 * (static_cast<double>(steps_.size()) - 1.0),
+      change(before.mm, now.mm, "mm") + QLatin1Char('\n') + change(before.mrad, now.mrad, "mrad"),
+      colors().text);
+  figures_.back()->setFont(font());
 }
 
 void BudgetPlot::showTip(const QPoint& place) {
