@@ -132,7 +132,7 @@ struct ModelState {
 struct EffectInUse;
 
 /// All measurements that a finished calibration keeps, thinned evenly over the boards, with every
-/// covariate. Rows are grouped by scene.
+/// covariate. Rows are grouped by scene, in the order of the scenes.
 struct MeasurementTable {
   Target target;
   Camera camera;

@@ -67,7 +67,7 @@ struct MixedModelOptions {
 /// Fits extrinsic, poses, levels, effect columns and random effects, and re-estimates all variances
 /// by restricted maximum likelihood (fixed-point updates σ² = uᵀu/γ with γ the number of effects
 /// that the data determine; MacKay 1992, equal to REML at the fixed point). Groups that start at
-/// kAbsentVariance stay out: held there they would move nothing but the time it takes.
+/// kAbsentVariance stay out: they are held there, and would change nothing that is stated.
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options);
 

@@ -338,6 +338,14 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   return result;
 }
 
+std::shared_ptr<const CalibrationResult> result_at(
+    const std::shared_ptr<const CalibrationResult>& base, const std::vector<ModelStepPtr>& steps) {
+  if (steps.size() < 2) return base;
+  const Discovery discovery = as_discovery(steps, nullptr);
+  if (discovery.model.empty()) return base;
+  return std::make_shared<const CalibrationResult>(with_model(*base, discovery));
+}
+
 void judge_missing(CalibrationResult& result, const ModelRanking& ranking) {
   if (ranking.nothing_missing()) return;
   std::string text = "structure is left that no known effect explains";

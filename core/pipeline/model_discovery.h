@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "pipeline/calibration.h"
 #include "selection/discovery.h"
+#include "selection/model_session.h"
 #include "selection/proposals.h"
 
 namespace lvcalib {
@@ -22,6 +26,11 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
 /// The calibration with the effects found in its model: extrinsic, covariance, board poses,
 /// residuals.
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery);
+
+/// The calibration at the last of a model's steps; `base` itself where that step has no effects.
+/// `steps` begin at `base` and are all made.
+std::shared_ptr<const CalibrationResult> result_at(
+    const std::shared_ptr<const CalibrationResult>& base, const std::vector<ModelStepPtr>& steps);
 
 /// A result whose model lacks what scenes held out speak for is doubtful, and says so.
 void judge_missing(CalibrationResult& result, const ModelRanking& ranking);

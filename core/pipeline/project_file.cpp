@@ -11,6 +11,7 @@
 
 #include "base/file_io.h"
 #include "base/yaml_file.h"
+#include "pipeline/model_discovery.h"
 
 namespace lvcalib {
 namespace {
@@ -460,6 +461,29 @@ Result<OpenedProject> open_project_dataset(const Project& project) {
       missing.push_back(entry.first);
   }
   return opened;
+}
+
+Result<std::shared_ptr<const CalibrationResult>> calibrate_project(const Project& project,
+                                                                   const RunContext& context) {
+  const auto opened = open_project_dataset(project);
+  if (!opened) return opened.error();
+  if (opened->dataset_moved) {
+    return Error::input("the project's dataset is not there", project.dataset.string(),
+                        "open the project and say where the dataset is now, then save it");
+  }
+  const SessionRun run = run_session(opened->dataset, project.decisions, {}, context);
+  if (run.error) return *run.error;
+  const auto base = run.state.latest;
+  if (project.model.empty()) return base;
+  auto step = start_model(discovery_input(*base), discovery_options(base->options), context);
+  if (!step) return step.error();
+  std::vector<ModelStepPtr> steps = {*step};
+  for (const ModelDecision& decision : project.model) {
+    auto next = apply_decision(steps.back(), decision, context);
+    if (!next) return next.error();
+    steps.push_back(*next);
+  }
+  return result_at(base, steps);
 }
 
 }  // namespace lvcalib

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "pipeline/session.h"
 #include "selection/model_session.h"
 
@@ -53,5 +55,11 @@ struct OpenedProject {
 /// Opens the project's dataset. Errors: as open_dataset(), if the folder is there;
 /// scenes that cannot be used are left out with their reasons.
 Result<OpenedProject> open_project_dataset(const Project& project);
+
+/// What a project's decisions give: its dataset calibrated from nothing, with the effects that its
+/// model has. Errors: kInput if the dataset is not where the project says; those of open_dataset(),
+/// run_session() and apply_decision().
+Result<std::shared_ptr<const CalibrationResult>> calibrate_project(const Project& project,
+                                                                   const RunContext& context);
 
 }  // namespace lvcalib

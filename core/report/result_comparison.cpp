@@ -40,7 +40,8 @@ double chance_of(double chi2) {
   return std::exp(-h) * (1.0 + h + 0.5 * h * h);
 }
 
-// Points of a board's grid along each side.
+// Points of a board's grid along each side: a rotation and a change of distance move them smoothly,
+// so that few tell the mean, and arrows at them do not hide each other.
 constexpr int kGrid = 7;
 
 std::optional<double> number_in(const Json& j, const char* key) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "solve/forward_problem.h"
+#include "solve/global_solution.h"
 #include "solve/print_size.h"
 
 namespace lvcalib {

@@ -20,12 +20,6 @@ constexpr double kLowestGate = 1.0;
 constexpr double kHighestGate = 1000.0;
 constexpr int kMostNamed = 6;
 
-StatedExtrinsic stated(const CalibrationResult& result) {
-  StatedExtrinsic out;
-  out.camera_from_lidar = result.extrinsic.camera_from_lidar.transform;
-  return out;
-}
-
 // Tags and circles that a result refuses.
 std::vector<Refusal> refused_features(const CalibrationResult& result) {
   std::vector<Refusal> out = refusals(result);
@@ -153,7 +147,8 @@ void ThresholdPane::setError(const Error& error) {
 
 QString ThresholdPane::moveText(const CalibrationResult& present,
                                 const CalibrationResult& preview) {
-  const ExtrinsicDifference d = difference_of(stated(present), stated(preview));
+  const ExtrinsicDifference d =
+      difference_of(stated_result(present).extrinsic, stated_result(preview).extrinsic);
   const Matrix6d& covariance = preview.extrinsic.camera_from_lidar.covariance;
   return tr("The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 "
             "mrad.")

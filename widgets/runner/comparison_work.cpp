@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "pipeline/model_discovery.h"
 #include "pipeline/project_file.h"
-#include "pipeline/project_result.h"
 
 namespace lvcalib::widgets {
 namespace {

@@ -19,12 +19,11 @@ namespace lvcalib::widgets {
 /// One of the two results of a comparison.
 struct ComparedResult {
   enum class Kind {
-    kNone,     ///< Not chosen yet.
     kStep,     ///< What is open, at a step of its model's history.
     kFile,     ///< A result.json or result.yaml, or the truth of a simulation.
     kProject,  ///< Another project, calibrated for this.
   };
-  Kind kind = Kind::kNone;
+  Kind kind = Kind::kStep;
   std::size_t step = 0;
   QString path;
   bool operator==(const ComparedResult&) const = default;

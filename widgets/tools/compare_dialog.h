@@ -61,7 +61,6 @@ class CompareDialog : public QDialog {
   std::shared_ptr<const Comparison> comparison_;
   std::optional<Error> error_;
   QString scene_;  // Whose picture is shown.
-  QString picture_problem_;
   QLabel* labels_[2];
   QComboBox* boxes_[2];
   QPushButton* file_;

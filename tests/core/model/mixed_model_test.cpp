@@ -95,6 +95,27 @@ TEST(MixedModel, ATrueEffectRaisesThePredictionOfHeldOutScenes) {
     EXPECT_GT(predictive_log_density(with, s), predictive_log_density(without, s)) << s;
 }
 
+// Groups at their smallest variance are left out of the fit; a hair above it they are in it.
+TEST(MixedModel, GroupsHeldAbsentChangeNothing) {
+  const auto made = test::synthetic_table({});
+  const Linearization linear = linearize(made.table, made.truth, {}, {}, {});
+  ModelVariances absent;
+  absent.group = kAbsentVariance;
+  ModelVariances barely = absent;
+  for (double& v : barely.group) v *= 1.001;
+  const ModelFit without = fit_model(linear, {}, absent, {.rounds = 0});
+  const ModelFit with = fit_model(linear, {}, barely, {.rounds = 0});
+  ASSERT_LT(without.local[0].size(), with.local[0].size());
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const double sigma = std::sqrt(with.covariance(k, k));
+    EXPECT_NEAR(without.solution(k), with.solution(k), 0.01 * sigma) << k;
+    EXPECT_NEAR(std::sqrt(without.covariance(k, k)) / sigma, 1.0, 0.01) << k;
+  }
+  // What the score test says of them is asked with all of them in the equations.
+  const auto of_left_out = group_scores(linear, without);
+  EXPECT_GT(of_left_out[0].determined, 0.0);
+}
+
 TEST(MixedModel, SquaresWithoutEffectsAreThoseOfTheNoise) {
   const auto made = test::synthetic_table({});
   const Linearization linear = linearize(made.table, made.truth, {}, {}, {});
