@@ -46,9 +46,7 @@ std::string nesting_error(const std::string& html) {
 
 class HtmlReportTest : public ::testing::Test {
  protected:
-  // Once, but within a test: temporary folders are named after it.
-  void SetUp() override {
-    if (result_ != nullptr) return;
+  static void SetUpTestSuite() {
     data_ = new test::SimulatedDataset(test::dataset_options(1, 3));
     auto result = calibrate(data_->open(), {}, {});
     ASSERT_TRUE(result.ok()) << result.error().text();
