@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <sstream>
+#include <string_view>
 #include <thread>
 
 #include <fcntl.h>
@@ -54,6 +56,19 @@ bool ended(pid_t child, int& status, Clock::time_point limit) {
   }
 }
 
+// True if the process blocks the signal, which every program does that takes it by sigwait(); the
+// kernel's table of processes says so.
+bool blocks(pid_t child, int signal) {
+  constexpr std::string_view kKey = "SigBlk:";
+  std::ifstream table("/proc/" + std::to_string(child) + "/status");
+  for (std::string line; std::getline(table, line);) {
+    if (line.starts_with(kKey)) {
+      return (std::stoull(line.substr(kKey.size()), nullptr, 16) >> (signal - 1) & 1U) != 0;
+    }
+  }
+  return false;
+}
+
 [[noreturn]] void become_lvcalib(char** argv, const RunSettings& settings, int out, int err) {
   if (::chdir(settings.folder.c_str()) != 0) ::_exit(99);
   ::dup2(out, STDOUT_FILENO);
@@ -91,7 +106,12 @@ Outcome run_lvcalib(std::vector<std::string> arguments, const RunSettings& setti
   int status = 0;
   bool done = false;
   if (settings.signal != 0) {
-    done = ended(child, status, start + settings.signal_after);
+    while (settings.once_listening && !done && !blocks(child, settings.signal) &&
+           Clock::now() < start + settings.limit) {
+      done = ended(child, status, Clock::now() + std::chrono::milliseconds(1));
+    }
+    if (settings.once_listening) start = Clock::now();
+    done = done || ended(child, status, start + settings.signal_after);
     start = Clock::now();
     if (!done) ::kill(child, settings.signal);
   }

@@ -23,6 +23,9 @@ struct RunSettings {
   std::chrono::milliseconds limit{60'000};
   int signal = 0;  ///< Sent once after a while, if not 0.
   std::chrono::milliseconds signal_after{};
+  /// The time counts from when the program has blocked the signal to listen for it itself; on a
+  /// busy machine it may be loading for seconds.
+  bool once_listening = false;
   /// Run without the super-user's right to read and write everything.
   bool unprivileged = false;
   /// Where standard output goes; empty: into the outcome.
