@@ -30,6 +30,7 @@ DOORS = {
     "solve": ["base", "target", "camera", "cloud", "detection", "localization", "refinement",
               "model"],
     "response": ["base", "target", "camera", "cloud", "detection", "localization", "refinement"],
+    "verification": ["base", "camera", "cloud", "detection"],
     "diagnostics": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
     "design": ["base", "target", "camera", "cloud", "detection", "model", "solve"],
     "selection": ["base", "target", "camera", "cloud", "detection", "model", "solve", "diagnostics",

@@ -34,6 +34,7 @@ Command add_target_command(CLI::App& app);
 Command add_simulate_command(CLI::App& app);
 Command add_calibrate_command(CLI::App& app);
 Command add_discover_command(CLI::App& app);
+Command add_check_command(CLI::App& app);
 Command add_correct_command(CLI::App& app);
 Command add_evaluate_command(CLI::App& app);
 Command add_export_command(CLI::App& app);

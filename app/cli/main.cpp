@@ -83,10 +83,10 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
   app.set_version_flag("--version", "lvcalib " LVCALIB_VERSION);
   app.require_subcommand(1);
   const std::vector<Command> commands = {
-      add_calibrate_command(app), add_discover_command(app),   add_evaluate_command(app),
-      add_export_command(app),    add_report_command(app),     add_target_command(app),
-      add_simulate_command(app),  add_plan_command(app),       add_correct_command(app),
-      add_import_command(app),    add_intrinsics_command(app),
+      add_calibrate_command(app), add_discover_command(app), add_evaluate_command(app),
+      add_export_command(app),    add_report_command(app),   add_target_command(app),
+      add_simulate_command(app),  add_plan_command(app),     add_check_command(app),
+      add_correct_command(app),   add_import_command(app),   add_intrinsics_command(app),
   };
   CommonOptions common;
   for (const Command& command : commands) add_common_options(*command.app, common);

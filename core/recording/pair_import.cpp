@@ -31,6 +31,11 @@ std::string lower_extension(const fs::path& path) {
   return out;
 }
 
+bool is_cloud_file(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".pcd" || extension == ".ply";
+}
+
 // All clouds of a recording as one: it was made at rest, of one board pose. Fields that one sweep
 // lacks are dropped from all.
 Result<Cloud> cloud_of_recording(const fs::path& path, const RunContext& context) {
@@ -92,14 +97,11 @@ Status copy_whole(const fs::path& from, const fs::path& to) {
 // A cloud as a file of the scene; the number of its points.
 Result<std::size_t> write_cloud(const fs::path& from, const fs::path& folder,
                                 const RunContext& context) {
-  const std::string extension = lower_extension(from);
-  const bool as_it_is = extension == ".pcd" || extension == ".ply";
-  const auto cloud = as_it_is              ? read_cloud(from, context.stop)
-                     : extension == ".bin" ? read_kitti_points(from, context.stop)
-                                           : cloud_of_recording(from, context);
+  const auto cloud = read_pair_cloud(from, context);
   if (!cloud) return cloud.error();
-  const Status written = as_it_is ? copy_whole(from, folder / ("cloud" + extension))
-                                  : write_pcd(folder / "cloud.pcd", *cloud);
+  const Status written = is_cloud_file(from)
+                             ? copy_whole(from, folder / ("cloud" + lower_extension(from)))
+                             : write_pcd(folder / "cloud.pcd", *cloud);
   if (!written) return written.error();
   return cloud->size();
 }
@@ -194,6 +196,12 @@ std::string import_json(const PairedFiles& files, const PairImportSummary& summa
 }
 
 }  // namespace
+
+Result<Cloud> read_pair_cloud(const fs::path& path, const RunContext& context) {
+  if (is_cloud_file(path)) return read_cloud(path, context.stop);
+  if (lower_extension(path) == ".bin") return read_kitti_points(path, context.stop);
+  return cloud_of_recording(path, context);
+}
 
 std::size_t PairImportSummary::scene_count() const {
   return static_cast<std::size_t>(

@@ -8,9 +8,14 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "cloud/cloud.h"
 #include "recording/file_pairs.h"
 
 namespace lvcalib {
+
+/// The cloud of a pair: a pcd or ply file, KITTI's bin (by its name), or all clouds of a recording
+/// as one. Errors as of their readers.
+Result<Cloud> read_pair_cloud(const std::filesystem::path& path, const RunContext& context);
 
 struct PairImportOptions {
   std::string target_yaml;       ///< Content of the dataset's target.yaml.

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/fresh_data.h"
+
+#include <atomic>
+#include <optional>
+
+#include "base/parallel.h"
+#include "detection/board_view.h"
+#include "pipeline/dataset.h"
+#include "recording/pair_import.h"
+
+namespace lvcalib {
+namespace fs = std::filesystem;
+namespace {
+
+Result<EdgeView> read_view(const FilePair& pair, const Camera& camera, const Rigid3& rough,
+                           const RunContext& context) {
+  const auto image = read_image(pair.image);
+  if (!image) return image.error();
+  const auto cloud = read_pair_cloud(pair.cloud, context);
+  if (!cloud) return cloud.error();
+  return edge_view(pair.name, *image, *cloud, camera, rough);
+}
+
+}  // namespace
+
+Result<std::vector<FilePair>> find_fresh_data(const fs::path& folder) {
+  std::error_code code;
+  if (!fs::is_directory(folder / "scenes", code)) {
+    PairOptions options;
+    options.images = folder;
+    auto found = find_pairs(options);
+    if (!found) return found.error();
+    return std::move(found->pairs);
+  }
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(folder / "scenes", code)) {
+    if (entry.is_directory(code)) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<FilePair> out;
+  for (const fs::path& scene : folders) {
+    const auto files = open_scene(scene);
+    if (files && !files->problem) out.push_back({files->name, files->image, files->cloud, {}, {}});
+  }
+  if (out.empty())
+    return Error::input("no scene has an image and a cloud", (folder / "scenes").string());
+  return out;
+}
+
+Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Camera& camera,
+                                    const Rigid3& rough_camera_from_lidar,
+                                    const RunContext& context) {
+  std::vector<std::optional<Result<EdgeView>>> read(pairs.size());
+  std::atomic<std::size_t> done = 0;
+  RunContext silent = context;
+  silent.progress = nullptr;
+  parallel_for(pairs.size(), context.thread_count(), [&](std::size_t k) {
+    if (context.stopped()) return;
+    read[k] = read_view(pairs[k], camera, rough_camera_from_lidar, silent);
+    context.report("load", static_cast<double>(++done) / static_cast<double>(pairs.size()),
+                   "reading " + pairs[k].name);
+  });
+  if (context.stopped()) return Error::cancelled();
+  FreshViews out;
+  for (std::optional<Result<EdgeView>>& view : read) {
+    if (view && *view) {
+      out.views.push_back(std::move(**view));
+    } else if (view) {
+      out.warnings.push_back("left out: " + view->error().text());
+    }
+  }
+  if (out.views.empty() && !out.warnings.empty()) return read.front()->error();
+  if (out.views.empty()) return Error::input("there is no image with a cloud to check");
+  return out;
+}
+
+}  // namespace lvcalib

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "recording/file_pairs.h"
+#include "verification/edge_agreement.h"
+
+namespace lvcalib {
+
+/// Images and clouds of a folder, to check a calibration with: the scenes of a dataset, or pairs of
+/// files as find_pairs() finds them. Nothing is opened. Scenes that lack a file are left out.
+/// Errors (kInput): no folder, or nothing that belongs together.
+Result<std::vector<FilePair>> find_fresh_data(const std::filesystem::path& folder);
+
+struct FreshViews {
+  std::vector<EdgeView> views;
+  std::vector<std::string> warnings;  ///< Pairs that were left out, and why.
+};
+
+/// Reads pairs and finds their edges, as many at a time as the context has threads; what cannot be
+/// used is left out with a warning. Errors: kInput if none can; kCancelled.
+Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Camera& camera,
+                                    const Rigid3& rough_camera_from_lidar,
+                                    const RunContext& context);
+
+}  // namespace lvcalib
