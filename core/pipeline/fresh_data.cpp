@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/fresh_data.h"
 
+#include <algorithm>
 #include <atomic>
 #include <optional>
 
@@ -13,13 +14,23 @@ namespace lvcalib {
 namespace fs = std::filesystem;
 namespace {
 
-Result<EdgeView> read_view(const FilePair& pair, const Camera& camera, const Rigid3& rough,
-                           const RunContext& context) {
+struct Read {
+  EdgeView view;
+  std::vector<Eigen::Vector3f> points_m;
+};
+
+Result<Read> read_pair(const FilePair& pair, const Camera& camera, const Rigid3& rough,
+                       const RunContext& context) {
   const auto image = read_image(pair.image);
   if (!image) return image.error();
   const auto cloud = read_pair_cloud(pair.cloud, context);
   if (!cloud) return cloud.error();
-  return edge_view(pair.name, *image, *cloud, camera, rough);
+  auto view = edge_view(pair.name, *image, *cloud, camera, rough);
+  if (!view) return view.error();
+  Read out{std::move(*view), {}};
+  const std::size_t step = 1 + cloud->size() / FreshViews::kMostDrawn;
+  for (std::size_t i = 0; i < cloud->size(); i += step) out.points_m.push_back(cloud->points_m[i]);
+  return out;
 }
 
 }  // namespace
@@ -51,23 +62,24 @@ Result<std::vector<FilePair>> find_fresh_data(const fs::path& folder) {
 Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Camera& camera,
                                     const Rigid3& rough_camera_from_lidar,
                                     const RunContext& context) {
-  std::vector<std::optional<Result<EdgeView>>> read(pairs.size());
+  std::vector<std::optional<Result<Read>>> read(pairs.size());
   std::atomic<std::size_t> done = 0;
   RunContext silent = context;
   silent.progress = nullptr;
   parallel_for(pairs.size(), context.thread_count(), [&](std::size_t k) {
     if (context.stopped()) return;
-    read[k] = read_view(pairs[k], camera, rough_camera_from_lidar, silent);
+    read[k] = read_pair(pairs[k], camera, rough_camera_from_lidar, silent);
     context.report("load", static_cast<double>(++done) / static_cast<double>(pairs.size()),
                    "reading " + pairs[k].name);
   });
   if (context.stopped()) return Error::cancelled();
   FreshViews out;
-  for (std::optional<Result<EdgeView>>& view : read) {
-    if (view && *view) {
-      out.views.push_back(std::move(**view));
-    } else if (view) {
-      out.warnings.push_back("left out: " + view->error().text());
+  for (std::optional<Result<Read>>& pair : read) {
+    if (pair && *pair) {
+      out.views.push_back(std::move((*pair)->view));
+      out.points_m.push_back(std::move((*pair)->points_m));
+    } else if (pair) {
+      out.warnings.push_back("left out: " + pair->error().text());
     }
   }
   if (out.views.empty() && !out.warnings.empty()) return read.front()->error();

@@ -42,14 +42,17 @@ double value_at_share(const cv::Mat& values, double share) {
 }  // namespace
 
 ImageEdges::ImageEdges(const GrayImage& image)
-    : width_px_(image.width_px), height_px_(image.height_px) {
+    : columns_((image.width_px + kCell_px - 1) / kCell_px),
+      rows_((image.height_px + kCell_px - 1) / kCell_px),
+      width_px_(image.width_px),
+      height_px_(image.height_px) {
   if (width_px_ < 3 || height_px_ < 3) return;
   const Gradient g = gradient_of(image);
   const double least = std::max(
       {kAboveMedian * value_at_share(g.size, 0.5), value_at_share(g.size, 1.0 - kMostShare), 1e-6});
-  std::array<cv::Mat, kDirections> free;
-  for (cv::Mat& m : free) m = cv::Mat(height_px_, width_px_, CV_8U, cv::Scalar(255));
-  cv::Mat index(height_px_, width_px_, CV_32S, cv::Scalar(-1));
+  // The edge in each cell; −1: none.
+  std::array<cv::Mat, kDirections> inside;
+  for (cv::Mat& m : inside) m = cv::Mat(rows_, columns_, CV_32S, cv::Scalar(-1));
   for (int y = 1; y + 1 < height_px_; ++y) {
     for (int x = 1; x + 1 < width_px_; ++x) {
       const float size = g.size.at<float>(y, x);
@@ -64,7 +67,6 @@ ImageEdges::ImageEdges(const GrayImage& image)
       const float bend = before - 2.0F * size + after;
       const float top =
           bend < 0.0F ? std::clamp(0.5F * (before - after) / bend, -0.5F, 0.5F) : 0.0F;
-      index.at<std::int32_t>(y, x) = static_cast<std::int32_t>(edges_.size());
       edges_.push_back({Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)) +
                             top * Eigen::Vector2f(static_cast<float>(sx), static_cast<float>(sy)),
                         normal});
@@ -72,32 +74,27 @@ ImageEdges::ImageEdges(const GrayImage& image)
         const double angle = std::numbers::pi * static_cast<double>(d) / kDirections;
         if (std::abs(std::cos(angle) * normal.x() + std::sin(angle) * normal.y()) >
             std::numbers::sqrt2 / 2.0 - 1e-6)
-          free[d].at<std::uint8_t>(y, x) = 0;
+          inside[d].at<std::int32_t>(y / kCell_px, x / kCell_px) =
+              static_cast<std::int32_t>(edges_.size()) - 1;
       }
     }
   }
-  for (std::size_t d = 0; d < kDirections && !edges_.empty(); ++d) {
-    if (cv::countNonZero(free[d]) == free[d].rows * free[d].cols) continue;
+  for (std::size_t d = 0; d < kDirections; ++d) {
+    // Edges are where the mask is zero.
+    const cv::Mat mask = inside[d] < 0;
+    if (cv::countNonZero(mask) == rows_ * columns_) continue;
     cv::Mat distance, label;
-    cv::distanceTransform(free[d], distance, label, cv::DIST_L2, cv::DIST_MASK_5,
+    cv::distanceTransform(mask, distance, label, cv::DIST_L2, cv::DIST_MASK_5,
                           cv::DIST_LABEL_PIXEL);
-    // Labels count the pixels that are edges; which edge that is stands at such a pixel.
-    std::vector<std::int32_t> edge_of_label(static_cast<std::size_t>(free[d].total()) + 1, -1);
-    for (int y = 0; y < height_px_; ++y) {
-      for (int x = 0; x < width_px_; ++x) {
-        if (free[d].at<std::uint8_t>(y, x) == 0)
-          edge_of_label[static_cast<std::size_t>(label.at<std::int32_t>(y, x))] =
-              index.at<std::int32_t>(y, x);
-      }
+    std::vector<std::int32_t> edge_of_label(mask.total() + 1, -1);
+    const auto* labels = label.ptr<std::int32_t>();
+    const auto* edges = inside[d].ptr<std::int32_t>();
+    for (std::size_t i = 0; i < mask.total(); ++i) {
+      if (edges[i] >= 0) edge_of_label[static_cast<std::size_t>(labels[i])] = edges[i];
     }
-    nearest_[d].resize(free[d].total());
-    for (int y = 0; y < height_px_; ++y) {
-      for (int x = 0; x < width_px_; ++x) {
-        nearest_[d][static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
-                    static_cast<std::size_t>(x)] =
-            edge_of_label[static_cast<std::size_t>(label.at<std::int32_t>(y, x))];
-      }
-    }
+    nearest_[d].resize(mask.total());
+    for (std::size_t i = 0; i < mask.total(); ++i)
+      nearest_[d][i] = edge_of_label[static_cast<std::size_t>(labels[i])];
   }
 }
 
@@ -112,8 +109,8 @@ const ImageEdges::Edge* ImageEdges::nearest(const Eigen::Vector2d& pixel,
       static_cast<long>(kDirections));
   if (nearest_[bin].empty()) return nullptr;
   const std::int32_t index =
-      nearest_[bin][static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
-                    static_cast<std::size_t>(x)];
+      nearest_[bin][static_cast<std::size_t>(y / kCell_px) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(x / kCell_px)];
   return index < 0 ? nullptr : &edges_[static_cast<std::size_t>(index)];
 }
 

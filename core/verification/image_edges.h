@@ -39,10 +39,14 @@ class ImageEdges {
  private:
   // Directions are told apart by steps of 45°.
   static constexpr std::size_t kDirections = 4;
+  // Side of a cell of the map, px: which edge is nearest may be off by as much, its place is not.
+  static constexpr int kCell_px = 2;
+  int columns_ = 0;
+  int rows_ = 0;
   int width_px_ = 0;
   int height_px_ = 0;
   std::vector<Edge> edges_;
-  // Index of the nearest edge of each direction at each pixel; −1: none.
+  // Index of the nearest edge of each direction at each cell; empty: none.
   std::array<std::vector<std::int32_t>, kDirections> nearest_;
 };
 
