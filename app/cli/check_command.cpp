@@ -22,7 +22,7 @@ std::string summary_of(const EdgeCheck& check) {
   std::snprintf(text, sizeof text,
                 "%s; score %.2f ± %.2f of %zu edges (0 chance, 1 all); a turn by %.1f, %.1f, %.1f "
                 "mrad about the camera's x, y, z would be noticed",
-                check.reason.c_str(), check.given.score, check.given.sigma, check.given.edges,
+                reason_of(check).c_str(), check.given.score, check.given.sigma, check.given.edges,
                 1e3 * check.noticed_turn_rad.x(), 1e3 * check.noticed_turn_rad.y(),
                 1e3 * check.noticed_turn_rad.z());
   return text;

@@ -43,6 +43,7 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   print_board = add(tools_, "print_board", {});
   correct = add(tools_, "correct_clouds", {});
   compare = add(tools_, "compare_results", {});
+  check = add(tools_, "check_fresh_data", {});
   make_view_menu(window);
   guide = add(help_, "guide", QKeySequence::HelpContents);
   about = add(help_, "about", {});
@@ -212,6 +213,9 @@ void MainActions::retranslate() {
            tr("Take the effects of the model in force out of clouds of this LiDAR"));
   describe(compare, tr("Compare &with…"),
            tr("The difference to another result, an earlier step, another project, or a truth"));
+  describe(check, tr("C&heck on fresh data…"),
+           tr("Lay the pose over images and clouds, with or without a board, and see whether their "
+              "edges agree; find a rough pose by hand"));
   describe(guide, tr("&Guide"), tr("From the printed board to a result"));
   describe(about, tr("&About"), tr("Version and licence"));
   const QStringList names = {tr("As the &system"), tr("&Light"), tr("&Dark")};

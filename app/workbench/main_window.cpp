@@ -150,6 +150,7 @@ void MainWindow::connect_actions() {
   });
   on(actions_->correct, [this] { results_->correct_clouds(final_result()); });
   on(actions_->compare, [this] { compare(); });
+  on(actions_->check, [this] { check(); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();
@@ -325,6 +326,7 @@ void MainWindow::connect_results() {
   connect(results_, &ResultActions::progressed, status_, &StatusLine::show_progress);
   connect(results_, &ResultActions::logged, log_, &LogDock::append);
   connect(results_, &ResultActions::busy_changed, this, &MainWindow::update_actions);
+  connect(results_, &ResultActions::rough_pose_wanted, workspace_.get(), &Workspace::set_guess);
   connect(results_, &ResultActions::done, this, [this](const QString& message) {
     if (!workspace_->busy()) status_->show_idle(message);
   });
@@ -472,6 +474,7 @@ void MainWindow::update_actions() {
   actions_->save->setEnabled(open);
   actions_->save_as->setEnabled(open);
   actions_->use_crops->setEnabled(open);
+  actions_->check->setEnabled(open);
   actions_->results->setEnabled(workspace_->result() != nullptr);
   for (QAction* action : {actions_->report, actions_->correct, actions_->compare})
     action->setEnabled(workspace_->result() != nullptr);

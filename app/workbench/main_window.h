@@ -67,6 +67,7 @@ class MainWindow : public QMainWindow {
   void connect_model();
   void connect_import();
   void compare();
+  void check();
   void import_recording(const QString& path);
   void import_files(const QString& folder);
   void take_imported(const QString& dataset, const ImportSummary& summary);

@@ -46,6 +46,14 @@ void MainWindow::compare() {
                      model_work_->current(), workspace_->dataset().scenes});
 }
 
+void MainWindow::check() {
+  if (!workspace_->is_open()) return;
+  const Dataset& dataset = workspace_->dataset();
+  const auto& guess = workspace_->decisions().guess;
+  results_->check(final_result(), dataset, guess ? guess : dataset.rough_camera_from_lidar,
+                  guess.has_value());
+}
+
 void MainWindow::start_tour() {
   delete tour_;
   tour_ = new DemoTour(*this, *workspace_, *model_work_);

@@ -4,7 +4,9 @@
 #include <QDir>
 #include <QFileInfo>
 
+#include "design/lidar_file.h"
 #include "dialogs/results_dialog.h"
+#include "tools/check_dialog.h"
 #include "tools/compare_dialog.h"
 #include "tools/correct_dialog.h"
 #include "tools/print_dialog.h"
@@ -70,6 +72,27 @@ void ResultActions::correct_clouds(const std::shared_ptr<const CalibrationResult
 void ResultActions::compare(const ComparisonBasis& basis) {
   if (!basis.result) return;
   (new CompareDialog(basis, choices_, settings_.last_folder(), &window_))->show();
+}
+
+void ResultActions::check(const std::shared_ptr<const CalibrationResult>& result,
+                          const Dataset& dataset, const std::optional<Rigid3>& rough,
+                          bool decided) {
+  CheckedPose pose{CheckedPose::Kind::kNone, forward_looking_mount(), {}};
+  // A failed result is no pose to judge, and seldom one to begin with.
+  if (result && result->quality != Quality::kFailed) {
+    pose = {CheckedPose::Kind::kCalibration, result->extrinsic.camera_from_lidar.transform,
+            result->extrinsic.camera_from_lidar.covariance};
+  } else if (rough) {
+    pose = {CheckedPose::Kind::kRough, *rough, {}};
+  }
+  std::vector<FilePair> pairs;
+  for (const SceneFiles& scene : dataset.scenes) {
+    if (!scene.problem) pairs.push_back({scene.name, scene.image, scene.cloud, {}, {}});
+  }
+  auto* dialog = new CheckDialog(result ? result->camera : dataset.camera, pose, std::move(pairs),
+                                 decided, choices_, settings_.last_folder(), &window_);
+  connect(dialog, &CheckDialog::roughPoseWanted, this, &ResultActions::rough_pose_wanted);
+  dialog->show();
 }
 
 void ResultActions::edit_target_camera(const QString& folder) {

@@ -30,6 +30,10 @@ class ResultActions : public QObject {
   void correct_clouds(const std::shared_ptr<const CalibrationResult>& result);
   /// Nothing without a result.
   void compare(const ComparisonBasis& basis);
+  /// Lays a pose over scenes of what is open and over fresh data. Without a result the pose is the
+  /// rough one, or that of a LiDAR that looks ahead. `decided`: the rough pose is the user's.
+  void check(const std::shared_ptr<const CalibrationResult>& result, const Dataset& dataset,
+             const std::optional<Rigid3>& rough, bool decided);
   /// `folder`: whose target.yaml and camera.yaml are opened; empty: nothing is.
   void edit_target_camera(const QString& folder);
   /// `present`: the board of what is open.
@@ -45,6 +49,8 @@ class ResultActions : public QObject {
   void busy_changed();
   void logged(const QString& line);
   void failed(const lvcalib::Error& error);
+  /// A rough pose was found by hand, or is to be forgotten.
+  void rough_pose_wanted(const std::optional<lvcalib::Rigid3>& camera_from_lidar);
 
  private:
   void remember(const QString& path);

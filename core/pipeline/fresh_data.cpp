@@ -74,10 +74,12 @@ Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Ca
   });
   if (context.stopped()) return Error::cancelled();
   FreshViews out;
-  for (std::optional<Result<Read>>& pair : read) {
+  for (std::size_t k = 0; k < read.size(); ++k) {
+    std::optional<Result<Read>>& pair = read[k];
     if (pair && *pair) {
       out.views.push_back(std::move((*pair)->view));
       out.points_m.push_back(std::move((*pair)->points_m));
+      out.pairs.push_back(k);
     } else if (pair) {
       out.warnings.push_back("left out: " + pair->error().text());
     }

@@ -20,6 +20,7 @@ Result<std::vector<FilePair>> find_fresh_data(const std::filesystem::path& folde
 struct FreshViews {
   static constexpr std::size_t kMostDrawn = 30'000;
   std::vector<EdgeView> views;
+  std::vector<std::size_t> pairs;  ///< Which pair each is of.
   /// As many: points of each cloud to draw, some kMostDrawn spread evenly over it.
   std::vector<std::vector<Eigen::Vector3f>> points_m;
   std::vector<std::string> warnings;  ///< Pairs that were left out, and why.

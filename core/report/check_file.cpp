@@ -21,7 +21,7 @@ std::string check_as_json(const EdgeCheck& check, const std::vector<FilePair>& p
   ordered_json j;
   j["version"] = version();
   j["verdict"] = name_of(check.verdict);
-  j["reason"] = check.reason;
+  j["reason"] = reason_of(check);
   j["given"] = score_json(check.given);
   j["best"] = score_json(check.best);
   j["gain"] = {{"value", check.gain},

@@ -24,9 +24,6 @@ using Matrix7d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 constexpr double kWidening_rad = 2e-3;
 // Edges within a part of this many to the image's width share what is wrong with them.
 constexpr int kParts = 6;
-// Fewer parts say nothing of their scatter.
-constexpr std::size_t kLeastParts = 8;
-constexpr std::size_t kLeastEdges = 40;
 constexpr int kIterations = 12;
 // A pose further away is taken if its gain is beyond so many σ.
 constexpr double kBetter = 2.0;
@@ -305,40 +302,14 @@ std::pair<double, double> in_picture(const std::vector<Placed>& placed, const Ve
   return {std::sqrt(square / n), std::sqrt(variance / n)};
 }
 
-std::string turn_text(const Vector6d& offset) {
-  return formatted("a turn by %.2g mrad and a shift by %.2g mm", 1e3 * offset.tail<3>().norm(),
-                   1e3 * offset.head<3>().norm());
-}
-
-void judge(EdgeCheck& check, std::size_t parts, double tolerance_px) {
-  if (check.given.edges < kLeastEdges || parts < kLeastParts) {
-    check.reason =
-        "too few edges of the LiDAR are in the picture: " + std::to_string(check.given.edges) +
-        " in " + std::to_string(parts) + " parts of it, where " + std::to_string(kLeastEdges) +
-        " in " + std::to_string(kLeastParts) + " are needed";
-    return;
-  }
-  if (check.best.score < kMeets * check.best.sigma) {
-    check.reason =
-        "the edges of LiDAR and image meet no better than by chance, here and nearby: the pose is "
-        "wrong by more than what is searched, or the two do not show the same";
-    return;
-  }
-  if (check.gain > kSignificant * check.gain_sigma && check.gain > check.gain_that_matters) {
-    check.verdict = EdgeVerdict::kContradicts;
-    check.reason = "edges agree better after " + turn_text(check.offset) +
-                   formatted(": they are %.2g px off", check.offset_px);
-    return;
-  }
-  if (check.offset_sigma_px > 3.0 * tolerance_px) {
-    check.reason = formatted(
-        "where the edges lie is known to %.2g px only: take a place with more "
-        "edges, near and far and all over the picture",
-        check.offset_sigma_px);
-    return;
-  }
-  check.verdict = EdgeVerdict::kAgrees;
-  check.reason = formatted("edges agree to %.2g ± %.2g px", check.offset_px, check.offset_sigma_px);
+EdgeVerdict judge(const EdgeCheck& check, double tolerance_px) {
+  if (check.given.edges < kLeastEdges || check.parts < kLeastEdgeParts)
+    return EdgeVerdict::kFewEdges;
+  if (check.best.score < kMeets * check.best.sigma) return EdgeVerdict::kNoMeeting;
+  if (check.gain > kSignificant * check.gain_sigma && check.gain > check.gain_that_matters)
+    return EdgeVerdict::kContradicts;
+  return check.offset_sigma_px > 3.0 * tolerance_px ? EdgeVerdict::kUncertain
+                                                    : EdgeVerdict::kAgrees;
 }
 
 }  // namespace
@@ -423,7 +394,8 @@ Result<EdgeCheck> check_edges(const std::vector<EdgeView>& views, const Camera& 
   for (int k = 0; k < 3; ++k) {
     check.noticed_turn_rad(k) = (kSignificant + 1.28) * std::sqrt(both(3 + k, 3 + k));
   }
-  judge(check, estimate.parts, options.tolerance_px);
+  check.parts = estimate.parts;
+  check.verdict = judge(check, options.tolerance_px);
   return check;
 }
 
@@ -435,6 +407,29 @@ std::string name_of(EdgeVerdict verdict) {
       return "contradicts";
     default:
       return "cannot tell";
+  }
+}
+
+std::string reason_of(const EdgeCheck& check) {
+  switch (check.verdict) {
+    case EdgeVerdict::kAgrees:
+      return formatted("edges agree to %.2g ± %.2g px", check.offset_px, check.offset_sigma_px);
+    case EdgeVerdict::kContradicts:
+      return formatted("edges agree better after a turn by %.2g mrad and a shift by %.2g mm",
+                       1e3 * check.offset.tail<3>().norm(), 1e3 * check.offset.head<3>().norm()) +
+             formatted(": they are %.2g px off", check.offset_px);
+    case EdgeVerdict::kNoMeeting:
+      return "the edges of LiDAR and image meet no better than by chance, here and nearby: the "
+             "pose is wrong by more than what is searched, or the two do not show the same";
+    case EdgeVerdict::kUncertain:
+      return formatted(
+          "where the edges agree is known to %.2g px only: take a place with more "
+          "edges, near and far and all over the picture",
+          check.offset_sigma_px);
+    default:
+      return "too few edges of the LiDAR are in the picture: " + std::to_string(check.given.edges) +
+             " in " + std::to_string(check.parts) + " parts of it, where " +
+             std::to_string(kLeastEdges) + " in " + std::to_string(kLeastEdgeParts) + " are needed";
   }
 }
 

@@ -73,18 +73,21 @@ struct EdgeCheckOptions {
   double tolerance_px = 1.0;
 };
 
+/// What became of a check, and why; the last three cannot tell.
 enum class EdgeVerdict {
   kAgrees,       ///< Nothing contradicts the calibration.
   kContradicts,  ///< The pose has changed, or it was wrong.
-  kCannotTell,   ///< Too few edges, or they do not meet at all.
+  kFewEdges,     ///< Too few edges of the LiDAR are in the picture, or in too few parts of it.
+  kNoMeeting,    ///< The edges meet no better than by chance, at the given pose and nearby.
+  kUncertain,    ///< Where the edges agree is known too badly.
 };
 
 /// What edges say of a calibration.
 struct EdgeCheck {
-  EdgeVerdict verdict = EdgeVerdict::kCannotTell;
-  std::string reason;  ///< In a sentence.
-  EdgeScore given;     ///< At the calibration's pose.
-  EdgeScore best;      ///< Where the edges agree best.
+  EdgeVerdict verdict = EdgeVerdict::kFewEdges;
+  std::size_t parts = 0;  ///< Of the picture, that edges are in.
+  EdgeScore given;        ///< At the calibration's pose.
+  EdgeScore best;         ///< Where the edges agree best.
   /// How much more of the edges lie on one of the image there, of those in the picture at both.
   double gain = 0.0;
   double gain_sigma = 0.0;
@@ -113,7 +116,13 @@ Result<EdgeCheck> check_edges(const std::vector<EdgeView>& views, const Camera& 
                               const Rigid3& camera_from_lidar, const EdgeCheckOptions& options,
                               const RunContext& context);
 
+/// What a check needs at least to tell anything.
+inline constexpr std::size_t kLeastEdges = 40;
+inline constexpr std::size_t kLeastEdgeParts = 8;
+
 /// "agrees", "contradicts", "cannot tell".
 std::string name_of(EdgeVerdict verdict);
+/// The verdict's reason in a sentence.
+std::string reason_of(const EdgeCheck& check);
 
 }  // namespace lvcalib

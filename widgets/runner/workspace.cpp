@@ -317,6 +317,15 @@ void Workspace::set_use_crops(bool use) {
          std::move(after));
 }
 
+void Workspace::set_guess(const std::optional<Rigid3>& camera_from_lidar) {
+  Decisions after = decisions_;
+  after.guess = camera_from_lidar;
+  decide({camera_from_lidar ? QT_TRANSLATE_NOOP("Decisions", "take a rough pose by hand")
+                            : QT_TRANSLATE_NOOP("Decisions", "forget the rough pose"),
+          {}},
+         std::move(after));
+}
+
 Status Workspace::add_scene_folders(const QStringList& folders) {
   std::vector<std::filesystem::path> paths;
   for (const QString& folder : folders) paths.push_back(absolute_path(folder));

@@ -83,6 +83,8 @@ class Workspace : public QObject {
   void set_option(const OptionDeclaration& option, double value);
   void reset_options();
   void set_use_crops(bool use);
+  /// A rough T_camera_lidar, which narrows the search for the board; nothing: rig.yaml's, or none.
+  void set_guess(const std::optional<Rigid3>& camera_from_lidar);
   /// Errors as add_scenes() of the session; nothing is added then.
   Status add_scene_folders(const QStringList& folders);
 

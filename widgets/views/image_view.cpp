@@ -152,10 +152,21 @@ void ImageView::keyPressEvent(QKeyEvent* event) {
 
 void ImageView::mousePressEvent(QMouseEvent* event) {
   pressed_ = event->pos();
+  if (dragging_ && event->button() == Qt::LeftButton) {
+    drag_at_ = mapToScene(event->pos());
+    event->accept();
+    return;
+  }
   QGraphicsView::mousePressEvent(event);
 }
 
 void ImageView::mouseMoveEvent(QMouseEvent* event) {
+  if (drag_at_) {
+    const QPointF to = mapToScene(event->pos());
+    Q_EMIT dragged(*drag_at_, to, event->modifiers());
+    drag_at_ = to;
+    return;
+  }
   QGraphicsView::mouseMoveEvent(event);
   if (event->buttons() == Qt::NoButton) viewport()->setCursor(Qt::CrossCursor);
   const QPointF pixel = mapToScene(event->pos());
@@ -169,6 +180,7 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void ImageView::mouseReleaseEvent(QMouseEvent* event) {
+  drag_at_.reset();
   QGraphicsView::mouseReleaseEvent(event);
   viewport()->setCursor(Qt::CrossCursor);
   if (event->button() != Qt::LeftButton || image_.isNull() ||

@@ -3,6 +3,7 @@
 
 #include <QGraphicsView>
 #include <QImage>
+#include <optional>
 
 #include "views/figure_actions.h"
 #include "views/image_levels.h"
@@ -35,6 +36,8 @@ class ImageView : public QGraphicsView {
 
   /// On: a drag draws a line about what is to be selected instead of moving the image.
   void setBrushing(bool on);
+  /// On: a drag with the left button is told instead of moving the image.
+  void setDragging(bool on) { dragging_ = on; }
 
   /// Screen pixels per image pixel.
   [[nodiscard]] double zoom() const;
@@ -53,6 +56,8 @@ class ImageView : public QGraphicsView {
   void circleClicked(int id);
   /// A line was drawn, in image pixels; `add` to what is selected already.
   void brushed(const QPolygonF& line, bool add);
+  /// A piece of a drag, in image pixels; only where dragging is on.
+  void dragged(const QPointF& from, const QPointF& to, Qt::KeyboardModifiers modifiers);
   /// The cursor moved over the image; value is the grey value at the pixel (0…255 or 0…65535).
   void hovered(const QPointF& pixel, int value);
   void left();
@@ -81,6 +86,8 @@ class ImageView : public QGraphicsView {
   Lasso* lasso_ = nullptr;
   QString message_;
   QPoint pressed_;
+  std::optional<QPointF> drag_at_;  // Image pixels, while a drag is told.
+  bool dragging_ = false;
   bool fitted_ = true;
 };
 
