@@ -29,6 +29,8 @@ constexpr int kIterations = 12;
 constexpr double kBetter = 2.0;
 // And contradicts beyond so many: by chance in one case of a thousand.
 constexpr double kSignificant = 3.1;
+// Nor may chance explain the offset itself, which is known less well than the gain.
+constexpr double kOff = 2.0;
 // Edges that agree no better than chance at so many σ do not meet.
 constexpr double kMeets = 3.0;
 
@@ -306,7 +308,8 @@ EdgeVerdict judge(const EdgeCheck& check, double tolerance_px) {
   if (check.given.edges < kLeastEdges || check.parts < kLeastEdgeParts)
     return EdgeVerdict::kFewEdges;
   if (check.best.score < kMeets * check.best.sigma) return EdgeVerdict::kNoMeeting;
-  if (check.gain > kSignificant * check.gain_sigma && check.gain > check.gain_that_matters)
+  if (check.gain > kSignificant * check.gain_sigma && check.gain > check.gain_that_matters &&
+      check.offset_px > kOff * check.offset_sigma_px)
     return EdgeVerdict::kContradicts;
   return check.offset_sigma_px > 3.0 * tolerance_px ? EdgeVerdict::kUncertain
                                                     : EdgeVerdict::kAgrees;

@@ -177,8 +177,10 @@ class Follower {
       if (jump < kLeastJump_m + kLeastJumpShare * std::min(range(k), range(far)) ||
           jump < kSlopes * slope * static_cast<double>(far - k))
         continue;
-      // What lies between must be between.
-      if (far == k + 2 && (range(k + 1) - range(k)) * (range(far) - range(k + 1)) < 0.0) continue;
+      // What lies between must be between, and not on the first surface: the edge comes later then.
+      if (far == k + 2 && ((range(k + 1) - range(k)) * (range(far) - range(k + 1)) < 0.0 ||
+                           std::abs(range(k + 1) - range(k)) < std::max(kLeastJump_m, slope)))
+        continue;
       if (range(k) < range(far)) {
         add(LidarEdge::Kind::kRange, t[k], t[far]);
       } else {
