@@ -72,6 +72,10 @@ void ResultActions::compare(const ComparisonBasis& basis) {
   (new CompareDialog(basis, choices_, settings_.last_folder(), &window_))->show();
 }
 
+void ResultActions::plan_scenes(const PlanBasis& basis) {
+  (new PlanDialog(basis, choices_, settings_.last_folder(), &window_))->show();
+}
+
 void ResultActions::edit_target_camera(const QString& folder) {
   auto* dialog = new TargetCameraDialog(
       choices_, folder.isEmpty() ? settings_.last_folder() : folder, &window_);

@@ -9,10 +9,12 @@
 #include "runner/comparison_work.h"
 #include "runner/report_writer.h"
 #include "start/app_settings.h"
+#include "tools/plan_dialog.h"
 
 namespace lvcalib::widgets {
 
-/// What is done with a result: the results dialog, the report, corrected clouds, a comparison.
+/// What is done with a result: the results dialog, the report, corrected clouds, a comparison, a
+/// plan of more scenes.
 class ResultActions : public QObject {
   Q_OBJECT
 
@@ -30,6 +32,7 @@ class ResultActions : public QObject {
   void correct_clouds(const std::shared_ptr<const CalibrationResult>& result);
   /// Nothing without a result.
   void compare(const ComparisonBasis& basis);
+  void plan_scenes(const PlanBasis& basis);
   /// `folder`: whose target.yaml and camera.yaml are opened; empty: nothing is.
   void edit_target_camera(const QString& folder);
   /// `present`: the board of what is open.
