@@ -115,6 +115,10 @@ were saved. Take them up again?</source>
         <source>Results and truths (*.json *.yaml)</source>
         <translation>结果与真值 (*.json *.yaml)</translation>
     </message>
+    <message>
+        <source>Open the description of a LiDAR</source>
+        <translation>打开激光雷达描述文件</translation>
+    </message>
 </context>
 <context>
     <name>CloudSceneText</name>
@@ -2669,6 +2673,126 @@ were saved. Take them up again?</source>
         <source>something stands before the board there or lies on it</source>
         <translation>该处有东西挡在标定板前或贴在标定板上</translation>
     </message>
+    <message>
+        <source>Six-line rosette</source>
+        <translation>六线花瓣扫描</translation>
+    </message>
+    <message>
+        <source>Spinning, 128 lines</source>
+        <translation>旋转式，128 线</translation>
+    </message>
+    <message>
+        <source>predicting measurements</source>
+        <translation>正在预测测量</translation>
+    </message>
+    <message>
+        <source>choosing scene %1</source>
+        <translation>正在选择场景 %1</translation>
+    </message>
+    <message>
+        <source>the grid has no more poses than %1</source>
+        <translation>网格中只有 %1 个位姿</translation>
+    </message>
+    <message>
+        <source>so few scenes do not determine the extrinsic</source>
+        <translation>场景太少，无法确定外参</translation>
+    </message>
+    <message>
+        <source>%1 stays hard to test: what matters of it stands %2 σ above zero; to see it: %3</source>
+        <translation>%1仍难以检验：其有意义的大小只比零高 %2 σ；要看到它：%3</translation>
+    </message>
+    <message>
+        <source>no board pose of the grid is in view of both sensors (%1 are in view of the camera)</source>
+        <translation>网格中没有两个传感器都能看到的标定板位姿（相机能看到 %1 个）</translation>
+    </message>
+    <message>
+        <source>check the field of view and T_camera_lidar, or use a smaller board</source>
+        <translation>请检查视场和 T_camera_lidar，或使用更小的标定板</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; cannot be planned for: %2</source>
+        <translation>无法为效应“%1”规划：%2</translation>
+    </message>
+    <message>
+        <source>the LiDAR&apos;s description says no time</source>
+        <translation>激光雷达描述中没有时间</translation>
+    </message>
+    <message>
+        <source>the LiDAR&apos;s description has one line only</source>
+        <translation>激光雷达描述中只有一条线</translation>
+    </message>
+    <message>
+        <source>the LiDAR&apos;s description says no intensity</source>
+        <translation>激光雷达描述中没有强度</translation>
+    </message>
+    <message>
+        <source>this board has no tags</source>
+        <translation>此标定板没有标签</translation>
+    </message>
+    <message>
+        <source>planning: what is known of the extrinsic before must be a covariance without directions that are known exactly or not at all</source>
+        <translation>规划：事先已知的外参信息必须是协方差，且没有完全已知或完全未知的方向</translation>
+    </message>
+    <message>
+        <source>the scenes do not tell enough of the LiDAR: the joint solve over every return failed</source>
+        <translation>这些场景不足以说明激光雷达：对所有回波的联合求解失败</translation>
+    </message>
+    <message>
+        <source>choose a description of the LiDAR</source>
+        <translation>请选择激光雷达描述文件</translation>
+    </message>
+    <message>
+        <source>%1: expected %2, found &apos;%3&apos;</source>
+        <translation>%1：应为 %2，实为“%3”</translation>
+    </message>
+    <message>
+        <source>%1: expected [low, high] in %2 to %3 degrees</source>
+        <translation>%1：应为 [下限, 上限]，在 %2 到 %3 度之间</translation>
+    </message>
+    <message>
+        <source>%1: its left 3x3 part is not a rotation</source>
+        <translation>%1：其左侧 3x3 部分不是旋转矩阵</translation>
+    </message>
+    <message>
+        <source>an unexpected error stopped the work: %1</source>
+        <translation>意外错误中止了工作：%1</translation>
+    </message>
+    <message>
+        <source>is still being written</source>
+        <translation>仍在写入</translation>
+    </message>
+    <message>
+        <source>cannot be read yet: %1</source>
+        <translation>尚无法读取：%1</translation>
+    </message>
+    <message>
+        <source>no cloud belongs to it</source>
+        <translation>没有对应的点云</translation>
+    </message>
+    <message>
+        <source>no image belongs to it</source>
+        <translation>没有对应的图像</translation>
+    </message>
+    <message>
+        <source>no image in this scene; expected image.png, .jpg, .bmp or .tiff</source>
+        <translation>此场景没有图像；应有 image.png、.jpg、.bmp 或 .tiff</translation>
+    </message>
+    <message>
+        <source>no cloud in this scene; expected cloud.pcd or cloud.ply</source>
+        <translation>此场景没有点云；应有 cloud.pcd 或 cloud.ply</translation>
+    </message>
+    <message>
+        <source>there is already a scene of this name</source>
+        <translation>已有同名场景</translation>
+    </message>
+    <message>
+        <source>folder not found</source>
+        <translation>找不到文件夹</translation>
+    </message>
+    <message>
+        <source>cannot be listed: %1</source>
+        <translation>无法列出：%1</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -3006,6 +3130,81 @@ were saved. Take them up again?</source>
     <message>
         <source>Left out, it moves the extrinsic by less than the tolerance.</source>
         <translation>若不考虑，它使外参的移动小于容差。</translation>
+    </message>
+</context>
+<context>
+    <name>PlanText</name>
+    <message>
+        <source>upper left</source>
+        <translation>左上</translation>
+    </message>
+    <message>
+        <source>upper middle</source>
+        <translation>中上</translation>
+    </message>
+    <message>
+        <source>upper right</source>
+        <translation>右上</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>左侧</translation>
+    </message>
+    <message>
+        <source>in the middle</source>
+        <translation>正中</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>右侧</translation>
+    </message>
+    <message>
+        <source>lower left</source>
+        <translation>左下</translation>
+    </message>
+    <message>
+        <source>lower middle</source>
+        <translation>中下</translation>
+    </message>
+    <message>
+        <source>lower right</source>
+        <translation>右下</translation>
+    </message>
+    <message>
+        <source>%1 m ahead</source>
+        <translation>前方 %1 m</translation>
+    </message>
+    <message>
+        <source>upper side towards the camera %1°</source>
+        <translation>上边朝相机前倾 %1°</translation>
+    </message>
+    <message>
+        <source>upper side leaning back %1°</source>
+        <translation>上边后仰 %1°</translation>
+    </message>
+    <message>
+        <source>right side turned back %1°</source>
+        <translation>右边向后转 %1°</translation>
+    </message>
+    <message>
+        <source>left side turned back %1°</source>
+        <translation>左边向后转 %1°</translation>
+    </message>
+    <message>
+        <source>facing the camera</source>
+        <translation>正对相机</translation>
+    </message>
+    <message>
+        <source>rolled %1° to the left</source>
+        <translation>向左旋转 %1°</translation>
+    </message>
+    <message>
+        <source>rolled %1° to the right</source>
+        <translation>向右旋转 %1°</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>，</translation>
     </message>
 </context>
 <context>
@@ -5231,6 +5430,38 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>The difference to another result, an earlier step, another project, or a truth</source>
         <translation>与另一结果、较早步骤、另一项目或真值的差异</translation>
     </message>
+    <message>
+        <source>&amp;Watch this folder</source>
+        <translation>监视此文件夹(&amp;W)</translation>
+    </message>
+    <message>
+        <source>New scene folders in this dataset become scenes and are solved at once</source>
+        <translation>此数据集中新的场景文件夹会成为场景并立即求解</translation>
+    </message>
+    <message>
+        <source>Watch a folder of &amp;images and clouds…</source>
+        <translation>监视图像与点云文件夹(&amp;I)…</translation>
+    </message>
+    <message>
+        <source>What another program writes there becomes scenes of the dataset that is open, or of a new one</source>
+        <translation>其他程序写入其中的内容会成为已打开数据集或新数据集的场景</translation>
+    </message>
+    <message>
+        <source>What &amp;next</source>
+        <translation>下一步(&amp;N)</translation>
+    </message>
+    <message>
+        <source>The last scene and the next pose, large enough to be read from two metres away</source>
+        <translation>最近的场景与下一个位姿，字大到两米外可读</translation>
+    </message>
+    <message>
+        <source>Plan &amp;scenes…</source>
+        <translation>规划场景(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>Where to hold the board, before it is taken out: for the board, camera and LiDAR that are open or chosen</source>
+        <translation>在拿出标定板之前就知道该放在哪里：用于已打开或所选的标定板、相机与激光雷达</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::MainWindow</name>
@@ -5265,6 +5496,14 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Imported into %1: %2 of %3 pairs are scenes.</source>
         <translation>已导入 %1：%3 对中有 %2 对是场景。</translation>
+    </message>
+    <message>
+        <source>Watching %1.</source>
+        <translation>正在监视 %1。</translation>
+    </message>
+    <message>
+        <source>Watching has ended.</source>
+        <translation>监视已结束。</translation>
     </message>
 </context>
 <context>
@@ -5713,6 +5952,193 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Intrinsics</source>
         <translation>内参</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::PlanDialog</name>
+    <message>
+        <source>Cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>that of the scenes taken</source>
+        <translation>已拍场景所用的</translation>
+    </message>
+    <message>
+        <source>Choose a description…</source>
+        <translation>选择描述文件…</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>场景</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>标定板</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>距离</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>倾角</translation>
+    </message>
+    <message>
+        <source>σ position</source>
+        <translation>σ 位置</translation>
+    </message>
+    <message>
+        <source>σ rotation</source>
+        <translation>σ 旋转</translation>
+    </message>
+    <message>
+        <source>Of the extrinsic&apos;s position once the scene is taken: root of the sum over three axes, from the measurements&apos; noise alone</source>
+        <translation>拍完该场景后外参位置的标准差：三轴方差和的平方根，仅计测量噪声</translation>
+    </message>
+    <message>
+        <source>Of the extrinsic&apos;s rotation once the scene is taken: root of the sum over three axes, from the measurements&apos; noise alone</source>
+        <translation>拍完该场景后外参旋转的标准差：三轴方差和的平方根，仅计测量噪声</translation>
+    </message>
+    <message>
+        <source>By how many σ what matters of it stands above zero</source>
+        <translation>其有意义的大小比零高多少个 σ</translation>
+    </message>
+    <message>
+        <source>the scenes taken</source>
+        <translation>已拍的场景</translation>
+    </message>
+    <message>
+        <source>Scene %1: %2</source>
+        <translation>场景 %1：%2</translation>
+    </message>
+    <message>
+        <source>The board as the camera will see it:</source>
+        <translation>相机将看到的标定板：</translation>
+    </message>
+    <message>
+        <source>Choose the description of the board (target.yaml).</source>
+        <translation>请选择标定板描述文件 (target.yaml)。</translation>
+    </message>
+    <message>
+        <source>Choose the intrinsics of the camera (camera.yaml).</source>
+        <translation>请选择相机内参文件 (camera.yaml)。</translation>
+    </message>
+    <message>
+        <source>of what is open</source>
+        <translation>已打开的</translation>
+    </message>
+    <message>
+        <source>none yet</source>
+        <translation>暂无</translation>
+    </message>
+    <message>
+        <source>Chosen one after the other from %1 poses that camera and LiDAR both see.</source>
+        <translation>从相机与激光雷达都能看到的 %1 个位姿中逐个选出。</translation>
+    </message>
+    <message>
+        <source>.</source>
+        <translation>。</translation>
+    </message>
+    <message>
+        <source>Plans where to hold the board: each scene is the one that tells most about the extrinsic after those before it.</source>
+        <translation>规划标定板的摆放：每个场景都是在之前场景的基础上对外参信息最多的一个。</translation>
+    </message>
+    <message>
+        <source>; then σ %1, %2</source>
+        <translation>；此后 σ %1，%2</translation>
+    </message>
+    <message>
+        <source>Copied.</source>
+        <translation>已复制。</translation>
+    </message>
+    <message>
+        <source>Plan (*.json)</source>
+        <translation>规划 (*.json)</translation>
+    </message>
+    <message>
+        <source>Written to %1.</source>
+        <translation>已写入 %1。</translation>
+    </message>
+    <message>
+        <source>Plan scenes</source>
+        <translation>规划场景</translation>
+    </message>
+    <message>
+        <source>Board:</source>
+        <translation>标定板：</translation>
+    </message>
+    <message>
+        <source>Camera:</source>
+        <translation>相机：</translation>
+    </message>
+    <message>
+        <source>&amp;LiDAR:</source>
+        <translation>激光雷达(&amp;L)：</translation>
+    </message>
+    <message>
+        <source>&amp;Scenes:</source>
+        <translation>场景数(&amp;S)：</translation>
+    </message>
+    <message>
+        <source>Ch&amp;oose…</source>
+        <translation>选择(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>The target.yaml of another board</source>
+        <translation>另一块标定板的 target.yaml</translation>
+    </message>
+    <message>
+        <source>C&amp;hoose…</source>
+        <translation>选择(&amp;H)…</translation>
+    </message>
+    <message>
+        <source>The camera.yaml of another camera</source>
+        <translation>另一台相机的 camera.yaml</translation>
+    </message>
+    <message>
+        <source>Field of view, density and noise; rough T_camera_lidar where the description has one, else x forward, y left, z up at the camera</source>
+        <translation>视场、密度与噪声；若描述中有则用其粗略的 T_camera_lidar，否则取 x 向前、y 向左、z 向上，位于相机处</translation>
+    </message>
+    <message>
+        <source>&amp;Go on from the scenes taken</source>
+        <translation>从已拍的场景继续(&amp;G)</translation>
+    </message>
+    <message>
+        <source>Begin with what the present result knows of the extrinsic, instead of with nothing</source>
+        <translation>从当前结果对外参的了解开始，而不是从零开始</translation>
+    </message>
+    <message>
+        <source>Effects to become &amp;testable:</source>
+        <translation>要变得可检验的效应(&amp;T)：</translation>
+    </message>
+    <message>
+        <source>&amp;Plan</source>
+        <translation>规划(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Cancel</source>
+        <translation>取消(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Sa&amp;ve plan.json…</source>
+        <translation>保存 plan.json(&amp;V)…</translation>
+    </message>
+    <message>
+        <source>Cop&amp;y as text</source>
+        <translation>复制为文本(&amp;Y)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>top</source>
+        <translation>上</translation>
+    </message>
+    <message>
+        <source>The board as the camera will see it, its upper edge marked</source>
+        <translation>相机将看到的标定板，标出其上边</translation>
     </message>
 </context>
 <context>
@@ -7249,6 +7675,109 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::WatchWindow</name>
+    <message>
+        <source>No result yet</source>
+        <translation>尚无结果</translation>
+    </message>
+    <message>
+        <source>σ %1 of %2 mm, %3 of %4 mrad</source>
+        <translation>σ %1 / %2 mm，%3 / %4 mrad</translation>
+    </message>
+    <message>
+        <source>%1 is being solved …</source>
+        <translation>%1 求解中 …</translation>
+    </message>
+    <message>
+        <source>%1 not taken: %2</source>
+        <translation>%1 未采用：%2</translation>
+    </message>
+    <message>
+        <source>%1: no result: %2</source>
+        <translation>%1：没有结果：%2</translation>
+    </message>
+    <message>
+        <source>%1 is taken</source>
+        <translation>%1 已采用</translation>
+    </message>
+    <message>
+        <source>Waiting for the next scene</source>
+        <translation>等待下一个场景</translation>
+    </message>
+    <message>
+        <source>Watching has ended</source>
+        <translation>监视已结束</translation>
+    </message>
+    <message>
+        <source>Watching %1</source>
+        <translation>正在监视 %1</translation>
+    </message>
+    <message>
+        <source>%1 %2</source>
+        <translation>%1 %2</translation>
+    </message>
+    <message>
+        <source>(and %1 more)</source>
+        <translation>（另有 %1 个）</translation>
+    </message>
+    <message>
+        <source>Scenes: %1</source>
+        <translation>场景：%1</translation>
+    </message>
+    <message>
+        <source>Scenes: %1 of %2</source>
+        <translation>场景：%1 / %2</translation>
+    </message>
+    <message>
+        <source>One standard deviation of the extrinsic&apos;s position and rotation, and the tolerance of each (Parameters)</source>
+        <translation>外参位置与旋转的一个标准差，以及各自的容差（参数）</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>，</translation>
+    </message>
+    <message>
+        <source>Next: %1</source>
+        <translation>下一步：%1</translation>
+    </message>
+    <message>
+        <source>Stand by …</source>
+        <translation>请稍候 …</translation>
+    </message>
+    <message>
+        <source>Looking for the next pose …</source>
+        <translation>正在寻找下一个位姿 …</translation>
+    </message>
+    <message>
+        <source>Next: the whole board in view of both, two metres ahead</source>
+        <translation>下一步：前方两米，整块标定板在两者视野内</translation>
+    </message>
+    <message>
+        <source>What next</source>
+        <translation>下一步</translation>
+    </message>
+    <message>
+        <source>&amp;Full screen</source>
+        <translation>全屏(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Larger, to be read from farther away (F11)</source>
+        <translation>更大，便于更远处阅读 (F11)</translation>
+    </message>
+    <message>
+        <source>&amp;Stop watching</source>
+        <translation>停止监视(&amp;S)</translation>
+    </message>
+    <message>
+        <source>top</source>
+        <translation>上</translation>
+    </message>
+    <message>
+        <source>Where the board is to be in the camera&apos;s picture, its upper edge marked</source>
+        <translation>标定板应在相机画面中的位置，标出其上边</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::WelcomePage</name>
     <message>
         <source>LV-Calib Workbench</source>
@@ -7456,6 +7985,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>failed</source>
         <translation>失败</translation>
+    </message>
+    <message>
+        <source>New: scene %1</source>
+        <translation>新增：场景 %1</translation>
     </message>
 </context>
 <context>

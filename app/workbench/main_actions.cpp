@@ -44,6 +44,7 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   correct = add(tools_, "correct_clouds", {});
   compare = add(tools_, "compare_results", {});
   check = add(tools_, "check_fresh_data", {});
+  plan = add(tools_, "plan_scenes", {});
   make_view_menu(window);
   guide = add(help_, "guide", QKeySequence::HelpContents);
   about = add(help_, "about", {});
@@ -86,6 +87,10 @@ void MainActions::make_file_menu(QMainWindow& window) {
   recent_ = file_->addMenu(QString());
   demo = add(file_, "demo", {});
   file_->addSeparator();
+  watch_dataset = add(file_, "watch_dataset", {});
+  watch_files = add(file_, "watch_files", {});
+  for (QAction* action : {watch_dataset, watch_files}) action->setCheckable(true);
+  file_->addSeparator();
   save = add(file_, "save", QKeySequence::Save);
   save_as = add(file_, "save_as", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S));
   file_->addSeparator();
@@ -100,6 +105,7 @@ void MainActions::make_file_menu(QMainWindow& window) {
 void MainActions::make_view_menu(QMainWindow& window) {
   theme_menu_ = view_->addMenu(QString());
   language_menu_ = view_->addMenu(QString());
+  what_next = add(view_, "what_next", {});
   before_toggles_ = view_->addSeparator();
   themes = new QActionGroup(&window);
   for (const Theme theme : {Theme::kSystem, Theme::kLight, Theme::kDark}) {
@@ -196,6 +202,13 @@ void MainActions::retranslate() {
   describe(open_dataset, tr("&Open dataset…"), tr("Open a dataset folder"));
   describe(open_project, tr("Open &project…"), tr("Open a .lvcalib file"));
   describe(demo, tr("Try the &demo"), tr("Simulate four scenes and open them, with a guided tour"));
+  describe(watch_dataset, tr("&Watch this folder"),
+           tr("New scene folders in this dataset become scenes and are solved at once"));
+  describe(watch_files, tr("Watch a folder of &images and clouds…"),
+           tr("What another program writes there becomes scenes of the dataset that is open, or of "
+              "a new one"));
+  describe(what_next, tr("What &next"),
+           tr("The last scene and the next pose, large enough to be read from two metres away"));
   describe(save, tr("&Save"), tr("Save the decisions as a project"));
   describe(save_as, tr("Save &as…"), tr("Save the project under another name"));
   describe(results, tr("R&esults…"), tr("Show and export the result"));
@@ -216,6 +229,9 @@ void MainActions::retranslate() {
   describe(check, tr("C&heck on fresh data…"),
            tr("Lay the pose over images and clouds, with or without a board, and see whether their "
               "edges agree; find a rough pose by hand"));
+  describe(plan, tr("Plan &scenes…"),
+           tr("Where to hold the board, before it is taken out: for the board, camera and LiDAR "
+              "that are open or chosen"));
   describe(guide, tr("&Guide"), tr("From the printed board to a result"));
   describe(about, tr("&About"), tr("Version and licence"));
   const QStringList names = {tr("As the &system"), tr("&Light"), tr("&Dark")};

@@ -26,6 +26,7 @@
 #include "runner/demo.h"
 #include "start/welcome_page.h"
 #include "style/texts.h"
+#include "tools/watch_window.h"
 #include "workbench/demo_tour.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
@@ -55,6 +56,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       workspace_(std::make_unique<Workspace>(settings.data_folder())),
       model_work_(std::make_unique<ModelWork>(*workspace_)),
       preview_(std::make_unique<PreviewWork>(*workspace_)),
+      watch_(std::make_unique<WatchWork>(*workspace_)),
       actions_(new MainActions(*this, workspace_->undo_stack())),
       scenes_(new ScenesDock(model_, this)),
       parameters_(new ParametersDock(this)),
@@ -84,6 +86,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
   connect_results();
   connect_model();
   connect_import();
+  connect_watch();
   restore_window();
   pages_->welcome().set_recent(settings_.recent());
   actions_->set_recent(settings_.recent());
@@ -93,6 +96,8 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
 
 MainWindow::~MainWindow() {
   // Nothing may be told to parts that are already gone.
+  delete watch_window_;  // It looks at both of these.
+  watch_->disconnect(this);
   model_work_->disconnect(this);
   workspace_->disconnect(this);
   workspace_->undo_stack().disconnect(this);
@@ -151,6 +156,7 @@ void MainWindow::connect_actions() {
   on(actions_->correct, [this] { results_->correct_clouds(final_result()); });
   on(actions_->compare, [this] { compare(); });
   on(actions_->check, [this] { check(); });
+  on(actions_->plan, [this] { plan_scenes(); });
   on(actions_->run, [this] { workspace_->run(); });
   on(actions_->cancel, [this] {
     workspace_->cancel();
@@ -227,7 +233,14 @@ void MainWindow::connect_workspace() {
   });
   connect(w, &Workspace::failed, this, [this](const Error& error, bool modest) {
     run_when_opened_ = false;
-    if (!modest) show_error(error);  // Else the status line says it.
+    watch_next_.reset();
+    if (modest) return;  // The status line says it.
+    if (watch_->ranLast()) {
+      // Nobody sits before the screen to close a message for every scene.
+      log_->append(core_text(error));
+    } else {
+      show_error(error);
+    }
   });
   connect(w, &Workspace::logged, log_,
           [this](const QString& line) { log_->append(core_text(line)); });
@@ -475,6 +488,8 @@ void MainWindow::update_actions() {
   actions_->save_as->setEnabled(open);
   actions_->use_crops->setEnabled(open);
   actions_->check->setEnabled(open);
+  actions_->watch_dataset->setEnabled(open);
+  actions_->what_next->setEnabled(watch_->watching());
   actions_->results->setEnabled(workspace_->result() != nullptr);
   for (QAction* action : {actions_->report, actions_->correct, actions_->compare})
     action->setEnabled(workspace_->result() != nullptr);
@@ -496,6 +511,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     return;
   }
   settings_.set_window(saveGeometry(), saveState());
+  watch_->stop();
   workspace_->cancel();
   model_work_->cancel();
   results_->cancel();

@@ -4,6 +4,7 @@
 #include <QMainWindow>
 #include <QPointer>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "dialogs/choices.h"
@@ -12,6 +13,7 @@
 #include "runner/model_work.h"
 #include "runner/preview_work.h"
 #include "runner/scene_data.h"
+#include "runner/watch_work.h"
 #include "runner/workspace.h"
 #include "start/app_settings.h"
 
@@ -27,6 +29,7 @@ class ParametersDock;
 class ResultActions;
 class ScenesDock;
 class StatusLine;
+class WatchWindow;
 
 /// The window: puts the parts together and connects them, nothing else.
 class MainWindow : public QMainWindow {
@@ -50,6 +53,7 @@ class MainWindow : public QMainWindow {
 
   [[nodiscard]] Workspace& workspace() { return *workspace_; }
   [[nodiscard]] ModelWork& model_work() { return *model_work_; }
+  [[nodiscard]] WatchWork& watch_work() { return *watch_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -66,12 +70,17 @@ class MainWindow : public QMainWindow {
   void connect_results();
   void connect_model();
   void connect_import();
+  void connect_watch();
+  void watch_files(bool wanted);
+  void show_watch_window();
+  void take_new_scenes();
   void compare();
   void check();
+  void plan_scenes();
   void import_recording(const QString& path);
   void import_files(const QString& folder);
   void take_imported(const QString& dataset, const ImportSummary& summary);
-  void calibrate_new(const QString& dataset);
+  bool calibrate_new(const QString& dataset);
   void read_truth_of(const Dataset& dataset);
   void add_scenes(const QStringList& folders);
   void start_tour();
@@ -96,6 +105,7 @@ class MainWindow : public QMainWindow {
   std::unique_ptr<Workspace> workspace_;
   std::unique_ptr<ModelWork> model_work_;
   std::unique_ptr<PreviewWork> preview_;
+  std::unique_ptr<WatchWork> watch_;
   SceneLoader loader_;
   SceneModel model_;
   QString scene_;  // The one looked at.
@@ -110,6 +120,11 @@ class MainWindow : public QMainWindow {
   DemoTour* tour_ = nullptr;
   QPointer<ImportDialog> import_;
   QPointer<FilesDialog> files_;
+  QPointer<WatchWindow> watch_window_;
+  // Once the dataset that is being made of these is open: where to look, and what it holds already.
+  std::optional<PairOptions> watch_next_;
+  QStringList watch_known_;
+  bool watch_imported_ = false;   // What is imported from files next is to be watched.
   bool scenes_preview_ = false;   // The last look ahead was at scenes left out.
   bool demo_opening_ = false;     // What opens next is the demo.
   bool run_when_opened_ = false;  // What opens next is to be calibrated at once.

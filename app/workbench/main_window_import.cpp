@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window's side of a new dataset from a recording.
 #include <QFileInfo>
+#include <utility>
 
 #include "docks/log_dock.h"
 #include "importing/files_dialog.h"
@@ -101,9 +102,13 @@ void MainWindow::import_files(const QString& folder) {
                 if (!pair.taken) log_->append(tr("%1: left: %2").arg(name, core_text(pair.reason)));
               }
               for (const std::string& warning : summary.warnings) log_->append(core_text(warning));
-              calibrate_new(dataset);
+              const bool watched = std::exchange(watch_imported_, false);
+              if (!calibrate_new(dataset) || !watched) return;
+              watch_next_ = files_->pairOptions();
+              watch_known_ = files_->foundNames();
             });
   }
+  watch_imported_ = false;
   settings_.set_last_folder(QFileInfo(folder).absolutePath());
   files_->open(folder);
   files_->show();
@@ -111,10 +116,11 @@ void MainWindow::import_files(const QString& folder) {
   files_->activateWindow();
 }
 
-void MainWindow::calibrate_new(const QString& dataset) {
-  if (!may_drop_decisions()) return;
+bool MainWindow::calibrate_new(const QString& dataset) {
+  if (!may_drop_decisions()) return false;
   run_when_opened_ = true;
   workspace_->open_dataset(dataset);
+  return true;
 }
 
 }  // namespace lvcalib::widgets

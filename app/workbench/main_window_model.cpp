@@ -54,6 +54,22 @@ void MainWindow::check() {
                   guess.has_value());
 }
 
+// The pose of the model in force; the LiDAR by the scenes' measurements.
+void MainWindow::plan_scenes() {
+  PlanBasis basis;
+  if (workspace_->is_open()) {
+    const Dataset& dataset = workspace_->dataset();
+    basis.target = dataset.target;
+    basis.camera = dataset.camera;
+    basis.rough_camera_from_lidar = dataset.rough_camera_from_lidar;
+    basis.result = final_result();
+    for (const SceneFiles& files : dataset.scenes) {
+      if (basis.cloud.empty()) basis.cloud = files.cloud;
+    }
+  }
+  results_->plan_scenes(basis);
+}
+
 void MainWindow::start_tour() {
   delete tour_;
   tour_ = new DemoTour(*this, *workspace_, *model_work_);

@@ -95,6 +95,10 @@ void ResultActions::check(const std::shared_ptr<const CalibrationResult>& result
   dialog->show();
 }
 
+void ResultActions::plan_scenes(const PlanBasis& basis) {
+  (new PlanDialog(basis, choices_, settings_.last_folder(), &window_))->show();
+}
+
 void ResultActions::edit_target_camera(const QString& folder) {
   auto* dialog = new TargetCameraDialog(
       choices_, folder.isEmpty() ? settings_.last_folder() : folder, &window_);

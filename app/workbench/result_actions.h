@@ -9,10 +9,12 @@
 #include "runner/comparison_work.h"
 #include "runner/report_writer.h"
 #include "start/app_settings.h"
+#include "tools/plan_dialog.h"
 
 namespace lvcalib::widgets {
 
-/// What is done with a result: the results dialog, the report, corrected clouds, a comparison.
+/// What is done with a result: the results dialog, the report, corrected clouds, a comparison, a
+/// plan of more scenes.
 class ResultActions : public QObject {
   Q_OBJECT
 
@@ -34,6 +36,7 @@ class ResultActions : public QObject {
   /// rough one, or that of a LiDAR that looks ahead. `decided`: the rough pose is the user's.
   void check(const std::shared_ptr<const CalibrationResult>& result, const Dataset& dataset,
              const std::optional<Rigid3>& rough, bool decided);
+  void plan_scenes(const PlanBasis& basis);
   /// `folder`: whose target.yaml and camera.yaml are opened; empty: nothing is.
   void edit_target_camera(const QString& folder);
   /// `present`: the board of what is open.

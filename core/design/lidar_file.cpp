@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "base/units.h"
 #include "base/yaml_file.h"
@@ -126,8 +127,9 @@ Rigid3 forward_looking_mount() {
   return Rigid3::from_matrix(rotation, Eigen::Vector3d::Zero().eval());
 }
 
-Result<LidarFile> read_lidar(const std::filesystem::path& path) {
-  const auto file = YamlFile::load(path);
+namespace {
+
+Result<LidarFile> lidar_in(const Result<YamlFile>& file) {
   if (!file) return file.error();
   LidarFile out;
   SensorModel& s = out.lidar.sensors;
@@ -158,6 +160,26 @@ Result<LidarFile> read_lidar(const std::filesystem::path& path) {
                                      "points_per_scene", "range_noise_mm", "beam_mrad", "lines",
                                      "time", "intensity", "scan_speed_rad_s", "scan_period_s",
                                      "edge_noise", "T_camera_lidar"});
+  return out;
+}
+
+}  // namespace
+
+Result<LidarFile> read_lidar(const std::filesystem::path& path) {
+  return lidar_in(YamlFile::load(path));
+}
+
+Result<LidarFile> parse_lidar(std::string text, std::string name) {
+  return lidar_in(YamlFile::parse(std::move(text), std::move(name)));
+}
+
+LidarDescription lidar_of(const MeasurementTable& table, const Rigid3& camera_from_lidar) {
+  LidarDescription out;
+  out.sensors = sensors_of(table);
+  out.lines = table.lines;
+  out.has_time = table.has_time;
+  out.has_intensity = table.has_intensity;
+  out.camera_from_lidar = camera_from_lidar;
   return out;
 }
 

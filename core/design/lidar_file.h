@@ -41,6 +41,11 @@ struct LidarFile {
 ///   T_camera_lidar: 3 or 4 rows of 4 numbers
 /// Errors: kInput with file, line, key and what was expected.
 Result<LidarFile> read_lidar(const std::filesystem::path& path);
+/// The same of a text; `name` stands for the file in messages.
+Result<LidarFile> parse_lidar(std::string text, std::string name);
+
+/// The LiDAR that took a table's scenes, by its measurements (see sensors_of()), mounted as given.
+LidarDescription lidar_of(const MeasurementTable& table, const Rigid3& camera_from_lidar);
 
 /// T_camera_lidar of a LiDAR with x forward, y left, z up at the camera's place.
 Rigid3 forward_looking_mount();

@@ -119,6 +119,9 @@ class Planner {
     if (added_.empty()) return Error::cancelled();
     const auto size = 6 + static_cast<Eigen::Index>(subset_.columns.size());
     now_ = Eigen::MatrixXd::Identity(size, size) / (kKnownBefore * kKnownBefore);
+    if (options_.known)
+      now_.topLeftCorner<6, 6>() += options_.known->ldlt().solve(Matrix6d::Identity());
+    out_.known = options_.known;
     for (std::size_t k = 0; k < subset_.columns.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k) + 6;
       now_(at, at) = 1.0 / (subset_.prior_sigma[k] * subset_.prior_sigma[k]);
@@ -216,6 +219,11 @@ Status PlanOptions::check() const {
     return Error::usage("scenes to plan: expected 1 to 100, found " + std::to_string(scenes));
   if (!(testable > 0.0) || !(corner_sigma_px > 0.0))
     return Error::usage("planning: expected a corner noise and a threshold above zero");
+  if (known && (!known->allFinite() || Eigen::LLT<Matrix6d>(*known).info() != Eigen::Success)) {
+    return Error::usage(
+        "planning: what is known of the extrinsic before must be a covariance without directions "
+        "that are known exactly or not at all");
+  }
   return grid.check();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ struct PlanOptions {
   std::vector<std::string> effects;  ///< Of the catalogue: to be made testable as well.
   double testable = 3.0;             ///< A material size shall stand so many σ above zero.
   double corner_sigma_px = 0.05;
+  /// What is known of the extrinsic before: its covariance (left perturbation, camera frame; metres
+  /// and radians), as the result of scenes that are taken states it. Absent: nothing. Of effects
+  /// nothing is taken to be known.
+  std::optional<Matrix6d> known;
   BoardGridOptions grid;
   [[nodiscard]] Status check() const;
 };
@@ -35,6 +40,7 @@ struct PlannedScene {
 struct ScenePlan {
   std::vector<PlannedScene> scenes;
   Rigid3 camera_from_lidar;           ///< That the plan was made with.
+  std::optional<Matrix6d> known;      ///< What was known before (see PlanOptions).
   std::size_t poses_tried = 0;        ///< Of the grid: those that both sensors see.
   std::vector<std::string> warnings;  ///< Effects that stay untestable.
 };

@@ -273,6 +273,56 @@ SensorModel sensors_of(const MeasurementTable& table) {
   return out;
 }
 
+void take_field_of_view(const Cloud& cloud, SensorModel& sensors) {
+  constexpr std::size_t kFewest = 100;
+  constexpr std::size_t kMost = 20'000;  // tell an edge to a two-hundredth of the field
+  constexpr double kOutermost = 0.002;   // share of returns left out on each side: reflections
+  constexpr double kGap = 0.2 * std::numbers::pi;
+  std::vector<Eigen::Vector2d> directions;
+  std::vector<double> azimuths;
+  const std::size_t stride = 1 + cloud.size() / kMost;
+  for (std::size_t k = 0; k < cloud.size(); k += stride) {
+    const Eigen::Vector3d p = cloud.points_m[k].cast<double>();
+    if (!p.allFinite() || p.norm() < 1e-3) continue;
+    directions.emplace_back(std::atan2(p.y(), p.x()), std::atan2(p.z(), p.head<2>().norm()));
+    azimuths.push_back(directions.back().x());
+  }
+  if (directions.size() < kFewest) return;
+  // The field begins behind the widest gap.
+  std::sort(azimuths.begin(), azimuths.end());
+  double gap = azimuths.front() + 2.0 * std::numbers::pi - azimuths.back();
+  double first = azimuths.front();
+  for (std::size_t k = 1; k < azimuths.size(); ++k) {
+    if (azimuths[k] - azimuths[k - 1] <= gap) continue;
+    gap = azimuths[k] - azimuths[k - 1];
+    first = azimuths[k];
+  }
+  const auto span = [&](int axis) {
+    std::vector<double> values;
+    for (const Eigen::Vector2d& d : directions) values.push_back(d[axis]);
+    std::sort(values.begin(), values.end());
+    const auto out = static_cast<std::size_t>(kOutermost * static_cast<double>(values.size()));
+    return Eigen::Vector2d(values[out], values[values.size() - 1 - out]);
+  };
+  const bool around = gap < kGap;
+  for (Eigen::Vector2d& d : directions)
+    if (!around && d.x() < first) d.x() += 2.0 * std::numbers::pi;
+  sensors.azimuth_rad = around ? Eigen::Vector2d(-std::numbers::pi, std::numbers::pi) : span(0);
+  sensors.elevation_rad = span(1);
+  std::size_t in_corners = 0;
+  for (const Eigen::Vector2d& d : directions) {
+    const double x = (2.0 * d.x() - sensors.azimuth_rad.sum()) /
+                     (sensors.azimuth_rad.y() - sensors.azimuth_rad.x());
+    const double y = (2.0 * d.y() - sensors.elevation_rad.sum()) /
+                     (sensors.elevation_rad.y() - sensors.elevation_rad.x());
+    if (x * x + y * y > 1.0) ++in_corners;
+  }
+  // An even rectangle has 1 − π/4 of its returns there, an ellipse the few beyond the axes without
+  // the outermost returns.
+  const double even = (1.0 - 0.25 * std::numbers::pi) * static_cast<double>(directions.size());
+  sensors.round = !around && static_cast<double>(in_corners) < 0.5 * even;
+}
+
 bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& lidar_from_board) {
   const BoardOutline outline = target.outline();
   const double middle = 0.5 * sensors.azimuth_rad.sum();

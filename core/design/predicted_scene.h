@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "design/board_grid.h"
 #include "model/mixed_model.h"
 
@@ -35,6 +36,11 @@ struct SensorModel {
 /// The model of the sensors that took a table's scenes. The field of view is what the boards have
 /// covered, a quarter wider on every side.
 SensorModel sensors_of(const MeasurementTable& table);
+
+/// Sets the field of view to what a whole cloud of the LiDAR covers, without the outermost returns:
+/// all around if no gap in azimuth is wider than a tenth of a turn, an ellipse if hardly a return
+/// lies in the corners of the rectangle. Clouds of fewer than a hundred points change nothing.
+void take_field_of_view(const Cloud& cloud, SensorModel& sensors);
 
 /// True if the whole board is in the LiDAR's field of view and its front is turned to it.
 bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& lidar_from_board);

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/file_io.h"
 #include "base/image_header.h"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostImageBytes = 256U << 20U;
+constexpr std::size_t kMostJson = 64U << 20U;
 // As of a stretch: what a calibration takes in its stride, and 100 MB in memory.
 constexpr std::size_t kMostPoints = 5'000'000;
 
@@ -172,28 +174,71 @@ void judge_guessed_board(const fs::path& folder, PairImportSummary& out) {
   }
 }
 
+nlohmann::ordered_json pair_json(const ImportedPair& pair) {
+  nlohmann::ordered_json entry;
+  entry["scene"] = pair.files.name;
+  entry["image"] = pair.files.image.string();
+  entry["cloud"] = pair.files.cloud.string();
+  entry["apart_s"] = nullptr;
+  if (pair.files.apart_s) entry["apart_s"] = *pair.files.apart_s;
+  entry["taken"] = pair.taken;
+  entry["reason"] = pair.reason;
+  entry["points"] = pair.points;
+  return entry;
+}
+
+std::string text_of(const nlohmann::ordered_json& json) {
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
 std::string import_json(const PairedFiles& files, const PairImportSummary& summary) {
   nlohmann::ordered_json out;
   out["layout"] = summary.layout;
   out["camera_from"] = nullptr;
   if (!files.camera_from.empty()) out["camera_from"] = files.camera_from;
   out["pairs"] = nlohmann::ordered_json::array();
-  for (const ImportedPair& pair : summary.pairs) {
-    nlohmann::ordered_json entry;
-    entry["scene"] = pair.files.name;
-    entry["image"] = pair.files.image.string();
-    entry["cloud"] = pair.files.cloud.string();
-    entry["apart_s"] = nullptr;
-    if (pair.files.apart_s) entry["apart_s"] = *pair.files.apart_s;
-    entry["taken"] = pair.taken;
-    entry["reason"] = pair.reason;
-    entry["points"] = pair.points;
-    out["pairs"].push_back(entry);
-  }
+  for (const ImportedPair& pair : summary.pairs) out["pairs"].push_back(pair_json(pair));
   out["unmatched"] = files.unmatched;
   out["warnings"] = summary.warnings;
-  return out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return text_of(out);
 }
+
+// Without an import.json the dataset was made by hand, and must not look like an import, which may
+// be replaced.
+Status tell_import(const fs::path& dataset, PairImportSummary& summary) {
+  const fs::path path = dataset / "import.json";
+  std::error_code code;
+  if (!fs::exists(path, code)) return Done{};
+  const auto text = read_text_file(path, kMostJson);
+  auto json = text ? nlohmann::ordered_json::parse(*text, nullptr, false)
+                   : nlohmann::ordered_json(nlohmann::ordered_json::value_t::discarded);
+  if (!json.is_object() || !json["pairs"].is_array()) {
+    summary.warnings.push_back(path.string() + ": cannot be read, and stays as it is");
+    return Done{};
+  }
+  for (const ImportedPair& pair : summary.pairs) json["pairs"].push_back(pair_json(pair));
+  return write_file_atomically(path, text_of(json));
+}
+
+// A folder of its own in `scenes` that no listing of scenes shows; removed unless it is moved.
+class HiddenScene {
+ public:
+  explicit HiddenScene(const fs::path& scenes, const std::string& name)
+      : path_(scenes / ("." + name + ".part" + std::to_string(::getpid()))) {
+    remove();  // What a crash may have left.
+  }
+  HiddenScene(const HiddenScene&) = delete;
+  HiddenScene& operator=(const HiddenScene&) = delete;
+  ~HiddenScene() { remove(); }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  void remove() const {
+    std::error_code code;
+    fs::remove_all(path_, code);
+  }
+  fs::path path_;
+};
 
 }  // namespace
 
@@ -253,6 +298,47 @@ Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImpor
   if (context.stopped()) return Error::cancelled();
   if (Status s = folder->finish(); !s) return s.error();
   return out;
+}
+
+Result<PairImportSummary> add_pairs(const std::vector<FilePair>& pairs,
+                                    const PairImportOptions& options, const fs::path& dataset,
+                                    const RunContext& context) {
+  const fs::path scenes = dataset / "scenes";
+  std::error_code code;
+  if (!fs::is_directory(dataset, code)) return Error::input("folder not found", dataset.string());
+  if (Status s = create_folder(scenes); !s) return s.error();
+  PairImportSummary out;
+  out.has_camera = options.camera.has_value();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (context.stopped()) return Error::cancelled();
+    context.report("write", static_cast<double>(i) / static_cast<double>(pairs.size()),
+                   "scene " + pairs[i].name);
+    ImportedPair pair;
+    pair.files = pairs[i];
+    const fs::path place = scenes / pair.files.name;
+    if (fs::exists(fs::symlink_status(place, code))) {
+      pair.reason = "there is already a scene of this name";
+      out.pairs.push_back(std::move(pair));
+      continue;
+    }
+    const HiddenScene hidden(scenes, pair.files.name);
+    if (Status s = write_scene(options, options.camera, hidden.path(), context, pair); !s)
+      return s.error();
+    if (pair.taken) {
+      fs::rename(hidden.path(), place, code);
+      if (code) return Error::output("cannot be put in place: " + code.message(), place.string());
+    }
+    out.pairs.push_back(std::move(pair));
+  }
+  if (Status s = tell_import(dataset, out); !s) return s.error();
+  return out;
+}
+
+std::string pair_complaint(const FilePair& pair, const RunContext& context) {
+  std::string out = image_complaint(pair.image, std::nullopt);
+  if (!out.empty()) return out;
+  const auto cloud = read_pair_cloud(pair.cloud, context);
+  return cloud ? std::string() : cloud.error().message;
 }
 
 }  // namespace lvcalib

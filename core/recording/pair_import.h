@@ -54,4 +54,19 @@ Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImpor
                                        const std::filesystem::path& dataset,
                                        const RunContext& context);
 
+/// Adds pairs to a dataset folder that is there, as import_pairs() makes scenes of them. Each scene
+/// is written under a name that begins with a dot and takes its own when it is complete: whoever
+/// lists the dataset meanwhile never sees part of one. What became of each is added to the
+/// dataset's import.json if it has one. A pair whose name a scene has already is left. `options`:
+/// camera (the dataset's), board_check and board_is_certain count. Errors: no such folder; it
+/// cannot be written; a stop. The scenes before stay.
+Result<PairImportSummary> add_pairs(const std::vector<FilePair>& pairs,
+                                    const PairImportOptions& options,
+                                    const std::filesystem::path& dataset,
+                                    const RunContext& context);
+
+/// Why image or cloud of a pair cannot be read (another format, truncated, damaged); empty if both
+/// can.
+std::string pair_complaint(const FilePair& pair, const RunContext& context);
+
 }  // namespace lvcalib

@@ -41,6 +41,7 @@ std::string plan_as_json(const ScenePlan& plan) {
     j["scenes"].push_back(scene_json(plan.scenes[k], k + 1));
   if (!plan.scenes.empty() && plan.scenes.back().determined)
     j["covariance"] = rows_of(plan.scenes.back().covariance);
+  if (plan.known) j["covariance_before"] = rows_of(*plan.known);
   j["warnings"] = plan.warnings;
   return j.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

@@ -84,6 +84,12 @@ QString Choices::camera_to_open(QWidget* parent, const QString& folder) {
       words(QT_TRANSLATE_NOOP("Choices", "YAML (*.yaml *.yml)")));
 }
 
+QString Choices::lidar_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileName(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open the description of a LiDAR")), folder,
+      words(QT_TRANSLATE_NOOP("Choices", "YAML (*.yaml *.yml)")));
+}
+
 QString Choices::dataset_to_make(QWidget* parent, const QString& suggestion) {
   return QFileDialog::getSaveFileName(
       parent, words(QT_TRANSLATE_NOOP("Choices", "Folder of the new dataset")), suggestion, {},

@@ -34,6 +34,8 @@ class Choices {
   virtual QString files_to_import(QWidget* parent, const QString& folder);
   virtual QString target_to_open(QWidget* parent, const QString& folder);
   virtual QString camera_to_open(QWidget* parent, const QString& folder);
+  /// The description of a LiDAR.
+  virtual QString lidar_to_open(QWidget* parent, const QString& folder);
   /// A folder that need not exist yet.
   virtual QString dataset_to_make(QWidget* parent, const QString& suggestion);
   virtual QString cloud_to_open(QWidget* parent, const QString& folder);

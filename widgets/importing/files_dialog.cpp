@@ -220,15 +220,27 @@ QString FilesDialog::datasetFolder() const {
   return QDir::fromNativeSeparators(dataset_->text().trimmed());
 }
 
-void FilesDialog::look() {
-  files_.reset();
-  error_.reset();
-  note_.clear();
+PairOptions FilesDialog::pairOptions() const {
   PairOptions options;
   options.images = imagesFolder().toStdString();
   options.clouds = QDir::fromNativeSeparators(clouds_->text().trimmed()).toStdString();
   options.rule = static_cast<PairRule>(rule_->currentIndex());
   options.most_apart_s = apart_->value();
+  return options;
+}
+
+QStringList FilesDialog::foundNames() const {
+  QStringList names;
+  if (!files_) return names;
+  for (const FilePair& pair : files_->pairs) names << QString::fromStdString(pair.name);
+  return names;
+}
+
+void FilesDialog::look() {
+  files_.reset();
+  error_.reset();
+  note_.clear();
+  const PairOptions options = pairOptions();
   {
     const QSignalBlocker quiet(pairs_);
     pairs_->clear();

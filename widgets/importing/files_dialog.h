@@ -34,6 +34,9 @@ class FilesDialog : public QDialog {
   /// Looks through a folder.
   void open(const QString& folder);
   [[nodiscard]] bool busy() const { return work_.busy(); }
+  /// Where and how it looks for pairs, and the names of those that it has found.
+  [[nodiscard]] PairOptions pairOptions() const;
+  [[nodiscard]] QStringList foundNames() const;
 
  Q_SIGNALS:
   /// The dataset is complete and can be opened.

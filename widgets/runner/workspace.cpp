@@ -341,6 +341,29 @@ Status Workspace::add_scene_folders(const QStringList& folders) {
   return Done{};
 }
 
+Status Workspace::take_new_scenes(const QStringList& folders) {
+  std::vector<std::filesystem::path> paths;
+  QStringList names;
+  Dataset dataset = dataset_;
+  for (const QString& folder : folders) {
+    paths.push_back(absolute_path(folder));
+    const std::string name = paths.back().filename().string();
+    names << QString::fromStdString(name);
+    // Listed as incomplete before.
+    std::erase_if(dataset.scenes,
+                  [&](const SceneFiles& files) { return files.problem && files.name == name; });
+  }
+  if (Status s = add_scenes(dataset, paths); !s) return s;
+  dataset_ = std::move(dataset);
+  for (const QString& name : names) missing_.removeAll(name);
+  up_to_date_ = false;
+  Q_EMIT logged(tr("New: scene %1").arg(names.join(QStringLiteral(", "))));
+  Q_EMIT scenes_appeared(names);
+  Q_EMIT decisions_changed();
+  bring_up_to_date();
+  return Done{};
+}
+
 void Workspace::decide(DecisionCommand::Words words, Decisions after, const QString& merge_key) {
   undo_.push(new DecisionCommand([this](const Decisions& d) { apply(d); }, decisions_,
                                  std::move(after), std::move(words), merge_key));

@@ -88,6 +88,11 @@ class Workspace : public QObject {
   /// Errors as add_scenes() of the session; nothing is added then.
   Status add_scene_folders(const QStringList& folders);
 
+  /// Scene folders that have appeared in the dataset since it was opened, or are complete now. No
+  /// decision: opening the dataset again would find them too. Runs at once; scenes_appeared()
+  /// comes before. Errors as add_scenes() of the session; nothing is taken then.
+  Status take_new_scenes(const QStringList& folders);
+
   /// Runs what is not up to date.
   void run();
   /// Runs all stages of these scenes again.
@@ -98,6 +103,8 @@ class Workspace : public QObject {
   void opened();
   /// The project's dataset is not at `path` any more.
   void dataset_moved(const QString& path);
+  /// The dataset has more scenes; those before it are the same.
+  void scenes_appeared(const QStringList& scenes);
   void decisions_changed();
   void dirty_changed(bool dirty);
   void run_started();

@@ -300,6 +300,46 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core", "left out by the user"),
     QT_TRANSLATE_NOOP("Core", "too few tags: the others are left out by the user"),
     QT_TRANSLATE_NOOP("Core", "there is no calibration yet"),
+    // Plans of scenes.
+    QT_TRANSLATE_NOOP("Core", "Six-line rosette"),
+    QT_TRANSLATE_NOOP("Core", "Spinning, 128 lines"),
+    QT_TRANSLATE_NOOP("Core", "predicting measurements"),
+    QT_TRANSLATE_NOOP("Core", "choosing scene %1"),
+    QT_TRANSLATE_NOOP("Core", "the grid has no more poses than %1"),
+    QT_TRANSLATE_NOOP("Core", "so few scenes do not determine the extrinsic"),
+    QT_TRANSLATE_NOOP("Core",
+                      "%1 stays hard to test: what matters of it stands %2 σ above zero; to see "
+                      "it: %3"),
+    QT_TRANSLATE_NOOP("Core",
+                      "no board pose of the grid is in view of both sensors (%1 are in view of the "
+                      "camera)"),
+    QT_TRANSLATE_NOOP("Core", "check the field of view and T_camera_lidar, or use a smaller board"),
+    QT_TRANSLATE_NOOP("Core", "the effect '%1' cannot be planned for: %2"),
+    QT_TRANSLATE_NOOP("Core", "the LiDAR's description says no time"),
+    QT_TRANSLATE_NOOP("Core", "the LiDAR's description has one line only"),
+    QT_TRANSLATE_NOOP("Core", "the LiDAR's description says no intensity"),
+    QT_TRANSLATE_NOOP("Core", "this board has no tags"),
+    QT_TRANSLATE_NOOP("Core",
+                      "planning: what is known of the extrinsic before must be a covariance "
+                      "without directions that are known exactly or not at all"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the scenes do not tell enough of the LiDAR: the joint solve over every "
+                      "return failed"),
+    QT_TRANSLATE_NOOP("Core", "choose a description of the LiDAR"),
+    QT_TRANSLATE_NOOP("Core", "%1: expected %2, found '%3'"),
+    QT_TRANSLATE_NOOP("Core", "%1: expected [low, high] in %2 to %3 degrees"),
+    QT_TRANSLATE_NOOP("Core", "%1: its left 3x3 part is not a rotation"),
+    QT_TRANSLATE_NOOP("Core", "an unexpected error stopped the work: %1"),
+    // Folders that are watched.
+    QT_TRANSLATE_NOOP("Core", "is still being written"),
+    QT_TRANSLATE_NOOP("Core", "cannot be read yet: %1"),
+    QT_TRANSLATE_NOOP("Core", "no cloud belongs to it"),
+    QT_TRANSLATE_NOOP("Core", "no image belongs to it"),
+    QT_TRANSLATE_NOOP("Core", "no image in this scene; expected image.png, .jpg, .bmp or .tiff"),
+    QT_TRANSLATE_NOOP("Core", "no cloud in this scene; expected cloud.pcd or cloud.ply"),
+    QT_TRANSLATE_NOOP("Core", "there is already a scene of this name"),
+    QT_TRANSLATE_NOOP("Core", "folder not found"),
+    QT_TRANSLATE_NOOP("Core", "cannot be listed: %1"),
     // Scenes named before anything else that is said of them.
     QT_TRANSLATE_NOOP("Core", "scene %1: %2"),
 };

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/synthetic_table.h"
 #include "support/temporary_folder.h"
 
 namespace lvcalib {
@@ -72,6 +73,27 @@ TEST_F(LidarFileTest, UnknownKeysAreWarnedOf) {
   ASSERT_TRUE(out.ok());
   ASSERT_EQ(out->warnings.size(), 1U);
   EXPECT_THAT(out->warnings[0], HasSubstr("beam_mrd"));
+}
+
+TEST_F(LidarFileTest, ATextIsReadLikeAFile) {
+  const auto out = parse_lidar(kGood, "in the program");
+  ASSERT_TRUE(out.ok()) << out.error().text();
+  EXPECT_NEAR(out->lidar.sensors.range_sigma_m, 0.008, 1e-9);
+  EXPECT_THAT(parse_lidar("pattern: zigzag\n", "in the program").error().text(),
+              HasSubstr("in the program"));
+}
+
+TEST(LidarOf, IsWhatTookTheScenes) {
+  const auto made = test::synthetic_table({});
+  Rigid3 mount = forward_looking_mount();
+  mount.translation.x() = 0.2;
+  const LidarDescription lidar = lidar_of(made.table, mount);
+  EXPECT_EQ(lidar.lines, made.table.lines);
+  EXPECT_EQ(lidar.has_time, made.table.has_time);
+  EXPECT_EQ(lidar.has_intensity, made.table.has_intensity);
+  EXPECT_NEAR(lidar.sensors.range_sigma_m, 0.008, 1e-6);
+  ASSERT_TRUE(lidar.camera_from_lidar.has_value());
+  EXPECT_EQ(lidar.camera_from_lidar->translation.x(), 0.2);
 }
 
 TEST_F(LidarFileTest, ExamplesAreGood) {

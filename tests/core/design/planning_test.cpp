@@ -47,6 +47,40 @@ TEST(Planning, EverySceneMakesTheExtrinsicSurer) {
   EXPECT_TRUE(out->scenes.back().determined);
 }
 
+// What four scenes tell is what two tell and the two that follow them.
+TEST(Planning, GoesOnFromWhatIsKnown) {
+  PlanOptions options;
+  options.scenes = 4;
+  const auto whole = plan(options);
+  ASSERT_TRUE(whole.ok()) << whole.error().text();
+  options.scenes = 2;
+  options.known = whole->scenes[1].covariance;
+  const auto rest = plan(options);
+  ASSERT_TRUE(rest.ok()) << rest.error().text();
+  ASSERT_EQ(rest->scenes.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(rest->scenes[k].pose.text(), whole->scenes[k + 2].pose.text());
+    EXPECT_TRUE(rest->scenes[k].covariance.isApprox(whole->scenes[k + 2].covariance, 1e-4));
+  }
+  EXPECT_TRUE(rest->known.has_value());
+  EXPECT_FALSE(whole->known.has_value());
+  // One scene more of what is known well is better than four from nothing.
+  options.scenes = 1;
+  options.known = whole->scenes.back().covariance;
+  const auto one = plan(options);
+  ASSERT_TRUE(one.ok()) << one.error().text();
+  EXPECT_TRUE(one->scenes.front().determined);
+  EXPECT_LT(volume(one->scenes.front().covariance), volume(whole->scenes.back().covariance));
+}
+
+TEST(Planning, WhatIsKnownMustBeACovariance) {
+  PlanOptions options;
+  options.known = Matrix6d::Zero();
+  EXPECT_EQ(plan(options).error().kind, ErrorKind::kUsage);
+  options.known = -Matrix6d::Identity();
+  EXPECT_EQ(plan(options).error().kind, ErrorKind::kUsage);
+}
+
 TEST(Planning, BeatsScenesThatAreAllAlike) {
   PlanOptions options;
   options.scenes = 4;

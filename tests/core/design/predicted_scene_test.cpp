@@ -26,6 +26,48 @@ TEST(SensorsOf, MeasuresWhatTheTableWasMadeWith) {
   EXPECT_FALSE(sensors.traits.empty());
 }
 
+// Returns at even angles: a rectangle of directions, or the ellipse in it.
+Cloud scanned(double azimuth_low, double azimuth_high, double elevation, bool round) {
+  Cloud cloud;
+  constexpr int kSteps = 120;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; k <= kSteps; ++k) {
+      const double x = 2.0 * i / kSteps - 1.0;
+      const double y = 2.0 * k / kSteps - 1.0;
+      if (round && x * x + y * y > 1.0) continue;
+      const double a = 0.5 * (azimuth_low + azimuth_high) + 0.5 * x * (azimuth_high - azimuth_low);
+      const double e = y * elevation;
+      cloud.points_m.push_back(
+          3.0F * Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e))
+                     .cast<float>());
+    }
+  }
+  return cloud;
+}
+
+TEST(TakeFieldOfView, IsThatOfTheCloud) {
+  SensorModel sensors;
+  take_field_of_view(scanned(-0.6, 0.7, 0.4, false), sensors);
+  EXPECT_NEAR(sensors.azimuth_rad.x(), -0.6, 0.03);
+  EXPECT_NEAR(sensors.azimuth_rad.y(), 0.7, 0.03);
+  EXPECT_NEAR(sensors.elevation_rad.x(), -0.4, 0.03);
+  EXPECT_NEAR(sensors.elevation_rad.y(), 0.4, 0.03);
+  EXPECT_FALSE(sensors.round);
+  take_field_of_view(scanned(-0.6, 0.6, 0.6, true), sensors);
+  EXPECT_TRUE(sensors.round);
+  // Backwards, over the turn of the angle.
+  take_field_of_view(scanned(2.8, 3.6, 0.3, false), sensors);
+  EXPECT_NEAR(sensors.azimuth_rad.x(), 2.8, 0.03);
+  EXPECT_NEAR(sensors.azimuth_rad.y(), 3.6, 0.03);
+  take_field_of_view(scanned(-3.14, 3.14, 0.3, false), sensors);
+  EXPECT_NEAR(sensors.azimuth_rad.y() - sensors.azimuth_rad.x(), 6.283, 1e-3);
+  EXPECT_FALSE(sensors.round);
+  // Too few to say anything.
+  const SensorModel before = sensors;
+  take_field_of_view(Cloud{}, sensors);
+  EXPECT_EQ(sensors.elevation_rad, before.elevation_rad);
+}
+
 TEST(PredictedScene, PredictsItselfWithoutResidual) {
   const auto made = test::synthetic_table({});
   const SensorModel sensors = sensors_of(made.table);

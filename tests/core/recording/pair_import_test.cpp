@@ -111,6 +111,69 @@ TEST_F(PairImport, FilesStayAsTheyAreAndTheDatasetOpens) {
   EXPECT_TRUE(import_pairs(files, again, dataset(), {}).ok());
 }
 
+TEST_F(PairImport, PairsAreAddedToAnImportWithoutPartsOfScenes) {
+  const PairedFiles all = pairs();
+  PairedFiles first = all;
+  first.pairs.resize(1);
+  ASSERT_TRUE(import_pairs(first, options(), dataset(), {}).ok());
+  folder_.write("clouds/pose2.pcd", "# .PCD v0.7\nnothing");
+  const auto added = add_pairs(all.pairs, options(), dataset(), {});
+  ASSERT_TRUE(added.ok()) << added.error().text();
+  ASSERT_EQ(added->pairs.size(), 3U);
+  EXPECT_EQ(added->scene_count(), 1U);
+  EXPECT_THAT(added->pairs[0].reason, HasSubstr("already a scene"));
+  EXPECT_TRUE(added->pairs[1].taken);
+  EXPECT_FALSE(added->pairs[2].reason.empty());
+  const auto opened = open_dataset(dataset());
+  ASSERT_TRUE(opened.ok()) << opened.error().text();
+  ASSERT_EQ(opened->scenes.size(), 2U);
+  EXPECT_EQ(bytes_of(opened->scenes[1].image), bytes_of(file(1, "image.png")));
+  EXPECT_EQ(bytes_of(opened->scenes[1].cloud), bytes_of(file(1, "cloud.pcd")));
+  // Nothing else, hidden or not.
+  EXPECT_EQ(std::distance(fs::directory_iterator(dataset() / "scenes"), {}), 2);
+  ASSERT_EQ(json()["pairs"].size(), 4U);
+  EXPECT_EQ(json()["pairs"][2]["scene"], "pose1");
+  EXPECT_TRUE(json()["pairs"][2]["taken"].get<bool>());
+  EXPECT_FALSE(json()["pairs"][3]["taken"].get<bool>());
+}
+
+TEST_F(PairImport, AddingWatchesTheCameraTheBoardAndTheStop) {
+  const PairedFiles all = pairs();
+  PairedFiles first = all;
+  first.pairs.resize(1);
+  ASSERT_TRUE(import_pairs(first, options(), dataset(), {}).ok());
+  PairImportOptions unlike = options();
+  unlike.camera->width_px += 2;
+  auto added = add_pairs({all.pairs[1]}, unlike, dataset(), {});
+  ASSERT_TRUE(added.ok());
+  EXPECT_THAT(added->pairs[0].reason, HasSubstr("the camera's have"));
+  PairImportOptions checked = options();
+  checked.board_check = [](const fs::path&, const Camera&) { return "too dark"; };
+  added = add_pairs({all.pairs[1]}, checked, dataset(), {});
+  ASSERT_TRUE(added.ok());
+  EXPECT_THAT(added->pairs[0].reason, HasSubstr("too dark"));
+  std::stop_source stop;
+  stop.request_stop();
+  RunContext context;
+  context.stop = stop.get_token();
+  EXPECT_EQ(add_pairs({all.pairs[1]}, options(), dataset(), context).error().kind,
+            ErrorKind::kCancelled);
+  EXPECT_FALSE(add_pairs(all.pairs, options(), folder_.path() / "none", {}).ok());
+  EXPECT_EQ(std::distance(fs::directory_iterator(dataset() / "scenes"), {}), 1);
+}
+
+// A dataset that nobody imported must not become one that may be replaced.
+TEST_F(PairImport, ADatasetMadeByHandStaysOne) {
+  const PairedFiles all = pairs();
+  const fs::path made = folder_.path() / "by-hand";
+  fs::create_directories(made / "scenes");
+  const auto added = add_pairs({all.pairs[2]}, options(), made, {});
+  ASSERT_TRUE(added.ok()) << added.error().text();
+  EXPECT_EQ(added->scene_count(), 1U);
+  EXPECT_FALSE(fs::exists(made / "import.json"));
+  EXPECT_TRUE(fs::exists(made / "scenes" / "pose2" / "cloud.pcd"));
+}
+
 TEST_F(PairImport, WhatCannotBeUsedIsLeftWithItsReason) {
   auto files = pairs();
   folder_.write("clouds/pose0.pcd", "# .PCD v0.7\nnothing");

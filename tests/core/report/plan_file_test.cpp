@@ -38,6 +38,10 @@ TEST(PlanFile, HasPosesDeviationsAndEffects) {
   EXPECT_EQ(j["scenes"][1]["T_camera_board"].size(), 4U);
   EXPECT_EQ(j["warnings"][0], "beware");
   EXPECT_EQ(j["covariance"].size(), 6U);
+  EXPECT_FALSE(j.contains("covariance_before"));
+  ScenePlan on = sample();
+  on.known = 4e-6 * Matrix6d::Identity();
+  EXPECT_EQ(nlohmann::json::parse(plan_as_json(on))["covariance_before"][5][5], 4e-6);
 }
 
 TEST(PlanFile, IsWrittenWholeOrNotAtAll) {

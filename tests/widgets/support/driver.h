@@ -47,7 +47,7 @@ class Answers : public widgets::Choices {
  public:
   QString dataset, project, save_as, export_to, transform, moved_to;
   QString recording, target, camera, new_dataset, cloud, clouds, clouds_to, other_result;
-  QString files;
+  QString files, lidar;
   QStringList scenes;
   widgets::UnsavedAnswer unsaved_answer = widgets::UnsavedAnswer::kDiscard;
   bool recover_answer = false;
@@ -63,6 +63,7 @@ class Answers : public widgets::Choices {
   QString files_to_import(QWidget*, const QString&) override { return files; }
   QString target_to_open(QWidget*, const QString&) override { return target; }
   QString camera_to_open(QWidget*, const QString&) override { return camera; }
+  QString lidar_to_open(QWidget*, const QString&) override { return lidar; }
   QString dataset_to_make(QWidget*, const QString&) override { return new_dataset; }
   QString cloud_to_open(QWidget*, const QString&) override { return cloud; }
   QString clouds_to_open(QWidget*, const QString&) override { return clouds; }

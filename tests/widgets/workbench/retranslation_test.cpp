@@ -17,6 +17,7 @@
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "style/texts.h"
+#include "tools/watch_window.h"
 #include "views/color_bar.h"
 #include "widgets/importing/recorded_walk.h"
 #include "widgets/modelling/model_example.h"
@@ -112,6 +113,13 @@ class RetranslationTest : public ::testing::Test {
     find<QPushButton>(*window_, "compare_file")->click();
     ASSERT_TRUE(wait_until(
         [&] { return find<QTreeWidget>(*window_, "compare_table")->topLevelItemCount() == 6; }));
+    ASSERT_TRUE(trigger(*window_, "plan_scenes"));
+    find<QPushButton>(*window_, "plan_start")->click();
+    ASSERT_TRUE(wait_until(
+        [&] { return find<QTreeWidget>(*window_, "plan_table")->topLevelItemCount() > 0; }));
+    ASSERT_TRUE(trigger(*window_, "watch_dataset"));
+    auto* watch = window_->findChild<widgets::WatchWindow*>();
+    ASSERT_TRUE(wait_until([&] { return watch->nextPose().has_value(); }));
     answers_.recording = test::small_walk().path;
     ASSERT_TRUE(trigger(*window_, "import_recording"));
     ASSERT_TRUE(wait_until([&] {

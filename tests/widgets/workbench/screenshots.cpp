@@ -22,7 +22,10 @@
 #include "modelling/residual_plot.h"
 #include "pipeline/refusals.h"
 #include "report/result_file.h"
+#include "tools/check_dialog.h"
 #include "tools/compare_dialog.h"
+#include "tools/plan_dialog.h"
+#include "tools/watch_window.h"
 #include "widgets/importing/recorded_walk.h"
 #include "widgets/support/driver.h"
 
@@ -119,6 +122,34 @@ void photograph_left_out(widgets::MainWindow& window, Photographer& camera, cons
   test::wait_until([&] { return window.workspace().up_to_date() && !window.workspace().busy(); });
 }
 
+// A plan that goes on from the scenes taken, for an effect that is hard to see.
+void photograph_plan(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  test::trigger(window, "plan_scenes");
+  auto* dialog = test::find<widgets::PlanDialog>(window, "plan_dialog");
+  auto* effects = test::find<QListWidget>(*dialog, "plan_effects");
+  for (int i = 0; i < effects->count(); ++i) {
+    const QString id = effects->item(i)->data(Qt::UserRole).toString();
+    if (id == QLatin1String("range_walk") || id == QLatin1String("board_bow"))
+      effects->item(i)->setCheckState(Qt::Checked);
+  }
+  test::find<QPushButton>(*dialog, "plan_start")->click();
+  test::wait_until([&] { return !dialog->busy(); });
+  auto* table = test::find<QTreeWidget>(*dialog, "plan_table");
+  table->setCurrentItem(table->topLevelItem(2));
+  camera.take(QStringLiteral("plan-") + theme, dialog);
+  dialog->close();
+}
+
+void photograph_watch(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  test::trigger(window, "watch_dataset");
+  auto* next = test::find<widgets::WatchWindow>(window, "watch_window");
+  next->move(0, 0);
+  test::wait_until([&] { return !next->busy(); });
+  camera.take(QStringLiteral("watch-") + theme, next);
+  test::trigger(window, "watch_dataset");
+  next->close();
+}
+
 void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
   const auto take = [&](const char* object, const QString& name) {
     if (auto* dialog = test::find<QDialog>(window, object)) {
@@ -147,6 +178,10 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
               QString::fromStdString(written + "/result.json"));
   }
   take("compare_dialog", QStringLiteral("compare"));
+  test::trigger(window, "check_fresh_data");
+  if (auto* check = test::find<widgets::CheckDialog>(window, "check_dialog"))
+    test::wait_until([&] { return !check->busy(); }, 60'000);
+  take("check_dialog", QStringLiteral("check"));
   test::trigger(window, "correct_clouds");
   take("correct_dialog", QStringLiteral("correct"));
   test::trigger(window, "target_camera");
@@ -157,6 +192,8 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   take("target_camera_dialog", QStringLiteral("camera"));
   test::trigger(window, "print_board");
   take("print_dialog", QStringLiteral("print"));
+  photograph_plan(window, camera, theme);
+  photograph_watch(window, camera, theme);
   test::trigger(window, "guide");
   take("guide_dialog", QStringLiteral("guide"));
   test::trigger(window, "about");

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "runner/plan_work.h"
+
+#include <utility>
+
+#include "cloud/cloud.h"
+#include "pipeline/model_discovery.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+// The LiDAR that took the scenes: noise and density by its returns on the boards, the field of view
+// by a whole cloud.
+Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunContext& context) {
+  const CalibrationResult& result = *request.result;
+  context.report("plan", 0.0, "collecting measurements");
+  const DiscoveryInput input = discovery_input(result);
+  if (!input.print) {
+    return Error::untrusted(
+        "the scenes do not tell enough of the LiDAR: the joint solve over every return failed", {},
+        "choose a description of the LiDAR");
+  }
+  const MeasurementTable table = table_of(input, discovery_options(result.options).table);
+  LidarDescription out = lidar_of(table, result.extrinsic.camera_from_lidar.transform);
+  if (request.cloud.empty()) return out;
+  if (const auto cloud = read_cloud(request.cloud, context.stop))
+    take_field_of_view(*cloud, out.sensors);
+  return out;
+}
+
+Result<ScenePlan> plan(const PlanRequest& request, const RunContext& context) {
+  PlanOptions options = request.options;
+  Result<LidarDescription> lidar =
+      request.lidar ? Result<LidarDescription>(*request.lidar) : lidar_of_scenes(request, context);
+  if (!lidar) return lidar.error();
+  if (context.stopped()) return Error::cancelled();
+  if (request.result) {
+    lidar->camera_from_lidar = request.result->extrinsic.camera_from_lidar.transform;
+    if (!request.lidar) options.corner_sigma_px = lidar->sensors.corner_sigma_px;
+    if (request.go_on) options.known = request.result->extrinsic.camera_from_lidar.covariance;
+  }
+  return plan_scenes(request.target, request.camera, *lidar, options, context);
+}
+
+}  // namespace
+
+PlanWork::PlanWork(QObject* parent) : QObject(parent) {
+  connect(&runner_, &Runner::progressed, this,
+          [this](quint64, const QString&, double fraction, const QString& text) {
+            Q_EMIT progressed(fraction, text);
+          });
+  connect(&runner_, &Runner::finished, this, &PlanWork::ended);
+  connect(&runner_, &Runner::cancelled, this, [this] {
+    if (replacing_) return;
+    Q_EMIT cancelled();
+    Q_EMIT ended();
+  });
+  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
+    Q_EMIT failed(
+        Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+    Q_EMIT ended();
+  });
+}
+
+void PlanWork::request(const PlanRequest& request) {
+  replacing_ = true;
+  runner_.start([this, request](const RunContext& context, const Runner::Post&) -> Runner::Deliver {
+    auto out = plan(request, context);
+    if (!out) {
+      if (out.error().kind == ErrorKind::kCancelled) return {};
+      return [this, error = out.error()] { Q_EMIT failed(error); };
+    }
+    return
+        [this, made = std::make_shared<const ScenePlan>(std::move(*out))] { Q_EMIT ready(made); };
+  });
+  replacing_ = false;
+}
+
+}  // namespace lvcalib::widgets
