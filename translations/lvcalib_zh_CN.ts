@@ -2793,6 +2793,46 @@ were saved. Take them up again?</source>
         <source>cannot be listed: %1</source>
         <translation>无法列出：%1</translation>
     </message>
+    <message>
+        <source>take an image of this camera, not cropped or scaled</source>
+        <translation>请使用此相机的图像，不要裁剪或缩放</translation>
+    </message>
+    <message>
+        <source>the cloud shows no edge</source>
+        <translation>点云中没有边缘</translation>
+    </message>
+    <message>
+        <source>take a place with things before others</source>
+        <translation>请选有前后遮挡物体的地方</translation>
+    </message>
+    <message>
+        <source>the image shows no edge</source>
+        <translation>图像中没有边缘</translation>
+    </message>
+    <message>
+        <source>see whether it is black or blurred</source>
+        <translation>请检查图像是否全黑或模糊</translation>
+    </message>
+    <message>
+        <source>no scene has an image and a cloud</source>
+        <translation>没有同时有图像和点云的场景</translation>
+    </message>
+    <message>
+        <source>there is no image with a cloud to check</source>
+        <translation>没有可检验的图像和点云</translation>
+    </message>
+    <message>
+        <source>left out: %1</source>
+        <translation>跳过：%1</translation>
+    </message>
+    <message>
+        <source>reading %1</source>
+        <translation>正在读取 %1</translation>
+    </message>
+    <message>
+        <source>comparing edges</source>
+        <translation>正在比较边缘</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -2851,6 +2891,14 @@ were saved. Take them up again?</source>
     <message>
         <source>order scenes</source>
         <translation>排列场景</translation>
+    </message>
+    <message>
+        <source>take a rough pose by hand</source>
+        <translation>采用手动找到的粗略位姿</translation>
+    </message>
+    <message>
+        <source>forget the rough pose</source>
+        <translation>不再使用粗略位姿</translation>
     </message>
 </context>
 <context>
@@ -3810,6 +3858,199 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Tangential %1</source>
         <translation>切向 %1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CheckDialog</name>
+    <message>
+        <source>The image is being loaded …</source>
+        <translation>正在读取图像……</translation>
+    </message>
+    <message>
+        <source>There is no image: %1</source>
+        <translation>没有图像：%1</translation>
+    </message>
+    <message>
+        <source>No edges in the picture</source>
+        <translation>画面中没有边缘</translation>
+    </message>
+    <message>
+        <source>Edge agreement %1 ± %2</source>
+        <translation>边缘吻合度 %1 ± %2</translation>
+    </message>
+    <message>
+        <source>Edges agree with the calibration, to %1 ± %2 px. A turn by %3, %4 or %5 mrad about the camera&apos;s x, y, z would have been noticed.</source>
+        <translation>边缘与标定结果相符，相差 %1 ± %2 px。绕相机 x、y、z 轴转动 %3、%4 或 %5 mrad 就会被发现。</translation>
+    </message>
+    <message>
+        <source>Edges contradict the calibration: they agree better after a turn by %1 mrad and a shift by %2 mm, and are %3 ± %4 px off.</source>
+        <translation>边缘与标定结果矛盾：转动 %1 mrad、平移 %2 mm 后更吻合，现在相差 %3 ± %4 px。</translation>
+    </message>
+    <message>
+        <source>Cannot tell: edges of LiDAR and image meet no better than by chance, here and nearby. The pose is wrong by more than what is searched, or the two do not show the same. Move it by hand until they meet.</source>
+        <translation>无法判断：激光雷达与图像的边缘在此处及附近的吻合并不好于巧合。位姿误差超出了搜索范围，或者两者拍的不是同一处。请手动移动，直到边缘重合。</translation>
+    </message>
+    <message>
+        <source>Cannot tell: where the edges agree is known to %1 px only. Take a place with more edges, near and far and all over the picture.</source>
+        <translation>无法判断：边缘吻合的位置只能确定到 %1 px。请选边缘更多、远近都有、布满画面的地方。</translation>
+    </message>
+    <message>
+        <source>Cannot tell: %1 edges of the LiDAR are in %2 parts of the picture; %3 in %4 are needed.</source>
+        <translation>无法判断：激光雷达有 %1 条边缘落在画面的 %2 个区域中；至少需要 %4 个区域中的 %3 条。</translation>
+    </message>
+    <message>
+        <source>Edges are being compared …</source>
+        <translation>正在比较边缘……</translation>
+    </message>
+    <message>
+        <source>Being read …</source>
+        <translation>正在读取……</translation>
+    </message>
+    <message>
+        <source>Choose a folder of images and clouds that were taken together, with or without a board.</source>
+        <translation>请选择一个文件夹，其中是同时采集的图像和点云，有无标定板均可。</translation>
+    </message>
+    <message>
+        <source>There is no pose yet: drag the points until they lie on what they show.</source>
+        <translation>还没有位姿：请拖动点，直到它们落在所对应的物体上。</translation>
+    </message>
+    <message>
+        <source>Moved by hand. Back to the start to have it judged.</source>
+        <translation>已手动移动。回到起点即可重新判断。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pairs were left out; the first: %1</source>
+        <translation>
+            <numerusform>跳过了 %n 对；第一对：%1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Check on fresh data</source>
+        <translation>用新数据检验</translation>
+    </message>
+    <message>
+        <source>&amp;Place</source>
+        <translation>地点(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Folder…</source>
+        <translation>文件夹(&amp;F)…</translation>
+    </message>
+    <message>
+        <source>A folder of images and clouds that were taken together, or a dataset</source>
+        <translation>同时采集的图像和点云所在的文件夹，或一个数据集</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>点</translation>
+    </message>
+    <message>
+        <source>The LiDAR&apos;s points under this pose, coloured by distance</source>
+        <translation>此位姿下的激光雷达点，按距离着色</translation>
+    </message>
+    <message>
+        <source>Edges</source>
+        <translation>边缘</translation>
+    </message>
+    <message>
+        <source>The LiDAR&apos;s edges: green where they lie on one of the image, red where not</source>
+        <translation>激光雷达的边缘：与图像边缘重合的为绿色，不重合的为红色</translation>
+    </message>
+    <message>
+        <source>The share of the LiDAR&apos;s edges that lie on one of the image, above what chance gives: 0 chance, 1 all. Of all places together.</source>
+        <translation>激光雷达边缘中与图像边缘重合的比例，已扣除巧合：0 为巧合，1 为全部。所有地点合计。</translation>
+    </message>
+    <message>
+        <source>Against the calibration</source>
+        <translation>相对于标定结果</translation>
+    </message>
+    <message>
+        <source>Against the rough pose</source>
+        <translation>相对于粗略位姿</translation>
+    </message>
+    <message>
+        <source>Against a LiDAR that looks ahead</source>
+        <translation>相对于朝前安装的激光雷达</translation>
+    </message>
+    <message>
+        <source>&amp;Range</source>
+        <translation>范围(&amp;R)</translation>
+    </message>
+    <message>
+        <source>fine: 50 mrad, 100 mm</source>
+        <translation>精细：50 mrad，100 mm</translation>
+    </message>
+    <message>
+        <source>coarse: 180°, 2 m</source>
+        <translation>粗略：180°，2 m</translation>
+    </message>
+    <message>
+        <source>Turn x, mrad</source>
+        <translation>绕 x 转动，mrad</translation>
+    </message>
+    <message>
+        <source>Turn y, mrad</source>
+        <translation>绕 y 转动，mrad</translation>
+    </message>
+    <message>
+        <source>Turn z, mrad</source>
+        <translation>绕 z 转动，mrad</translation>
+    </message>
+    <message>
+        <source>Shift x, mm</source>
+        <translation>沿 x 平移，mm</translation>
+    </message>
+    <message>
+        <source>Shift y, mm</source>
+        <translation>沿 y 平移，mm</translation>
+    </message>
+    <message>
+        <source>Shift z, mm</source>
+        <translation>沿 z 平移，mm</translation>
+    </message>
+    <message>
+        <source>About an axis of the camera: x right, y down, z ahead</source>
+        <translation>绕相机的轴：x 向右，y 向下，z 向前</translation>
+    </message>
+    <message>
+        <source>Along an axis of the camera: x right, y down, z ahead</source>
+        <translation>沿相机的轴：x 向右，y 向下，z 向前</translation>
+    </message>
+    <message>
+        <source>To where edges &amp;agree</source>
+        <translation>移到边缘吻合处(&amp;A)</translation>
+    </message>
+    <message>
+        <source>From this pose to the one nearby where most edges agree</source>
+        <translation>从此位姿移到附近边缘最吻合的位姿</translation>
+    </message>
+    <message>
+        <source>&amp;Back to the start</source>
+        <translation>回到起点(&amp;B)</translation>
+    </message>
+    <message>
+        <source>Take as &amp;rough pose</source>
+        <translation>作为粗略位姿(&amp;R)</translation>
+    </message>
+    <message>
+        <source>The board is then looked for about where this pose has it; can be undone</source>
+        <translation>随后在此位姿所指的附近寻找标定板；可撤销</translation>
+    </message>
+    <message>
+        <source>&amp;No rough pose</source>
+        <translation>不用粗略位姿(&amp;N)</translation>
+    </message>
+    <message>
+        <source>Drag in the picture: the points follow. With Shift they turn about the middle, with Ctrl they shift. The wheel zooms.</source>
+        <translation>在画面中拖动，点会跟随。按住 Shift 绕画面中心转动，按住 Ctrl 平移。滚轮缩放。</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
     </message>
 </context>
 <context>
@@ -5461,6 +5702,14 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Where to hold the board, before it is taken out: for the board, camera and LiDAR that are open or chosen</source>
         <translation>在拿出标定板之前就知道该放在哪里：用于已打开或所选的标定板、相机与激光雷达</translation>
+    </message>
+    <message>
+        <source>C&amp;heck on fresh data…</source>
+        <translation>用新数据检验(&amp;H)…</translation>
+    </message>
+    <message>
+        <source>Lay the pose over images and clouds, with or without a board, and see whether their edges agree; find a rough pose by hand</source>
+        <translation>把位姿叠加到有无标定板的图像和点云上，看边缘是否吻合；或手动寻找粗略位姿</translation>
     </message>
 </context>
 <context>

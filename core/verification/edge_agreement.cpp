@@ -320,8 +320,8 @@ EdgeVerdict judge(const EdgeCheck& check, double tolerance_px) {
 Result<EdgeView> edge_view(std::string name, const GrayImage& image, const Cloud& cloud,
                            const Camera& camera, const Rigid3& rough_camera_from_lidar) {
   if (image.width_px != camera.width_px || image.height_px != camera.height_px) {
-    return Error::input("the image has " + std::to_string(image.width_px) + " × " +
-                            std::to_string(image.height_px) + " px, the camera " +
+    return Error::input("its image has " + std::to_string(image.width_px) + " × " +
+                            std::to_string(image.height_px) + " px, the camera's have " +
                             std::to_string(camera.width_px) + " × " +
                             std::to_string(camera.height_px),
                         name, "take an image of this camera, not cropped or scaled");
@@ -416,7 +416,7 @@ std::string name_of(EdgeVerdict verdict) {
 std::string reason_of(const EdgeCheck& check) {
   switch (check.verdict) {
     case EdgeVerdict::kAgrees:
-      return formatted("edges agree to %.2g ± %.2g px", check.offset_px, check.offset_sigma_px);
+      return formatted("edges agree to %.1f ± %.1f px", check.offset_px, check.offset_sigma_px);
     case EdgeVerdict::kContradicts:
       return formatted("edges agree better after a turn by %.2g mrad and a shift by %.2g mm",
                        1e3 * check.offset.tail<3>().norm(), 1e3 * check.offset.head<3>().norm()) +

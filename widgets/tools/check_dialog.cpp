@@ -392,20 +392,22 @@ void CheckDialog::setRange() {
 
 QString CheckDialog::checkText(const EdgeCheck& check) const {
   const auto number = [](double value) { return QString::number(value, 'g', 2); };
+  // Both to the same decimal.
+  const auto pixels = [](double value) { return QString::number(value, 'f', 1); };
   switch (check.verdict) {
     case EdgeVerdict::kAgrees:
       return tr("Edges agree with the calibration, to %1 ± %2 px. A turn by %3, %4 or %5 mrad "
                 "about "
                 "the camera's x, y, z would have been noticed.")
-          .arg(number(check.offset_px), number(check.offset_sigma_px),
+          .arg(pixels(check.offset_px), pixels(check.offset_sigma_px),
                number(1e3 * check.noticed_turn_rad.x()), number(1e3 * check.noticed_turn_rad.y()),
                number(1e3 * check.noticed_turn_rad.z()));
     case EdgeVerdict::kContradicts:
       return tr("Edges contradict the calibration: they agree better after a turn by %1 mrad and a "
                 "shift by %2 mm, and are %3 ± %4 px off.")
           .arg(number(1e3 * check.offset.tail<3>().norm()),
-               number(1e3 * check.offset.head<3>().norm()), number(check.offset_px),
-               number(check.offset_sigma_px));
+               number(1e3 * check.offset.head<3>().norm()), pixels(check.offset_px),
+               pixels(check.offset_sigma_px));
     case EdgeVerdict::kNoMeeting:
       return tr(
           "Cannot tell: edges of LiDAR and image meet no better than by chance, here and "
