@@ -7768,8 +7768,8 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>外参将移动 %1 mm 和 %2 mrad；其不确定度为 %3 mm 和 %4 mrad。</translation>
     </message>
     <message>
-        <source>What tags and circles miss the board&apos;s pose by, in standard deviations. Red ones are left out. Drag the line (or use the arrow keys) to see what another place would do.</source>
-        <translation>标签和圆偏离标定板位姿的程度，以标准差计。红色的未采用。拖动该线（或用方向键）查看其他位置的效果。</translation>
+        <source>What tags and circles miss the board&apos;s final pose by, in standard deviations. Red ones are left out. The solve judged them on its way there, so that one that it kept may lie a little beyond the line. Drag the line (or use the arrow keys) to see what another place would do.</source>
+        <translation>标签和圆偏离标定板最终位姿的距离，以标准差计。红色的被舍弃。求解在途中作出判断，因此保留下来的个别可能略超出此线。拖动此线（或用方向键）可查看放在别处的效果。</translation>
     </message>
     <message>
         <source>Red: left out at this place of the line. Before the solve has answered, what lies beyond the line; the solve may judge a few of them otherwise, since the board moves too.</source>

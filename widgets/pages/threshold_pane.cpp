@@ -88,8 +88,10 @@ double ThresholdPane::presentGate() const {
 
 void ThresholdPane::retranslate() {
   intro_->setText(tr(
-      "What tags and circles miss the board's pose by, in standard deviations. Red ones are left "
-      "out. Drag the line (or use the arrow keys) to see what another place would do."));
+      "What tags and circles miss the board's final pose by, in standard deviations. Red ones are "
+      "left out. The solve judged them on its way there, so that one that it kept may lie a little "
+      "beyond the line. Drag the line (or use the arrow keys) to see what another place would "
+      "do."));
   tags_->setValueLabel(tr("a tag's worst corner (σ)"), QStringLiteral("worst_corner_sigmas"));
   circles_->setValueLabel(tr("a circle's centre (σ)"), QStringLiteral("circle_sigmas"));
   for (ThresholdPlot* plot : {tags_, circles_})

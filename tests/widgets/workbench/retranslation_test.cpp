@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The language is changed from the menu while everything is open: nothing may stay in English.
 #include <QDialog>
+#include <QLabel>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QTabWidget>
@@ -110,6 +111,10 @@ class RetranslationTest : public ::testing::Test {
     answers_.other_result = QString::fromStdString(written + "/result.json");
     for (const char* name : {"compare_results", "correct_clouds", "print_board"})
       ASSERT_TRUE(trigger(*window_, name));
+    ASSERT_TRUE(trigger(*window_, "check_fresh_data"));
+    ASSERT_TRUE(wait_until([&] {
+      return find<QLabel>(*window_, "check_verdict")->text().contains(QLatin1String("px"));
+    }));
     find<QPushButton>(*window_, "compare_file")->click();
     ASSERT_TRUE(wait_until(
         [&] { return find<QTreeWidget>(*window_, "compare_table")->topLevelItemCount() == 6; }));
