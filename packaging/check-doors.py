@@ -49,7 +49,7 @@ WIDGET_DOORS = {
     "views": ["style"],
     "pages": ["style", "views"],
     "modelling": ["style", "views", "runner"],
-    "dialogs": ["style"],
+    "dialogs": ["style", "runner"],
     "tools": ["style", "views", "runner", "modelling", "dialogs"],
     "importing": ["style", "runner", "dialogs", "tools"],
     "docks": ["style", "models"],

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/file_io.h"
 #include "command.h"
 #include "overwriting.h"
 #include "pipeline/calibration.h"
 #include "pipeline/dataset.h"
+#include "report/colored_cloud.h"
 #include "report/exports.h"
 
 namespace lvcalib::cli {
@@ -16,10 +16,18 @@ struct ExportArguments {
   std::string imu;
   std::string lidar_frame;
   std::string camera_frame;
+  std::string scene;
   bool force = false;
 };
 
-Result<std::string> run(const ExportArguments& options) {
+bool is_cloud(const std::string& name) {
+  for (const ExportFormat& format : export_formats()) {
+    if (format.name == name) return format.is_cloud;
+  }
+  return false;
+}
+
+Result<std::string> run(const ExportArguments& options, const RunContext& context) {
   for (const std::string& input : {options.result, options.imu}) {
     if (Status s = refuse_overwriting(options.output, input); !s) return s.error();
   }
@@ -36,9 +44,16 @@ Result<std::string> run(const ExportArguments& options) {
   }
   if (!options.lidar_frame.empty()) input->lidar_frame = options.lidar_frame;
   if (!options.camera_frame.empty()) input->camera_frame = options.camera_frame;
-  auto text = export_result(*input, options.format);
-  if (!text) return text.error();
-  if (Status s = write_file_atomically(options.output, *text); !s) return s.error();
+  if (is_cloud(options.format)) {
+    const auto written = write_colored_ply(*input, options.scene, options.output, context);
+    if (!written) return written.error();
+    return options.format + ": " + std::to_string(written->cloud.size()) + " points, " +
+           std::to_string(written->outside) + " outside of the picture, " +
+           std::to_string(written->hidden) + " hidden -> " + options.output;
+  }
+  if (!options.scene.empty())
+    return Error::usage("only a coloured cloud is of one scene", "--scene");
+  if (Status s = write_export(*input, options.format, options.output); !s) return s.error();
   return options.format + " -> " + options.output;
 }
 
@@ -56,7 +71,10 @@ Command add_export_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("export", "Write a result in another tool's format");
   command->add_option("RESULT", options->result, "result.json")->required();
   command->add_option("--format", options->format, format_list())->required();
-  command->add_option("-o,--output", options->output, "file to write")->required();
+  command->add_option("-o,--output", options->output, "file to write; of colmap a folder")
+      ->required();
+  command->add_option("--scene", options->scene,
+                      "of colored-ply: which scene (default: the first in use)");
   command->add_option("--imu", options->imu,
                       "YAML file with T_imu_lidar (takes a LiDAR point to the IMU frame)");
   command->add_option("--lidar-frame", options->lidar_frame,
@@ -64,7 +82,7 @@ Command add_export_command(CLI::App& app) {
   command->add_option("--camera-frame", options->camera_frame,
                       "what the camera's frame is called (default: camera)");
   command->add_flag("--force", options->force, "export a result that has failed, too");
-  return {command, [options](Session&) { return run(*options); }};
+  return {command, [options](Session& session) { return run(*options, session.context); }};
 }
 
 }  // namespace lvcalib::cli

@@ -77,6 +77,35 @@ Result<Camera> camera_of(const json& j, const std::string& where) {
   return camera;
 }
 
+// Scenes whose entries lack something are left out: formats that need them say so.
+std::vector<ExportScene> scenes_of(const json& j) {
+  std::vector<ExportScene> out;
+  const auto scenes = j.find("scenes");
+  if (scenes == j.end() || !scenes->is_array()) return out;
+  for (const json& entry : *scenes) {
+    if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string() ||
+        !entry.contains("T_camera_board"))
+      continue;
+    Eigen::MatrixXd m;
+    if (!read_rows(entry["T_camera_board"], 4, 4, m)) continue;
+    ExportScene scene;
+    scene.name = entry["name"].get<std::string>();
+    scene.used = entry.value("used", json(true)) == json(true);
+    scene.camera_from_board = Rigid3::from_matrix(Eigen::Matrix4d(m));
+    const std::string folder = "scenes/" + scene.name + "/";
+    for (const json& input : j.value("inputs", json::array())) {
+      const std::string path =
+          input.is_object() && input.contains("path") && input["path"].is_string()
+              ? input["path"].get<std::string>()
+              : std::string();
+      if (path.rfind(folder + "image.", 0) == 0) scene.image = path;
+      if (path.rfind(folder + "cloud.", 0) == 0) scene.cloud = path;
+    }
+    out.push_back(std::move(scene));
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<Camera> camera_from_json_text(const std::string& result_json, const std::string& where) {
@@ -92,6 +121,7 @@ ExportInput export_input_of(const CalibrationResult& result) {
   input.dataset = result.dataset;
   input.quality = name_of(result.quality);
   input.result_json = result_as_json(result);
+  input.scenes = scenes_of(parse_json(input.result_json));
   return input;
 }
 
@@ -110,6 +140,7 @@ Result<ExportInput> read_export_input(const std::filesystem::path& result_json) 
   if (dataset != j.end() && dataset->is_string()) input.dataset = dataset->get<std::string>();
   const auto quality = j.find("quality");
   if (quality != j.end() && quality->is_string()) input.quality = quality->get<std::string>();
+  input.scenes = scenes_of(j);
   input.result_json = std::move(*text);
   return input;
 }

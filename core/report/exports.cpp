@@ -8,7 +8,9 @@
 #include <functional>
 #include <initializer_list>
 
+#include "base/file_io.h"
 #include "base/yaml_file.h"
+#include "report/colored_cloud.h"
 #include "report/result_file.h"
 
 namespace lvcalib {
@@ -114,23 +116,14 @@ bool has_own_names(const ExportInput& input) {
 // The comment common to all formats; `lines` say what is particular.
 std::string comment(const ExportInput& input, std::initializer_list<std::string> lines,
                     const std::string& prefix = "# ") {
-  const WorkedPoint p = worked_point(input);
-  std::string out = prefix + "LV-Calib " + version() + "\n";
-  if (!input.dataset.empty()) out += prefix + "dataset: " + on_one_line(input.dataset) + "\n";
-  if (!input.quality.empty() && input.quality != "good")
-    out += prefix + "quality: " + on_one_line(input.quality) + ": see the result's warnings\n";
-  for (const std::string& line : lines) out += prefix + line + "\n";
-  if (has_own_names(input)) {
-    out += prefix + "names of the frames: LiDAR " + input.lidar_frame + ", camera " +
-           input.camera_frame + "\n";
-  }
-  out += prefix +
-         "camera: x right, y down, z forward; pixel (0, 0) is the centre of the top-left "
-         "pixel; metres, radians\n";
-  out += prefix + "worked point: lidar_m = [" + list(p.lidar_m) + "]\n";
-  out += prefix + "              camera_m = [" + list(p.camera_m) + "]\n";
-  out += prefix + "              pixel = [" + list(p.pixel) + "]\n";
-  out += prefix + intrinsics_line(input.camera) + "\n";
+  std::vector<std::string> all = export_notes(input);
+  // Behind what it was made of.
+  const auto at = std::find_if(all.begin(), all.end(), [](const std::string& line) {
+    return line.rfind("names of the frames", 0) == 0 || line.rfind("camera: x right", 0) == 0;
+  });
+  all.insert(at, lines.begin(), lines.end());
+  std::string out;
+  for (const std::string& line : all) out += prefix + line + "\n";
   return out;
 }
 
@@ -317,7 +310,121 @@ Result<std::string> write_koide(const ExportInput& input) {
          "]\n  }\n}\n";
 }
 
+// As the object and odometry benchmarks have it (Geiger et al. 2012). Some readers go by the number
+// of the line, so that notes come last; others split each line at its first colon.
+Result<std::string> write_kitti(const ExportInput& input) {
+  const auto row = [](const char* key, const Eigen::Matrix<double, 3, 4>& m) {
+    std::string out = std::string(key) + ":";
+    for (int k = 0; k < 12; ++k) {
+      char text[32];
+      std::snprintf(text, sizeof text, " %.12e", m(k / 4, k % 4));
+      out += text;
+    }
+    return out + "\n";
+  };
+  const Camera& c = input.camera;
+  Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
+  P.leftCols<3>() << c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0;
+  const Rigid3 lidar_from_imu = input.imu_from_lidar ? input.imu_from_lidar->inverse() : Rigid3{};
+  std::string out;
+  for (const char* key : {"P0", "P1", "P2", "P3"}) out += row(key, P);
+  out += "R0_rect: 1 0 0 0 1 0 0 0 1\n";
+  out += row("Tr_velo_to_cam", input.camera_from_lidar.matrix().topRows<3>());
+  out += row("Tr_imu_to_velo", lidar_from_imu.matrix().topRows<3>());
+  std::vector<std::string> notes = export_notes(input);
+  notes.push_back("Tr_velo_to_cam takes a point from the LiDAR frame to the camera frame");
+  notes.push_back(std::string("Tr_imu_to_velo ") +
+                  (input.imu_from_lidar ? "is the inverse of the given T_imu_lidar"
+                                        : "is not known and stands as the identity"));
+  notes.push_back(
+      "images must be undistorted with the intrinsics above, to the same camera matrix, "
+      "which all of P0 to P3 hold");
+  int number = 0;
+  for (const std::string& note : notes) out += "#" + std::to_string(++number) + ": " + note + "\n";
+  return out;
+}
+
+std::string colmap_camera(const Camera& c) {
+  // Where the centre of the top-left pixel is (0.5, 0.5).
+  std::vector<double> parameters = {c.fx, c.fy, c.cx + 0.5, c.cy + 0.5};
+  std::string model = "FULL_OPENCV";
+  int count = 8;
+  if (c.model == DistortionModel::kEquidistant) {
+    model = "OPENCV_FISHEYE";
+    count = 4;
+  } else if (c.model == DistortionModel::kPlumbBob && c.distortion(4) == 0.0) {
+    model = "OPENCV";
+    count = 4;
+  }
+  for (int k = 0; k < count; ++k) parameters.push_back(c.distortion(k));
+  return "1 " + model + " " + std::to_string(c.width_px) + " " + std::to_string(c.height_px) + " " +
+         list(parameters, " ") + "\n";
+}
+
+std::string colmap_pose(const Rigid3& T) {
+  const Eigen::Quaterniond& q = T.rotation;
+  return list(std::vector<double>{q.w(), q.x(), q.y(), q.z(), T.translation.x(), T.translation.y(),
+                                  T.translation.z()},
+              " ");
+}
+
+// A text model (https://colmap.github.io/format.html) whose world is the board.
+Result<std::vector<ExportFile>> write_colmap(const ExportInput& input) {
+  const std::string notes = comment(
+      input,
+      {"the world is the board: x right, y up, z out of it; the room about it moved between "
+       "the scenes",
+       "poses take a point from the world to the sensor: p = R(QW, QX, QY, QZ) * p_world + T",
+       "in this model the centre of the top-left pixel is (0.5, 0.5), below it is (0, 0)"});
+  std::string images = notes +
+                       "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME (of the dataset)\n"
+                       "# POINTS2D[] as (X, Y, POINT3D_ID): none\n";
+  std::string lidars =
+      notes +
+      "# The LiDAR's pose at each image: IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CLOUD (of the "
+      "dataset)\n";
+  int number = 0;
+  for (const ExportScene& scene : input.scenes) {
+    if (!scene.used || scene.image.empty()) continue;
+    ++number;
+    images += std::to_string(number) + " " + colmap_pose(scene.camera_from_board) + " 1 " +
+              scene.image + "\n\n";
+    lidars += std::to_string(number) + " " +
+              colmap_pose(input.camera_from_lidar.inverse() * scene.camera_from_board) + " " +
+              scene.cloud + "\n";
+  }
+  if (number == 0)
+    return Error::untrusted("the result names no image of a scene in use", "--format colmap",
+                            "calibrate again with this version");
+  return std::vector<ExportFile>{
+      {"cameras.txt",
+       notes + "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n" + colmap_camera(input.camera)},
+      {"images.txt", images},
+      {"points3D.txt", notes + "# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[]: none\n"},
+      {"lidars.txt", lidars}};
+}
+
 }  // namespace
+
+std::vector<std::string> export_notes(const ExportInput& input) {
+  const WorkedPoint p = worked_point(input);
+  std::vector<std::string> out = {"LV-Calib " + version()};
+  if (!input.dataset.empty()) out.push_back("dataset: " + on_one_line(input.dataset));
+  if (!input.quality.empty() && input.quality != "good")
+    out.push_back("quality: " + on_one_line(input.quality) + ": see the result's warnings");
+  if (has_own_names(input)) {
+    out.push_back("names of the frames: LiDAR " + input.lidar_frame + ", camera " +
+                  input.camera_frame);
+  }
+  out.emplace_back(
+      "camera: x right, y down, z forward; pixel (0, 0) is the centre of the top-left pixel; "
+      "metres, radians");
+  out.push_back("worked point: lidar_m = [" + list(p.lidar_m) + "]");
+  out.push_back("              camera_m = [" + list(p.camera_m) + "]");
+  out.push_back("              pixel = [" + list(p.pixel) + "]");
+  out.push_back(intrinsics_line(input.camera));
+  return out;
+}
 
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> formats = {
@@ -339,7 +446,12 @@ const std::vector<ExportFormat>& export_formats() {
       {"koide", "calib.json of direct_visual_lidar_calibration, T_lidar_camera", false,
        &write_koide, "json"},
       {"boundary-response", "noise of points at reflectivity edges, for SLAM front ends (YAML)",
-       false, &export_boundary_response, "yaml"}};
+       false, &export_boundary_response, "yaml"},
+      {"kitti", "calib.txt of KITTI's benchmarks, for undistorted images", false, &write_kitti},
+      {"colmap", "text model of COLMAP: the scenes' images with their poses, the LiDAR's beside",
+       false, nullptr, "", &write_colmap},
+      {"colored-ply", "the cloud of a scene with the image's colours (binary PLY)", false, nullptr,
+       "ply", nullptr, true}};
   return formats;
 }
 
@@ -371,13 +483,39 @@ Result<std::string> export_result(const ExportInput& input, const std::string& f
                           "give a YAML file with T_imu_lidar (takes a LiDAR point to the IMU "
                           "frame) by --imu");
     }
-    return f.write(input);
+    if (f.is_cloud) return colored_ply_header(input, Cloud{});
+    if (f.write_files == nullptr) return f.write(input);
+    const auto files = f.write_files(input);
+    if (!files) return files.error();
+    std::string out;
+    for (const ExportFile& file : *files) out += "=== " + file.name + "\n" + file.text + "\n";
+    return out;
   }
   std::string known;
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
   const std::string near = nearest_word(format, names);
   return Error::usage("there is no format '" + format + "', known are " + known, "--format",
                       near.empty() ? "" : "did you mean " + near + "?");
+}
+
+Status write_export(const ExportInput& input, const std::string& format,
+                    const std::filesystem::path& path) {
+  // Says what is wrong with the format or the names.
+  const auto text = export_result(input, format);
+  if (!text) return text.error();
+  for (const ExportFormat& f : export_formats()) {
+    if (f.name != format) continue;
+    if (f.is_cloud) return Error::usage("a cloud is written of one scene", "--format " + format);
+    if (f.write_files == nullptr) continue;
+    const auto files = f.write_files(input);
+    if (!files) return files.error();
+    if (Status s = create_folder(path); !s) return s;
+    for (const ExportFile& file : *files) {
+      if (Status s = write_file_atomically(path / file.name, file.text); !s) return s;
+    }
+    return Done{};
+  }
+  return write_file_atomically(path, *text);
 }
 
 }  // namespace lvcalib

@@ -14,6 +14,14 @@ namespace lvcalib {
 
 struct CalibrationResult;
 
+/// A scene of a result, for formats that hold its picture's pose or its points.
+struct ExportScene {
+  std::string name;
+  bool used = true;
+  std::string image, cloud;  ///< Relative to the dataset; empty where the result does not say.
+  Rigid3 camera_from_board;
+};
+
 /// What an export is made of.
 struct ExportInput {
   Rigid3 camera_from_lidar;
@@ -22,6 +30,7 @@ struct ExportInput {
   std::string quality;                   ///< Said in the comment when it is not "good".
   std::optional<Rigid3> imu_from_lidar;  ///< Needed by formats that speak of the IMU.
   std::string result_json;               ///< The whole result, for the boundary response.
+  std::vector<ExportScene> scenes;
   /// What the user calls the frames: letters, digits and _ - . / (see check_frame_name()).
   std::string lidar_frame = "lidar";
   std::string camera_frame = "camera";
@@ -31,6 +40,12 @@ struct ExportInput {
 /// other characters.
 Status check_frame_name(const std::string& name);
 
+/// One file of a format that is a folder.
+struct ExportFile {
+  std::string name;
+  std::string text;
+};
+
 /// A format other tools read. Every text says, in the format's own comments, which frames it
 /// connects, in which direction and in what units, and works one point through: a LiDAR point, its
 /// camera coordinates, its pixel.
@@ -39,15 +54,28 @@ struct ExportFormat {
   std::string description;  ///< One line: for whom, and what it holds.
   bool needs_imu = false;
   Result<std::string> (*write)(const ExportInput&) = nullptr;
-  std::string suffix = "txt";  ///< Of its files' names.
+  std::string suffix = "txt";  ///< Of its files' names; empty: a folder of several files.
+  /// Instead of `write`, of a folder.
+  Result<std::vector<ExportFile>> (*write_files)(const ExportInput&) = nullptr;
+  /// Neither: a binary cloud of one scene, see colored_cloud.h; the text is its header.
+  bool is_cloud = false;
 };
 
 /// All formats, in the order of lists.
 const std::vector<ExportFormat>& export_formats();
 
-/// The text of a result in a format. Errors: kUsage for an unknown format (naming the nearest) or
+/// The text of a result in a format; of a folder that of its files, one after the other, each with
+/// its name before it. Errors: kUsage for an unknown format (naming the nearest) or
 /// a missing T_imu_lidar; kUntrusted for a boundary response that the result does not have.
 Result<std::string> export_result(const ExportInput& input, const std::string& format);
+
+/// Writes a result in a format: a file, whole or not at all, or a folder (created if needed) with
+/// its files. Not for clouds. Errors as of export_result(), and kOutput.
+Status write_export(const ExportInput& input, const std::string& format,
+                    const std::filesystem::path& path);
+
+/// The lines that every format's comments hold: dataset, quality, frames, the worked point.
+std::vector<std::string> export_notes(const ExportInput& input);
 
 /// What exports need of a calibration just made.
 ExportInput export_input_of(const CalibrationResult& result);

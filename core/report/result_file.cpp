@@ -303,23 +303,6 @@ Result<nlohmann::json> read_json(const std::filesystem::path& path) {
   return json_object(*text, path);
 }
 
-// Rows of numbers as a matrix of the given size; false if they are not.
-bool read_rows(const nlohmann::json& j, Eigen::Index rows, Eigen::Index columns,
-               Eigen::MatrixXd& out) {
-  if (!j.is_array() || static_cast<Eigen::Index>(j.size()) != rows) return false;
-  out.resize(rows, columns);
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    const auto& row = j[static_cast<std::size_t>(r)];
-    if (!row.is_array() || static_cast<Eigen::Index>(row.size()) != columns) return false;
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      const auto& value = row[static_cast<std::size_t>(c)];
-      if (!value.is_number()) return false;
-      out(r, c) = value.get<double>();
-    }
-  }
-  return out.allFinite();
-}
-
 // A pose that is none would give errors that mean nothing. Tolerant of few digits.
 Result<Rigid3> rigid(const Eigen::MatrixXd& rows, const std::string& key,
                      const std::filesystem::path& path) {

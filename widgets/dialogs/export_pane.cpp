@@ -2,6 +2,7 @@
 #include "dialogs/export_pane.h"
 
 #include <QClipboard>
+#include <QComboBox>
 #include <QDir>
 #include <QFontDatabase>
 #include <QGuiApplication>
@@ -15,8 +16,8 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "base/file_io.h"
 #include "pipeline/dataset.h"
+#include "report/colored_cloud.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
@@ -33,6 +34,12 @@ ExportPane::ExportPane(ExportInput input, Choices& choices, QString folder, QWid
   layout->setContentsMargins(0, 4, 0, 0);
   layout->addWidget(splitter);
   connect(formats_, &QListWidget::currentRowChanged, this, &ExportPane::preview);
+  connect(&runner_, &Runner::finished, this, &ExportPane::preview);
+  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
+    Q_EMIT failed(
+        Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+    preview();
+  });
   follow_language(this, [this] { retranslate(); });
   formats_->setCurrentRow(0);
 }
@@ -52,6 +59,7 @@ void ExportPane::retranslate() {
   lidar_->setAccessibleName(tr("LiDAR frame"));
   camera_->setToolTip(tr("What the camera's frame is called in exports"));
   camera_->setAccessibleName(tr("Camera frame"));
+  scene_->setToolTip(tr("The scene whose cloud is written"));
   copy_->setText(tr("Copy"));
   save_->setText(tr("Save…"));
   preview();
@@ -87,7 +95,14 @@ QWidget* ExportPane::createPreview() {
           [this] { QGuiApplication::clipboard()->setText(text_->toPlainText()); });
   connect(save_, &QPushButton::clicked, this, &ExportPane::save);
   auto* buttons = new QHBoxLayout;
+  scene_ = new QComboBox(page);
+  scene_->setObjectName(QStringLiteral("export_scene"));
+  for (const ExportScene& scene : input_.scenes) {
+    if (!scene.cloud.empty() && !scene.image.empty())
+      scene_->addItem(QString::fromStdString(scene.name));
+  }
   buttons->addWidget(imu_);
+  buttons->addWidget(scene_);
   buttons->addStretch(1);
   buttons->addWidget(copy_);
   buttons->addWidget(save_);
@@ -135,8 +150,9 @@ void ExportPane::preview() {
   about_->setText(about);
   text_->setPlainText(usable ? QString::fromStdString(*text) : QString());
   imu_->setVisible(format.needs_imu);
-  copy_->setEnabled(usable);
-  save_->setEnabled(usable);
+  scene_->setVisible(format.is_cloud);
+  copy_->setEnabled(usable && !format.is_cloud);
+  save_->setEnabled(usable && !runner_.running() && (!format.is_cloud || scene_->count() > 0));
 }
 
 void ExportPane::setFrameNames(const QString& lidar, const QString& camera) {
@@ -167,21 +183,44 @@ void ExportPane::readImu() {
 
 void ExportPane::save() {
   const ExportFormat& format = export_formats()[static_cast<std::size_t>(formats_->currentRow())];
+  if (format.write_files != nullptr) {
+    const QString folder =
+        choices_.dataset_to_make(this, QDir(folder_).filePath(QString::fromStdString(format.name)));
+    if (folder.isEmpty()) return;
+    const Status status = write_export(input_, format.name, folder.toStdString());
+    if (status) {
+      Q_EMIT exported(folder);
+    } else {
+      Q_EMIT failed(status.error());
+    }
+    return;
+  }
   const QString name = QString::fromStdString(format.name + "." + format.suffix);
   const QString path = choices_.file_to_export(
       this, QDir(folder_).filePath(name),
       tr("%1 (*.%2);;All files (*)")
           .arg(formats_->currentItem()->text(), QString::fromStdString(format.suffix)));
   if (path.isEmpty()) return;
+  if (format.is_cloud) return saveCloud(path);
   // The format's own text: what the preview shows may have other ends of lines.
-  const auto text = export_result(input_, format.name);
-  const Status status =
-      text ? write_file_atomically(path.toStdString(), *text) : Status(text.error());
+  const Status status = write_export(input_, format.name, path.toStdString());
   if (status) {
     Q_EMIT exported(path);
   } else {
     Q_EMIT failed(status.error());
   }
+}
+
+// Reads the scene's image and cloud, which takes a moment.
+void ExportPane::saveCloud(const QString& path) {
+  runner_.start([this, input = input_, scene = scene_->currentText().toStdString(), path](
+                    const RunContext& context, const Runner::Post&) -> Runner::Deliver {
+    const auto written = write_colored_ply(input, scene, path.toStdString(), context);
+    if (written) return [this, path] { Q_EMIT exported(path); };
+    if (written.error().kind == ErrorKind::kCancelled) return {};
+    return [this, error = written.error()] { Q_EMIT failed(error); };
+  });
+  preview();
 }
 
 }  // namespace lvcalib::widgets

@@ -6,7 +6,9 @@
 
 #include "dialogs/choices.h"
 #include "report/exports.h"
+#include "runner/runner.h"
 
+class QComboBox;
 class QLabel;
 class QLineEdit;
 class QListWidget;
@@ -43,6 +45,7 @@ class ExportPane : public QWidget {
   void readImu();
   void takeFrameNames();
   void save();
+  void saveCloud(const QString& path);
 
   ExportInput input_;
   Choices& choices_;
@@ -56,6 +59,8 @@ class ExportPane : public QWidget {
   QPushButton* imu_ = nullptr;
   QPushButton* copy_ = nullptr;
   QPushButton* save_ = nullptr;
+  QComboBox* scene_ = nullptr;  // Of a coloured cloud.
+  Runner runner_;               // Writes clouds.
 };
 
 }  // namespace lvcalib::widgets

@@ -2,7 +2,9 @@
 #include "report/exports.h"
 
 #include <cmath>
+#include <filesystem>
 #include <regex>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +13,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "support/synthetic_observations.h"
+#include "support/temporary_folder.h"
 
 namespace lvcalib {
 namespace {
@@ -32,6 +35,9 @@ ExportInput input_of(DistortionModel model) {
   if (model == DistortionModel::kRationalPolynomial)
     input.camera.distortion << 0.1, -0.05, 1e-4, -2e-4, 0.01, 0.15, -0.02, 0.005;
   input.imu_from_lidar = Rigid3{so3_exp({0.1, -0.2, 1.4}), {0.05, -0.02, 0.11}};
+  input.scenes = {{"A", true, "scenes/A/image.png", "scenes/A/cloud.pcd",
+                   Rigid3{so3_exp({2.9, 0.3, -0.2}), {0.1, 0.2, 2.5}}},
+                  {"B", false, "scenes/B/image.png", "scenes/B/cloud.pcd", {}}};
   return input;
 }
 
@@ -130,6 +136,34 @@ Vector3d camera_point(const std::string& format, const std::string& text, const 
     const Eigen::Quaterniond q(v.at(6), v.at(3), v.at(4), v.at(5));
     return child_of(q.toRotationMatrix(), vec(v), lidar);
   }
+  if (format == "kitti") {
+    // As readers by line number have it: the sixth line, twelve numbers behind the key.
+    std::istringstream all(text);
+    std::string line;
+    for (int k = 0; k < 6; ++k) std::getline(all, line);
+    EXPECT_EQ(line.rfind("Tr_velo_to_cam: ", 0), 0U);
+    const auto v = numbers_in(line.substr(line.find(':') + 1));
+    EXPECT_EQ(v.size(), 12U);
+    const Matrix3d R = rows({v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]});
+    return R * lidar + Vector3d(v[3], v[7], v[11]);
+  }
+  if (format == "colmap") {
+    // The world is in between: the LiDAR's pose taken back, the camera's applied.
+    const auto pose = [&](const std::string& file) {
+      std::istringstream in(text.substr(text.find("=== " + file)));
+      std::string line;
+      std::getline(in, line);
+      while (std::getline(in, line) && (line.empty() || line.front() == '#')) {
+      }
+      const auto v = numbers_in(line);
+      EXPECT_EQ(v.at(0), 1.0);
+      return std::pair(Eigen::Quaterniond(v.at(1), v.at(2), v.at(3), v.at(4)), vec(v, 5));
+    };
+    const auto [q, t] = pose("images.txt");
+    const auto [ql, tl] = pose("lidars.txt");
+    const Vector3d world = child_of(ql.toRotationMatrix(), tl, lidar);
+    return q * world + t;
+  }
   const YAML::Node yaml = YAML::Load(text);
   if (format == "kalibr") {
     Eigen::Matrix4d m;
@@ -186,7 +220,8 @@ class Exports : public ::testing::TestWithParam<DistortionModel> {};
 TEST_P(Exports, WorkedPointFollowsFromTheTextAlone) {
   const ExportInput input = input_of(GetParam());
   for (const ExportFormat& format : export_formats()) {
-    if (format.name == "boundary-response") continue;
+    // The one has no pose, the other only points; both have tests of their own.
+    if (format.name == "boundary-response" || format.is_cloud) continue;
     SCOPED_TRACE(format.name);
     const auto text = export_result(input, format.name);
     ASSERT_TRUE(text.ok()) << text.error().text();
@@ -244,6 +279,69 @@ TEST(ExportResult, NamesOfFramesAreTheUsersInEveryFormat) {
     input.lidar_frame = bad;
     EXPECT_EQ(export_result(input, "ros2-tf").error().kind, ErrorKind::kUsage) << bad;
   }
+}
+
+TEST(ExportResult, KittisLinesAreWhereItsReadersLookForThem) {
+  const ExportInput input = input_of(DistortionModel::kPlumbBob);
+  std::istringstream text(*export_result(input, "kitti"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    lines.push_back(line);
+    // Readers split at the first colon.
+    EXPECT_NE(line.find(':'), std::string::npos) << line;
+  }
+  ASSERT_GT(lines.size(), 7U);
+  const auto P2 = numbers_in(lines[2].substr(3));
+  EXPECT_NEAR(P2.at(0), input.camera.fx, 1e-9 * input.camera.fx);
+  EXPECT_NEAR(P2.at(6), input.camera.cy, 1e-9 * input.camera.cy);
+  EXPECT_EQ(lines[4].rfind("R0_rect: 1 0 0", 0), 0U);
+  // p_velo = T p_imu is the inverse of the given p_imu = T p_lidar.
+  const auto v = numbers_in(lines[6].substr(lines[6].find(':') + 1));
+  const Vector3d imu =
+      input.imu_from_lidar->rotation * Vector3d(1, 2, 3) + input.imu_from_lidar->translation;
+  const Matrix3d R = rows({v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]});
+  EXPECT_LT((R * imu + Vector3d(v[3], v[7], v[11]) - Vector3d(1, 2, 3)).norm(), 1e-9);
+}
+
+TEST(ExportResult, ColmapsCameraHasItsOwnPixelOrigin) {
+  for (const auto& [model, name, count] :
+       {std::tuple{DistortionModel::kPlumbBob, "FULL_OPENCV", 12U},
+        {DistortionModel::kRationalPolynomial, "FULL_OPENCV", 12U},
+        {DistortionModel::kEquidistant, "OPENCV_FISHEYE", 8U}}) {
+    ExportInput input = input_of(model);
+    if (model == DistortionModel::kPlumbBob) input.camera.distortion(4) = 0.01;
+    const std::string text = *export_result(input, "colmap");
+    const auto at = text.find(std::string("\n1 ") + name);
+    ASSERT_NE(at, std::string::npos) << name;
+    const auto v =
+        numbers_in(text.substr(at + 3 + std::string(name).size(),
+                               text.find('\n', at + 1) - at - 3 - std::string(name).size()));
+    ASSERT_EQ(v.size(), 2U + count) << name;
+    EXPECT_EQ(v[0], input.camera.width_px);
+    EXPECT_NEAR(v[4], input.camera.cx + 0.5, 1e-6);
+    EXPECT_NEAR(v[5], input.camera.cy + 0.5, 1e-6);
+    for (unsigned k = 0; k < count - 4; ++k)
+      EXPECT_NEAR(v[6 + k], input.camera.distortion(k), 1e-9) << k;
+    // Scenes that are not in use have no image.
+    EXPECT_EQ(text.find("scenes/B"), std::string::npos);
+  }
+  ExportInput none = input_of(DistortionModel::kPlumbBob);
+  none.scenes.clear();
+  EXPECT_EQ(export_result(none, "colmap").error().kind, ErrorKind::kUntrusted);
+}
+
+TEST(ExportResult, FoldersAndFilesAreWritten) {
+  const test::TemporaryFolder folder;
+  const ExportInput input = input_of(DistortionModel::kPlumbBob);
+  ASSERT_TRUE(write_export(input, "colmap", folder.path() / "model").ok());
+  for (const char* name : {"cameras.txt", "images.txt", "points3D.txt", "lidars.txt"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "model" / name)) << name;
+  ASSERT_TRUE(write_export(input, "kitti", folder.path() / "calib.txt").ok());
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / "calib.txt"));
+  EXPECT_EQ(write_export(input, "colored-ply", folder.path() / "a.ply").error().kind,
+            ErrorKind::kUsage);
+  EXPECT_EQ(write_export(input, "matrix", folder.path() / "no" / "a.txt").error().kind,
+            ErrorKind::kOutput);
 }
 
 TEST(ExportResult, UnknownFormatsAndAMissingImuAreRefused) {
