@@ -37,7 +37,11 @@ Result<ScenePlan> plan(const PlanRequest& request, const RunContext& context) {
   if (request.result) {
     lidar->camera_from_lidar = request.result->extrinsic.camera_from_lidar.transform;
     if (!request.lidar) options.corner_sigma_px = lidar->sensors.corner_sigma_px;
-    if (request.go_on) options.known = request.result->extrinsic.camera_from_lidar.covariance;
+    if (request.go_on) {
+      options.known = request.result->extrinsic.camera_from_lidar.covariance;
+      for (const SceneSolution& scene : request.result->extrinsic.scenes)
+        if (scene.used) options.taken.push_back(scene.camera_from_board);
+    }
   }
   return plan_scenes(request.target, request.camera, *lidar, options, context);
 }

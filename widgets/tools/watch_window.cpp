@@ -128,7 +128,13 @@ void WatchWindow::connectParts() {
   connect(&workspace_, &Workspace::failed, this, [this](const Error& error, bool modest) {
     if (modest) return;
     no_result_ = error;
-    if (last_ == Last::kSolving) last_ = Last::kSolved;
+    if (watch_.ranLast()) last_ = Last::kSolved;
+    askNext();
+  });
+  // Cancelled by the user.
+  connect(&workspace_, &Workspace::run_ended, this, [this] {
+    if (last_ != Last::kSolving || workspace_.up_to_date()) return;
+    last_ = Last::kNone;
     askNext();
   });
   connect(&workspace_, &Workspace::decisions_changed, this, &WatchWindow::showAll);

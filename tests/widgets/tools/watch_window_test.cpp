@@ -154,6 +154,24 @@ TEST_F(WatchWindowTest, WhyASceneWasNotTakenIsSaid) {
   EXPECT_EQ(said("watch_scenes"), "Scenes: 3 of 4");
 }
 
+TEST_F(WatchWindowTest, ACancelledRunIsNotWaitedFor) {
+  run();
+  show();
+  watch_->watchScenes();
+  QSignalSpy arrived(watch_.get(), &WatchWork::arrived);
+  ASSERT_TRUE(QDir(rig("scenes")).mkpath("D"));
+  for (const char* name : {"image.png", "cloud.pcd"})
+    ASSERT_TRUE(QFile::copy(late(name), rig(QStringLiteral("scenes/D/") + name)));
+  ASSERT_TRUE(arrived.wait(10'000));
+  workspace_->cancel();
+  ASSERT_TRUE(wait_until([&] { return !workspace_->busy(); }, 10'000));
+  EXPECT_EQ(said("watch_last"), "Waiting for the next scene");
+  EXPECT_EQ(said("watch_scenes"), "Scenes: 3 of 4");
+  workspace_->run();
+  ASSERT_TRUE(wait_until([&] { return solved(4); }));
+  EXPECT_EQ(said("watch_scenes"), "Scenes: 4");
+}
+
 TEST_F(WatchWindowTest, WithoutAResultThePlainestPoseIsShown) {
   show();
   EXPECT_EQ(said("watch_sigma"), "No result yet");
