@@ -17,8 +17,10 @@ Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunCo
   const DiscoveryInput input = discovery_input(result);
   if (!input.print) {
     return Error::untrusted(
-        "the scenes do not tell enough of the LiDAR: the joint solve over every return failed", {},
-        "choose a description of the LiDAR");
+        PlanWork::tr("the scenes do not tell enough of the LiDAR: the joint solve over every "
+                     "return failed")
+            .toStdString(),
+        {}, PlanWork::tr("choose a description of the LiDAR").toStdString());
   }
   const MeasurementTable table = table_of(input, discovery_options(result.options).table);
   LidarDescription out = lidar_of(table, result.extrinsic.camera_from_lidar.transform);
