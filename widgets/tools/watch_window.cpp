@@ -225,7 +225,7 @@ void WatchWindow::showAll() {
   const auto all = static_cast<int>(workspace_.dataset().scenes.size());
   const int used = result ? static_cast<int>(result->extrinsic.used_scenes) : 0;
   scenes_->setText(used == all ? tr("Scenes: %1").arg(all)
-                               : tr("Scenes: %1 of %2").arg(used).arg(all));
+                               : tr("Scenes: %1/%2").arg(used).arg(all));
   const News last = news();
   const StateColors colors = state_colors(palette());
   news_->setText(last.text);

@@ -151,7 +151,7 @@ TEST_F(WatchWindowTest, WhyASceneWasNotTakenIsSaid) {
   ASSERT_TRUE(has_next());
   EXPECT_TRUE(said("watch_last").startsWith("D not taken: no tags in the image"))
       << said("watch_last").toStdString();
-  EXPECT_EQ(said("watch_scenes"), "Scenes: 3 of 4");
+  EXPECT_EQ(said("watch_scenes"), "Scenes: 3/4");
 }
 
 TEST_F(WatchWindowTest, ACancelledRunIsNotWaitedFor) {
@@ -166,7 +166,7 @@ TEST_F(WatchWindowTest, ACancelledRunIsNotWaitedFor) {
   workspace_->cancel();
   ASSERT_TRUE(wait_until([&] { return !workspace_->busy(); }, 10'000));
   EXPECT_EQ(said("watch_last"), "Waiting for the next scene");
-  EXPECT_EQ(said("watch_scenes"), "Scenes: 3 of 4");
+  EXPECT_EQ(said("watch_scenes"), "Scenes: 3/4");
   workspace_->run();
   ASSERT_TRUE(wait_until([&] { return solved(4); }));
   EXPECT_EQ(said("watch_scenes"), "Scenes: 4");
