@@ -7728,10 +7728,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>场景：%1</translation>
     </message>
     <message>
-        <source>One standard deviation of the extrinsic&apos;s position and rotation, and the tolerance of each (Parameters)</source>
-        <translation>外参位置与旋转的一个标准差，以及各自的容差（参数）</translation>
-    </message>
-    <message>
         <source>, </source>
         <translation>，</translation>
     </message>
@@ -7778,6 +7774,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Scenes: %1/%2</source>
         <translation>场景：%1/%2</translation>
+    </message>
+    <message>
+        <source>One standard deviation of the extrinsic&apos;s position and rotation in total, and the tolerance of each (Parameters)</source>
+        <translation>外参位置与旋转的总标准差（一个 σ），以及各自的容差（参数）</translation>
     </message>
 </context>
 <context>

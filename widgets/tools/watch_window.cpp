@@ -168,7 +168,7 @@ bool WatchWindow::sureEnough() const {
   const auto result = workspace_.result();
   if (!result) return false;
   const QualityOptions& q = result->options.quality;
-  const Matrix6d& covariance = result->extrinsic.camera_from_lidar.covariance;
+  const Matrix6d& covariance = result->covariance_total;
   return sigma_mm(covariance) <= 1e3 * q.tolerance_m &&
          sigma_mrad(covariance) <= 1e3 * q.tolerance_rad;
 }
@@ -177,7 +177,7 @@ QString WatchWindow::sigmaText() const {
   const auto result = workspace_.result();
   if (!result) return tr("No result yet");
   const QualityOptions& q = result->options.quality;
-  const Matrix6d& covariance = result->extrinsic.camera_from_lidar.covariance;
+  const Matrix6d& covariance = result->covariance_total;
   return tr("σ %1 of %2 mm, %3 of %4 mrad")
       .arg(sigma_text(sigma_mm(covariance)), QString::number(1e3 * q.tolerance_m, 'g', 3),
            sigma_text(sigma_mrad(covariance)), QString::number(1e3 * q.tolerance_rad, 'g', 3));
@@ -234,7 +234,7 @@ void WatchWindow::showAll() {
   sigma_->setText(sureEnough() ? sigmaText() + QStringLiteral(" \u2713") : sigmaText());
   sigma_->setColor(sureEnough() ? colors.good : QColor());
   sigma_->setToolTip(
-      tr("One standard deviation of the extrinsic's position and rotation, and the "
+      tr("One standard deviation of the extrinsic's position and rotation in total, and the "
          "tolerance of each (Parameters)"));
   const QString pending = pendingText();
   pending_->setText(pending);

@@ -95,7 +95,7 @@ TEST_F(WatchWindowTest, ANewSceneIsSolvedAndTheNextPoseIsNamed) {
   show();
   ASSERT_TRUE(has_next());
   EXPECT_TRUE(said("watch_scenes").contains("3"));
-  const double sigma = sigma_mm(workspace_->result()->extrinsic.camera_from_lidar.covariance);
+  const double sigma = sigma_mm(workspace_->result()->covariance_total);
   EXPECT_TRUE(said("watch_sigma").contains(sigma_text(sigma))) << said("watch_sigma").toStdString();
   watch_->watchScenes();
   EXPECT_TRUE(pending().contains("scenes"));
@@ -129,7 +129,7 @@ TEST_F(WatchWindowTest, ANewSceneIsSolvedAndTheNextPoseIsNamed) {
   for (const QString& part : board_place_parts(*window_->nextPose()))
     EXPECT_TRUE(said("watch_next").contains(part)) << part.toStdString();
   EXPECT_FALSE(window_->findChild<BoardSketch*>()->outline().isEmpty());
-  const double after = sigma_mm(workspace_->result()->extrinsic.camera_from_lidar.covariance);
+  const double after = sigma_mm(workspace_->result()->covariance_total);
   EXPECT_LT(after, sigma);
   EXPECT_TRUE(said("watch_sigma").contains(sigma_text(after)));
   // To be read from two metres away.
