@@ -2674,14 +2674,6 @@ were saved. Take them up again?</source>
         <translation>该处有东西挡在标定板前或贴在标定板上</translation>
     </message>
     <message>
-        <source>Six-line rosette</source>
-        <translation>六线花瓣扫描</translation>
-    </message>
-    <message>
-        <source>Spinning, 128 lines</source>
-        <translation>旋转式，128 线</translation>
-    </message>
-    <message>
         <source>predicting measurements</source>
         <translation>正在预测测量</translation>
     </message>
@@ -2734,14 +2726,6 @@ were saved. Take them up again?</source>
         <translation>规划：事先已知的外参信息必须是协方差，且没有完全已知或完全未知的方向</translation>
     </message>
     <message>
-        <source>the scenes do not tell enough of the LiDAR: the joint solve over every return failed</source>
-        <translation>这些场景不足以说明激光雷达：对所有回波的联合求解失败</translation>
-    </message>
-    <message>
-        <source>choose a description of the LiDAR</source>
-        <translation>请选择激光雷达描述文件</translation>
-    </message>
-    <message>
         <source>%1: expected %2, found &apos;%3&apos;</source>
         <translation>%1：应为 %2，实为“%3”</translation>
     </message>
@@ -2752,10 +2736,6 @@ were saved. Take them up again?</source>
     <message>
         <source>%1: its left 3x3 part is not a rotation</source>
         <translation>%1：其左侧 3x3 部分不是旋转矩阵</translation>
-    </message>
-    <message>
-        <source>an unexpected error stopped the work: %1</source>
-        <translation>意外错误中止了工作：%1</translation>
     </message>
     <message>
         <source>is still being written</source>
@@ -3223,36 +3203,44 @@ were saved. Take them up again?</source>
         <translation>前方 %1 m</translation>
     </message>
     <message>
-        <source>upper side towards the camera %1°</source>
-        <translation>上边朝相机前倾 %1°</translation>
-    </message>
-    <message>
-        <source>upper side leaning back %1°</source>
-        <translation>上边后仰 %1°</translation>
-    </message>
-    <message>
-        <source>right side turned back %1°</source>
-        <translation>右边向后转 %1°</translation>
-    </message>
-    <message>
-        <source>left side turned back %1°</source>
-        <translation>左边向后转 %1°</translation>
-    </message>
-    <message>
         <source>facing the camera</source>
         <translation>正对相机</translation>
     </message>
     <message>
-        <source>rolled %1° to the left</source>
-        <translation>向左旋转 %1°</translation>
-    </message>
-    <message>
-        <source>rolled %1° to the right</source>
-        <translation>向右旋转 %1°</translation>
-    </message>
-    <message>
         <source>, </source>
         <translation>，</translation>
+    </message>
+    <message>
+        <source>upper side %1° nearer</source>
+        <translation>上边前倾 %1°</translation>
+    </message>
+    <message>
+        <source>upper side %1° back</source>
+        <translation>上边后仰 %1°</translation>
+    </message>
+    <message>
+        <source>right side %1° back</source>
+        <translation>右边后转 %1°</translation>
+    </message>
+    <message>
+        <source>left side %1° back</source>
+        <translation>左边后转 %1°</translation>
+    </message>
+    <message>
+        <source>rolled %1° left</source>
+        <translation>左旋 %1°</translation>
+    </message>
+    <message>
+        <source>rolled %1° right</source>
+        <translation>右旋 %1°</translation>
+    </message>
+    <message>
+        <source>Six-line rosette</source>
+        <translation>六线花瓣扫描</translation>
+    </message>
+    <message>
+        <source>Spinning, 128 lines</source>
+        <translation>旋转式，128 线</translation>
     </message>
 </context>
 <context>
@@ -6389,6 +6377,21 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>The board as the camera will see it, its upper edge marked</source>
         <translation>相机将看到的标定板，标出其上边</translation>
     </message>
+    <message>
+        <source>, </source>
+        <translation>，</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::PlanWork</name>
+    <message>
+        <source>the scenes do not tell enough of the LiDAR: the joint solve over every return failed</source>
+        <translation>这些场景不足以说明激光雷达：对所有回波的联合求解失败</translation>
+    </message>
+    <message>
+        <source>choose a description of the LiDAR</source>
+        <translation>请选择激光雷达描述文件</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::PlotView</name>
@@ -7974,14 +7977,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>场景：%1</translation>
     </message>
     <message>
-        <source>Scenes: %1 of %2</source>
-        <translation>场景：%1 / %2</translation>
-    </message>
-    <message>
-        <source>One standard deviation of the extrinsic&apos;s position and rotation, and the tolerance of each (Parameters)</source>
-        <translation>外参位置与旋转的一个标准差，以及各自的容差（参数）</translation>
-    </message>
-    <message>
         <source>, </source>
         <translation>，</translation>
     </message>
@@ -8024,6 +8019,14 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Where the board is to be in the camera&apos;s picture, its upper edge marked</source>
         <translation>标定板应在相机画面中的位置，标出其上边</translation>
+    </message>
+    <message>
+        <source>Scenes: %1/%2</source>
+        <translation>场景：%1/%2</translation>
+    </message>
+    <message>
+        <source>One standard deviation of the extrinsic&apos;s position and rotation in total, and the tolerance of each (Parameters)</source>
+        <translation>外参位置与旋转的总标准差（一个 σ），以及各自的容差（参数）</translation>
     </message>
 </context>
 <context>

@@ -114,6 +114,8 @@ class Planner {
                           {}, "check the field of view and T_camera_lidar, or use a smaller board");
     }
     out_.poses_tried = poses_.size();
+    taken_.assign(poses_.size(), false);
+    for (const Rigid3& pose : options_.taken) taken_[nearest_to(pose)] = true;
     added_ = predicted_information(poses_, sensors_, table_, out_.camera_from_lidar, columns_,
                                    subset_, noise_alone(), context_);
     if (added_.empty()) return Error::cancelled();
@@ -127,6 +129,26 @@ class Planner {
       now_(at, at) = 1.0 / (subset_.prior_sigma[k] * subset_.prior_sigma[k]);
     }
     return Done{};
+  }
+
+  // Of the grid, by the sum of squares over the board's corners.
+  [[nodiscard]] std::size_t nearest_to(const Rigid3& camera_from_board) const {
+    const BoardOutline outline = table_.target.outline();
+    const auto apart = [&](const GridPose& pose) {
+      double sum = 0.0;
+      for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector2d at =
+            outline.lower_left_m + Eigen::Vector2d(k % 2, k / 2).cwiseProduct(outline.size_m());
+        const Eigen::Vector3d corner(at.x(), at.y(), 0.0);
+        sum += (camera_from_board * corner - pose.camera_from_board * corner).squaredNorm();
+      }
+      return sum;
+    };
+    return static_cast<std::size_t>(std::min_element(poses_.begin(), poses_.end(),
+                                                     [&](const GridPose& a, const GridPose& b) {
+                                                       return apart(a) < apart(b);
+                                                     }) -
+                                    poses_.begin());
   }
 
   // Smallest |t| of a material size over an effect's parameters, with the extrinsic free.
@@ -158,7 +180,7 @@ class Planner {
     std::size_t best = added_.size();
     double best_merit = -HUGE_VAL;
     for (std::size_t k = 0; k < added_.size(); ++k) {
-      if (taken_.size() == added_.size() && taken_[k]) continue;
+      if (taken_[k]) continue;
       const double m = merit(now_ + added_[k]);
       if (m > best_merit) {
         best_merit = m;
@@ -166,7 +188,6 @@ class Planner {
       }
     }
     if (best == added_.size()) return false;
-    taken_.resize(added_.size(), false);
     taken_[best] = true;
     now_ += added_[best];
     PlannedScene scene;

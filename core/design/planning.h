@@ -18,6 +18,9 @@ struct PlanOptions {
   /// and radians), as the result of scenes that are taken states it. Absent: nothing. Of effects
   /// nothing is taken to be known.
   std::optional<Matrix6d> known;
+  /// Where the board was in scenes that are taken (camera_from_board). The pose of the grid that is
+  /// nearest to each, by how far the board's corners lie apart, is not proposed again.
+  std::vector<Rigid3> taken;
   BoardGridOptions grid;
   [[nodiscard]] Status check() const;
 };

@@ -52,6 +52,9 @@ class FolderWatch {
   explicit FolderWatch(FolderLister lister, std::set<std::string> known = {})
       : lister_(std::move(lister)), known_(std::move(known)) {}
 
+  /// A pair of this name is not to be told any more.
+  void know(const std::string& name) { known_.insert(name); }
+
   /// Looks once: lists the folder and reads what may be complete. Errors: the folder cannot be
   /// listed (a later look may succeed); kCancelled.
   Result<FolderLook> look(const RunContext& context);

@@ -17,8 +17,10 @@ Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunCo
   const DiscoveryInput input = discovery_input(result);
   if (!input.print) {
     return Error::untrusted(
-        "the scenes do not tell enough of the LiDAR: the joint solve over every return failed", {},
-        "choose a description of the LiDAR");
+        PlanWork::tr("the scenes do not tell enough of the LiDAR: the joint solve over every "
+                     "return failed")
+            .toStdString(),
+        {}, PlanWork::tr("choose a description of the LiDAR").toStdString());
   }
   const MeasurementTable table = table_of(input, discovery_options(result.options).table);
   LidarDescription out = lidar_of(table, result.extrinsic.camera_from_lidar.transform);
@@ -37,7 +39,11 @@ Result<ScenePlan> plan(const PlanRequest& request, const RunContext& context) {
   if (request.result) {
     lidar->camera_from_lidar = request.result->extrinsic.camera_from_lidar.transform;
     if (!request.lidar) options.corner_sigma_px = lidar->sensors.corner_sigma_px;
-    if (request.go_on) options.known = request.result->extrinsic.camera_from_lidar.covariance;
+    if (request.go_on) {
+      options.known = request.result->extrinsic.camera_from_lidar.covariance;
+      for (const SceneSolution& scene : request.result->extrinsic.scenes)
+        if (scene.used) options.taken.push_back(scene.camera_from_board);
+    }
   }
   return plan_scenes(request.target, request.camera, *lidar, options, context);
 }

@@ -24,7 +24,8 @@ struct PlanRequest {
   /// A whole cloud of the scenes taken, which shows the LiDAR's field of view: without it, that is
   /// what the boards have covered. May be empty.
   std::filesystem::path cloud;
-  /// The plan begins from what `result` knows of the extrinsic instead of from nothing.
+  /// The plan begins from what `result` knows of the extrinsic instead of from nothing, and
+  /// proposes no pose of its scenes again.
   bool go_on = false;
   PlanOptions options;
 };

@@ -97,24 +97,27 @@ void WatchWork::look() {
         } else if (!import) {
           for (const FilePair& pair : look->ready)
             found.folders.push_back(pair.image.parent_path());
-        } else if (!look->ready.empty()) {
+        } else {
           PairImportOptions options = *import;
           options.board_check = make_board_check(target, context);
-          auto added = add_pairs(look->ready, options, dataset, context);
-          if (context.stopped()) return {};
-          if (!added) {
-            // A full disk: they are tried again.
-            found.watch = watch;
-            found.error = added.error();
-          } else {
-            for (ImportedPair& pair : added->pairs) {
-              if (pair.taken) {
-                found.folders.push_back(dataset / "scenes" / pair.files.name);
-              } else {
-                found.refused.push_back(std::move(pair));
-              }
+          const FolderWatch after = found.watch;
+          found.watch = watch;
+          for (const FilePair& pair : look->ready) {
+            auto added = add_pairs({pair}, options, dataset, context);
+            if (context.stopped()) return {};
+            if (!added) {
+              // A full disk: this one and those after it are tried again.
+              found.error = added.error();
+              break;
+            }
+            found.watch.know(pair.name);
+            if (added->pairs.front().taken) {
+              found.folders.push_back(dataset / "scenes" / pair.name);
+            } else {
+              found.refused.push_back(std::move(added->pairs.front()));
             }
           }
+          if (!found.error) found.watch = after;
         }
         if (look) found.pending = std::move(look->pending);
         return [this, found = std::move(found)] { take(found); };

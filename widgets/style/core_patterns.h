@@ -301,8 +301,6 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core", "too few tags: the others are left out by the user"),
     QT_TRANSLATE_NOOP("Core", "there is no calibration yet"),
     // Plans of scenes.
-    QT_TRANSLATE_NOOP("Core", "Six-line rosette"),
-    QT_TRANSLATE_NOOP("Core", "Spinning, 128 lines"),
     QT_TRANSLATE_NOOP("Core", "predicting measurements"),
     QT_TRANSLATE_NOOP("Core", "choosing scene %1"),
     QT_TRANSLATE_NOOP("Core", "the grid has no more poses than %1"),
@@ -322,14 +320,9 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "planning: what is known of the extrinsic before must be a covariance "
                       "without directions that are known exactly or not at all"),
-    QT_TRANSLATE_NOOP("Core",
-                      "the scenes do not tell enough of the LiDAR: the joint solve over every "
-                      "return failed"),
-    QT_TRANSLATE_NOOP("Core", "choose a description of the LiDAR"),
     QT_TRANSLATE_NOOP("Core", "%1: expected %2, found '%3'"),
     QT_TRANSLATE_NOOP("Core", "%1: expected [low, high] in %2 to %3 degrees"),
     QT_TRANSLATE_NOOP("Core", "%1: its left 3x3 part is not a rotation"),
-    QT_TRANSLATE_NOOP("Core", "an unexpected error stopped the work: %1"),
     // Folders that are watched.
     QT_TRANSLATE_NOOP("Core", "is still being written"),
     QT_TRANSLATE_NOOP("Core", "cannot be read yet: %1"),

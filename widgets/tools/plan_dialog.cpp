@@ -229,10 +229,10 @@ void PlanDialog::fillLidars() {
   if (ofResult()) lidars_->addItem(tr("that of the scenes taken"), kPlanScenes);
   for (const QString& name : QDir(QStringLiteral(":/lidars")).entryList(QDir::Files, QDir::Name)) {
     const auto lidar = built_in_lidar(name);
-    if (lidar) lidars_->addItem(core_text(lidar->name), name);
+    if (lidar) lidars_->addItem(lidar_name(lidar->name), name);
   }
   if (lidar_) {
-    const QString name = QString::fromStdString(lidar_->name);
+    const QString name = lidar_name(lidar_->name);
     lidars_->addItem(name.isEmpty() ? QFileInfo(lidar_path_).fileName() : name, kPlanFile);
   }
   lidars_->addItem(tr("Choose a description…"), kPlanChoose);
@@ -398,7 +398,8 @@ void PlanDialog::showPlan() {
   }
   for (std::size_t k = 0; k < plan_->scenes.size(); ++k) {
     const PlannedScene& scene = plan_->scenes[k];
-    QStringList texts = {QString::number(k + 1), board_place(scene.pose),
+    QStringList texts = {QString::number(k + 1),
+                         board_place_parts(scene.pose).mid(1).join(tr(", ")),
                          QStringLiteral("%1 m").arg(scene.pose.distance_m, 0, 'f', 1),
                          QStringLiteral("%1°").arg(board_tilt_deg(scene.pose), 0, 'f', 0)};
     texts += scene.determined ? sigmas(scene.covariance) : QStringList{kUnknown, kUnknown};
@@ -416,8 +417,11 @@ void PlanDialog::showPose() {
   const QTreeWidgetItem* item = table_->currentItem();
   const int index = item == nullptr ? -1 : item->data(0, Qt::UserRole).toInt();
   const bool has_pose = plan_ && index >= 0;
-  pose_->setText(has_pose ? tr("Scene %1: %2").arg(item->text(kNumber), item->text(kPlace))
-                          : tr("The board as the camera will see it:"));
+  pose_->setText(has_pose
+                     ? tr("Scene %1: %2")
+                           .arg(item->text(kNumber),
+                                board_place(plan_->scenes[static_cast<std::size_t>(index)].pose))
+                     : tr("The board as the camera will see it:"));
   if (!target_ || !camera_) return sketch_->clear();
   sketch_->setPose(
       *target_, *camera_,
@@ -478,9 +482,12 @@ QString PlanDialog::planText() const {
   QString out;
   for (int r = 0; r < table_->topLevelItemCount(); ++r) {
     const QTreeWidgetItem* item = table_->topLevelItem(r);
-    const QString number = item->text(kNumber);
-    QString line = number.isEmpty() ? item->text(kPlace)
-                                    : QStringLiteral("%1. %2").arg(number, item->text(kPlace));
+    const int index = item->data(0, Qt::UserRole).toInt();
+    QString line = index < 0
+                       ? item->text(kPlace)
+                       : QStringLiteral("%1. %2").arg(
+                             item->text(kNumber),
+                             board_place(plan_->scenes[static_cast<std::size_t>(index)].pose));
     line += tr("; then σ %1, %2").arg(item->text(kSigmaMm), item->text(kSigmaMrad));
     for (int c = kFirstEffect; c < table_->columnCount(); ++c)
       if (!item->text(c).isEmpty())

@@ -45,24 +45,33 @@ QStringList board_place_parts(const GridPose& pose) {
   parts << translated(QT_TRANSLATE_NOOP("PlanText", "%1 m ahead")).arg(pose.distance_m, 0, 'f', 1)
         << part_of_picture(pose);
   if (pose.tilt_x_deg > kMiddle_deg)
-    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "upper side towards the camera %1°"),
-                     pose.tilt_x_deg);
+    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "upper side %1° nearer"), pose.tilt_x_deg);
   if (pose.tilt_x_deg < -kMiddle_deg)
-    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "upper side leaning back %1°"), pose.tilt_x_deg);
+    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "upper side %1° back"), pose.tilt_x_deg);
   if (pose.tilt_y_deg > kMiddle_deg)
-    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "right side turned back %1°"), pose.tilt_y_deg);
+    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "right side %1° back"), pose.tilt_y_deg);
   if (pose.tilt_y_deg < -kMiddle_deg)
-    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "left side turned back %1°"), pose.tilt_y_deg);
+    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "left side %1° back"), pose.tilt_y_deg);
   if (parts.size() == 2) parts << translated(QT_TRANSLATE_NOOP("PlanText", "facing the camera"));
   if (pose.roll_deg > kMiddle_deg)
-    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "rolled %1° to the left"), pose.roll_deg);
+    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "rolled %1° left"), pose.roll_deg);
   if (pose.roll_deg < -kMiddle_deg)
-    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "rolled %1° to the right"), pose.roll_deg);
+    parts << degrees(QT_TRANSLATE_NOOP("PlanText", "rolled %1° right"), pose.roll_deg);
   return parts;
 }
 
 QString board_place(const GridPose& pose) {
   return board_place_parts(pose).join(translated(QT_TRANSLATE_NOOP("PlanText", ", ")));
+}
+
+QString lidar_name(const std::string& name) {
+  // Those of resources/lidars; other files have names of their own.
+  static const char* const kKnown[] = {QT_TRANSLATE_NOOP("PlanText", "Six-line rosette"),
+                                       QT_TRANSLATE_NOOP("PlanText", "Spinning, 128 lines")};
+  for (const char* known : kKnown) {
+    if (name == known) return translated(known);
+  }
+  return QString::fromStdString(name);
 }
 
 double board_tilt_deg(const GridPose& pose) {

@@ -3,16 +3,20 @@
 
 #include <QString>
 #include <QStringList>
+#include <string>
 
 #include "design/planning.h"
 
 namespace lvcalib::widgets {
 
 /// A board pose in words for whoever holds the board, as the camera sees it: "2.0 m ahead, upper
-/// left, right side turned back 30°, rolled 45° to the left".
+/// left, right side 30° back, rolled 45° left".
 QString board_place(const GridPose& pose);
 /// The same in its parts; the first two say where, the others how it is turned.
 QStringList board_place_parts(const GridPose& pose);
+
+/// The name of a LiDAR's description, translated if it is one that the program brings along.
+QString lidar_name(const std::string& name);
 
 /// Angle between the board's normal and the line of sight, in degrees.
 double board_tilt_deg(const GridPose& pose);

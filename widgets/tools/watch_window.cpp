@@ -128,7 +128,13 @@ void WatchWindow::connectParts() {
   connect(&workspace_, &Workspace::failed, this, [this](const Error& error, bool modest) {
     if (modest) return;
     no_result_ = error;
-    if (last_ == Last::kSolving) last_ = Last::kSolved;
+    if (watch_.ranLast()) last_ = Last::kSolved;
+    askNext();
+  });
+  // Cancelled by the user.
+  connect(&workspace_, &Workspace::run_ended, this, [this] {
+    if (last_ != Last::kSolving || workspace_.up_to_date()) return;
+    last_ = Last::kNone;
     askNext();
   });
   connect(&workspace_, &Workspace::decisions_changed, this, &WatchWindow::showAll);
@@ -162,7 +168,7 @@ bool WatchWindow::sureEnough() const {
   const auto result = workspace_.result();
   if (!result) return false;
   const QualityOptions& q = result->options.quality;
-  const Matrix6d& covariance = result->extrinsic.camera_from_lidar.covariance;
+  const Matrix6d& covariance = result->covariance_total;
   return sigma_mm(covariance) <= 1e3 * q.tolerance_m &&
          sigma_mrad(covariance) <= 1e3 * q.tolerance_rad;
 }
@@ -171,7 +177,7 @@ QString WatchWindow::sigmaText() const {
   const auto result = workspace_.result();
   if (!result) return tr("No result yet");
   const QualityOptions& q = result->options.quality;
-  const Matrix6d& covariance = result->extrinsic.camera_from_lidar.covariance;
+  const Matrix6d& covariance = result->covariance_total;
   return tr("σ %1 of %2 mm, %3 of %4 mrad")
       .arg(sigma_text(sigma_mm(covariance)), QString::number(1e3 * q.tolerance_m, 'g', 3),
            sigma_text(sigma_mrad(covariance)), QString::number(1e3 * q.tolerance_rad, 'g', 3));
@@ -219,7 +225,7 @@ void WatchWindow::showAll() {
   const auto all = static_cast<int>(workspace_.dataset().scenes.size());
   const int used = result ? static_cast<int>(result->extrinsic.used_scenes) : 0;
   scenes_->setText(used == all ? tr("Scenes: %1").arg(all)
-                               : tr("Scenes: %1 of %2").arg(used).arg(all));
+                               : tr("Scenes: %1/%2").arg(used).arg(all));
   const News last = news();
   const StateColors colors = state_colors(palette());
   news_->setText(last.text);
@@ -228,7 +234,7 @@ void WatchWindow::showAll() {
   sigma_->setText(sureEnough() ? sigmaText() + QStringLiteral(" \u2713") : sigmaText());
   sigma_->setColor(sureEnough() ? colors.good : QColor());
   sigma_->setToolTip(
-      tr("One standard deviation of the extrinsic's position and rotation, and the "
+      tr("One standard deviation of the extrinsic's position and rotation in total, and the "
          "tolerance of each (Parameters)"));
   const QString pending = pendingText();
   pending_->setText(pending);

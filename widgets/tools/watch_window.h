@@ -51,6 +51,7 @@ class WatchWindow : public QWidget {
   };
   [[nodiscard]] News news() const;
   [[nodiscard]] QString pendingText() const;
+  // In total: by noise alone four scenes are soon sure, whatever the intrinsics do to them.
   [[nodiscard]] QString sigmaText() const;
   [[nodiscard]] bool sureEnough() const;
 

@@ -73,6 +73,30 @@ TEST(Planning, GoesOnFromWhatIsKnown) {
   EXPECT_LT(volume(one->scenes.front().covariance), volume(whole->scenes.back().covariance));
 }
 
+TEST(Planning, APoseThatIsTakenIsNotProposedAgain) {
+  PlanOptions options;
+  options.scenes = 1;
+  const auto first = plan(options);
+  ASSERT_TRUE(first.ok()) << first.error().text();
+  // Held by hand: some centimetres and degrees beside it.
+  Rigid3 held = first->scenes[0].pose.camera_from_board;
+  held.translation += Eigen::Vector3d(0.03, -0.02, 0.05);
+  held.rotation = held.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(
+                                      0.07, Eigen::Vector3d(1.0, 2.0, 1.0).normalized()));
+  options.taken = {held};
+  const auto second = plan(options);
+  ASSERT_TRUE(second.ok()) << second.error().text();
+  EXPECT_NE(second->scenes[0].pose.text(), first->scenes[0].pose.text());
+  // A grid of which all is taken has nothing left.
+  options.grid.distances_m = {2.0};
+  options.grid.tilts_deg = {0.0};
+  options.grid.rolls_deg = {0.0};
+  options.grid.cells = 1;
+  const auto nothing = plan(options);
+  ASSERT_TRUE(nothing.ok());
+  EXPECT_TRUE(nothing->scenes.empty());
+}
+
 TEST(Planning, WhatIsKnownMustBeACovariance) {
   PlanOptions options;
   options.known = Matrix6d::Zero();

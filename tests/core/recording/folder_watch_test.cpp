@@ -159,7 +159,10 @@ TEST_F(FolderWatchTest, WhatIsKnownIsNotTold) {
   write_cloud("old");
   write_image("new");
   write_cloud("new");
+  write_image("other");
+  write_cloud("other");
   FolderWatch watch(pair_lister({place(), {}, PairRule::kAuto, 0.0, 0.0}), {"old"});
+  watch.know("other");
   ASSERT_TRUE(watch.look({}).ok());
   const auto second = watch.look({});
   ASSERT_TRUE(second.ok());

@@ -19,17 +19,20 @@ TEST(PlanText, SaysWhereTheBoardGoes) {
   GridPose turned = pose(3.0, -20.0, -15.0);
   turned.tilt_y_deg = 30.0;
   turned.roll_deg = 45.0;
-  EXPECT_EQ(
-      board_place(turned),
-      "3.0 m ahead, upper left, right side turned back 30\u00b0, rolled 45\u00b0 to the left");
+  EXPECT_EQ(board_place(turned),
+            "3.0 m ahead, upper left, right side 30\u00b0 back, rolled 45\u00b0 left");
   turned.roll_deg = -90.0;
-  EXPECT_TRUE(board_place(turned).endsWith("rolled 90\u00b0 to the right"));
+  EXPECT_TRUE(board_place(turned).endsWith("rolled 90\u00b0 right"));
   GridPose tipped = pose(1.5, 20.0, 15.0);
   tipped.tilt_x_deg = -55.0;
-  EXPECT_EQ(board_place(tipped), "1.5 m ahead, lower right, upper side leaning back 55\u00b0");
+  EXPECT_EQ(board_place(tipped), "1.5 m ahead, lower right, upper side 55\u00b0 back");
   tipped.tilt_x_deg = 55.0;
-  EXPECT_EQ(board_place(tipped),
-            "1.5 m ahead, lower right, upper side towards the camera 55\u00b0");
+  EXPECT_EQ(board_place(tipped), "1.5 m ahead, lower right, upper side 55\u00b0 nearer");
+}
+
+TEST(PlanText, LidarsKeepTheirNames) {
+  EXPECT_EQ(lidar_name("Six-line rosette"), "Six-line rosette");
+  EXPECT_EQ(lidar_name("Mine"), "Mine");
 }
 
 TEST(PlanText, TiltIsTheAngleToTheLineOfSight) {

@@ -95,7 +95,7 @@ TEST_F(WatchWindowTest, ANewSceneIsSolvedAndTheNextPoseIsNamed) {
   show();
   ASSERT_TRUE(has_next());
   EXPECT_TRUE(said("watch_scenes").contains("3"));
-  const double sigma = sigma_mm(workspace_->result()->extrinsic.camera_from_lidar.covariance);
+  const double sigma = sigma_mm(workspace_->result()->covariance_total);
   EXPECT_TRUE(said("watch_sigma").contains(sigma_text(sigma))) << said("watch_sigma").toStdString();
   watch_->watchScenes();
   EXPECT_TRUE(pending().contains("scenes"));
@@ -129,7 +129,7 @@ TEST_F(WatchWindowTest, ANewSceneIsSolvedAndTheNextPoseIsNamed) {
   for (const QString& part : board_place_parts(*window_->nextPose()))
     EXPECT_TRUE(said("watch_next").contains(part)) << part.toStdString();
   EXPECT_FALSE(window_->findChild<BoardSketch*>()->outline().isEmpty());
-  const double after = sigma_mm(workspace_->result()->extrinsic.camera_from_lidar.covariance);
+  const double after = sigma_mm(workspace_->result()->covariance_total);
   EXPECT_LT(after, sigma);
   EXPECT_TRUE(said("watch_sigma").contains(sigma_text(after)));
   // To be read from two metres away.
@@ -151,7 +151,25 @@ TEST_F(WatchWindowTest, WhyASceneWasNotTakenIsSaid) {
   ASSERT_TRUE(has_next());
   EXPECT_TRUE(said("watch_last").startsWith("D not taken: no tags in the image"))
       << said("watch_last").toStdString();
-  EXPECT_EQ(said("watch_scenes"), "Scenes: 3 of 4");
+  EXPECT_EQ(said("watch_scenes"), "Scenes: 3/4");
+}
+
+TEST_F(WatchWindowTest, ACancelledRunIsNotWaitedFor) {
+  run();
+  show();
+  watch_->watchScenes();
+  QSignalSpy arrived(watch_.get(), &WatchWork::arrived);
+  ASSERT_TRUE(QDir(rig("scenes")).mkpath("D"));
+  for (const char* name : {"image.png", "cloud.pcd"})
+    ASSERT_TRUE(QFile::copy(late(name), rig(QStringLiteral("scenes/D/") + name)));
+  ASSERT_TRUE(arrived.wait(10'000));
+  workspace_->cancel();
+  ASSERT_TRUE(wait_until([&] { return !workspace_->busy(); }, 10'000));
+  EXPECT_EQ(said("watch_last"), "Waiting for the next scene");
+  EXPECT_EQ(said("watch_scenes"), "Scenes: 3/4");
+  workspace_->run();
+  ASSERT_TRUE(wait_until([&] { return solved(4); }));
+  EXPECT_EQ(said("watch_scenes"), "Scenes: 4");
 }
 
 TEST_F(WatchWindowTest, WithoutAResultThePlainestPoseIsShown) {
