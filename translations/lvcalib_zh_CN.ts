@@ -2813,6 +2813,34 @@ were saved. Take them up again?</source>
         <source>comparing edges</source>
         <translation>正在比较边缘</translation>
     </message>
+    <message>
+        <source>calib.txt of KITTI&apos;s benchmarks, for undistorted images</source>
+        <translation>KITTI 基准的 calib.txt，用于去畸变图像</translation>
+    </message>
+    <message>
+        <source>text model of COLMAP: the scenes&apos; images with their poses, the LiDAR&apos;s beside</source>
+        <translation>COLMAP 文本模型：各场景图像及其位姿，并附激光雷达位姿</translation>
+    </message>
+    <message>
+        <source>the cloud of a scene with the image&apos;s colours (binary PLY)</source>
+        <translation>一个场景的点云，带图像颜色（二进制 PLY）</translation>
+    </message>
+    <message>
+        <source>the result names no image of a scene in use</source>
+        <translation>结果中没有所用场景的图像</translation>
+    </message>
+    <message>
+        <source>the result names no image and cloud of a scene in use</source>
+        <translation>结果中没有所用场景的图像和点云</translation>
+    </message>
+    <message>
+        <source>calibrate again with this version</source>
+        <translation>请用此版本重新标定</translation>
+    </message>
+    <message>
+        <source>is of another size than the camera&apos;s images</source>
+        <translation>与相机图像的尺寸不同</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -4728,6 +4756,10 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Camera frame</source>
         <translation>相机坐标系</translation>
+    </message>
+    <message>
+        <source>The scene whose cloud is written</source>
+        <translation>要写出点云的场景</translation>
     </message>
 </context>
 <context>

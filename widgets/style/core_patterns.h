@@ -289,6 +289,10 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "%1: no image in this scene; expected image.png, .jpg, .bmp or .tiff"),
     QT_TRANSLATE_NOOP("Core", "%1: no cloud in this scene; expected cloud.pcd or cloud.ply"),
+    QT_TRANSLATE_NOOP("Core", "the result names no image of a scene in use"),
+    QT_TRANSLATE_NOOP("Core", "the result names no image and cloud of a scene in use"),
+    QT_TRANSLATE_NOOP("Core", "calibrate again with this version"),
+    QT_TRANSLATE_NOOP("Core", "is of another size than the camera's images"),
     QT_TRANSLATE_NOOP(
         "Core",
         "'%1' is no name of a frame; expected letters, digits and _ - . /, not beginning with - "
