@@ -333,6 +333,25 @@ std::vector<std::string> warnings_of(const Recording& recording, const Recording
   return out;
 }
 
+Result<Thumbnail> thumbnail_at(const Recording& recording, std::size_t image_topic,
+                               std::int64_t time_ns, int longest_px, const RunContext& context) {
+  const Topic& topic = recording.topics()[image_topic];
+  RunContext silent = context;
+  silent.progress = nullptr;
+  Result<Thumbnail> out = Error::input("there is no image at this time", topic.name);
+  TimeSpan span;
+  span.first_ns = time_ns;
+  const auto read =
+      recording.read({image_topic}, span, silent, "scene", [&](const RecordedMessage& message) {
+        const auto image = decode_image(topic, message.data);
+        out = image ? make_thumbnail(*image, longest_px, topic.name)
+                    : Result<Thumbnail>(image.error());
+        return Result<bool>(false);
+      });
+  if (!read) return read.error();
+  return out;
+}
+
 Result<StretchPicture> picture_of(const Recording& recording, const RecordingSurvey& survey,
                                   const ImportedStretch& stretch, int longest_px,
                                   const RunContext& context) {

@@ -82,4 +82,10 @@ Result<StretchPicture> picture_of(const Recording& recording, const RecordingSur
                                   const ImportedStretch& stretch, int longest_px,
                                   const RunContext& context);
 
+/// The first image of a topic from a time on (recorder's clock), small: a glimpse of what a
+/// recording shows before anything else of it is read. Errors: there is none, or it cannot be read;
+/// a stop.
+Result<Thumbnail> thumbnail_at(const Recording& recording, std::size_t image_topic,
+                               std::int64_t time_ns, int longest_px, const RunContext& context);
+
 }  // namespace lvcalib

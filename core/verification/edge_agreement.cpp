@@ -178,7 +178,6 @@ struct Estimate {
   Rigid3 pose;
   Matrix7d covariance = Matrix7d::Zero();
   std::size_t parts = 0;
-  double matched = 0.0;  // Sum of the weights.
 };
 
 // Row of one edge: its distance from the image's along that one's normal, and what each unknown
@@ -251,7 +250,6 @@ class Fit {
       Vector7d shared = Vector7d::Zero();  // What one pixel does that all its edges are off by.
     };
     std::map<Part, Sums> parts;
-    estimate_.matched = 0.0;
     for (const Placed& edge : place(views_, camera_, estimate_.pose)) {
       const auto row = row_of(edge, estimate_.unknowns(6), 0.0);
       if (!row) continue;
@@ -263,7 +261,6 @@ class Fit {
       Sums& part = parts[edge.part];
       part.off += row->weight / variance * row->distance * row->by;
       part.shared += row->weight / variance * row->by;
-      estimate_.matched += row->weight;
     }
     Matrix7d scatter = prior_.asDiagonal();
     const auto n = static_cast<double>(parts.size());

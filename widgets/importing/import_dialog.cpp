@@ -177,6 +177,7 @@ void ImportDialog::connectParts() {
   connect(this, &QDialog::finished, this, [this] { work_.cancel(); });
   connect(&work_, &RecordingWork::opened, this, &ImportDialog::takeOpened);
   connect(&work_, &RecordingWork::looked, this, &ImportDialog::takeLook);
+  connect(&work_, &RecordingWork::glimpsed, time_line_, &TimeLine::addPicture);
   connect(&work_, &RecordingWork::pictured, stretches_, &StretchList::setPicture);
   connect(&work_, &RecordingWork::imported, this, &ImportDialog::takeImported);
   connect(&work_, &RecordingWork::failed, this, [this](const Error& error) {
@@ -233,9 +234,23 @@ void ImportDialog::lookAgain(bool with_topics) {
   if (with_topics) {
     look_.reset();
     moved_.clear();
+    showGlimpses();
   }
   work_.look(opened_->recording, options(), look_ ? look_->survey : nullptr);
   refresh();
+}
+
+// What there is to see, before the whole recording is read.
+void ImportDialog::showGlimpses() {
+  const TimeSpan span = opened_->recording->span();
+  time_line_->clear();
+  time_line_->setRecording(1e-9 * static_cast<double>(span.last_ns - span.first_ns), {}, {});
+  const std::string wanted = options().topics.image;
+  for (const std::size_t topic : opened_->candidates.images) {
+    if (opened_->recording->topics()[topic].name != wanted) continue;
+    work_.show_glimpses(opened_->recording, topic);
+    return;
+  }
 }
 
 ImportOptions ImportDialog::options() const {

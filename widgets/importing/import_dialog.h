@@ -46,6 +46,7 @@ class ImportDialog : public QDialog {
   void connectParts();
   void retranslate();
   void takeOpened(const OpenedRecording& opened);
+  void showGlimpses();
   void takeLook(const RecordingLook& look);
   void takeImported(const ImportSummary& summary, const QString& dataset);
   void lookAgain(bool with_topics);

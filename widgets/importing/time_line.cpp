@@ -17,6 +17,8 @@ namespace lvcalib::widgets {
 namespace {
 
 constexpr int kMargin = 6;
+// Height of the row of pictures.
+constexpr int kPictures_px = 40;
 // So near to an edge the mouse holds it.
 constexpr int kHandle = 5;
 // No stretch becomes narrower by dragging.
@@ -49,6 +51,7 @@ TimeLine::TimeLine(QWidget* parent) : QWidget(parent) {
 }
 
 void TimeLine::clear() {
+  pictures_.clear();
   setRecording(0.0, {}, {});
 }
 
@@ -61,6 +64,14 @@ void TimeLine::setRecording(double length_s, const RecordedMotion& motion,
   texts_.clear();
   current_ = -1;
   drag_.reset();
+  update();
+}
+
+void TimeLine::addPicture(double time_s, const QImage& picture) {
+  const auto at =
+      std::upper_bound(pictures_.begin(), pictures_.end(), time_s,
+                       [](double time, const Picture& other) { return time < other.time_s; });
+  pictures_.insert(at, {time_s, QPixmap::fromImage(picture)});
   update();
 }
 
@@ -83,7 +94,7 @@ QRect TimeLine::plotRect() const {
   const QFontMetrics metrics(font());
   const int names =
       std::max(metrics.horizontalAdvance(tr("Images")), metrics.horizontalAdvance(tr("Clouds")));
-  return rect().adjusted(names + 3 * kMargin, kMargin, -2 * kMargin,
+  return rect().adjusted(names + 3 * kMargin, kMargin + kPictures_px, -2 * kMargin,
                          -metrics.height() - 2 * kMargin);
 }
 
@@ -155,6 +166,21 @@ void TimeLine::drag(const QPoint& at, const QPoint& global) {
   (last ? s.last_s : s.first_s) = time_s;
   QToolTip::showText(global, tr("%1 s").arg(QString::number(time_s, 'f', 2)), this);
   update();
+}
+
+// Each in the middle of its share of the time, as wide as its neighbours leave it.
+void TimeLine::paintPictures(QPainter& painter) const {
+  if (pictures_.empty()) return;
+  const QRect plot = plotRect();
+  const int share = plot.width() / static_cast<int>(pictures_.size()) - 2;
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  for (const Picture& picture : pictures_) {
+    const QSize size =
+        picture.pixmap.size().scaled(std::max(8, share), kPictures_px - 4, Qt::KeepAspectRatio);
+    const int x = static_cast<int>(std::lround(xOf(picture.time_s))) - size.width() / 2;
+    const int left = std::clamp(x, plot.left(), std::max(plot.left(), plot.right() - size.width()));
+    painter.drawPixmap(QRect(QPoint(left, plot.top() - kPictures_px), size), picture.pixmap);
+  }
 }
 
 void TimeLine::paintBands(QPainter& painter) const {
@@ -249,6 +275,7 @@ void TimeLine::paintEvent(QPaintEvent*) {
   const QRect plot = plotRect();
   painter.fillRect(plot, palette().color(QPalette::Base));
   if (length_s_ <= 0.0) return;
+  paintPictures(painter);
   paintBands(painter);
   const int half = plot.height() / 2;
   paintLane(painter, QRect(plot.left(), plot.top() + 5, plot.width(), half - 8),

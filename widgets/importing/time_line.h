@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QImage>
+#include <QPixmap>
 #include <QString>
 #include <QWidget>
 #include <optional>
@@ -20,6 +22,11 @@ class TimeLine : public QWidget {
   explicit TimeLine(QWidget* parent = nullptr);
 
   void clear();
+  /// A picture taken at a time, for the row above the curves.
+  void addPicture(double time_s, const QImage& picture);
+  /// How many pictures there are.
+  [[nodiscard]] std::size_t pictureCount() const { return pictures_.size(); }
+  /// Pictures stay.
   void setRecording(double length_s, const RecordedMotion& motion,
                     const std::vector<ImportedStretch>& stretches);
   /// Which stretches become scenes.
@@ -33,8 +40,8 @@ class TimeLine : public QWidget {
   [[nodiscard]] QRect stretchRect(int stretch) const;
   /// Between which times an edge may lie, so that no two stretches share a moment.
   [[nodiscard]] std::pair<double, double> rangeOf(int stretch, bool last) const;
-  [[nodiscard]] QSize sizeHint() const override { return {600, 150}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {260, 120}; }
+  [[nodiscard]] QSize sizeHint() const override { return {600, 190}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {260, 150}; }
 
  Q_SIGNALS:
   /// A click on a stretch.
@@ -70,11 +77,17 @@ class TimeLine : public QWidget {
   [[nodiscard]] int stretchAt(const QPoint& at) const;
   [[nodiscard]] std::optional<Handle> handleAt(const QPoint& at) const;
   void drag(const QPoint& at, const QPoint& global);
+  void paintPictures(QPainter& painter) const;
   void paintBands(QPainter& painter) const;
   void paintLane(QPainter& painter, const QRect& rect, const Lane& lane) const;
   void paintAxis(QPainter& painter) const;
 
+  struct Picture {
+    double time_s;
+    QPixmap pixmap;
+  };
   double length_s_ = 0.0;
+  std::vector<Picture> pictures_;  // Sorted by time.
   RecordedMotion motion_;
   std::vector<ImportedStretch> stretches_;
   std::vector<bool> taken_;

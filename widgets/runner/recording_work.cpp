@@ -89,6 +89,26 @@ void RecordingWork::open(const QString& path) {
   });
 }
 
+void RecordingWork::show_glimpses(const std::shared_ptr<const Recording>& recording,
+                                  std::size_t image_topic) {
+  glimpses_.start([this, recording, image_topic](const RunContext& context,
+                                                 const Runner::Post& post) -> Runner::Deliver {
+    const TimeSpan span = recording->span();
+    const auto length_ns = static_cast<double>(span.last_ns - span.first_ns);
+    for (int k = 0; k < kGlimpses && !context.stopped(); ++k) {
+      const double from_start_ns = length_ns * (k + 0.5) / kGlimpses;
+      const auto picture = thumbnail_at(*recording, image_topic,
+                                        span.first_ns + static_cast<std::int64_t>(from_start_ns),
+                                        kThumbnailPx, context);
+      if (!picture) continue;  // The look says what is wrong with the images.
+      post([this, time_s = 1e-9 * from_start_ns, image = as_image(*picture)] {
+        Q_EMIT glimpsed(time_s, image);
+      });
+    }
+    return {};
+  });
+}
+
 void RecordingWork::look(const std::shared_ptr<const Recording>& recording,
                          const ImportOptions& options,
                          const std::shared_ptr<const RecordingSurvey>& survey) {
@@ -147,6 +167,7 @@ void RecordingWork::import(const std::shared_ptr<const Recording>& recording,
 }
 
 void RecordingWork::cancel() {
+  glimpses_.cancel();
   cancelled_ = true;
   pictures_.cancel();
   runner_.cancel();

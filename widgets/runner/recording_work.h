@@ -41,11 +41,14 @@ class RecordingWork : public QObject {
 
  public:
   static constexpr int kThumbnailPx = 128;
+  static constexpr int kGlimpses = 12;
 
   explicit RecordingWork(QObject* parent = nullptr);
 
   /// opened() follows; takes the place of what runs.
   void open(const QString& path);
+  /// glimpsed() follows for some images spread over the recording, in the background.
+  void show_glimpses(const std::shared_ptr<const Recording>& recording, std::size_t image_topic);
   /// looked() follows. With the survey of an earlier look, nothing is read: only the stretches are
   /// found anew.
   void look(const std::shared_ptr<const Recording>& recording, const ImportOptions& options,
@@ -66,6 +69,8 @@ class RecordingWork : public QObject {
  Q_SIGNALS:
   void progressed(const QString& stage, double fraction, const QString& text);
   void opened(const lvcalib::widgets::OpenedRecording& recording);
+  /// `time_s`: from the recording's first message.
+  void glimpsed(double time_s, const QImage& thumbnail);
   void looked(const lvcalib::widgets::RecordingLook& look);
   /// `complaint`: why the board is not seen; empty if it is. `checked`: whether it was looked for.
   void pictured(int stretch, const QImage& thumbnail, bool checked, const QString& complaint);
@@ -78,6 +83,7 @@ class RecordingWork : public QObject {
 
   bool replacing_ = false;
   bool cancelled_ = false;  // What was ready just before is not wanted any more.
+  Runner glimpses_;
   Runner pictures_;
   Runner runner_;
 };

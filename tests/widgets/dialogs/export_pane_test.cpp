@@ -2,6 +2,7 @@
 #include "dialogs/export_pane.h"
 
 #include <QClipboard>
+#include <QComboBox>
 #include <QFile>
 #include <QGuiApplication>
 #include <QLabel>
@@ -22,12 +23,13 @@ namespace {
 
 class Answers : public Choices {
  public:
-  QString save, transform, suggested;
+  QString save, transform, suggested, made;
   QString file_to_export(QWidget*, const QString& suggestion, const QString&) override {
     suggested = suggestion;
     return save;
   }
   QString transform_to_open(QWidget*, const QString&) override { return transform; }
+  QString dataset_to_make(QWidget*, const QString&) override { return made; }
 };
 
 ExportInput example() {
@@ -40,6 +42,7 @@ ExportInput example() {
   input.camera.height_px = 640;
   input.dataset = "/data/rig";
   input.quality = "good";
+  input.scenes = {{"A", true, "scenes/A/image.png", "scenes/A/cloud.pcd", {}}};
   return input;
 }
 
@@ -82,6 +85,31 @@ TEST_F(ExportPaneTest, CopyAndSaveGiveTheSameText) {
   part<QPushButton>("save_export")->click();
   ASSERT_EQ(failed_.size(), 1);
   EXPECT_NE(failed_[0][0].value<Error>().text().find("no/such"), std::string::npos);
+}
+
+TEST_F(ExportPaneTest, AFormatOfSeveralFilesIsAFolder) {
+  pane_.chooseFormat("colmap");
+  EXPECT_TRUE(preview().contains("=== cameras.txt"));
+  answers_.made = folder_.filePath("model");
+  part<QPushButton>("save_export")->click();
+  ASSERT_EQ(exported_.size(), 1);
+  EXPECT_TRUE(QFile::exists(folder_.filePath("model/images.txt")));
+  EXPECT_TRUE(part<QComboBox>("export_scene")->isHidden());
+}
+
+TEST_F(ExportPaneTest, ACloudIsWrittenInTheBackgroundAndSaysWhatIsMissing) {
+  pane_.chooseFormat("colored-ply");
+  EXPECT_FALSE(part<QComboBox>("export_scene")->isHidden());
+  EXPECT_EQ(part<QComboBox>("export_scene")->currentText(), "A");
+  EXPECT_FALSE(part<QPushButton>("copy_export")->isEnabled());
+  answers_.save = folder_.filePath("a.ply");
+  part<QPushButton>("save_export")->click();
+  EXPECT_FALSE(part<QPushButton>("save_export")->isEnabled());
+  ASSERT_TRUE(QTest::qWaitFor([this] { return failed_.size() == 1; }, 10'000));
+  EXPECT_NE(failed_[0][0].value<Error>().text().find("image.png"), std::string::npos);
+  EXPECT_TRUE(
+      QTest::qWaitFor([this] { return part<QPushButton>("save_export")->isEnabled(); }, 10'000));
+  EXPECT_FALSE(QFile::exists(answers_.save));
 }
 
 TEST_F(ExportPaneTest, AMissingImuIsAskedFor) {

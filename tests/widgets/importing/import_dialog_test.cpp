@@ -86,6 +86,9 @@ TEST_F(ImportDialogTest, FromABagToAnExtrinsic) {
   look_at(walk.path);
   ASSERT_TRUE(wait_for_pictures());
   EXPECT_EQ(stretches().expectedScenes(), 3);
+  EXPECT_TRUE(wait_until([&] {
+    return find<TimeLine>(*dialog(), "time_line")->pictureCount() == RecordingWork::kGlimpses;
+  }));
   EXPECT_EQ(stretches().topLevelItem(0)->text(3), "seen");
   EXPECT_FALSE(stretches().topLevelItem(0)->icon(0).isNull());
   EXPECT_EQ(find<QComboBox>(*dialog(), "image_topic")->currentText(), "/camera/image_raw");

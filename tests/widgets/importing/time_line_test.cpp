@@ -27,6 +27,25 @@ RecordedMotion motion_of(double at_rest, double between) {
   return out;
 }
 
+TEST(TimeLine, PicturesStandAtTheirTimesUntilAnotherRecordingIsOpened) {
+  TimeLine line;
+  line.resize(600, 190);
+  QImage red(64, 40, QImage::Format_RGB32);
+  red.fill(Qt::red);
+  line.addPicture(7.5, red);
+  line.addPicture(2.5, red);
+  line.setRecording(10.0, motion_of(0.2, 40.0), {stretch(1.0, 3.0)});
+  EXPECT_EQ(line.pictureCount(), 2U);
+  const QImage shown = line.grab().toImage();
+  const QRect band = line.stretchRect(0);
+  // Between the two nothing is red; above the middle of the stretch, near its time, it is.
+  EXPECT_EQ(shown.pixelColor(band.left() + band.width() * 3 / 4, band.top() - 20), QColor(Qt::red));
+  const int middle = band.left() + 2 * band.width();
+  EXPECT_NE(shown.pixelColor(middle, band.top() - 20), QColor(Qt::red));
+  line.clear();
+  EXPECT_EQ(line.pictureCount(), 0U);
+}
+
 TEST(TimeLine, StretchesStandWhereTheirTimesAreAndCanBeClicked) {
   TimeLine line;
   line.resize(600, 150);
