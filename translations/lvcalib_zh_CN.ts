@@ -4519,10 +4519,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>当前模型不含效应：点云不会改变。请先在“模型”页添加效应。</translation>
     </message>
     <message>
-        <source>Taken out of clouds of this LiDAR: %1</source>
-        <translation>从此激光雷达的点云中去除：%1</translation>
-    </message>
-    <message>
         <source>Cancelled; clouds that were complete stay.</source>
         <translation>已取消；已完成的点云保留。</translation>
     </message>
@@ -4585,6 +4581,22 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Close</source>
         <translation>关闭</translation>
+    </message>
+    <message>
+        <source>Taken out of clouds of this LiDAR:</source>
+        <translation>从此激光雷达的点云中去除：</translation>
+    </message>
+    <message>
+        <source>Effects that are not ticked stay in the clouds</source>
+        <translation>未勾选的效应保留在点云中</translation>
+    </message>
+    <message>
+        <source>&amp;When the clouds were taken:</source>
+        <translation>点云的采集时刻(&amp;W)：</translation>
+    </message>
+    <message>
+        <source>0 with the first scene of the calibration, 1 with the last. Effects that drift from scene to scene are taken out only if this is known.</source>
+        <translation>标定的第一个场景为 0，最后一个为 1。随场景漂移的效应只有在知道这一时刻时才会被去除。</translation>
     </message>
 </context>
 <context>

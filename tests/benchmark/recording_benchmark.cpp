@@ -126,6 +126,21 @@ void list_topics(benchmark::State& state) {
   }
 }
 
+// From nothing to the first picture in the window's row, and to all twelve.
+void pictures(benchmark::State& state) {
+  for (auto _ : state) {
+    const auto recording = Recording::open(recorded().folder, {});
+    if (!recording) return state.SkipWithError(recording.error().text().c_str());
+    const TimeSpan span = recording->span();
+    for (std::int64_t k = 0; k < state.range(0); ++k) {
+      auto picture = thumbnail_at(*recording, 0,
+                                  span.first_ns + (span.last_ns - span.first_ns) * k / 12, 128, {});
+      if (!picture) state.SkipWithError(picture.error().text().c_str());
+      benchmark::DoNotOptimize(picture);
+    }
+  }
+}
+
 void survey(benchmark::State& state) {
   const fs::path folder = recorded().folder;
   const auto recording = Recording::open(folder, {});
@@ -165,6 +180,7 @@ void cancel(benchmark::State& state) {
 }
 
 BENCHMARK(list_topics)->Unit(benchmark::kMillisecond);
+BENCHMARK(pictures)->Arg(1)->Arg(12)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(survey)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
 BENCHMARK(cancel)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(5);
 

@@ -64,10 +64,10 @@ Result<std::vector<CloudJob>> clouds_of(const fs::path& input, const fs::path& o
 }
 
 Result<CorrectionSummary> correct_one(const CloudJob& job, const StoredModel& model,
-                                      const RunContext& context) {
+                                      const CorrectionOptions& options, const RunContext& context) {
   auto cloud = read_cloud(job.from, context.stop, PointChoice::kAll);
   if (!cloud) return cloud.error();
-  const auto summary = correct_cloud(*cloud, model.effects, model.scales, {}, context);
+  const auto summary = correct_cloud(*cloud, model.effects, model.scales, options, context);
   if (!summary) {
     Error error = summary.error();
     if (error.where.empty()) error.where = job.from.string();
@@ -108,7 +108,8 @@ void join(CorrectionSummary& total, const CorrectionSummary& one) {
 }
 
 Result<CorrectedClouds> correct_all(const CalibrationResult& result, const fs::path& input,
-                                    const fs::path& output, const RunContext& context) {
+                                    const fs::path& output, const CorrectionOptions& options,
+                                    const RunContext& context) {
   const auto model = model_of(result);
   if (!model) return model.error();
   const auto jobs = clouds_of(input, output);
@@ -120,7 +121,7 @@ Result<CorrectedClouds> correct_all(const CalibrationResult& result, const fs::p
                    job.from.filename().string());
     RunContext silent = context;
     silent.progress = nullptr;
-    const auto one = correct_one(job, *model, silent);
+    const auto one = correct_one(job, *model, options, silent);
     if (context.stopped()) return Error::cancelled();
     if (one) {
       ++out.clouds;
@@ -149,10 +150,10 @@ CorrectionWork::CorrectionWork(QObject* parent) : QObject(parent) {
 }
 
 void CorrectionWork::correct(std::shared_ptr<const CalibrationResult> result, const QString& input,
-                             const QString& output) {
-  runner_.start([this, result = std::move(result), input, output](
+                             const QString& output, const CorrectionOptions& options) {
+  runner_.start([this, result = std::move(result), input, output, options](
                     const RunContext& context, const Runner::Post&) -> Runner::Deliver {
-    auto clouds = correct_all(*result, input.toStdString(), output.toStdString(), context);
+    auto clouds = correct_all(*result, input.toStdString(), output.toStdString(), options, context);
     if (context.stopped()) return {};
     if (!clouds) return [this, error = clouds.error()] { Q_EMIT failed(error); };
     return [this, out = std::move(*clouds)] { Q_EMIT corrected(out); };

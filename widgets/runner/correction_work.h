@@ -30,7 +30,7 @@ class CorrectionWork : public QObject {
   /// corrected(), failed() or cancelled() follows. A folder's clouds keep their places and names,
   /// as binary PCD. Each cloud is written whole or not at all.
   void correct(std::shared_ptr<const CalibrationResult> result, const QString& input,
-               const QString& output);
+               const QString& output, const CorrectionOptions& options = {});
   void cancel() { runner_.cancel(); }
   [[nodiscard]] bool busy() const { return runner_.running(); }
 

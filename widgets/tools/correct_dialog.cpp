@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/correct_dialog.h"
 
+#include <QCheckBox>
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QVBoxLayout>
@@ -49,6 +52,9 @@ CorrectDialog::CorrectDialog(std::shared_ptr<const CalibrationResult> result, Ch
       labels_{new QLabel(this), new QLabel(this)},
       input_(new QLineEdit(this)),
       output_(new QLineEdit(this)),
+      effects_(new QListWidget(this)),
+      has_clock_(new QCheckBox(this)),
+      clock_(new QDoubleSpinBox(this)),
       cloud_(new QPushButton(this)),
       clouds_(new QPushButton(this)),
       place_(new QPushButton(this)),
@@ -70,6 +76,8 @@ CorrectDialog::CorrectDialog(std::shared_ptr<const CalibrationResult> result, Ch
   });
   connect(input_, &QLineEdit::textChanged, this, &CorrectDialog::refresh);
   connect(output_, &QLineEdit::textChanged, this, &CorrectDialog::refresh);
+  connect(effects_, &QListWidget::itemChanged, this, &CorrectDialog::refresh);
+  connect(has_clock_, &QCheckBox::toggled, this, &CorrectDialog::refresh);
   connect(correct_, &QPushButton::clicked, this, &CorrectDialog::start);
   connect(stop_, &QPushButton::clicked, this, [this] { work_.cancel(); });
   connect(close_, &QPushButton::clicked, this, &QDialog::close);
@@ -98,11 +106,23 @@ CorrectDialog::~CorrectDialog() {
 }
 
 void CorrectDialog::build() {
-  resize(640, 260);
+  resize(680, 360);
+  for (const ModelEffect& effect : result_->model) {
+    auto* item = new QListWidgetItem(effects_);
+    item->setData(Qt::UserRole, QString::fromStdString(effect.id));
+    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+    item->setCheckState(Qt::Checked);
+  }
+  effects_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  effects_->setVisible(effects_->count() > 0);
+  clock_->setRange(0.0, 1.0);
+  clock_->setDecimals(2);
+  clock_->setSingleStep(0.05);
   const std::pair<QWidget*, const char*> named[] = {
-      {input_, "correct_input"},   {output_, "correct_output"}, {summary_, "correct_summary"},
-      {correct_, "correct_start"}, {stop_, "correct_stop"},     {cloud_, "correct_cloud"},
-      {clouds_, "correct_clouds"}, {model_, "correct_model"},   {close_, "correct_close"}};
+      {input_, "correct_input"},         {output_, "correct_output"}, {summary_, "correct_summary"},
+      {correct_, "correct_start"},       {stop_, "correct_stop"},     {cloud_, "correct_cloud"},
+      {clouds_, "correct_clouds"},       {model_, "correct_model"},   {effects_, "correct_effects"},
+      {has_clock_, "correct_has_clock"}, {clock_, "correct_clock"},   {close_, "correct_close"}};
   for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
   for (QLabel* label : {model_, summary_}) {
     label->setWordWrap(true);
@@ -132,6 +152,12 @@ void CorrectDialog::build() {
   buttons->addWidget(close_);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(model_);
+  layout->addWidget(effects_);
+  auto* when = new QHBoxLayout;
+  when->addWidget(has_clock_);
+  when->addWidget(clock_);
+  when->addStretch();
+  layout->addLayout(when);
   layout->addLayout(form);
   layout->addWidget(summary_);
   layout->addLayout(running);
@@ -152,8 +178,19 @@ void CorrectDialog::start() {
   cancelled_ = false;
   progress_->setValue(0);
   work_.correct(result_, QDir::fromNativeSeparators(input_->text().trimmed()),
-                QDir::fromNativeSeparators(output_->text().trimmed()));
+                QDir::fromNativeSeparators(output_->text().trimmed()), options());
   refresh();
+}
+
+CorrectionOptions CorrectDialog::options() const {
+  CorrectionOptions out;
+  for (int k = 0; k < effects_->count(); ++k) {
+    const QListWidgetItem* item = effects_->item(k);
+    if (item->checkState() != Qt::Checked)
+      out.skip.push_back(item->data(Qt::UserRole).toString().toStdString());
+  }
+  if (has_clock_->isChecked()) out.clock = clock_->value();
+  return out;
 }
 
 QString CorrectDialog::modelText() const {
@@ -162,9 +199,7 @@ QString CorrectDialog::modelText() const {
         "The model in force holds no effects: clouds would stay as they are. Add effects on "
         "the Model page first.");
   }
-  QStringList titles;
-  for (const ModelEffect& effect : result_->model) titles << title_of(effect.id);
-  return tr("Taken out of clouds of this LiDAR: %1").arg(titles.join(QStringLiteral(", ")));
+  return tr("Taken out of clouds of this LiDAR:");
 }
 
 QString CorrectDialog::summaryText() const {
@@ -209,13 +244,24 @@ void CorrectDialog::refresh() {
   progress_->setVisible(busy);
   stop_->setVisible(busy);
   if (!busy) summary_->setText(summaryText());
-  correct_->setEnabled(!busy && !result_->model.empty() && !input_->text().trimmed().isEmpty() &&
-                       !output_->text().trimmed().isEmpty());
+  clock_->setEnabled(has_clock_->isChecked());
+  correct_->setEnabled(!busy && options().skip.size() < result_->model.size() &&
+                       !input_->text().trimmed().isEmpty() && !output_->text().trimmed().isEmpty());
 }
 
 void CorrectDialog::retranslate() {
   setWindowTitle(tr("Correct clouds"));
   model_->setText(modelText());
+  for (int k = 0; k < effects_->count(); ++k) {
+    effects_->item(k)->setText(
+        title_of(effects_->item(k)->data(Qt::UserRole).toString().toStdString()));
+  }
+  effects_->setToolTip(tr("Effects that are not ticked stay in the clouds"));
+  has_clock_->setText(tr("&When the clouds were taken:"));
+  has_clock_->setToolTip(tr(
+      "0 with the first scene of the calibration, 1 with the last. Effects that drift from scene "
+      "to scene are taken out only if this is known."));
+  clock_->setToolTip(has_clock_->toolTip());
   labels_[0]->setText(tr("&From:"));
   labels_[1]->setText(tr("&To:"));
   cloud_->setText(tr("&Cloud…"));

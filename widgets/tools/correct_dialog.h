@@ -8,7 +8,10 @@
 #include "dialogs/choices.h"
 #include "runner/correction_work.h"
 
+class QCheckBox;
+class QDoubleSpinBox;
 class QLabel;
+class QListWidget;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
@@ -28,6 +31,7 @@ class CorrectDialog : public QDialog {
 
  private:
   void build();
+  [[nodiscard]] CorrectionOptions options() const;
   void choose(const QString& path);
   void start();
   void refresh();
@@ -46,6 +50,9 @@ class CorrectDialog : public QDialog {
   QLabel* labels_[2];
   QLineEdit* input_;
   QLineEdit* output_;
+  QListWidget* effects_;
+  QCheckBox* has_clock_;
+  QDoubleSpinBox* clock_;
   QPushButton* cloud_;
   QPushButton* clouds_;
   QPushButton* place_;

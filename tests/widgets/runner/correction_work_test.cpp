@@ -34,10 +34,10 @@ class CorrectionWorkTest : public ::testing::Test {
     for (int i = 0; i < 50; ++i) cloud.points_m.emplace_back(3.0F, 0.0F, 0.0F);
     EXPECT_TRUE(write_pcd(path, cloud).ok());
   }
-  void correct(const QString& from, const QString& to) {
+  void correct(const QString& from, const QString& to, const CorrectionOptions& options = {}) {
     done_.reset();
     error_.reset();
-    work_.correct(result_, folder_.filePath(from), folder_.filePath(to));
+    work_.correct(result_, folder_.filePath(from), folder_.filePath(to), options);
     ASSERT_TRUE(QTest::qWaitFor([&] { return done_ || error_; }, 60'000));
   }
   QTemporaryDir folder_;
@@ -61,6 +61,21 @@ TEST_F(CorrectionWorkTest, WhatWasWrittenIntoTheFolderIsNoInputOfTheNextRun) {
   const auto cloud = read_cloud(folder_.filePath("run/corrected/a.pcd").toStdString());
   ASSERT_TRUE(cloud.ok());
   EXPECT_NEAR(cloud->points_m.front().x(), 2.98, 1e-5);
+}
+
+TEST_F(CorrectionWorkTest, WhatIsToBeSkippedStays) {
+  write("a.pcd");
+  CorrectionOptions options;
+  options.skip = {"range_offset"};
+  correct("a.pcd", "b.pcd", options);
+  ASSERT_TRUE(done_.has_value()) << error_->text();
+  ASSERT_EQ(done_->total.effects.size(), 1U);
+  EXPECT_EQ(done_->total.effects[0].state, CorrectionState::kSkipped);
+  EXPECT_EQ(done_->total.largest_m, 0.0);
+  options.skip = {"no such effect"};
+  correct("a.pcd", "c.pcd", options);
+  ASSERT_TRUE(error_.has_value());
+  EXPECT_EQ(error_->kind, ErrorKind::kUsage);
 }
 
 TEST_F(CorrectionWorkTest, FoldersWithoutCloudsAndMissingOnesAreErrors) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/correct_dialog.h"
 
+#include <QCheckBox>
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QFile>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QPushButton>
 #include <QTemporaryDir>
 
@@ -71,6 +74,21 @@ TEST_F(CorrectDialogTest, TakesTheModelOutOfACloud) {
   ASSERT_TRUE(after.ok());
   ASSERT_EQ(before->size(), after->size());
   EXPECT_NEAR(before->points_m[7].norm() - after->points_m[7].norm(), 0.010, 1e-5);
+}
+
+TEST_F(CorrectDialogTest, AnEffectThatIsNotTickedStaysInTheCloud) {
+  answers_.cloud = write("walk.pcd");
+  button("correct_cloud").click();
+  auto* effects = find<QListWidget>(dialog_, "correct_effects");
+  ASSERT_EQ(effects->count(), 1);
+  EXPECT_EQ(effects->item(0)->text(), "Range offset");
+  EXPECT_TRUE(button("correct_start").isEnabled());
+  effects->item(0)->setCheckState(Qt::Unchecked);
+  // Then there is nothing to do.
+  EXPECT_FALSE(button("correct_start").isEnabled());
+  EXPECT_FALSE(find<QDoubleSpinBox>(dialog_, "correct_clock")->isEnabled());
+  find<QCheckBox>(dialog_, "correct_has_clock")->click();
+  EXPECT_TRUE(find<QDoubleSpinBox>(dialog_, "correct_clock")->isEnabled());
 }
 
 TEST_F(CorrectDialogTest, AFolderKeepsItsNamesAndABrokenCloudDoesNotStopTheOthers) {
