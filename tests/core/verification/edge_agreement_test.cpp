@@ -114,7 +114,8 @@ TEST(EdgeAgreement, SaysWhatCannotBeUsed) {
   const GrayImage small{10, 10, std::vector<float>(100, 1.0F)};
   const auto size = edge_view("a", small, {}, place().camera, place().camera_from_lidar);
   ASSERT_FALSE(size.ok());
-  EXPECT_THAT(size.error().text(), HasSubstr("its image has 10 × 10 px, the camera's have 960 × 600"));
+  EXPECT_THAT(size.error().text(),
+              HasSubstr("its image has 10 × 10 px, the camera's have 960 × 600"));
   const GrayImage black{960, 600, std::vector<float>(960 * 600, 0.0F)};
   const auto empty = edge_view("a", black, {}, place().camera, place().camera_from_lidar);
   ASSERT_FALSE(empty.ok());
