@@ -5197,6 +5197,14 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
 位姿、其标准差和结论。“残差” 中每个场景占一列；红叉为未采用的部分。将虚线向下拖过柱形，可查看去掉线以上的场景后外参会怎样。“方法” 以其他方式求解相同的场景；“阈值” 显示标签和圆偏离标定板位姿的程度，门限是一条可拖动的线：在作出决定之前即说明会拒绝什么、外参会移到哪里。“全部场景” 显示设备周围的所有标定板。
 </translation>
     </message>
+    <message>
+        <source># Tools
+*Plan scenes* says where to hold the board next and how sure the extrinsic is then. *File › Watch* takes scenes as they come and shows the next pose in large letters. *Check on fresh data* lays the pose over pictures with or without a board and says whether edges of LiDAR and image agree; there a rough pose is also found by hand. *Compare with* sets two results side by side, *Correct clouds* takes the model&apos;s effects out of clouds, and the board is printed and described from the same menu.
+</source>
+        <translation># 工具
+*规划场景*说明下一步把标定板放在哪里，以及届时外参有多可靠。*文件 › 监视*在场景出现时即行采用，并以大字显示下一个位姿。*用新数据检验*把位姿叠加到有无标定板的画面上，说明激光雷达与图像的边缘是否吻合；也可在那里手动寻找粗略位姿。*比较*把两个结果并列，*校正点云*从点云中去除模型的效应；标定板的打印和描述也在同一菜单中。
+</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ImagePane</name>

@@ -92,6 +92,14 @@ void GuideDialog::retranslate() {
          "How returns scatter at the circles' edges: the transition of the intensity, pitch and "
          "yaw with their ellipse, and ranges off the plane. The table has the numbers for all "
          "scenes and each one. *Left out* lists what the program refused, with its reasons.\n"),
+      tr("# Tools\n"
+         "*Plan scenes* says where to hold the board next and how sure the extrinsic is then. "
+         "*File "
+         "› Watch* takes scenes as they come and shows the next pose in large letters. *Check on "
+         "fresh data* lays the pose over pictures with or without a board and says whether edges "
+         "of LiDAR and image agree; there a rough pose is also found by hand. *Compare with* sets "
+         "two results side by side, *Correct clouds* takes the model's effects out of clouds, and "
+         "the board is printed and described from the same menu.\n"),
       tr("# Keys\n"
          "F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J "
          "rejects and Ctrl+U accepts the selected scenes, Space ticks and unticks, Alt+Up and "
