@@ -274,7 +274,7 @@ SensorModel sensors_of(const MeasurementTable& table) {
 }
 
 void take_field_of_view(const Cloud& cloud, SensorModel& sensors) {
-  constexpr std::size_t kFewest = 100;
+  constexpr std::size_t kFewest = 100;   // fewer show no shape of a field
   constexpr std::size_t kMost = 20'000;  // tell an edge to a two-hundredth of the field
   constexpr double kOutermost = 0.002;   // share of returns left out on each side: reflections
   constexpr double kGap = 0.2 * std::numbers::pi;

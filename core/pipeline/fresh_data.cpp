@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/fresh_data.h"
 
-#include <algorithm>
 #include <atomic>
 #include <optional>
 
 #include "base/parallel.h"
 #include "detection/board_view.h"
-#include "pipeline/dataset.h"
+#include "pipeline/scene_lister.h"
 #include "recording/pair_import.h"
 
 namespace lvcalib {
@@ -44,19 +43,11 @@ Result<std::vector<FilePair>> find_fresh_data(const fs::path& folder) {
     if (!found) return found.error();
     return std::move(found->pairs);
   }
-  std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(folder / "scenes", code)) {
-    if (entry.is_directory(code)) folders.push_back(entry.path());
-  }
-  std::sort(folders.begin(), folders.end());
-  std::vector<FilePair> out;
-  for (const fs::path& scene : folders) {
-    const auto files = open_scene(scene);
-    if (files && !files->problem) out.push_back({files->name, files->image, files->cloud, {}, {}});
-  }
-  if (out.empty())
+  auto scenes = scene_lister(folder / "scenes")();
+  if (!scenes) return scenes.error();
+  if (scenes->pairs.empty())
     return Error::input("no scene has an image and a cloud", (folder / "scenes").string());
-  return out;
+  return std::move(scenes->pairs);
 }
 
 Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Camera& camera,

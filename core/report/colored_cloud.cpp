@@ -12,10 +12,11 @@
 namespace lvcalib {
 namespace {
 
-// Side of the cells in which the nearest point is kept, px: the neighbours' cells are looked at
-// too.
+// Side of the cells in which the nearest point is kept, px; the neighbours' cells are looked at
+// too, so that a near surface covers what is behind it from one point in 80 pixels on.
 constexpr int kCell_px = 3;
-// A surface that is seen at a slant changes its distance within a cell by less.
+// A surface that is seen at a slant changes its distance within those cells by less: at 1000 px of
+// focal length by a tenth at 85°. And ranges have noise and mixed returns.
 constexpr double kNearer = 0.1;
 constexpr double kNearer_m = 0.1;
 

@@ -23,15 +23,19 @@ using Matrix7d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 // Beams are a few mrad wide; what a threshold makes of one is a part of that.
 constexpr double kWidening_rad = 2e-3;
 // Edges within a part of this many to the image's width share what is wrong with them.
+// Things span a sixth of a picture; of sixteenths, the intervals of 12 simulated rooms covered
+// half.
 constexpr int kParts = 6;
+// Of a width; four do, as the next width goes on from there.
 constexpr int kIterations = 12;
-// A pose further away is taken if its gain is beyond so many σ.
+// A pose further away is taken if its gain is beyond so many σ: by chance in one case of forty.
 constexpr double kBetter = 2.0;
 // And contradicts beyond so many: by chance in one case of a thousand.
 constexpr double kSignificant = 3.1;
-// Nor may chance explain the offset itself, which is known less well than the gain.
+// Nor may chance explain the offset itself, which is known less well than the gain: beyond its 95 %
+// interval.
 constexpr double kOff = 2.0;
-// Edges that agree no better than chance at so many σ do not meet.
+// Edges that agree no better than chance at so many σ do not meet: by chance one case in 700.
 constexpr double kMeets = 3.0;
 
 // View, and place in its image.

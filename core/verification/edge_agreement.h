@@ -100,7 +100,8 @@ struct EdgeCheck {
   double offset_px = 0.0;  ///< Root mean square over the edges of what it does in the picture.
   double offset_sigma_px = 0.0;  ///< What chance would do there.
   double widening_mrad = 0.0;    ///< By how much range edges stand outside of what is seen.
-  /// A turn about the camera's axes x, y, z that would be noticed in nine cases of ten, rad.
+  /// A turn about the camera's axes x, y, z that would be noticed in nine cases of ten by its σ,
+  /// rad; in simulated rooms it was in three of four with one place, in nine of ten with three.
   Eigen::Vector3d noticed_turn_rad = Eigen::Vector3d::Zero();
 };
 

@@ -254,31 +254,30 @@ void PlanDialog::chooseTarget() {
   const QString path = choices_.target_to_open(this, folder_);
   if (path.isEmpty()) return;
   const auto file = read_target(path.toStdString());
-  error_.reset();
   if (file) {
     target_ = file->target;
     target_path_ = path;
-    folder_ = QFileInfo(path).absolutePath();
-    take(nullptr);
-  } else {
-    error_ = file.error();
   }
-  fillLidars();
-  refresh();
+  takeFile(path, file ? std::nullopt : std::optional(file.error()));
 }
 
 void PlanDialog::chooseCamera() {
   const QString path = choices_.camera_to_open(this, folder_);
   if (path.isEmpty()) return;
   const auto file = read_camera(path.toStdString());
-  error_.reset();
   if (file) {
     camera_ = file->camera;
     camera_path_ = path;
+  }
+  takeFile(path, file ? std::nullopt : std::optional(file.error()));
+}
+
+// Board or camera are now another file's, or not: the old plan is none of theirs.
+void PlanDialog::takeFile(const QString& path, const std::optional<Error>& error) {
+  error_ = error;
+  if (!error) {
     folder_ = QFileInfo(path).absolutePath();
     take(nullptr);
-  } else {
-    error_ = file.error();
   }
   fillLidars();
   refresh();

@@ -52,6 +52,7 @@ class PlanDialog : public QDialog {
   void fillEffects();
   void chooseTarget();
   void chooseCamera();
+  void takeFile(const QString& path, const std::optional<Error>& error);
   void chooseLidar(int index);
   void start();
   void take(const std::shared_ptr<const ScenePlan>& plan);

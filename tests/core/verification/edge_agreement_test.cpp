@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/simulator.h"
+#include "support/boardless_rooms.h"
 
 namespace lvcalib {
 namespace {
@@ -21,14 +22,7 @@ struct Place {
 
 const Place& place() {
   static const Place made = [] {
-    simulation::SimulationOptions options;
-    options.seed = 31;
-    options.scenes = 2;
-    options.image.width_px = 960;
-    options.image.height_px = 600;
-    options.placement.board = false;
-    options.lidar.kind = simulation::LidarKind::kRosette;
-    const auto rig = simulation::simulate(options, {});
+    const auto rig = simulation::simulate(test::boardless_rooms(), {});
     EXPECT_TRUE(rig.ok());
     Place out{rig->camera, rig->camera_from_lidar, {}};
     for (const simulation::SimulatedScene& scene : rig->scenes) {

@@ -10,6 +10,7 @@
 
 #include "simulation/dataset_writer.h"
 #include "simulation/simulator.h"
+#include "support/boardless_rooms.h"
 #include "views/image_view.h"
 #include "widgets/support/driver.h"
 
@@ -29,14 +30,7 @@ struct Rooms {
 const Rooms& rooms() {
   static const auto made = [] {
     auto out = std::make_unique<Rooms>();
-    simulation::SimulationOptions options;
-    options.seed = 31;
-    options.scenes = 2;
-    options.image.width_px = 960;
-    options.image.height_px = 600;
-    options.placement.board = false;
-    options.lidar.kind = simulation::LidarKind::kRosette;
-    const auto rig = simulation::simulate(options, {});
+    const auto rig = simulation::simulate(test::boardless_rooms(), {});
     EXPECT_TRUE(rig.ok());
     const std::filesystem::path path = out->folder.filePath("rooms").toStdString();
     EXPECT_TRUE(simulation::write_dataset(*rig, path).ok());
