@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 namespace lvcalib {
 namespace {
 
@@ -91,6 +93,27 @@ UncertainRigid3 UncertainRigid3::inverse() const {
 UncertainRigid3 UncertainRigid3::operator*(const UncertainRigid3& other) const {
   const Matrix6d ad = transform.adjoint();
   return {transform * other.transform, covariance + ad * other.covariance * ad.transpose()};
+}
+
+UncertainRigid3 information_mean(const std::vector<UncertainRigid3>& estimates) {
+  UncertainRigid3 out = estimates.front();
+  // Estimates are some milliradians apart: two steps would do.
+  constexpr int kSteps = 5;
+  for (int i = 0; i < kSteps; ++i) {
+    Matrix6d information = Matrix6d::Zero();
+    Vector6d rhs = Vector6d::Zero();
+    for (const UncertainRigid3& t : estimates) {
+      const Matrix6d weight = t.covariance.ldlt().solve(Matrix6d::Identity());
+      information += weight;
+      rhs += weight * se3_log(t.transform * out.transform.inverse());
+    }
+    const Eigen::LDLT<Matrix6d> factor(information);
+    const Vector6d step = factor.solve(rhs);
+    if (!step.allFinite()) break;
+    out.transform = se3_exp(step) * out.transform;
+    out.covariance = factor.solve(Matrix6d::Identity());
+  }
+  return out;
 }
 
 double rotation_distance_rad(const Rigid3& a, const Rigid3& b) {

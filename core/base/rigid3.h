@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -56,6 +58,11 @@ struct UncertainRigid3 {
   /// Composition of independent transforms.
   UncertainRigid3 operator*(const UncertainRigid3& other) const;
 };
+
+/// Information-weighted mean of independent estimates of one transform, with its covariance:
+/// Gauss–Newton from the first of them on Σ ξᵢᵀ Σᵢ⁻¹ ξᵢ with ξᵢ = Log(Tᵢ T⁻¹). At least one is
+/// given, and every covariance is positive definite.
+UncertainRigid3 information_mean(const std::vector<UncertainRigid3>& estimates);
 
 /// Angle of the rotation between two transforms, in radians.
 double rotation_distance_rad(const Rigid3& a, const Rigid3& b);

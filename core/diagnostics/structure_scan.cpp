@@ -245,7 +245,9 @@ std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
                                      const std::vector<StructureScore>& alone,
                                      const OwnRows& rows) {
   std::vector<StructureScore> out;
-  for (const auto& [first, second] : kPlaces) {
+  for (const auto& place : kPlaces) {
+    const auto first = place.first;
+    const auto second = place.second;
     const Covariate* x = find_in(covariates, first);
     const Covariate* y = find_in(covariates, second);
     if (x == nullptr || y == nullptr) continue;

@@ -167,7 +167,8 @@ std::vector<PatternMatch> separated(std::vector<RankedMatch> all, double separat
             [](const RankedMatch& a, const RankedMatch& b) { return a.gain > b.gain; });
   std::vector<PatternMatch> best;
   constexpr double kSeparationAngle = 20.0 * std::numbers::pi / 180.0;
-  for (const auto& [match, gain] : all) {
+  for (const RankedMatch& ranked : all) {
+    const PatternMatch& match = ranked.match;
     const bool taken = std::any_of(best.begin(), best.end(), [&](const PatternMatch& other) {
       return (match.pose.center_m - other.pose.center_m).norm() < separation_m &&
              angle_difference(match.pose.angle_rad, other.pose.angle_rad) < kSeparationAngle;

@@ -92,26 +92,13 @@ Vote count_votes(const std::vector<Proposal>& proposals, std::size_t scenes,
   return vote;
 }
 
-// Information-weighted mean of the agreeing proposals.
-UncertainRigid3 fuse(const std::vector<Proposal>& proposals, const Vote& vote, Rigid3 start) {
-  UncertainRigid3 out{start, Matrix6d::Identity()};
-  for (int i = 0; i < 5; ++i) {
-    Matrix6d information = Matrix6d::Zero();
-    Vector6d rhs = Vector6d::Zero();
-    for (const auto& index : vote.proposals) {
-      if (!index) continue;
-      const UncertainRigid3& t = proposals[*index].camera_from_lidar;
-      const Matrix6d weight = t.covariance.ldlt().solve(Matrix6d::Identity());
-      information += weight;
-      rhs += weight * se3_log(t.transform * out.transform.inverse());
-    }
-    const Eigen::LDLT<Matrix6d> factor(information);
-    const Vector6d step = factor.solve(rhs);
-    if (!step.allFinite()) break;
-    out.transform = se3_exp(step) * out.transform;
-    out.covariance = factor.solve(Matrix6d::Identity());
+// The mean of the agreeing proposals, at least one.
+UncertainRigid3 fuse(const std::vector<Proposal>& proposals, const Vote& vote) {
+  std::vector<UncertainRigid3> agreeing;
+  for (const auto& index : vote.proposals) {
+    if (index) agreeing.push_back(proposals[*index].camera_from_lidar);
   }
-  return out;
+  return information_mean(agreeing);
 }
 
 }  // namespace
@@ -128,12 +115,11 @@ std::optional<SceneConsensus> decide_scenes(const std::vector<SceneHypotheses>& 
     if (votes[p].score > votes[best].score) best = p;
   }
   SceneConsensus result;
-  result.camera_from_lidar =
-      fuse(proposals, votes[best], proposals[best].camera_from_lidar.transform);
+  result.camera_from_lidar = fuse(proposals, votes[best]);
   // A second count about the mean: the first is only as good as the scene it started from.
   const Vote final_vote = count_votes(proposals, scenes.size(), result.camera_from_lidar, false, 0);
-  if (final_vote.score >= votes[best].score) {
-    result.camera_from_lidar = fuse(proposals, final_vote, result.camera_from_lidar.transform);
+  if (final_vote.score > 0.0 && final_vote.score >= votes[best].score) {
+    result.camera_from_lidar = fuse(proposals, final_vote);
     votes[best] = final_vote;
   }
   result.score = votes[best].score;

@@ -70,8 +70,8 @@ Result<std::vector<AblationStep>> ablate(const CalibrationResult& result,
     if (context.stopped()) return Error::cancelled();
     const char* const changes[] = {
         "samples meet the plane along their rays, not at their feet",
-        "centres and their deviations by the transition's error function, not by medians, linear "
-        "midpoints and the layout",
+        ("centres and their deviations by the transition's error function, not by medians, linear "
+         "midpoints and the layout"),
         "the full covariance of a centre in the plane, not one deviation",
         "a term for the board's plane by its own covariance, not the nodes' third axis",
         "Huber's loss, not squares"};

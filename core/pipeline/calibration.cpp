@@ -94,7 +94,8 @@ class Calibration {
     for (std::size_t s = 0; s < same.size(); ++s) {
       SceneResult& scene = result_.scenes[s];
       if (!scene.reason.empty()) continue;
-      const auto& [image, cloud] = same[s];
+      const std::optional<std::size_t>& image = same[s].image;
+      const std::optional<std::size_t>& cloud = same[s].cloud;
       const auto first = std::find_if(same.begin(), same.begin() + static_cast<std::ptrdiff_t>(s),
                                       [&](const SameContent& other) {
                                         const auto t = static_cast<std::size_t>(&other - &same[0]);

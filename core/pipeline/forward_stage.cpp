@@ -74,6 +74,18 @@ std::vector<ForwardScene> forward_scenes(const CalibrationResult& result,
   return scenes;
 }
 
+namespace {
+
+// Where the joint solve starts. Planes alone may leave the LiDAR's position open by decimetres,
+// which the localized boards hold to some millimetres; measured circles know it better than those.
+Rigid3 start_pose(const SceneConsensus& consensus, const ExtrinsicSolution& features) {
+  if (!(consensus.camera_from_lidar.covariance.diagonal().minCoeff() > 0.0))
+    return features.camera_from_lidar.transform;
+  return information_mean({features.camera_from_lidar, consensus.camera_from_lidar}).transform;
+}
+
+}  // namespace
+
 Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                                            const std::vector<SceneObservations>& observations,
                                            const std::vector<std::size_t>& index,
@@ -81,7 +93,7 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                                            const ForwardOptions& options,
                                            const RunContext& context) {
   return solve_forward(forward_scenes(result, observations, index, start), *result.print,
-                       result.intrinsics.given, start.camera_from_lidar.transform, start.sigma_px,
+                       result.intrinsics.given, start_pose(result.consensus, start), start.sigma_px,
                        options, context);
 }
 

@@ -77,8 +77,7 @@ class NodeRefiner {
  public:
   NodeRefiner(const Cloud& cloud, const Target& target, const RefinementOptions& options,
               BoardRefinement& result)
-      : target_(target),
-        options_(options),
+      : options_(options),
         result_(result),
         window_(node_window(target)),
         nodes_(target.nodes()),
@@ -269,7 +268,6 @@ class NodeRefiner {
         Rigid3::from_matrix(R, result_.plane.to_lidar(layout_.translation_m));
   }
 
-  const Target& target_;
   const RefinementOptions& options_;
   BoardRefinement& result_;
   NodeWindow window_;

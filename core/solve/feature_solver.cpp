@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include <Eigen/SVD>
-
+#include "solve/alignment.h"
 #include "solve/robust_fit.h"
 #include "solve/solution_report.h"
 
@@ -54,31 +53,13 @@ Rigid3 closed_form_extrinsic(const std::vector<SceneObservations>& scenes, const
                                             {b.x(), b.y(), 0},
                                             {a.x(), b.y(), 0},
                                             {c.x(), c.y(), outline.size_m().maxCoeff()}};
-  std::vector<Eigen::Vector3d> camera;
-  std::vector<Eigen::Vector3d> lidar;
+  std::vector<PointPair> pairs;
   for (const SceneObservations& scene : scenes) {
     if (!scene.use) continue;
-    for (const Eigen::Vector3d& p : points) {
-      camera.push_back(scene.camera_from_board * p);
-      lidar.push_back(scene.lidar_from_board * p);
-    }
+    for (const Eigen::Vector3d& p : points)
+      pairs.push_back({scene.camera_from_board * p, scene.lidar_from_board * p, 1.0});
   }
-  if (camera.empty()) return {};
-  Eigen::Vector3d camera_mean = Eigen::Vector3d::Zero();
-  Eigen::Vector3d lidar_mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < camera.size(); ++i) {
-    camera_mean += camera[i] / static_cast<double>(camera.size());
-    lidar_mean += lidar[i] / static_cast<double>(camera.size());
-  }
-  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < camera.size(); ++i) {
-    cross += (camera[i] - camera_mean) * (lidar[i] - lidar_mean).transpose();
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2, 2) = -1.0;
-  const Eigen::Matrix3d R = svd.matrixU() * sign * svd.matrixV().transpose();
-  return Rigid3::from_matrix(R, camera_mean - R * lidar_mean);
+  return align_points(pairs);
 }
 
 Result<ExtrinsicSolution> solve_extrinsic(const std::vector<SceneObservations>& scenes,

@@ -25,8 +25,7 @@ class SizeFit {
  public:
   SizeFit(const BoardReturns& returns, const BlurredPrint& print, const Rigid3& lidar_from_board,
           const BoardLevels& levels, const BeamSpread& beam, const SceneNoise& noise)
-      : returns_(returns),
-        print_(print),
+      : print_(print),
         lidar_from_board_(lidar_from_board),
         levels_(levels),
         beam_(beam),
@@ -157,7 +156,6 @@ class SizeFit {
     return true;
   }
 
-  const BoardReturns& returns_;
   const BlurredPrint& print_;
   const Rigid3& lidar_from_board_;
   BoardLevels levels_;

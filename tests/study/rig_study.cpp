@@ -2,11 +2,12 @@
 // Calibrates many simulated rigs with nothing hidden and compares the results with truth and with
 // the Cramér–Rao bound. One CSV line per rig on standard output, the summary at the end.
 //
-//   rig_study [RIGS] [FIRST_SEED] [FOLDER]
+//   rig_study [RIGS] [FIRST_SEED] [FOLDER] [FIRST_INDEX]
 //
-// Rig k takes the k-th of three scanners in turn, a board with circles or without, and 3 to 10
-// scenes; seeds are consecutive. An interrupt (Ctrl+C) ends it after the rig at hand, with the
-// summary.
+// Rig k, counted from FIRST_INDEX (0), takes the k-th of three scanners in turn, a board with
+// circles or without, and 3 to 10 scenes; seeds are consecutive. An interrupt (Ctrl+C) ends it
+// after the rig at hand, with the summary.
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -44,6 +45,8 @@ struct RigOutcome {
   int scanner = 0;
   bool circles = true;
   double dof = 0.0;
+  // Squared distance of the extrinsic from what localization agreed on, in the latter's σ.
+  double place_chi = 0.0;
   std::vector<double> node_errors_mm;
   std::vector<double> corner_errors_px;
   std::string quality;
@@ -73,13 +76,6 @@ void compare_scene(const simulation::SimulatedRig& rig, const simulation::Simula
     }
   }
   if (!scene.refinement || !scene.used) return;
-  const Eigen::Vector2d c = rig.target.outline().center_m();
-  const Eigen::Vector3d middle(c.x(), c.y(), 0.0);
-  const bool right =
-      (scene.refinement->lidar_from_board * middle - truth.lidar_from_board * middle).norm() <
-          0.03 &&
-      rotation_distance_rad(scene.refinement->lidar_from_board, truth.lidar_from_board) < 0.05;
-  (right ? outcome.found : outcome.wrong) += 1;
   for (const RefinedNode& node : scene.refinement->nodes) {
     if (!node.valid) continue;
     outcome.node_errors_mm.push_back(
@@ -113,14 +109,33 @@ RigOutcome run_rig(int index, std::uint64_t seed, const std::filesystem::path& f
   }
   outcome.solved = true;
   outcome.quality = name_of(result->quality);
-  for (std::size_t s = 0; s < rig->scenes.size(); ++s)
+  const Rigid3 lidar_from_camera = result->extrinsic.camera_from_lidar.transform.inverse();
+  for (std::size_t s = 0; s < rig->scenes.size(); ++s) {
     compare_scene(*rig, rig->scenes[s], result->scenes[s], outcome);
+    if (!result->scenes[s].used) continue;
+    // Where the joint solve puts the board, which may be elsewhere than it was localized.
+    const Eigen::Vector2d c = rig->target.outline().center_m();
+    const Eigen::Vector3d middle(c.x(), c.y(), 0.0);
+    const auto& solved = result->extrinsic.scenes;
+    const auto own = std::find_if(solved.begin(), solved.end(), [&](const SceneSolution& x) {
+      return x.name == result->scenes[s].name;
+    });
+    if (own == solved.end()) continue;
+    const Rigid3 board = lidar_from_camera * own->camera_from_board;
+    const bool right = (board * middle - rig->scenes[s].lidar_from_board * middle).norm() < 0.03 &&
+                       rotation_distance_rad(board, rig->scenes[s].lidar_from_board) < 0.05;
+    (right ? outcome.found : outcome.wrong) += 1;
+  }
   const ExtrinsicError error = compare_extrinsics({result->extrinsic.camera_from_lidar.transform,
                                                    result->extrinsic.camera_from_lidar.covariance},
                                                   rig->camera_from_lidar);
   outcome.translation_mm = error.translation_mm;
   outcome.rotation_mrad = error.rotation_mrad;
   outcome.normalized = error.normalized;
+  const UncertainRigid3& agreed = result->consensus.camera_from_lidar;
+  const Vector6d off_agreed =
+      se3_log(result->extrinsic.camera_from_lidar.transform * agreed.transform.inverse());
+  outcome.place_chi = off_agreed.dot(agreed.covariance.ldlt().solve(off_agreed));
   Matrix6d information = Matrix6d::Zero();
   for (std::size_t s = 0; s < rig->scenes.size(); ++s) {
     if (result->scenes[s].used) information += scene_information(*rig, rig->scenes[s]);
@@ -223,19 +238,20 @@ int main(int argc, char** argv) {
   const int rigs = argc > 1 ? std::atoi(argv[1]) : 100;
   const std::uint64_t first = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   const std::filesystem::path folder = argc > 3 ? argv[3] : std::filesystem::temp_directory_path();
+  const int first_index = argc > 4 ? std::atoi(argv[4]) : 0;
   std::vector<RigOutcome> all;
   std::printf(
       "seed,scenes,found,wrong,translation_mm,rotation_mrad,bound_mm,bound_mrad,stated_mm,stated_"
-      "mrad,chi,node_chi,dof,inside,quality\n");
+      "mrad,chi,node_chi,place_chi,dof,inside,quality\n");
   std::signal(SIGINT, [](int) { interrupted = 1; });
   for (int k = 0; k < rigs && interrupted == 0; ++k) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(k);
-    all.push_back(run_rig(k, seed, folder));
+    all.push_back(run_rig(first_index + k, seed, folder));
     const RigOutcome& o = all.back();
-    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.0f,%d,%s\n",
+    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.2f,%.0f,%d,%s\n",
                 static_cast<unsigned long long>(seed), o.scenes, o.found, o.wrong, o.translation_mm,
                 o.rotation_mrad, o.bound_mm, o.bound_mrad, o.stated_mm, o.stated_mrad, o.bound_chi,
-                o.node_chi, o.dof, o.inside(), o.quality.c_str());
+                o.node_chi, o.place_chi, o.dof, o.inside(), o.quality.c_str());
     std::fflush(stdout);
   }
   summarize(all);
