@@ -298,6 +298,10 @@ were saved. Take them up again?</source>
         <translation>两半场景（%1）相差 %2 mm 和 %3 mrad，超出噪声所能解释的范围（χ² %4，上限 %5）：模型中缺少一个效应，或某个场景有误</translation>
     </message>
     <message>
+        <source>the joint solve puts the LiDAR %1 mm and %2 mrad from where the localized boards put it, more than both leave open: it may have locked onto another place of the print; add scenes with the board turned differently</source>
+        <translation>联合求解得到的激光雷达位置与标定板定位结果相差 %1 mm 和 %2 mrad，超出两者的不确定度：可能锁定在了图案的另一处；请增加标定板朝向不同的场景</translation>
+    </message>
+    <message>
         <source>two scenes: a mistake in one of them could not be told from one in the other</source>
         <translation>只有两个场景：无法分辨错误出在哪一个</translation>
     </message>

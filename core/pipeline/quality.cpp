@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "base/parallel.h"
@@ -433,6 +434,27 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
   judge_print_size(result, options, verdict);
 }
 
+// The joint solve ends where the boards were localized, or it has locked onto something else. What
+// localization states holds a systematic part besides its noise, so that nothing but another place
+// reaches the gate; added effects may move the extrinsic on purpose.
+void judge_place(const CalibrationResult& result, Verdict& verdict) {
+  const UncertainRigid3& localized = result.consensus.camera_from_lidar;
+  if (!result.model.empty() || !(localized.covariance.diagonal().minCoeff() > 0.0)) return;
+  const UncertainRigid3& solved = result.extrinsic.camera_from_lidar;
+  const Vector6d move = se3_log(solved.transform * localized.transform.inverse());
+  const Matrix6d spread = localized.covariance + solved.covariance;
+  // One in ten thousand, as where scenes are compared.
+  if (!(move.dot(spread.ldlt().solve(move)) > chi_square_gate(6, 1e-4))) return;
+  verdict.doubtful(
+      formatted(
+          "the joint solve puts the LiDAR %.0f mm and %.1f mrad from where the localized "
+          "boards put it",
+          1e3 * translation_distance_m(solved.transform.inverse(), localized.transform.inverse()),
+          1e3 * rotation_distance_rad(solved.transform, localized.transform)) +
+      ", more than both leave open: it may have locked onto another place of the print; add scenes "
+      "with the board turned differently");
+}
+
 Target scaled(Target t, double s) {
   for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
                          &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
@@ -551,6 +573,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                  "): the extrinsic rests on nodes, planes and corners");
   }
   if (result.forward) judge_print(result, options, verdict);
+  judge_place(result, verdict);
   judge_precision(x, options, verdict);
   for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);

@@ -105,6 +105,10 @@ inline constexpr const char* kCorePatterns[] = {
                       "the halves of the scenes (%1) differ by %2 mm and %3 mrad, more than noise "
                       "explains (χ² %4, at most %5): an effect is missing in the model, or one "
                       "scene is off"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the joint solve puts the LiDAR %1 mm and %2 mrad from where the localized "
+                      "boards put it, more than both leave open: it may have locked onto another "
+                      "place of the print; add scenes with the board turned differently"),
     QT_TRANSLATE_NOOP(
         "Core", "two scenes: a mistake in one of them could not be told from one in the other"),
     QT_TRANSLATE_NOOP("Core",

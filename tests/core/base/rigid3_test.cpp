@@ -152,5 +152,25 @@ TEST(UncertainRigid3, InverseAndCompositionAgreeWithMonteCarlo) {
   expect_close_covariance(of_product, product.covariance);
 }
 
+// Two estimates of one transform, one of which knows what the other does not.
+TEST(UncertainRigid3, TheMeanTakesEachDirectionFromWhoKnowsIt) {
+  Random random(7);
+  const Rigid3 truth = se3_exp(random_xi(random, 1, 1));
+  Vector6d sideways = Vector6d::Zero();
+  sideways(0) = 0.3;
+  Vector6d turned = Vector6d::Zero();
+  turned(5) = 0.02;
+  UncertainRigid3 open{se3_exp(sideways) * truth, 1e-8 * Matrix6d::Identity()};
+  open.covariance(0, 0) = 1.0;
+  UncertainRigid3 loose{se3_exp(turned) * truth, 1e-6 * Matrix6d::Identity()};
+  loose.covariance(5, 5) = 1.0;
+  const UncertainRigid3 mean = information_mean({open, loose});
+  EXPECT_LT(se3_log(mean.transform * truth.inverse()).norm(), 1e-4);
+  EXPECT_NEAR(mean.covariance(0, 0), 1e-6, 1e-8);
+  EXPECT_NEAR(mean.covariance(5, 5), 1e-8, 1e-10);
+  EXPECT_NEAR(mean.covariance(1, 1), 1e-8 / 1.01, 1e-10);
+  EXPECT_LT(difference(information_mean({open}).transform, open.transform), 1e-12);
+}
+
 }  // namespace
 }  // namespace lvcalib

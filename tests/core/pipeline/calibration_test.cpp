@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/calibration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -58,6 +59,28 @@ TEST(Calibrate, FindsTheTruthOnASimulatedDatasetWithoutAnyGuess) {
     EXPECT_GE(reports[k].fraction, reports[k - 1].fraction - 1e-9) << reports[k].stage;
   }
   EXPECT_EQ(reports.back().fraction, 1.0);
+}
+
+// Three planes turned so that they leave the LiDAR's position open by decimetres, and no circles:
+// the board is where it was localized, not where planes and corners alone would have it.
+TEST(Calibrate, PlanesThatLeaveThePositionOpenDoNotLoseThePrint) {
+  simulation::SimulationOptions options;
+  options.seed = 4400051;
+  options.scenes = 3;
+  options.lidar.kind = simulation::LidarKind::kRosette;
+  options.target.type = TargetType::kAprilGrid;
+  options.target.tag_spacing = 0.1 / 0.12;
+  const test::SimulatedDataset data(options);
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  const auto planes = std::find_if(result->methods.begin(), result->methods.end(),
+                                   [](const auto& m) { return m.name == "joint_refined"; });
+  ASSERT_NE(planes, result->methods.end());
+  EXPECT_GT(translation_distance_m(planes->camera_from_lidar, data.rig().camera_from_lidar), 0.1)
+      << "this rig no longer shows what it is here for";
+  expect_within_four_sigma(*result, data.rig().camera_from_lidar);
+  EXPECT_THAT(result->extrinsic.camera_from_lidar.transform,
+              test::IsNearPose(data.rig().camera_from_lidar, 2.0, 1.0));
 }
 
 TEST(Calibrate, RejectedScenesTakeNoPartAndLeavingThemOutLaterIsTheSame) {

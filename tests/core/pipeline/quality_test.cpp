@@ -66,6 +66,12 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
        [](auto& r) { r.extrinsic.camera_from_lidar.covariance(4, 4) = 0.0064; }},
       {"weak as weak", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.weak_directions = {"weak as weak"}; }},
+      {"the joint solve puts the LiDAR 220 mm and 0.0 mrad from where the localized boards put it",
+       Quality::kDoubtful,
+       [](auto& r) {
+         r.consensus.camera_from_lidar.covariance = 1e-4 * Matrix6d::Identity();
+         r.extrinsic.camera_from_lidar.transform.translation.y() = 0.22;
+       }},
       {"only one usable scene", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 1; }},
       {"two scenes", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 2; }},
       {"miss their model by 3.00 px", Quality::kDoubtful,
