@@ -79,9 +79,7 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
     sizes.intrinsics = result.intrinsics.prior_sigma;
   // A print of another size is, but for the extrinsic's own length, ranges of another scale.
   sizes.range_scale = std::hypot(sizes.range_scale, target.size_sigma);
-  result.covariance_total =
-      total_covariance(forward_scenes(result, observations, index, nodes), *result.print,
-                       *result.forward, sizes, how, context.thread_count());
+  result.covariance_total = total_covariance(*result.forward, sizes);
   return Done{};
 }
 

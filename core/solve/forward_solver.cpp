@@ -278,7 +278,7 @@ class ForwardSolver {
     int rounds_left = options_.max_iterations;
     // Few rows until the state stands still, then all of them, with shared errors.
     double last = HUGE_VAL;
-    for (; rounds_left > 0; --rounds_left) {
+    for (; rounds_left > 1; --rounds_left) {
       const auto step = iterate(early_rows(), true);
       if (!step) return false;
       // Where steps hardly shrink any more it is shared errors that are missing.
@@ -326,6 +326,7 @@ class ForwardSolver {
     LinearizationOptions how;
     how.robust_threshold = options_.robust_threshold;
     how.patch_m = options_.patch_m;
+    how.range_faults = true;
     return how;
   }
 
@@ -546,7 +547,9 @@ class ForwardSolver {
     solution_.prior = prior_;
     solution_.prior.set_sensor(state().sensor, noise().shared);
     solution_.globals_covariance = last_.covariance;
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+    for (const SceneEquations& scene : equations_)
+      solution_.range_faults.push_back(range_fault_term(scene, noise().shared));
+    parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       ForwardSceneResult& scene = solution_.scenes[s];
       const SceneFit& fit = fits_[s];
       scene.returns = returns_[s].size();
@@ -566,7 +569,7 @@ class ForwardSolver {
         scene.print_size = measure_print_size(returns_[s], print_, state().lidar_from_board(s),
                                               state().levels[s], state().beam, fit.noise);
       }
-    }
+    });
     std::vector<PrintSize> sizes;
     double inflation = 1.0;
     for (const ForwardSceneResult& scene : solution_.scenes) {

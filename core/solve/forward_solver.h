@@ -65,6 +65,7 @@ struct ForwardSolution {
   Eigen::Matrix3d blur_covariance = Eigen::Matrix3d::Zero();  ///< Of (hh, hv, vv), rad⁴.
   std::vector<ForwardSceneResult> scenes;
   std::vector<GlobalTerm> terms;  ///< What each scene says about the globals, at the solution.
+  std::vector<RangeFaultTerm> range_faults;  ///< Per scene, for total_covariance().
   GlobalPrior prior;
   Eigen::MatrixXd globals_covariance;  ///< Of all globals, prior included; zero where held.
   int iterations = 0;

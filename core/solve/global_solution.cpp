@@ -82,6 +82,32 @@ std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& term
   return out;
 }
 
+RangeFaultTerm range_fault_term(const SceneEquations& scene, const SharedVariances& variances) {
+  const Eigen::Index globals = scene.globals;
+  RangeFaultTerm out;
+  out.coupling = Eigen::MatrixXd::Zero(globals, kRangeFaults);
+  const Eigen::Index n = scene.normal.rows() - globals;
+  if (n <= 0 || scene.by_range_faults.rows() == 0) return out;
+  Eigen::MatrixXd own = scene.normal.bottomRightCorner(n, n);
+  for (std::size_t k = 0; k < kSceneErrors; ++k) {
+    for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
+      const Eigen::Index u = kLocals + scene.columns.first[k] + i;
+      own(u, u) += 1.0 / (moves_board(k) ? kAbsentShared[k] : variances[k]);
+    }
+  }
+  for (Eigen::Index i = 6; i < kLocals; ++i) {
+    if (own(i, i) <= 0.0) own(i, i) = 1.0;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(own);
+  if (factor.info() != Eigen::Success) return out;
+  const Eigen::MatrixXd& by = scene.by_range_faults;
+  const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
+  const RangeFaultTerm term{
+      by.topRows(globals) - scene.normal.topRightCorner(globals, n) * eliminated,
+      scene.range_faults - by.bottomRows(n).transpose() * eliminated};
+  return term.coupling.allFinite() && term.information.allFinite() ? term : out;
+}
+
 void GlobalPrior::set_sensor(const SensorErrors& sensor, const SharedVariances& variances) {
   const Eigen::Index count = sensor.count();
   sigma.conservativeResize(kGlobals + count);

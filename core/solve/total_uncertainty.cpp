@@ -1,71 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/total_uncertainty.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "base/parallel.h"
-
 namespace lvcalib {
-namespace {
 
-// What one scene says about the faults, its own unknowns eliminated.
-struct FaultTerm {
-  Eigen::Matrix<double, Eigen::Dynamic, kRangeFaults> coupling;  // By the globals.
-  Eigen::Matrix<double, kRangeFaults, kRangeFaults> information =
-      Eigen::Matrix<double, kRangeFaults, kRangeFaults>::Zero();
-};
-
-FaultTerm fault_term(const ForwardScene& scene, std::size_t s, const BlurredPrint& print,
-                     const ForwardSolution& solution, const ForwardOptions& options) {
-  const Eigen::Index globals = solution.prior.sigma.size();
-  FaultTerm out;
-  out.coupling = Eigen::MatrixXd::Zero(globals, kRangeFaults);
-  const SceneNoise& noise = solution.noise.scenes[s];
-  const BoardReturns returns = select_returns(
-      *scene.board_points, print, solution.state.lidar_from_board(s), solution.state.beam,
-      {noise.range_white_m, noise.range_black_m}, options.selection);
-  if (returns.size() == 0) return out;
-  LinearizationOptions how;
-  how.robust_threshold = options.robust_threshold;
-  how.patch_m = options.patch_m;
-  how.range_faults = true;
-  SceneFit fit;
-  const SceneEquations at =
-      linearize_scene(scene, s, returns, print, solution.state, solution.noise, how, 1, fit);
-  const Eigen::Index n = at.normal.rows() - globals;
-  Eigen::MatrixXd own = at.normal.bottomRightCorner(n, n);
-  for (std::size_t k = 0; k < kSceneErrors; ++k) {
-    for (Eigen::Index i = 0; i < at.columns.count[k]; ++i) {
-      const Eigen::Index u = kLocals + at.columns.first[k] + i;
-      own(u, u) += 1.0 / (moves_board(k) ? kAbsentShared[k] : solution.noise.shared[k]);
-    }
-  }
-  for (Eigen::Index i = 6; i < kLocals; ++i) {
-    if (own(i, i) <= 0.0) own(i, i) = 1.0;
-  }
-  const Eigen::LLT<Eigen::MatrixXd> factor(own);
-  if (factor.info() != Eigen::Success) return out;
-  const Eigen::MatrixXd& by = at.by_range_faults;
-  const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
-  const FaultTerm term{by.topRows(globals) - at.normal.topRightCorner(globals, n) * eliminated,
-                       at.range_faults - by.bottomRows(n).transpose() * eliminated};
-  return term.coupling.allFinite() && term.information.allFinite() ? term : out;
-}
-
-}  // namespace
-
-Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const BlurredPrint& print,
-                          const ForwardSolution& solution, const LeftOutSizes& sizes,
-                          const ForwardOptions& options, int threads) {
+Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& sizes) {
   const Matrix6d& own = solution.camera_from_lidar.covariance;
-  std::vector<FaultTerm> faults(scenes.size());
-  parallel_for(scenes.size(), threads, [&](std::size_t s) {
-    if (solution.terms[s].usable) faults[s] = fault_term(scenes[s], s, print, solution, options);
-  });
+  const std::vector<RangeFaultTerm>& faults = solution.range_faults;
   const Eigen::Index globals = solution.prior.sigma.size();
   const Eigen::Index all = globals + kRangeFaults;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
@@ -77,7 +22,7 @@ Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const Blurred
     if (!(s > 0.0)) s = sizes.intrinsics(k);
   }
   sigma.tail<kRangeFaults>() << sizes.range_offset_m, sizes.range_scale;
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
+  for (std::size_t s = 0; s < faults.size(); ++s) {
     if (!solution.terms[s].usable) continue;
     information.topLeftCorner(globals, globals) += solution.terms[s].information;
     gradient.head(globals) += solution.terms[s].gradient;

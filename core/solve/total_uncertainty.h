@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
 #include "solve/forward_solver.h"
 #include "solve/intrinsics_fit.h"
 
@@ -23,9 +21,7 @@ struct LeftOutSizes {
 /// them as further unknowns that are drawn to zero by their sizes. What the data rule out thus adds
 /// nothing, and what leaves no trace adds all it can do. To first order about `solution`; where the
 /// data ask for other intrinsics than the held ones, the square of that shift is in it as well.
-/// `scenes` are those that the solution was made from. Never below the solution's own covariance.
-Matrix6d total_covariance(const std::vector<ForwardScene>& scenes, const BlurredPrint& print,
-                          const ForwardSolution& solution, const LeftOutSizes& sizes,
-                          const ForwardOptions& options, int threads);
+/// Never below the solution's own covariance.
+Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& sizes);
 
 }  // namespace lvcalib

@@ -438,7 +438,7 @@ QString PlanDialog::problem() const {
 
 void PlanDialog::refresh() {
   const bool busy = work_.busy();
-  const auto name = [this](const QString& path, bool open) {
+  const auto name = [](const QString& path, bool open) {
     if (!path.isEmpty()) return QFileInfo(path).fileName();
     return open ? tr("of what is open") : tr("none yet");
   };
