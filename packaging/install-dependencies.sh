@@ -7,7 +7,7 @@
 set -euo pipefail
 
 build_packages=(
-  build-essential cmake ninja-build ccache pkg-config
+  build-essential clang cmake ninja-build ccache pkg-config
   libeigen3-dev libopencv-dev libopencv-contrib-dev libceres-dev libapriltag-dev
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libcairo2-dev liblzf-dev libboost-dev libssl-dev
   libmuparser-dev libzstd-dev liblz4-dev libbz2-dev libsqlite3-dev
@@ -16,7 +16,7 @@ build_packages=(
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev python3
   xvfb xauth xdotool imagemagick poppler-utils libgl1-mesa-dri)
-ci_packages=(clang clang-format clang-tidy libclang-rt-dev desktop-file-utils appstream man-db)
+ci_packages=(clang-format clang-tidy libclang-rt-dev desktop-file-utils appstream man-db)
 
 packages=("${build_packages[@]}")
 case "${1:-}" in

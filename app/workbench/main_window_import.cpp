@@ -66,7 +66,7 @@ void MainWindow::import_recording(const QString& path) {
     connect(import_, &ImportDialog::imported, this, &MainWindow::take_imported);
   }
   settings_.set_last_folder(QFileInfo(path).absolutePath());
-  import_->open(path);
+  import_->openRecording(path);
   import_->show();
   import_->raise();
   import_->activateWindow();
@@ -110,7 +110,7 @@ void MainWindow::import_files(const QString& folder) {
   }
   watch_imported_ = false;
   settings_.set_last_folder(QFileInfo(folder).absolutePath());
-  files_->open(folder);
+  files_->openFolder(folder);
   files_->show();
   files_->raise();
   files_->activateWindow();

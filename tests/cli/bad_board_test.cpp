@@ -122,7 +122,8 @@ struct WrongSize {
 class WrongTagSize : public ::testing::TestWithParam<WrongSize> {};
 
 TEST_P(WrongTagSize, IsMeasured) {
-  const auto [factor, whole_print] = GetParam();
+  const double factor = GetParam().factor;
+  const bool whole_print = GetParam().whole_print;
   const Target target;
   const auto scale = [&](const fs::path& dataset) {
     const auto line = [&](const char* key, double value) {

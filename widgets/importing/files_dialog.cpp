@@ -196,7 +196,7 @@ void FilesDialog::connectParts() {
   });
 }
 
-void FilesDialog::open(const QString& folder) {
+void FilesDialog::openFolder(const QString& folder) {
   images_->setText(QDir::toNativeSeparators(folder));
   clouds_->clear();
   camera_.reset();

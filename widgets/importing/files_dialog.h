@@ -32,7 +32,7 @@ class FilesDialog : public QDialog {
   ~FilesDialog() override;
 
   /// Looks through a folder.
-  void open(const QString& folder);
+  void openFolder(const QString& folder);
   [[nodiscard]] bool busy() const { return work_.busy(); }
   /// Where and how it looks for pairs, and the names of those that it has found.
   [[nodiscard]] PairOptions pairOptions() const;

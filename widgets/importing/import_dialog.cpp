@@ -136,7 +136,7 @@ void ImportDialog::build() {
 void ImportDialog::connectParts() {
   connect(other_, &QPushButton::clicked, this, [this] {
     const QString path = choices_.recording_to_open(this, QFileInfo(path_).absolutePath());
-    if (!path.isEmpty()) open(path);
+    if (!path.isEmpty()) openRecording(path);
   });
   connect(form_, &ImportForm::topicsChanged, this, [this] { lookAgain(true); });
   connect(form_, &ImportForm::limitsChanged, this, [this] { lookAgain(false); });
@@ -169,7 +169,7 @@ void ImportDialog::connectParts() {
     } else if (opened_) {
       lookAgain(true);
     } else {
-      open(path_);
+      openRecording(path_);
     }
   });
   connect(import_, &QPushButton::clicked, this, &ImportDialog::startImport);
@@ -197,7 +197,7 @@ void ImportDialog::connectParts() {
           });
 }
 
-void ImportDialog::open(const QString& path) {
+void ImportDialog::openRecording(const QString& path) {
   path_ = path;
   const QFileInfo info(path);
   if (info.fileName() == QLatin1String("metadata.yaml")) path_ = info.absolutePath();

@@ -31,7 +31,7 @@ class ImportDialog : public QDialog {
   ~ImportDialog() override;
 
   /// A file or folder; of a rosbag2 folder its metadata.yaml will do.
-  void open(const QString& path);
+  void openRecording(const QString& path);
   [[nodiscard]] bool busy() const { return work_.busy(); }
 
  Q_SIGNALS:
