@@ -167,10 +167,6 @@ were saved. Take them up again?</source>
         <translation>距离 (m)</translation>
     </message>
     <message>
-        <source>range beyond the board&apos;s plane (mm)</source>
-        <translation>超出标定板平面的距离 (mm)</translation>
-    </message>
-    <message>
         <source>intensity</source>
         <translation>强度</translation>
     </message>
@@ -197,6 +193,18 @@ were saved. Take them up again?</source>
     <message>
         <source>scene, counted as in the dataset</source>
         <translation>场景（按数据集中的次序编号）</translation>
+    </message>
+    <message>
+        <source>range beyond the model with its effects, mean over %1 mm (mm)</source>
+        <translation>距离超出含效应模型的值，%1 mm 内平均 (mm)</translation>
+    </message>
+    <message>
+        <source>range beyond the base model, mean over %1 mm (mm)</source>
+        <translation>距离超出基础模型的值，%1 mm 内平均 (mm)</translation>
+    </message>
+    <message>
+        <source>range beyond the board&apos;s plane, mean over %1 mm (mm)</source>
+        <translation>超出标定板平面的距离，%1 mm 内平均 (mm)</translation>
     </message>
 </context>
 <context>
@@ -4088,10 +4096,6 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <translation>距离</translation>
     </message>
     <message>
-        <source>Plane residual</source>
-        <translation>平面残差</translation>
-    </message>
-    <message>
         <source>Camera colour</source>
         <translation>相机颜色</translation>
     </message>
@@ -4148,10 +4152,6 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <translation>时间</translation>
     </message>
     <message>
-        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), the camera&apos;s own colours, the scan line&apos;s number, or the time since the scan began (ms)</source>
-        <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、超出标定板平面的距离 (mm)、相机颜色、扫描线号，或扫描开始后的时间 (ms)</translation>
-    </message>
-    <message>
         <source>Axes</source>
         <translation>坐标轴</translation>
     </message>
@@ -4182,6 +4182,14 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Draw a line about points to select them, at whatever depth. With Shift they are added to those selected (L)</source>
         <translation>圈住要选中的点，不论远近。按住 Shift 则加入已选中的点（L）</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>What the colours tell: intensity as recorded, height z (m), range (m), what the model in force leaves of the range, averaged over the board (mm), the camera&apos;s own colours, the scan line&apos;s number, or the time since the scan began (ms)</source>
+        <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、当前模型留下的距离残差（在标定板上取平均，mm）、相机颜色、扫描线号，或扫描开始后的时间 (ms)</translation>
     </message>
 </context>
 <context>
@@ -4242,6 +4250,10 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Look at the board, once it is found</source>
         <translation>找到标定板后对准它观看</translation>
+    </message>
+    <message>
+        <source>The board from behind</source>
+        <translation>从背面看标定板</translation>
     </message>
 </context>
 <context>
@@ -6655,6 +6667,30 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Replay the iterations from the first (P)</source>
         <translation>从第一次开始重放迭代 (P)</translation>
+    </message>
+    <message>
+        <source>Exclude these bins</source>
+        <translation>排除这些角度区间</translation>
+    </message>
+    <message>
+        <source>Leave out the returns in the selected angular bins of this circle, and solve again</source>
+        <translation>舍去此圆所选角度区间内的回波，并重新求解</translation>
+    </message>
+    <message>
+        <source>Exclude this circle</source>
+        <translation>排除此圆</translation>
+    </message>
+    <message>
+        <source>Leave out this circle in this scene, and solve again</source>
+        <translation>在此场景中舍去此圆，并重新求解</translation>
+    </message>
+    <message>
+        <source>Take back</source>
+        <translation>恢复</translation>
+    </message>
+    <message>
+        <source>Use again what was left out of this circle by hand</source>
+        <translation>重新使用此圆中手动舍去的部分</translation>
     </message>
 </context>
 <context>
