@@ -3749,8 +3749,8 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>没有圆</translation>
     </message>
     <message>
-        <source>paths enlarged ×%1</source>
-        <translation>路径放大 ×%1</translation>
+        <source>paths ×%1</source>
+        <translation>路径 ×%1</translation>
     </message>
 </context>
 <context>
@@ -5933,12 +5933,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>This board has no circles: there are no nodes for the other methods.</source>
         <translation>该标定板没有圆：其他方法没有节点可用。</translation>
     </message>
-    <message numerus="yes">
-        <source>All methods on the same %n scene(s), measured alike.</source>
-        <translation>
-            <numerusform>所有方法使用相同的 %n 个场景，以同样方式度量。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Not enough scenes for held-out residuals: two are needed.</source>
         <translation>场景不足以计算留出残差：需要两个。</translation>
@@ -5946,6 +5940,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Every return</source>
         <translation>全部回波</translation>
+    </message>
+    <message>
+        <source>All methods measured alike; scenes: %1.</source>
+        <translation>所有方法以同样方式度量；场景数：%1。</translation>
     </message>
 </context>
 <context>
@@ -6067,10 +6065,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>%1 和 %2</translation>
     </message>
     <message>
-        <source>If as large as</source>
-        <translation>若大到</translation>
-    </message>
-    <message>
         <source>Upper 95 % limit of its largest parameter; beyond it these scenes would show it</source>
         <translation>其最大参数的 95 % 上限；超过它这些场景就会显示出来</translation>
     </message>
@@ -6081,6 +6075,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Cannot be seen</source>
         <translation>看不到的</translation>
+    </message>
+    <message>
+        <source>if %1</source>
+        <translation>若 %1</translation>
     </message>
 </context>
 <context>
@@ -6116,6 +6114,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>How far the pose moved between two steps, and the residuals of every scene at both</source>
         <translation>两步之间位姿移动了多少，以及各场景在两步的残差</translation>
+    </message>
+    <message>
+        <source>The measurements are being collected and the model fitted …</source>
+        <translation>正在收集测量值并拟合模型……</translation>
     </message>
 </context>
 <context>
@@ -6974,10 +6976,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>已剔除</translation>
     </message>
     <message>
-        <source>not run yet</source>
-        <translation>尚未运行</translation>
-    </message>
-    <message>
         <source> (cropped)</source>
         <translation>（已裁剪）</translation>
     </message>
@@ -7068,6 +7066,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Your own words about the scene; kept in the project.</source>
         <translation>您对该场景的备注；保存在项目中。</translation>
+    </message>
+    <message>
+        <source>not run</source>
+        <translation>尚未运行</translation>
     </message>
 </context>
 <context>
@@ -7384,6 +7386,46 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Writing the report</source>
         <translation>写报告</translation>
+    </message>
+    <message>
+        <source>Fitting the model</source>
+        <translation>拟合模型</translation>
+    </message>
+    <message>
+        <source>Correcting</source>
+        <translation>校正</translation>
+    </message>
+    <message>
+        <source>Looking for structure</source>
+        <translation>查找结构</translation>
+    </message>
+    <message>
+        <source>Trying effects</source>
+        <translation>尝试效应</translation>
+    </message>
+    <message>
+        <source>Looking for advice</source>
+        <translation>查找建议</translation>
+    </message>
+    <message>
+        <source>Planning</source>
+        <translation>规划</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>检查</translation>
+    </message>
+    <message>
+        <source>Opening</source>
+        <translation>打开</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>写入</translation>
+    </message>
+    <message>
+        <source>Drawing</source>
+        <translation>绘制</translation>
     </message>
 </context>
 <context>

@@ -299,10 +299,10 @@ void CloudView::updateSide() {
 
 void CloudView::updateLegend() {
   const bool shown = scene_ && scene_->size() > 0;
-  legend_->setVisible(shown);
   if (shown && scene_->has_scale)
     legend_->setScale(scene_->scale, scene_->quantity, scene_->whole, scene_->histogram);
   if (shown && !scene_->has_scale) legend_->setNameOnly(scene_->quantity);
+  legend_->setVisible(shown);  // As wide as it will be.
   notice_->setText(scene_ ? scene_->notice : QString());
   notice_->setVisible(!notice_->text().isEmpty());
 }
