@@ -13,7 +13,7 @@ void give_memory_back() {
 #ifdef __GLIBC__
   // Fixed: left alone, it grows with what is freed, until whole clouds stay in the heap.
   constexpr int kLarge = 256 * 1024;
-  constexpr int kHeaps = 4;
+  constexpr int kHeaps = 2;
   mallopt(M_MMAP_THRESHOLD, kLarge);
   mallopt(M_TRIM_THRESHOLD, kLarge);
   mallopt(M_ARENA_MAX, kHeaps);

@@ -120,7 +120,7 @@ TEST_F(NewcomerTest, TheFirstHourIsAsTheGuideSays) {
             "<b>Range walk is missing.</b>");
   EXPECT_EQ(proposals->topLevelItem(0)->text(0), "Range walk");
   EXPECT_EQ(proposals->topLevelItem(0)->text(1), "present");
-  EXPECT_TRUE(test::find<QPushButton>(*coach, "coach_next")->isEnabled());
+  EXPECT_TRUE(wait([&] { return test::find<QPushButton>(*coach, "coach_next")->isEnabled(); }));
   test::find<QPushButton>(window_, "add_proposal")->click();
   ASSERT_TRUE(wait([&] {
     return window_.model_work().current() == 1 && window_.model_work().ranking() &&
