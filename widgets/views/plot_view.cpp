@@ -91,20 +91,17 @@ void PlotView::changeEvent(QEvent* event) {
   const QEvent::Type what = event->type();
   if (what != QEvent::LanguageChange && what != QEvent::PaletteChange && what != QEvent::FontChange)
     return;
-  const auto follow = [this, what] {
-    if (what != QEvent::LanguageChange) {
-      colors_ = PlotColors::of(palette());
-      applyColors();
-    }
-    rebuild();
-  };
-  if (isVisible()) return follow();
+  if (what != QEvent::LanguageChange) {
+    colors_ = PlotColors::of(palette());
+    applyColors();
+  }
+  if (isVisible()) return rebuild();
   // What nobody sees waits its turn: all figures at once would keep the window from answering.
   static int turn = 0;
   constexpr int kTurns = 32;
   constexpr int kTurn_ms = 12;
   turn = (turn + 1) % kTurns;
-  QTimer::singleShot(kTurn_ms * (1 + turn), this, follow);
+  QTimer::singleShot(kTurn_ms * (1 + turn), this, [this] { rebuild(); });
 }
 
 void PlotView::keyPressEvent(QKeyEvent* event) {
