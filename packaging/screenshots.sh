@@ -3,13 +3,21 @@
 # Makes pictures of every page and dialog of the desktop application, without a screen.
 #   packaging/screenshots.sh [FOLDER] [DATASET|demo] [LANGUAGE]
 #                                    default folder build/screenshots, dataset demo, language en
+#   packaging/screenshots.sh --all [FOLDER] [DATASET|demo]
+#                                    at 1280x720, 1920x1080 and 3840x2160 with scale 2, in English
+#                                    and Chinese, the window as large as the screen; a folder each
 #   packaging/screenshots.sh --guide the guide's pictures, small, into resources/guide
-# SCALE=2 draws as on a screen of twice the resolution.
+# Every picture is taken in light and in dark colours. SCALE=2 draws as on a screen of twice the
+# resolution. Chinese needs a Chinese font (fonts-noto-cjk).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 guide=
+all=
 if [[ ${1:-} == --guide ]]; then
   guide="$root/resources/guide"
+  shift
+elif [[ ${1:-} == --all ]]; then
+  all=1
   shift
 fi
 folder=$(realpath -m "${1:-$root/build/screenshots}")
@@ -21,9 +29,29 @@ cd "$root"
 cmake --preset release -DLVCALIB_BUILD_TESTS=ON
 cmake --build build/release --target lvcalib-screenshots
 mkdir -p "$folder"
-QT_SCALE_FACTOR=$scale LIBGL_ALWAYS_SOFTWARE=1 \
-  xvfb-run -a -s "-screen 0 $((1600 * scale))x$((1000 * scale))x24" \
-  build/release/bin/lvcalib-screenshots "$folder" "${@:2}"
+
+# take SCALE SCREEN FOLDER ARGUMENTS…
+take() {
+  QT_SCALE_FACTOR=$1 LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 $2x24 -nolisten tcp" \
+    build/release/bin/lvcalib-screenshots "${@:3}"
+}
+
+if [[ -n $all ]]; then
+  if [[ -z $(fc-list :lang=zh) ]]; then
+    echo "screenshots: there is no Chinese font: its texts would be boxes" >&2
+    exit 1
+  fi
+  for size in 1280x720 1920x1080 3840x2160; do
+    scale=1 window=$size
+    if [[ $size == 3840x2160 ]]; then scale=2 window=1920x1080; fi
+    for language in en zh_CN; do
+      take $scale $size "$folder/$size-$language" "${2:-demo}" $language $window
+    done
+  done
+  ls "$folder"
+  exit
+fi
+take "$scale" "$((1600 * scale))x$((1000 * scale))" "$folder" "${@:2}"
 
 # Few colours and less size: a guide's picture has 150 kB at most.
 if [[ -n $guide ]]; then

@@ -167,10 +167,6 @@ were saved. Take them up again?</source>
         <translation>距离 (m)</translation>
     </message>
     <message>
-        <source>range beyond the board&apos;s plane (mm)</source>
-        <translation>超出标定板平面的距离 (mm)</translation>
-    </message>
-    <message>
         <source>intensity</source>
         <translation>强度</translation>
     </message>
@@ -197,6 +193,18 @@ were saved. Take them up again?</source>
     <message>
         <source>scene, counted as in the dataset</source>
         <translation>场景（按数据集中的次序编号）</translation>
+    </message>
+    <message>
+        <source>range beyond the model with its effects, mean over %1 mm (mm)</source>
+        <translation>距离超出含效应模型的值，%1 mm 内平均 (mm)</translation>
+    </message>
+    <message>
+        <source>range beyond the base model, mean over %1 mm (mm)</source>
+        <translation>距离超出基础模型的值，%1 mm 内平均 (mm)</translation>
+    </message>
+    <message>
+        <source>range beyond the board&apos;s plane, mean over %1 mm (mm)</source>
+        <translation>超出标定板平面的距离，%1 mm 内平均 (mm)</translation>
     </message>
 </context>
 <context>
@@ -3745,8 +3753,8 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <translation>没有圆</translation>
     </message>
     <message>
-        <source>paths enlarged ×%1</source>
-        <translation>路径放大 ×%1</translation>
+        <source>paths ×%1</source>
+        <translation>路径 ×%1</translation>
     </message>
 </context>
 <context>
@@ -4092,10 +4100,6 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <translation>距离</translation>
     </message>
     <message>
-        <source>Plane residual</source>
-        <translation>平面残差</translation>
-    </message>
-    <message>
         <source>Camera colour</source>
         <translation>相机颜色</translation>
     </message>
@@ -4152,10 +4156,6 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <translation>时间</translation>
     </message>
     <message>
-        <source>What the colours tell: intensity as recorded, height z (m), range (m), range beyond the board&apos;s plane (mm), the camera&apos;s own colours, the scan line&apos;s number, or the time since the scan began (ms)</source>
-        <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、超出标定板平面的距离 (mm)、相机颜色、扫描线号，或扫描开始后的时间 (ms)</translation>
-    </message>
-    <message>
         <source>Axes</source>
         <translation>坐标轴</translation>
     </message>
@@ -4186,6 +4186,14 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Draw a line about points to select them, at whatever depth. With Shift they are added to those selected (L)</source>
         <translation>圈住要选中的点，不论远近。按住 Shift 则加入已选中的点（L）</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>What the colours tell: intensity as recorded, height z (m), range (m), what the model in force leaves of the range, averaged over the board (mm), the camera&apos;s own colours, the scan line&apos;s number, or the time since the scan began (ms)</source>
+        <translation>颜色的含义：记录的强度、高度 z (m)、距离 (m)、当前模型留下的距离残差（在标定板上取平均，mm）、相机颜色、扫描线号，或扫描开始后的时间 (ms)</translation>
     </message>
 </context>
 <context>
@@ -4246,6 +4254,10 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Look at the board, once it is found</source>
         <translation>找到标定板后对准它观看</translation>
+    </message>
+    <message>
+        <source>The board from behind</source>
+        <translation>从背面看标定板</translation>
     </message>
 </context>
 <context>
@@ -5925,12 +5937,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>This board has no circles: there are no nodes for the other methods.</source>
         <translation>该标定板没有圆：其他方法没有节点可用。</translation>
     </message>
-    <message numerus="yes">
-        <source>All methods on the same %n scene(s), measured alike.</source>
-        <translation>
-            <numerusform>所有方法使用相同的 %n 个场景，以同样方式度量。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Not enough scenes for held-out residuals: two are needed.</source>
         <translation>场景不足以计算留出残差：需要两个。</translation>
@@ -5938,6 +5944,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Every return</source>
         <translation>全部回波</translation>
+    </message>
+    <message>
+        <source>All methods measured alike; scenes: %1.</source>
+        <translation>所有方法以同样方式度量；场景数：%1。</translation>
     </message>
 </context>
 <context>
@@ -6059,10 +6069,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>%1 和 %2</translation>
     </message>
     <message>
-        <source>If as large as</source>
-        <translation>若大到</translation>
-    </message>
-    <message>
         <source>Upper 95 % limit of its largest parameter; beyond it these scenes would show it</source>
         <translation>其最大参数的 95 % 上限；超过它这些场景就会显示出来</translation>
     </message>
@@ -6073,6 +6079,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Cannot be seen</source>
         <translation>看不到的</translation>
+    </message>
+    <message>
+        <source>if %1</source>
+        <translation>若 %1</translation>
     </message>
 </context>
 <context>
@@ -6108,6 +6118,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>How far the pose moved between two steps, and the residuals of every scene at both</source>
         <translation>两步之间位姿移动了多少，以及各场景在两步的残差</translation>
+    </message>
+    <message>
+        <source>The measurements are being collected and the model fitted …</source>
+        <translation>正在收集测量值并拟合模型……</translation>
     </message>
 </context>
 <context>
@@ -6660,6 +6674,30 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>Replay the iterations from the first (P)</source>
         <translation>从第一次开始重放迭代 (P)</translation>
     </message>
+    <message>
+        <source>Exclude these bins</source>
+        <translation>排除这些角度区间</translation>
+    </message>
+    <message>
+        <source>Leave out the returns in the selected angular bins of this circle, and solve again</source>
+        <translation>舍去此圆所选角度区间内的回波，并重新求解</translation>
+    </message>
+    <message>
+        <source>Exclude this circle</source>
+        <translation>排除此圆</translation>
+    </message>
+    <message>
+        <source>Leave out this circle in this scene, and solve again</source>
+        <translation>在此场景中舍去此圆，并重新求解</translation>
+    </message>
+    <message>
+        <source>Take back</source>
+        <translation>恢复</translation>
+    </message>
+    <message>
+        <source>Use again what was left out of this circle by hand</source>
+        <translation>重新使用此圆中手动舍去的部分</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResidualMapPlot</name>
@@ -6942,10 +6980,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>已剔除</translation>
     </message>
     <message>
-        <source>not run yet</source>
-        <translation>尚未运行</translation>
-    </message>
-    <message>
         <source> (cropped)</source>
         <translation>（已裁剪）</translation>
     </message>
@@ -7036,6 +7070,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Your own words about the scene; kept in the project.</source>
         <translation>您对该场景的备注；保存在项目中。</translation>
+    </message>
+    <message>
+        <source>not run</source>
+        <translation>尚未运行</translation>
     </message>
 </context>
 <context>
@@ -7352,6 +7390,46 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Writing the report</source>
         <translation>写报告</translation>
+    </message>
+    <message>
+        <source>Fitting the model</source>
+        <translation>拟合模型</translation>
+    </message>
+    <message>
+        <source>Correcting</source>
+        <translation>校正</translation>
+    </message>
+    <message>
+        <source>Looking for structure</source>
+        <translation>查找结构</translation>
+    </message>
+    <message>
+        <source>Trying effects</source>
+        <translation>尝试效应</translation>
+    </message>
+    <message>
+        <source>Looking for advice</source>
+        <translation>查找建议</translation>
+    </message>
+    <message>
+        <source>Planning</source>
+        <translation>规划</translation>
+    </message>
+    <message>
+        <source>Checking</source>
+        <translation>检查</translation>
+    </message>
+    <message>
+        <source>Opening</source>
+        <translation>打开</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>写入</translation>
+    </message>
+    <message>
+        <source>Drawing</source>
+        <translation>绘制</translation>
     </message>
 </context>
 <context>

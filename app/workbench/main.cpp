@@ -5,6 +5,7 @@
 #include <QSurfaceFormat>
 #include <QTimer>
 
+#include "runner/memory.h"
 #include "start/app_settings.h"
 #include "workbench/language.h"
 #include "workbench/main_window.h"
@@ -66,6 +67,7 @@ int run(QApplication& application) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  lvcalib::widgets::give_memory_back();
   ask_for_opengl();
   QApplication application(argc, argv);
   QApplication::setApplicationName(QStringLiteral("lvcalib-workbench"));

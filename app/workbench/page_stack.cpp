@@ -9,6 +9,7 @@
 #include "pages/refinement_page.h"
 #include "pages/response_page.h"
 #include "pages/scene_page.h"
+#include "runner/model_work.h"
 #include "start/welcome_page.h"
 
 namespace lvcalib::widgets {
@@ -39,6 +40,7 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::cropCleared, this,
           [this](int scene) { Q_EMIT crop_wanted(scene, std::nullopt); });
   connect(scene_, &ScenePage::editsChanged, this, &PageStack::edits_wanted);
+  connect(refinement_, &RefinementPage::editsWanted, this, &PageStack::edits_wanted);
   connect(scene_, &ScenePage::patchExcluded, this, &PageStack::patch_excluded);
   connect(scene_, &ScenePage::insistWanted, this, &PageStack::insist_wanted);
   connect(response_, &ResponsePage::keepWanted, this, &PageStack::keep_wanted);
@@ -64,6 +66,7 @@ void PageStack::add_model_page(ModelWork& work) {
   model_ = new ModelPage(work, tabs_);
   tabs_->addTab(model_, {});
   connect(model_, &ModelPage::failed, this, &PageStack::failed);
+  connect(&work, &ModelWork::changed, scene_, [this, &work] { scene_->setModel(work.step()); });
   connect(model_, &ModelPage::samplesSelected, this,
           [this](const QString& scene, const std::vector<Eigen::Vector3d>& points,
                  const std::vector<Eigen::Vector2d>& pixels) {
@@ -141,6 +144,7 @@ void PageStack::set_crop_box(const std::optional<CropBox>& box) {
 
 void PageStack::set_edits(const SceneEdits& edits) {
   scene_->setEdits(edits);
+  refinement_->setEdits(edits);
 }
 
 void PageStack::set_scene_data(const SceneData& data) {

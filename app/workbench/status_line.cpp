@@ -47,6 +47,19 @@ void StatusLine::show_progress(const QString& stage, double fraction, const QStr
                                                    {"refine", tr("Refining")},
                                                    {"optimize", tr("Solving")},
                                                    {"simulate", tr("Simulating")},
+                                                   {"table", tr("Fitting the model")},
+                                                   {"normals", tr("Correcting")},
+                                                   {"model", tr("Fitting the model")},
+                                                   {"structure", tr("Looking for structure")},
+                                                   {"rank", tr("Trying effects")},
+                                                   {"verdicts", tr("Trying effects")},
+                                                   {"advice", tr("Looking for advice")},
+                                                   {"plan", tr("Planning")},
+                                                   {"check", tr("Checking")},
+                                                   {"correct", tr("Correcting")},
+                                                   {"open", tr("Opening")},
+                                                   {"write", tr("Writing")},
+                                                   {"draw", tr("Drawing")},
                                                    {"report", tr("Writing the report")}};
   QString name = stage;
   for (const auto& [key, words] : names) {

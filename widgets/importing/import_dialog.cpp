@@ -8,6 +8,7 @@
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScreen>
 #include <QSignalBlocker>
 #include <QSplitter>
 #include <QVBoxLayout>
@@ -59,7 +60,9 @@ ImportDialog::~ImportDialog() {
 }
 
 void ImportDialog::build() {
-  resize(1080, 860);
+  // Its buttons stay within a small screen.
+  const QSize room = screen() != nullptr ? screen()->availableSize() : QSize(1080, 860);
+  resize(QSize(1080, 860).boundedTo(room));
   const std::pair<QWidget*, const char*> named[] = {
       {title_, "import_title"},       {warnings_, "import_warnings"}, {problem_, "import_problem"},
       {progress_, "import_progress"}, {stop_, "import_stop"},         {import_, "import_start"},

@@ -121,13 +121,17 @@ MissingPane::MissingPane(QWidget* parent)
   list_->header()->setSectionResizeMode(kEffect, QHeaderView::Stretch);
   list_->header()->setSectionResizeMode(kVerdict, QHeaderView::ResizeToContents);
   list_->header()->setSectionResizeMode(kFall, QHeaderView::Fixed);
-  list_->header()->resizeSection(kFall, 74);
+  list_->header()->resizeSection(kFall, 62);
   budget_->setObjectName(QStringLiteral("sensitivity"));
-  budget_->setColumnCount(3);
+  budget_->setColumnCount(2);
   budget_->setRootIsDecorated(false);
-  budget_->setUniformRowHeights(true);
+  budget_->setWordWrap(true);
+  budget_->setTextElideMode(Qt::ElideNone);
+  connect(budget_->header(), &QHeaderView::sectionResized, budget_,
+          [this] { QTimer::singleShot(0, budget_, [this] { fitRows(); }); });
   budget_->header()->setStretchLastSection(false);
   budget_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  budget_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
   text_->setObjectName(QStringLiteral("proposal_text"));
   text_->setMinimumHeight(70);
   pattern_->setObjectName(QStringLiteral("pattern_plot"));
@@ -195,8 +199,8 @@ void MissingPane::setPattern(const std::shared_ptr<const ResidualFigure>& figure
 
 // A tree's rows do not grow with their words by themselves.
 void MissingPane::fitRows() {
-  const int width = list_->header()->sectionSize(kEffect);
-  const auto fit = [&](QTreeWidgetItem* item, int depth) {
+  const auto fit = [this](QTreeWidgetItem* item, int depth) {
+    const int width = item->treeWidget()->header()->sectionSize(kEffect);
     const int room = std::max(40, width - list_->indentation() * (depth + 1) - 8);
     const QRect text =
         QFontMetrics(item->font(kEffect).resolve(list_->font()))
@@ -209,6 +213,7 @@ void MissingPane::fitRows() {
     fit(top, 0);
     for (int c = 0; c < top->childCount(); ++c) fit(top->child(c), 1);
   }
+  for (int k = 0; k < budget_->topLevelItemCount(); ++k) fit(budget_->topLevelItem(k), 0);
 }
 
 const EffectProposal* MissingPane::current() const {
@@ -293,15 +298,15 @@ void MissingPane::fillBudget() {
                              .arg(limit.size, 0, 'g', 2)
                              .arg(QString::fromStdString(limit.unit));
     auto* item = new QTreeWidgetItem(
-        budget_,
-        {effect_title(limit.id), move_text(limit.translation_mm, limit.rotation_mrad), size});
+        budget_, {effect_title(limit.id) + QLatin1Char('\n') + tr("if %1").arg(size),
+                  move_text(limit.translation_mm, limit.rotation_mrad)});
     const auto p = std::find_if(ranking_->proposals.begin(), ranking_->proposals.end(),
                                 [&](const EffectProposal& q) { return q.finding.id == limit.id; });
     if (p == ranking_->proposals.end()) continue;
-    for (int column = 0; column < 3; ++column)
+    for (int column = 0; column < 2; ++column)
       item->setToolTip(column, core_text(p->finding.explanation));
   }
-  for (int column = 1; column < 3; ++column) budget_->resizeColumnToContents(column);
+  fitRows();
 }
 
 void MissingPane::updateVerdict() {
@@ -384,7 +389,7 @@ void MissingPane::retranslate() {
                              "spoil the extrinsic at the size that matters"));
   list_->setHeaderLabels({tr("Effect"), tr("Verdict"), tr("Error")});
   list_->setAccessibleName(tr("What is missing"));
-  budget_->setHeaderLabels({tr("Effect"), tr("Could move by"), tr("If as large as")});
+  budget_->setHeaderLabels({tr("Effect"), tr("Could move by")});
   budget_->headerItem()->setToolTip(
       2, tr("Upper 95 % limit of its largest parameter; beyond it these scenes would show it"));
   budget_->setAccessibleName(tr("What cannot be seen"));

@@ -43,7 +43,7 @@ ModelPage::~ModelPage() = default;
 
 void ModelPage::createLayout() {
   auto* left = new QWidget(this);
-  left->setMinimumWidth(210);  // Room for names and values.
+  left->setMinimumWidth(255);  // Room for names and values.
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(terms_, 1);
@@ -53,10 +53,11 @@ void ModelPage::createLayout() {
   columns->addWidget(left);
   columns->addWidget(where_);
   columns->addWidget(missing_);
+  missing_->setMinimumWidth(320);  // Names of effects, verdicts and falls side by side.
   columns->setStretchFactor(0, 0);
   columns->setStretchFactor(1, 1);
   columns->setStretchFactor(2, 0);
-  columns->setSizes({250, 400, 410});
+  columns->setSizes({265, 400, 420});
   auto* rows = new QSplitter(Qt::Vertical, this);
   rows->setChildrenCollapsible(false);
   budget_->setMinimumHeight(90);
@@ -140,7 +141,7 @@ void ModelPage::connectWork() {
   connect(&work_, &ModelWork::ranking_changed, this, &ModelPage::takeRanking);
   const auto busy = [this] {
     terms_->setChangeable(!work_.busy());
-    takeRanking();
+    takeSteps();
   };
   connect(&work_, &ModelWork::started, this, busy);
   connect(&work_, &ModelWork::ended, this, busy);
@@ -165,7 +166,9 @@ void ModelPage::showEvent(QShowEvent* event) {
 void ModelPage::takeSteps() {
   const ModelStepPtr step = work_.step();
   const ModelStepPtr base = step ? work_.steps().front() : nullptr;
-  title_->setText(step ? QString() : reason_);
+  const QString reason =
+      work_.busy() ? tr("The measurements are being collected and the model fitted …") : reason_;
+  title_->setText(step ? QString() : reason);
   title_->setVisible(!title_->text().isEmpty());
   budget_->setSteps(work_.steps(), work_.current());
   const auto& steps = work_.steps();
@@ -176,7 +179,7 @@ void ModelPage::takeSteps() {
     shown_ = step;
     source_.setSteps(step, base);
     terms_->setStep(step, base);
-    where_->setStep(step, reason_);
+    where_->setStep(step, reason);
     what_if_->setStep(step);
   }
   takeRanking();

@@ -46,8 +46,8 @@ void WherePane::createBar() {
   covariate_label_ = new QLabel(this);
   covariates_ = new QComboBox(this);
   covariates_->setObjectName(QStringLiteral("covariate"));
-  covariates_->setSizeAdjustPolicy(QComboBox::AdjustToContentsOnFirstShow);
-  covariates_->setMinimumContentsLength(16);
+  covariates_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  covariates_->setMinimumContentsLength(8);
   channel_label_->setBuddy(channels_);
   covariate_label_->setBuddy(covariates_);
   brush_ = new QToolButton(this);
@@ -60,7 +60,7 @@ void WherePane::createBar() {
   for (QWidget* w :
        std::initializer_list<QWidget*>{channel_label_, channels_, covariate_label_, covariates_})
     bar->addWidget(w);
-  bar->addStretch();
+  bar->setStretchFactor(covariates_, 1);
   bar->addWidget(before_);
   bar->addWidget(brush_);
   static_cast<QVBoxLayout*>(layout())->addLayout(bar);

@@ -274,7 +274,7 @@ QString SceneModel::state_words(const Row& row) const {
   if (!row.use) return tr("rejected");
   // What a run says counts; before it, and for a scene that it has not seen, what loading says.
   if (!row.ran && problems_.contains(row.name)) return core_text(problems_.value(row.name));
-  if (!row.ran) return tr("not run yet");
+  if (!row.ran) return tr("not run");
   const QString crop = row.cropped ? tr(" (cropped)") : QString();
   if (row.used && !row.objection.isEmpty())
     return tr("used all the same: %1").arg(core_text(row.objection)) + crop;

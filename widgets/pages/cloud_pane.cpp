@@ -37,7 +37,7 @@ void CloudPane::createToolBar() {
   color_ = new QComboBox(bar_);
   color_->setObjectName("cloud-color");
   for (const CloudColor color :
-       {CloudColor::kIntensity, CloudColor::kHeight, CloudColor::kRange, CloudColor::kPlaneResidual,
+       {CloudColor::kIntensity, CloudColor::kHeight, CloudColor::kRange, CloudColor::kResidual,
         CloudColor::kCameraColor, CloudColor::kLine, CloudColor::kTime})
     color_->addItem({}, static_cast<int>(color));
   filter_ = new QComboBox(bar_);
@@ -105,13 +105,13 @@ void CloudPane::createToolBar() {
 
 void CloudPane::retranslate() {
   bar_->setAccessibleName(tr("Cloud"));
-  const QStringList colors = {tr("Intensity"),     tr("Height"), tr("Range"), tr("Plane residual"),
+  const QStringList colors = {tr("Intensity"),     tr("Height"), tr("Range"), tr("Residual"),
                               tr("Camera colour"), tr("Line"),   tr("Time")};
   for (int k = 0; k < colors.size(); ++k) color_->setItemText(k, colors[k]);
   color_->setToolTip(
       tr("What the colours tell: intensity as recorded, height z (m), range (m), "
-         "range beyond the board's plane (mm), the camera's own colours, the scan line's number, "
-         "or the time since the scan began (ms)"));
+         "what the model in force leaves of the range, averaged over the board (mm), the camera's "
+         "own colours, the scan line's number, or the time since the scan began (ms)"));
   color_->setAccessibleName(tr("Colour of the points"));
   const QStringList filters = {tr("All points"), tr("Crop"), tr("Board"), tr("Boundary samples")};
   for (int k = 0; k < filters.size(); ++k) filter_->setItemText(k, filters[k]);
@@ -164,6 +164,11 @@ void CloudPane::setInput(CloudSceneInput input, std::vector<CloudLine> lines) {
   input_ = std::move(input);
   lines_ = std::move(lines);
   rebuild();
+}
+
+void CloudPane::setSurface(std::function<std::optional<BoardSurface>()> surface) {
+  input_.surface = std::move(surface);
+  if (color_->currentData().toInt() == static_cast<int>(CloudColor::kResidual)) rebuild();
 }
 
 void CloudPane::setUnused(std::vector<CloudLine> marks) {

@@ -31,6 +31,8 @@ class CloudPane : public QWidget {
 
   /// What to show; colour, filter and crop box are the pane's own and are filled in.
   void setInput(CloudSceneInput input, std::vector<CloudLine> lines);
+  /// What the model leaves over the board, if that is another than the input's.
+  void setSurface(std::function<std::optional<BoardSurface>()> surface);
   /// Marks at points on the board that are not used; shown if the user wants them.
   void setUnused(std::vector<CloudLine> marks);
   /// The crop box in force; none: not cropped.

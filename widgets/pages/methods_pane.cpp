@@ -51,6 +51,13 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   table_->setObjectName("methods");
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
+  // Numbers share the room there is, under titles of two lines: nothing needs to be scrolled to.
+  table_->horizontalHeader()->setMinimumSectionSize(30);
+  table_->horizontalHeader()->setFixedHeight(2 * table_->fontMetrics().height() + 8);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignCenter |
+                                                  static_cast<Qt::Alignment>(Qt::TextWordWrap));
   table_->horizontalHeader()->setHighlightSections(false);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -109,8 +116,7 @@ void MethodsPane::setResult(const CalibrationResult* result) {
   } else if (!shown.target.has_circles()) {
     text = tr("This board has no circles: there are no nodes for the other methods.");
   } else {
-    text = tr("All methods on the same %n scene(s), measured alike.", nullptr,
-              static_cast<int>(shown.methods.front().scenes.size()));
+    text = tr("All methods measured alike; scenes: %1.").arg(shown.methods.front().scenes.size());
     if (!shown.methods.front().heldout_px)
       text += " " + tr("Not enough scenes for held-out residuals: two are needed.");
   }
@@ -141,7 +147,6 @@ void MethodsPane::fillTable(const std::vector<MethodResult>& methods) {
       table_->setItem(static_cast<int>(k), c, item);
     }
   }
-  table_->resizeColumnsToContents();
 }
 
 void MethodsPane::fillBoxes(const CalibrationResult& result) {

@@ -11,6 +11,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <numbers>
 
 #include "base/units.h"
 #include "pipeline/refusals.h"
@@ -59,6 +60,13 @@ void RefinementPage::retranslate() {
   bins_->setHorizontalHeaderLabels(
       {tr("Angle (°)"), tr("Midpoint (mm)"), tr("σ (mm)"), tr("Samples"), tr("State")});
   bins_->setAccessibleName(tr("Angular bins of the chosen node"));
+  exclude_bins_->setText(tr("Exclude these bins"));
+  exclude_bins_->setToolTip(
+      tr("Leave out the returns in the selected angular bins of this circle, and solve again"));
+  exclude_circle_->setText(tr("Exclude this circle"));
+  exclude_circle_->setToolTip(tr("Leave out this circle in this scene, and solve again"));
+  take_back_->setText(tr("Take back"));
+  take_back_->setToolTip(tr("Use again what was left out of this circle by hand"));
   bins_->setToolTip(
       tr("Every angular bin of the chosen node: where the intensity crosses its middle "
          "level (mm from the circle), its standard deviation, and why it was refused"));
@@ -98,12 +106,14 @@ QWidget* RefinementPage::createDetail() {
   bins_->verticalHeader()->hide();
   bins_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   bins_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  bins_->setSelectionMode(QAbstractItemView::SingleSelection);
+  bins_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   connect(bins_, &QTableWidget::currentCellChanged, this,
           [this](int row, int, int, int) { large_->setChosenBin(row); });
+  connect(bins_, &QTableWidget::itemSelectionChanged, this, &RefinementPage::updateDecisions);
   layout->addWidget(large_, 3);
   layout->addWidget(verdict_);
   layout->addWidget(bins_, 2);
+  layout->addWidget(createDecisions());
   auto* bottom = new QSplitter(Qt::Horizontal, split);
   bottom->setChildrenCollapsible(false);
   map_ = new BoardMapPlot(bottom);
@@ -208,6 +218,88 @@ std::map<int, RefinementPage::Refused> RefinementPage::refusedCircles() const {
   }
   for (const int id : scene.edits.circles) out[id] = {tr("left out by hand"), false};
   return out;
+}
+
+QWidget* RefinementPage::createDecisions() {
+  auto* row = new QWidget(this);
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  const auto add = [&](QToolButton*& button, const char* name) {
+    button = new QToolButton(row);
+    button->setObjectName(QString::fromLatin1(name));
+    layout->addWidget(button);
+  };
+  add(exclude_bins_, "exclude-bins");
+  add(exclude_circle_, "exclude-circle");
+  add(take_back_, "take-back-circle");
+  layout->addStretch(1);
+  connect(exclude_bins_, &QToolButton::clicked, this, &RefinementPage::excludeBins);
+  connect(exclude_circle_, &QToolButton::clicked, this, [this] {
+    SceneEdits edits = edits_;
+    edits.circles.push_back(chosen_);
+    std::sort(edits.circles.begin(), edits.circles.end());
+    std::erase(edits.kept_circles, chosen_);
+    Q_EMIT editsWanted(scene_, edits);
+  });
+  connect(take_back_, &QToolButton::clicked, this, &RefinementPage::takeBack);
+  return row;
+}
+
+void RefinementPage::setEdits(const SceneEdits& edits) {
+  edits_ = edits;
+  updateDecisions();
+}
+
+std::vector<int> RefinementPage::selectedBins() const {
+  std::vector<int> rows;
+  for (const QModelIndex& index : bins_->selectionModel()->selectedRows())
+    rows.push_back(index.row());
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+bool RefinementPage::isOfChosen(const std::vector<Eigen::Vector2d>& patch_m) const {
+  const NodeWindow window = node_window(target_);
+  for (const TargetNode& node : target_.nodes()) {
+    if (node.id != chosen_) continue;
+    const double reach_m = window.radius_m + window.outside_m + 1e-6;
+    return !patch_m.empty() && std::all_of(patch_m.begin(), patch_m.end(), [&](const auto& p) {
+      return (p - node.center_m).norm() <= reach_m;
+    });
+  }
+  return false;
+}
+
+// Decided about is what the result shows, not what a run is still finding.
+void RefinementPage::updateDecisions() {
+  const NodeRecord* node = record(chosen_);
+  const bool known = node != nullptr && result_ != nullptr && scene_ >= 0;
+  const bool circle_out = contains_id(edits_.circles, chosen_);
+  const bool bins_out =
+      target_.has_circles() && std::any_of(edits_.patches_m.begin(), edits_.patches_m.end(),
+                                           [this](const auto& patch) { return isOfChosen(patch); });
+  exclude_bins_->setEnabled(known && !circle_out && !selectedBins().empty());
+  exclude_circle_->setEnabled(known && !circle_out);
+  take_back_->setEnabled(known && (circle_out || bins_out));
+}
+
+void RefinementPage::excludeBins() {
+  const NodeRecord* node = record(chosen_);
+  if (node == nullptr || node->bins.empty()) return;
+  SceneEdits edits = edits_;
+  const double width_rad = 2.0 * std::numbers::pi / static_cast<double>(node->bins.size());
+  for (const int row : selectedBins()) {
+    const double from_rad = -std::numbers::pi + row * width_rad;
+    edits.patches_m.push_back(ring_patch(target_, chosen_, from_rad, from_rad + width_rad));
+  }
+  Q_EMIT editsWanted(scene_, edits);
+}
+
+void RefinementPage::takeBack() {
+  SceneEdits edits = edits_;
+  std::erase(edits.circles, chosen_);
+  std::erase_if(edits.patches_m, [this](const auto& patch) { return isOfChosen(patch); });
+  Q_EMIT editsWanted(scene_, edits);
 }
 
 void RefinementPage::showIteration(int scene, std::shared_ptr<const BoardRefinement> partial) {
@@ -359,6 +451,7 @@ void RefinementPage::updateDetail() {
     large_->clear(message_.isEmpty() ? tr("no data") : QString());
   }
   fillBins(node);
+  updateDecisions();
   notice_->setText(message_);
   if (node == nullptr) {
     verdict_->setText(plots_.empty() ? QString() : message_.toHtmlEscaped());

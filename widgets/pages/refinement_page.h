@@ -40,6 +40,9 @@ class RefinementPage : public QWidget {
   /// Points of the scene's board for live plots before there is a result.
   void setLivePoints(int scene, std::shared_ptr<const Cloud> board_points);
 
+  /// What is decided about the current scene's measurements.
+  void setEdits(const SceneEdits& edits);
+
   [[nodiscard]] int iteration() const;
   [[nodiscard]] int chosenNode() const { return chosen_; }
 
@@ -53,6 +56,8 @@ class RefinementPage : public QWidget {
  Q_SIGNALS:
   /// The solve refused this circle; the user wants it used all the same.
   void keepWanted(const QString& scene, bool tag, int id);
+  /// The scene's edits are to be these.
+  void editsWanted(int scene, const lvcalib::SceneEdits& edits);
   void failed(const QString& message);
 
  private:
@@ -62,6 +67,7 @@ class RefinementPage : public QWidget {
     bool can_be_used = false;
   };
   QWidget* createDetail();
+  QWidget* createDecisions();
   QWidget* createReplay();
   void retranslate();
   void display(std::shared_ptr<const BoardRefinement> refinement,
@@ -71,6 +77,12 @@ class RefinementPage : public QWidget {
   void updatePlots();
   void updateDetail();
   void fillBins(const NodeRecord* record);
+  void updateDecisions();
+  void excludeBins();
+  void takeBack();
+  [[nodiscard]] std::vector<int> selectedBins() const;
+  /// The patch covers nothing but some of the ring about the chosen circle.
+  [[nodiscard]] bool isOfChosen(const std::vector<Eigen::Vector2d>& patch_m) const;
   void updateReplay();
   void advance();
   [[nodiscard]] const NodeRecord* record(int id) const;
@@ -91,6 +103,7 @@ class RefinementPage : public QWidget {
   int chosen_ = 0;
   QString message_;
   std::map<int, Refused> refused_;  // None while it runs.
+  SceneEdits edits_;
 
   QTimer player_;
   QWidget* grid_ = nullptr;
@@ -99,6 +112,9 @@ class RefinementPage : public QWidget {
   AngleDistancePlot* large_ = nullptr;
   QLabel* verdict_ = nullptr;
   QTableWidget* bins_ = nullptr;
+  QToolButton* exclude_bins_ = nullptr;
+  QToolButton* exclude_circle_ = nullptr;
+  QToolButton* take_back_ = nullptr;
   BoardMapPlot* map_ = nullptr;
   ConvergencePlot* convergence_ = nullptr;
   QSlider* slider_ = nullptr;

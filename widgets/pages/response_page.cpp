@@ -151,8 +151,6 @@ void ResponsePage::fillTables() {
     add_response_row(*classes_, name, cell.statistics, std::nullopt,
                      tr("not enough samples: %1").arg(cell.n));
   }
-  scenes_->resizeColumnsToContents();
-  classes_->resizeColumnsToContents();
 }
 
 QString ResponsePage::describe(const Refusal& refusal) {

@@ -136,6 +136,20 @@ void ScenePage::setResult(std::shared_ptr<const CalibrationResult> result) {
   refresh();
 }
 
+void ScenePage::setModel(ModelStepPtr step) {
+  if (step == model_) return;
+  model_ = std::move(step);
+  cloud_->setSurface(surface());
+}
+
+// Made by the thread that builds the picture, from what is in force now.
+std::function<std::optional<BoardSurface>()> ScenePage::surface() const {
+  if (current() == nullptr) return {};
+  return [result = result_, place = static_cast<std::size_t>(scene_), step = model_] {
+    return board_surface(*result, place, step.get());
+  };
+}
+
 void ScenePage::setScene(int index) {
   if (index == scene_) return;
   scene_ = index;
@@ -183,6 +197,7 @@ void ScenePage::refresh() {
     input.target = result_->target;
     input.camera = result_->camera;
     input.refinement = scene->refinement;
+    input.surface = surface();
     if (has_extrinsic(*result_)) {
       input.camera_from_lidar = result_->extrinsic.camera_from_lidar.transform;
     }

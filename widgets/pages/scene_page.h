@@ -3,13 +3,16 @@
 
 #include <QImage>
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "pages/scene_overlay.h"
+#include "pipeline/board_surface.h"
 #include "pipeline/calibration.h"
 #include "pipeline/crop_box.h"
 #include "pipeline/refusals.h"
+#include "selection/model_session.h"
 #include "views/cloud_scene.h"
 #include "views/image_overlay.h"
 
@@ -33,6 +36,8 @@ class ScenePage : public QWidget {
 
   /// Null: nothing is known yet.
   void setResult(std::shared_ptr<const CalibrationResult> result);
+  /// The model in force, for what it leaves over the board; null: the calibration's own.
+  void setModel(ModelStepPtr step);
   /// Which scene of the dataset; −1: none. Another scene's cloud and image are let go.
   void setScene(int index);
   [[nodiscard]] int scene() const { return scene_; }
@@ -84,11 +89,13 @@ class ScenePage : public QWidget {
   void showRefusal();
   [[nodiscard]] QString refusalOf(Refusal::What what, int id) const;
   void clearSelection();
+  [[nodiscard]] std::function<std::optional<BoardSurface>()> surface() const;
   void showSamples();
   [[nodiscard]] const SceneResult* current() const;
   [[nodiscard]] QString describePoint(const Cloud& cloud, std::uint32_t point) const;
 
   std::shared_ptr<const CalibrationResult> result_;
+  ModelStepPtr model_;
   std::shared_ptr<const Cloud> full_cloud_;
   QImage picture_;
   QString cloud_problem_;

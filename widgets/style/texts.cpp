@@ -130,7 +130,15 @@ void follow_language_in_title(QDockWidget& dock) {
 }
 
 QString core_text(const QString& text) {
-  return translated(text, 0);
+  const QString as_it_is = translated(text, 0);
+  if (as_it_is != text || text.isEmpty()) return as_it_is;
+  // Sentences about a file are listed with its name before them; here it may stand elsewhere.
+  const QString file(QChar(0xe000));
+  QString named = translated(file + QStringLiteral(": ") + text, 0);
+  if (named == file + QStringLiteral(": ") + text || !named.startsWith(file)) return text;
+  named.remove(0, 1);
+  static const QRegularExpression colon(QStringLiteral("^[:\\x{ff1a}]\\s*"));
+  return named.remove(colon);
 }
 
 QString core_text(const std::string& text) {

@@ -97,7 +97,9 @@ Theme theme_named(const QString& name) {
 
 void apply_theme(QApplication& application, Theme theme) {
   static const QPalette system = application.palette();  // As the desktop had it at the start.
-  application.setStyle(new ThemeStyle);
+  // Once: another style has every widget made up again, which takes a second in a full window.
+  if (dynamic_cast<ThemeStyle*>(QApplication::style()) == nullptr)
+    application.setStyle(new ThemeStyle);
   const bool dark = theme == Theme::kDark || (theme == Theme::kSystem && is_dark(system));
   application.setPalette(dark ? dark_palette() : light_palette());
 }

@@ -183,7 +183,7 @@ void BoardMapPlot::drawEllipse(const CenterPath& path, const QPen& pen) {
 void BoardMapPlot::drawCaption() {
   QString caption;
   if (!paths_.empty()) {
-    caption = tr("paths enlarged ×%1").arg(enlargement_, 0, 'g', 6);
+    caption = tr("paths ×%1").arg(enlargement_, 0, 'g', 6);
   } else if (!target_.has_circles()) {
     caption = tr("no circles");
   }

@@ -50,6 +50,8 @@ CloudCanvas::CloudCanvas(QWidget* parent) : QOpenGLWidget(parent) {
     moving_ = false;
     update();
   });
+  flight_step_.setInterval(15);
+  connect(&flight_step_, &QTimer::timeout, this, &CloudCanvas::flyOn);
   applyPalette();
 }
 
@@ -67,6 +69,29 @@ void CloudCanvas::redraw() {
   update();
 }
 
+void CloudCanvas::fly(CloudViewpoint viewpoint) {
+  from_ = pipeline_->viewer();
+  pipeline_->look(viewpoint);
+  to_ = pipeline_->viewer();
+  pipeline_->setViewer(from_);
+  flight_.start();
+  flight_step_.start();
+}
+
+void CloudCanvas::land() {
+  if (!flight_step_.isActive()) return;
+  flight_step_.stop();
+  pipeline_->setViewer(to_);
+  viewMoved();
+}
+
+void CloudCanvas::flyOn() {
+  const double share = static_cast<double>(flight_.elapsed()) / kFlight_ms;
+  if (share >= 1.0) return land();
+  pipeline_->setViewer(between(from_, to_, share));
+  viewMoved();
+}
+
 void CloudCanvas::viewMoved() {
   moving_ = true;
   rest_.start();
@@ -74,7 +99,7 @@ void CloudCanvas::viewMoved() {
 }
 
 bool CloudCanvas::complete() const {
-  return !begin_ && pipeline_->complete();
+  return !begin_ && !flight_step_.isActive() && pipeline_->complete();
 }
 
 QSize CloudCanvas::deviceSize() const {
@@ -116,6 +141,7 @@ void CloudCanvas::paintGL() {
     ++statistics_.portions;
   }
   const bool drew = begin_ || more;
+  if (begin_) Q_EMIT begun();
   begin_ = false;
   const QSize size = deviceSize();
   pipeline_->copyTo(defaultFramebufferObject(), size.width(), size.height());
@@ -188,6 +214,8 @@ void CloudCanvas::forward(CanvasMouse::Kind kind, CanvasMouse::Button button, co
   mouse.y = static_cast<int>(place.y() * devicePixelRatioF());
   mouse.shift = modifiers.testFlag(Qt::ShiftModifier);
   mouse.control = modifiers.testFlag(Qt::ControlModifier);
+  // Who takes the view by hand has seen enough of the flight.
+  if (kind != CanvasMouse::Kind::kMove) land();
   makeCurrent();
   pipeline_->handle(mouse);
 }

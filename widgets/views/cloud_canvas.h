@@ -34,13 +34,20 @@ class CloudCanvas : public QOpenGLWidget {
   /// As redraw(), and the view counts as moving for a moment.
   void viewMoved();
 
+  /// Moves the viewer there step by step, so that it is seen which way is which.
+  void fly(CloudViewpoint viewpoint);
+  /// Ends a flight where it goes to.
+  void land();
+
   [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
-  /// True once all points are in the picture.
+  /// True once all points are in the picture and the viewer has arrived.
   [[nodiscard]] bool complete() const;
   /// Size in device pixels.
   [[nodiscard]] QSize deviceSize() const;
 
  Q_SIGNALS:
+  /// A picture was begun: perhaps from another place.
+  void begun();
   /// A click that was neither a drag nor on a handle of the box; logical coordinates.
   void clicked(const QPointF& place);
   void boxEdited(const lvcalib::CropBox& box);
@@ -69,6 +76,11 @@ class CloudCanvas : public QOpenGLWidget {
   std::unique_ptr<CloudPipeline> pipeline_;
   FrameStatistics statistics_;
   QTimer rest_;
+  static constexpr int kFlight_ms = 400;
+  void flyOn();
+  Viewer from_, to_;
+  QElapsedTimer flight_;
+  QTimer flight_step_;
   QPointF pressed_;
   bool begin_ = true;
   bool moving_ = false;

@@ -4,7 +4,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 namespace lvcalib::widgets {
+
+Viewer between(const Viewer& from, const Viewer& to, double share) {
+  if (share >= 1.0) return to;
+  const double t = share * share * (3.0 - 2.0 * share);
+  // Columns: right, up, backwards.
+  const auto axes = [](const Viewer& v) {
+    Eigen::Matrix3d r;
+    r.col(2) = (v.eye_m - v.focus_m).normalized();
+    r.col(0) = v.up.cross(r.col(2)).normalized();
+    r.col(1) = r.col(2).cross(r.col(0));
+    return Eigen::Quaterniond(r);
+  };
+  const Eigen::Matrix3d turned = axes(from).slerp(t, axes(to)).toRotationMatrix();
+  const double near_m = (from.eye_m - from.focus_m).norm();
+  const double far_m = (to.eye_m - to.focus_m).norm();
+  Viewer out;
+  out.focus_m = from.focus_m + t * (to.focus_m - from.focus_m);
+  // Each step the same share nearer or farther.
+  out.eye_m = out.focus_m + near_m * std::pow(far_m / near_m, t) * turned.col(2);
+  out.up = turned.col(1);
+  out.angle_deg = from.angle_deg + t * (to.angle_deg - from.angle_deg);
+  return out;
+}
 
 ViewerPose viewer_pose(CloudViewpoint viewpoint, const Eigen::Vector3d& focus_m) {
   ViewerPose pose;

@@ -22,6 +22,17 @@ struct ViewerPose {
   double angle_deg = 30.0;  ///< Vertical field of view.
   bool fits_bounds = true;  ///< Only the direction counts: move back until everything is in sight.
 };
+/// Where a viewer stands for good: eye, what is looked at, and which way is up.
+struct Viewer {
+  Eigen::Vector3d eye_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d focus_m = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  double angle_deg = 30.0;
+};
+/// On the way from one place to another, 0…1: turns about the focus as it moves, at an even pace
+/// but for a soft start and end.
+Viewer between(const Viewer& from, const Viewer& to, double share);
+
 ViewerPose viewer_pose(CloudViewpoint viewpoint, const Eigen::Vector3d& focus_m);
 
 /// The affine map that takes the cube ±1 to a box.

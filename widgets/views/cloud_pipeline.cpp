@@ -301,6 +301,20 @@ void CloudPipeline::look(CloudViewpoint viewpoint) {
   vtk_->looked = true;
 }
 
+Viewer CloudPipeline::viewer() const {
+  vtkCamera* camera = vtk_->renderer->GetActiveCamera();
+  return {Eigen::Vector3d(camera->GetPosition()), Eigen::Vector3d(camera->GetFocalPoint()),
+          Eigen::Vector3d(camera->GetViewUp()), camera->GetViewAngle()};
+}
+
+void CloudPipeline::setViewer(const Viewer& viewer) {
+  vtkCamera* camera = vtk_->renderer->GetActiveCamera();
+  camera->SetFocalPoint(viewer.focus_m.data());
+  camera->SetPosition(viewer.eye_m.data());
+  camera->SetViewUp(viewer.up.data());
+  camera->SetViewAngle(viewer.angle_deg);
+}
+
 void CloudPipeline::turn(double azimuth_deg, double elevation_deg) {
   vtkCamera* camera = vtk_->renderer->GetActiveCamera();
   camera->Azimuth(azimuth_deg);

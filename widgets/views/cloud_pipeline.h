@@ -81,6 +81,8 @@ class CloudPipeline {
   /// Copies the picture to the framebuffer of the given name.
   void copyTo(unsigned framebuffer, int width_px, int height_px);
 
+  [[nodiscard]] Viewer viewer() const;
+  void setViewer(const Viewer& viewer);
   /// OpenGL's viewing and projection matrix.
   [[nodiscard]] Eigen::Matrix4d clipFromWorld() const;
 

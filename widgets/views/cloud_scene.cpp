@@ -65,6 +65,7 @@ class Builder {
     scene_->board_center_m =
         in_.refinement->lidar_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0);
     scene_->board_radius_m = 0.5 * outline.size_m().norm();
+    scene_->board_normal = in_.refinement->lidar_from_board.rotation * Eigen::Vector3d::UnitZ();
   }
 
   // How often values occur, beside the colours that they get.
@@ -158,9 +159,8 @@ class Builder {
   void paint() {
     if (in_.color == CloudColor::kCameraColor && paintFromImage()) return;
     const std::vector<float> values = quantities();
-    scene_->whole =
-        scale_for(values, in_.color == CloudColor::kPlaneResidual ? ColorMap::kDiverging
-                                                                  : ColorMap::kSequential);
+    scene_->whole = scale_for(
+        values, in_.color == CloudColor::kResidual ? ColorMap::kDiverging : ColorMap::kSequential);
     count(values);
     scene_->scale = scene_->whole;
     if (in_.range) {
@@ -200,10 +200,13 @@ class Builder {
       scene_->notice = CloudSceneText::tr("This cloud has no intensity; range is shown.");
       color = CloudColor::kRange;
     }
-    if (color == CloudColor::kPlaneResidual && !in_.refinement) {
-      scene_->notice =
-          CloudSceneText::tr("The board's plane is not known in this scene; range is shown.");
-      color = CloudColor::kRange;
+    if (color == CloudColor::kResidual) {
+      if (in_.surface) surface_ = in_.surface();
+      if (!surface_) {
+        scene_->notice =
+            CloudSceneText::tr("The board's plane is not known in this scene; range is shown.");
+        color = CloudColor::kRange;
+      }
     }
     if ((color == CloudColor::kLine || color == CloudColor::kScene) && !cloud.has_line()) {
       scene_->notice = CloudSceneText::tr("This cloud has no line numbers; range is shown.");
@@ -221,8 +224,8 @@ class Builder {
       case CloudColor::kRange:
         scene_->quantity = CloudSceneText::tr("range (m)");
         break;
-      case CloudColor::kPlaneResidual:
-        scene_->quantity = CloudSceneText::tr("range beyond the board's plane (mm)");
+      case CloudColor::kResidual:
+        scene_->quantity = residualName();
         break;
       case CloudColor::kLine:
         scene_->quantity = CloudSceneText::tr("scan line");
@@ -239,6 +242,22 @@ class Builder {
     return out;
   }
 
+  [[nodiscard]] QString residualName() const {
+    const double cell_mm = 1e3 * surface_->residuals.cell_m();
+    switch (surface_->against) {
+      case BoardSurface::Against::kModel:
+        return CloudSceneText::tr("range beyond the model with its effects, mean over %1 mm (mm)")
+            .arg(cell_mm, 0, 'f', 0);
+      case BoardSurface::Against::kBase:
+        return CloudSceneText::tr("range beyond the base model, mean over %1 mm (mm)")
+            .arg(cell_mm, 0, 'f', 0);
+      case BoardSurface::Against::kPlane:
+        break;
+    }
+    return CloudSceneText::tr("range beyond the board's plane, mean over %1 mm (mm)")
+        .arg(cell_mm, 0, 'f', 0);
+  }
+
   [[nodiscard]] float quantity(const Cloud& cloud, std::uint32_t i, CloudColor color) const {
     const Eigen::Vector3f& p = cloud.points_m[i];
     switch (color) {
@@ -246,12 +265,9 @@ class Builder {
         return p.z();
       case CloudColor::kRange:
         return p.norm();
-      case CloudColor::kPlaneResidual: {
-        const auto residual = in_.refinement->plane.range_residual_m(p.cast<double>());
-        // What is far off the plane is not the board.
-        constexpr double kReach_m = 0.1;
-        return residual && std::abs(*residual) < kReach_m ? static_cast<float>(1e3 * *residual)
-                                                          : kNan;
+      case CloudColor::kResidual: {
+        const auto mean = surface_->mean_m(p.cast<double>());
+        return mean ? static_cast<float>(1e3 * *mean) : kNan;
       }
       case CloudColor::kLine:
       case CloudColor::kScene:
@@ -266,6 +282,7 @@ class Builder {
   const CloudSceneInput& in_;
   std::stop_token stop_;
   std::shared_ptr<CloudScene> scene_;
+  std::optional<BoardSurface> surface_;
 };
 
 }  // namespace

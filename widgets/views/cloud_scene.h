@@ -4,6 +4,7 @@
 #include <QImage>
 #include <QString>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -15,6 +16,7 @@
 #include "base/rigid3.h"
 #include "camera/camera.h"
 #include "cloud/cloud.h"
+#include "pipeline/board_surface.h"
 #include "pipeline/crop_box.h"
 #include "refinement/board_refinement.h"
 #include "target/target.h"
@@ -27,7 +29,7 @@ enum class CloudColor {
   kIntensity,
   kHeight,
   kRange,
-  kPlaneResidual,
+  kResidual,  ///< What the model in force leaves of the range, averaged over the board.
   kCameraColor,
   kLine,
   kTime,
@@ -49,7 +51,10 @@ struct CloudSceneInput {
   CloudFilter filter = CloudFilter::kAll;
   CloudColor color = CloudColor::kIntensity;
   std::optional<CropBox> crop;
-  std::optional<BoardRefinement> refinement;  ///< For plane residuals and boundary samples.
+  std::optional<BoardRefinement> refinement;  ///< For the board's place and boundary samples.
+  /// What the model leaves over the board; called only if a picture needs it, by the thread that
+  /// builds the picture. May be empty.
+  std::function<std::optional<BoardSurface>()> surface = {};
   Target target;
   Camera camera;
   std::optional<Rigid3> camera_from_lidar;  ///< For pixels and camera colours.
@@ -81,6 +86,8 @@ struct CloudScene {
   /// Where the board is, and half its diagonal; radius 0 if it is not known.
   Eigen::Vector3d board_center_m = Eigen::Vector3d::Zero();
   double board_radius_m = 0.0;
+  /// Out of the board's printed side.
+  Eigen::Vector3d board_normal = Eigen::Vector3d::Zero();
 
   [[nodiscard]] std::size_t size() const { return order.size(); }
 };

@@ -96,6 +96,19 @@ void CloudView::createCanvas() {
     canvas_->setAccessibleName(tr("Point cloud"));
   });
   setFocusProxy(canvas_);
+  side_ = new QLabel(canvas_);
+  side_->setObjectName("cloud-side");
+  side_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  side_->setAutoFillBackground(true);
+  side_->setMargin(3);
+  side_->move(6, 6);
+  side_->hide();
+  follow_language(side_, [this] {
+    side_->setText(tr("The board from behind"));
+    side_->adjustSize();
+  });
+  // Not while the picture is being drawn.
+  connect(canvas_, &CloudCanvas::begun, this, &CloudView::updateSide, Qt::QueuedConnection);
   lasso_ = new Lasso(canvas_);
   connect(lasso_, &Lasso::drawn, this, &CloudView::brush);
   connect(canvas_, &CloudCanvas::clicked, this, &CloudView::pickAt);
@@ -109,7 +122,7 @@ void CloudView::createActions() {
     action->setShortcut(QKeySequence(key));
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     action->setEnabled(hasOpenGl());
-    connect(action, &QAction::triggered, this, [this, viewpoint] { look(viewpoint); });
+    connect(action, &QAction::triggered, this, [this, viewpoint] { canvas_->fly(viewpoint); });
     addAction(action);
     view_actions_.push_back(action);
   };
@@ -141,6 +154,7 @@ void CloudView::setScene(std::shared_ptr<const CloudScene> scene) {
   if (canvas_ != nullptr) {
     canvas_->pipeline().setScene(scene_);
     canvas_->pipeline().setHighlights({});
+    if (other || found) canvas_->land();
     if (other || found)
       canvas_->pipeline().look(has_board ? CloudViewpoint::kBoard : CloudViewpoint::kWhole);
     canvas_->redraw();
@@ -182,6 +196,7 @@ void CloudView::setBrushing(bool on) {
 
 void CloudView::look(CloudViewpoint viewpoint) {
   if (canvas_ == nullptr) return;
+  canvas_->land();
   canvas_->pipeline().look(viewpoint);
   canvas_->redraw();
 }
@@ -190,6 +205,7 @@ void CloudView::keyPressEvent(QKeyEvent* event) {
   if (canvas_ == nullptr) return QWidget::keyPressEvent(event);
   constexpr double kStep_deg = 5.0;
   constexpr double kZoom = 1.15;
+  canvas_->land();
   switch (event->key()) {
     case Qt::Key_Left:
       canvas_->pipeline().turn(kStep_deg, 0.0);
@@ -274,12 +290,19 @@ void CloudView::brush(const QPolygonF& line, bool add) {
   Q_EMIT pointsBrushed(points, add);
 }
 
+void CloudView::updateSide() {
+  const bool behind =
+      scene_ && scene_->board_radius_m > 0.0 &&
+      (canvas_->pipeline().viewer().eye_m - scene_->board_center_m).dot(scene_->board_normal) < 0.0;
+  side_->setVisible(behind);
+}
+
 void CloudView::updateLegend() {
   const bool shown = scene_ && scene_->size() > 0;
-  legend_->setVisible(shown);
   if (shown && scene_->has_scale)
     legend_->setScale(scene_->scale, scene_->quantity, scene_->whole, scene_->histogram);
   if (shown && !scene_->has_scale) legend_->setNameOnly(scene_->quantity);
+  legend_->setVisible(shown);  // As wide as it will be.
   notice_->setText(scene_ ? scene_->notice : QString());
   notice_->setVisible(!notice_->text().isEmpty());
 }

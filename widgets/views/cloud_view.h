@@ -77,6 +77,8 @@ class CloudView : public QWidget {
   void pickAt(const QPointF& place);
   void brush(const QPolygonF& line, bool add);
   void updateLegend();
+  /// Says so while the board is looked at from behind.
+  void updateSide();
   void showMenu(const QPoint& place);
 
   std::shared_ptr<const CloudScene> scene_;
@@ -84,6 +86,7 @@ class CloudView : public QWidget {
   Lasso* lasso_ = nullptr;
   ColorBar* legend_ = nullptr;
   QLabel* notice_ = nullptr;
+  QLabel* side_ = nullptr;
   FigureActions* figure_actions_ = nullptr;
   std::vector<QAction*> view_actions_;
   QPoint right_pressed_;

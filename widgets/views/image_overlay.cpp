@@ -159,6 +159,10 @@ void OverlayItem::paintUnusedPoints(QPainter& painter, double scale) const {
 
 void OverlayItem::paintTags(QPainter& painter, double scale) const {
   painter.setBrush(Qt::NoBrush);
+  // A label wider than its tag hides it: all of them, or none.
+  double width = 0.0;
+  for (const ImageOverlay::Tag& tag : overlay_.tags) width += tag.corners.boundingRect().width();
+  const bool labels = width * scale > 26.0 * static_cast<double>(overlay_.tags.size());
   for (const ImageOverlay::Tag& tag : overlay_.tags) {
     const QColor color = tag.id == highlighted_tag_ ? kChosenColor
                          : tag.left_out             ? kLeftOutColor
@@ -167,11 +171,9 @@ void OverlayItem::paintTags(QPainter& painter, double scale) const {
     if (!tag.used || tag.left_out) strike(painter, tag.corners, tag.left_out);
     painter.setPen(cosmetic(color, tag.id == highlighted_tag_ ? 3.0 : 1.6));
     painter.drawPolygon(tag.corners);
-    const QRectF box = tag.corners.boundingRect();
-    // A label wider than its tag hides it.
-    if (box.width() * scale > 26.0) {
-      draw_label(painter, box.center(), scale, QString::number(tag.id), color);
-    }
+    if (labels)
+      draw_label(painter, tag.corners.boundingRect().center(), scale, QString::number(tag.id),
+                 color);
   }
 }
 

@@ -5,7 +5,9 @@
 #include <QFile>
 #include <QMenu>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <algorithm>
+#include <typeinfo>
 
 namespace lvcalib::widgets {
 
@@ -42,8 +44,29 @@ void PlotView::clearFigure() {
   setTable({}, {});
 }
 
+namespace {
+
+// Words in lines that are not longer than `width`; a word that is longer stays whole.
+QString in_lines(const QString& text, const QFontMetrics& metrics, int width) {
+  QString out;
+  QString line;
+  for (const QString& word : text.split(QLatin1Char(' '))) {
+    const QString longer = line.isEmpty() ? word : line + QLatin1Char(' ') + word;
+    if (!line.isEmpty() && metrics.horizontalAdvance(longer) > width) {
+      out += line + QLatin1Char('\n');
+      line = word;
+    } else {
+      line = longer;
+    }
+  }
+  return out + line;
+}
+
+}  // namespace
+
 void PlotView::showMessage(const QString& text) {
   auto* item = new QCPItemText(this);
+  item->setProperty("words", text);
   item->setText(text);
   item->setColor(colors_.axis);
   item->setFont(font());
@@ -65,11 +88,20 @@ void PlotView::setTable(const QStringList& header, std::vector<QStringList> rows
 
 void PlotView::changeEvent(QEvent* event) {
   QCustomPlot::changeEvent(event);
-  if (event->type() == QEvent::LanguageChange) return rebuild();
-  if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
-  colors_ = PlotColors::of(palette());
-  applyColors();
-  rebuild();
+  const QEvent::Type what = event->type();
+  if (what != QEvent::LanguageChange && what != QEvent::PaletteChange && what != QEvent::FontChange)
+    return;
+  if (what != QEvent::LanguageChange) {
+    colors_ = PlotColors::of(palette());
+    applyColors();
+  }
+  if (isVisible()) return rebuild();
+  // What nobody sees waits its turn: all figures at once would keep the window from answering.
+  static int turn = 0;
+  constexpr int kTurns = 32;
+  constexpr int kTurn_ms = 12;
+  turn = (turn + 1) % kTurns;
+  QTimer::singleShot(kTurn_ms * (1 + turn), this, [this] { rebuild(); });
 }
 
 void PlotView::keyPressEvent(QKeyEvent* event) {
@@ -134,7 +166,39 @@ void PlotView::applyColors() {
   legend->setFont(font());
 }
 
+// As many numbers as there is room for.
+void PlotView::fitTicks() {
+  constexpr int kUsual = 5;
+  constexpr int kOtherParts_px = 70;  // Margins, labels and numbers of the other axis.
+  const QFontMetrics metrics(font());
+  for (QCPAxis* axis : {xAxis, xAxis2, yAxis, yAxis2}) {
+    QCPAxisTicker& ticker = *axis->ticker();
+    // Others place their own.
+    if (typeid(ticker) != typeid(QCPAxisTicker)) continue;
+    const bool across = axis->orientation() == Qt::Horizontal;
+    const QSize laid_out = axis->axisRect()->size();
+    const int known_px = across ? laid_out.width() : laid_out.height();
+    const int room_px = known_px > 10 ? known_px : (across ? width() : height()) - kOtherParts_px;
+    const int wanted_px =
+        across ? metrics.horizontalAdvance(QStringLiteral("0.0000")) : 2 * metrics.height();
+    ticker.setTickCount(std::clamp(room_px / std::max(1, wanted_px), 2, kUsual));
+  }
+}
+
+// A sentence is not cut off at the edges of a small figure.
+void PlotView::fitMessage() {
+  const int laid_out_px = axisRect()->width();
+  for (int k = 0; k < itemCount(); ++k) {
+    auto* text = qobject_cast<QCPItemText*>(item(k));
+    if (text == nullptr || !text->property("words").isValid()) continue;
+    text->setText(in_lines(text->property("words").toString(), QFontMetrics(text->font()),
+                           (laid_out_px > 10 ? laid_out_px : width()) - 12));
+  }
+}
+
 void PlotView::fitLabels() {
+  fitTicks();
+  fitMessage();
   constexpr double kOtherParts_px = 36.0;  // Margins, and the numbers below the figure.
   constexpr double kSmallest = 0.6;
   for (QCPAxis* axis : {yAxis, yAxis2}) {

@@ -54,6 +54,8 @@ class PlotView : public QCustomPlot {
   void applyColors();
   /// Labels of upright axes get letters as small as a low figure needs.
   void fitLabels();
+  void fitTicks();
+  void fitMessage();
   [[nodiscard]] QByteArray pdf();
 
   FigureActions* actions_;

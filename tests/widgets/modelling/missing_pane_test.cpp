@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modelling/missing_pane.h"
 
+#include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollBar>
+#include <QTabWidget>
+#include <QTest>
 #include <QTextBrowser>
 #include <QTreeWidget>
 
@@ -69,7 +73,20 @@ TEST(MissingPaneTest, WhatCannotBeSeenIsListedByWhatItCouldDo) {
   ASSERT_FALSE(limits.empty());
   ASSERT_EQ(budget->topLevelItemCount(), static_cast<int>(limits.size()));
   EXPECT_TRUE(
-      budget->topLevelItem(0)->text(2).contains(QString::fromStdString(limits.front().parameter)));
+      budget->topLevelItem(0)->text(0).contains(QString::fromStdString(limits.front().parameter)));
+  // Names in full and no scroll bar, as narrow as the pane is in a small window.
+  pane.resize(300, 420);
+  pane.show();
+  for (auto* tabs : pane.findChildren<QTabWidget*>()) tabs->setCurrentIndex(1);
+  QTest::qWait(50);
+  EXPECT_FALSE(budget->horizontalScrollBar()->isVisible());
+  for (int k = 0; k < budget->topLevelItemCount(); ++k) {
+    const QString text = budget->topLevelItem(k)->text(0);
+    const QRect shown = budget->visualItemRect(budget->topLevelItem(k));
+    const QRect needed = budget->fontMetrics().boundingRect(
+        QRect(0, 0, budget->header()->sectionSize(0) - 22, 1000), Qt::TextWordWrap, text);
+    EXPECT_GE(shown.height(), needed.height()) << text.toStdString();
+  }
   double last = HUGE_VAL;
   for (int k = 0; k < budget->topLevelItemCount(); ++k) {
     const double mm = budget->topLevelItem(k)->text(1).section(' ', 0, 0).toDouble();

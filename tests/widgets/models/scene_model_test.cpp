@@ -45,7 +45,7 @@ class SceneModelTest : public ::testing::Test {
 
 TEST_F(SceneModelTest, SaysWhatIsKnownOfEachScene) {
   EXPECT_EQ(model_.rowCount(), 4);
-  EXPECT_EQ(text(0, SceneModel::kState), "not run yet");
+  EXPECT_EQ(text(0, SceneModel::kState), "not run");
   EXPECT_EQ(text(3, SceneModel::kState), "missing on disk");
   EXPECT_EQ(text(0, SceneModel::kTags), "");
   model_.set_result(result());
@@ -63,7 +63,7 @@ TEST_F(SceneModelTest, SaysWhatIsKnownOfEachScene) {
             model_.index(1, SceneModel::kPoints).data(SceneModel::kSortRole).toInt());
   EXPECT_FALSE(model_.index(0, SceneModel::kState).data(Qt::DecorationRole).isNull());
   model_.set_result(nullptr);
-  EXPECT_EQ(text(0, SceneModel::kState), "not run yet");
+  EXPECT_EQ(text(0, SceneModel::kState), "not run");
 }
 
 // How a scene that is left out fits what the others give: in the colour of what does not count.

@@ -74,7 +74,7 @@ void photograph_scene(Photographer& photographer, const test::CalibratedDemo& de
   photographer.take(page, "scene-crop", done);
   crop->setChecked(false);
   page.cloudPane()->setFilter(CloudFilter::kBoard);
-  page.cloudPane()->setColor(CloudColor::kPlaneResidual);
+  page.cloudPane()->setColor(CloudColor::kResidual);
   settle(done, 5000);
   page.cloudPane()->view()->look(CloudViewpoint::kSensor);
   page.imagePane()->view()->zoomAt(page.imagePane()->view()->viewport()->rect().center(), 2.2);

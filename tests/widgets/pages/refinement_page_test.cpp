@@ -98,6 +98,45 @@ TEST_F(RefinementPageTest, CirclesThatTheSolveRefusedAreStruckThroughAndCanBeUse
   EXPECT_FALSE(plot(node.id)->isRefused());
 }
 
+TEST_F(RefinementPageTest, BinsAndCirclesAreExcludedAndTakenBack) {
+  load();
+  page_.chooseNode(3);
+  const auto button = [&](const char* name) { return page_.findChild<QToolButton*>(name); };
+  EXPECT_FALSE(button("exclude-bins")->isEnabled()) << "none is selected";
+  EXPECT_FALSE(button("take-back-circle")->isEnabled());
+  QSignalSpy wanted(&page_, &RefinementPage::editsWanted);
+  const auto click = [&](const char* name) {
+    QTest::mouseClick(button(name), Qt::LeftButton);
+    return wanted.isEmpty() ? SceneEdits() : wanted.takeLast()[1].value<SceneEdits>();
+  };
+  const auto cell = [&](int row) { return bins()->visualItemRect(bins()->item(row, 0)).center(); };
+  bins()->scrollToTop();
+  QTest::mouseClick(bins()->viewport(), Qt::LeftButton, {}, cell(0));
+  QTest::mouseClick(bins()->viewport(), Qt::LeftButton, Qt::ControlModifier, cell(1));
+  const SceneEdits two = click("exclude-bins");
+  ASSERT_EQ(two.patches_m.size(), 2U);
+  // What goes are the returns of these bins and no others.
+  const BoardRefinement& found = refinement();
+  const Cloud& board = demo_.result->scenes[0].board_points;
+  const auto gone = left_out_points(board, two, demo_.result->target, found.lidar_from_board);
+  const auto& records = found.history.back().nodes[3].bins;
+  EXPECT_NEAR(static_cast<double>(gone.size()), records[0].samples + records[1].samples,
+              0.2 * (records[0].samples + records[1].samples) + 10);
+  page_.setEdits(two);
+  const SceneEdits none = click("take-back-circle");
+  EXPECT_TRUE(none.empty());
+  page_.setEdits(none);
+  const SceneEdits circle = click("exclude-circle");
+  EXPECT_EQ(circle.circles, std::vector<int>{3});
+  page_.setEdits(circle);
+  EXPECT_FALSE(button("exclude-circle")->isEnabled());
+  EXPECT_TRUE(click("take-back-circle").empty());
+  // Of another circle nothing is taken back.
+  page_.chooseNode(4);
+  EXPECT_FALSE(button("take-back-circle")->isEnabled());
+  EXPECT_TRUE(button("exclude-circle")->isEnabled());
+}
+
 TEST_F(RefinementPageTest, RefusedBinsTellWhy) {
   auto changed = std::make_shared<CalibrationResult>(*demo_.result);
   NodeRecord& node = changed->scenes[0].refinement->history.back().nodes[2];

@@ -35,6 +35,7 @@ class Upside : public QTranslator {
       {"scene %1: %2", "<%2> in %1"},
       {"%1 is known %2 times worse than the typical direction: %3", "%2-fold: %1 (%3)"},
       {"rotation about the camera's x axis", "RX"},
+      {"%1: file not found", QString::fromUtf8("%1：NO FILE")},
       {"used", "in use"}};
 };
 
@@ -53,6 +54,13 @@ TEST_F(CoreTextTest, WholeSentencesAndPatterns) {
   EXPECT_EQ(core_text(std::string("rotation about the camera's x axis is known 7 times worse than "
                                   "the typical direction: add a scene")),
             "7-fold: RX (add a scene)");
+}
+
+TEST_F(CoreTextTest, ASentenceAboutAFileIsFoundWithAndWithoutItsName) {
+  EXPECT_EQ(core_text(std::string("/a/b.pcd: file not found")),
+            QString::fromUtf8("/a/b.pcd：NO FILE"));
+  EXPECT_EQ(core_text(std::string("file not found")), "NO FILE");
+  EXPECT_EQ(core_text(Error::input("file not found", "/a/b.pcd")), "/a/b.pcd: NO FILE");
 }
 
 TEST_F(CoreTextTest, WhatIsFilledInIsNotReadAsAPlace) {

@@ -31,6 +31,25 @@ TEST(CloudGeometry, AMirroredOrFlatMapIsStillABox) {
   EXPECT_GE(box_of_cube(cube_to_box(thin)).half_size_m.y(), 1e-3);
 }
 
+TEST(CloudGeometry, AFlightTurnsAboutTheFocusWithoutJumps) {
+  const Viewer from{{4, 0, 0}, {0, 0, 0}, Eigen::Vector3d::UnitZ(), 30.0};
+  const Viewer to{{0, 1, 3}, {0, 1, 0}, Eigen::Vector3d::UnitX(), 60.0};
+  EXPECT_LT((between(from, to, 0.0).eye_m - from.eye_m).norm(), 1e-12);
+  EXPECT_EQ(between(from, to, 1.0).eye_m, to.eye_m);
+  EXPECT_LT((between(from, to, 1.0 - 1e-9).eye_m - to.eye_m).norm(), 1e-6);
+  EXPECT_LT((between(from, to, 1.0 - 1e-9).up - to.up).norm(), 1e-6);
+  Viewer last = from;
+  for (int k = 1; k <= 100; ++k) {
+    const Viewer now = between(from, to, 0.01 * k);
+    const double away_m = (now.eye_m - now.focus_m).norm();
+    EXPECT_GE(away_m, 3.0 - 1e-9);
+    EXPECT_LE(away_m, 4.0 + 1e-9);
+    EXPECT_LT((now.eye_m - last.eye_m).norm(), 0.15);
+    EXPECT_NEAR(now.up.dot(now.eye_m - now.focus_m), 0.0, 1e-9);
+    last = now;
+  }
+}
+
 TEST(CloudGeometry, ViewpointsLookAtTheFocusWithAnUpThatIsAcross) {
   for (const auto viewpoint :
        {CloudViewpoint::kWhole, CloudViewpoint::kTop, CloudViewpoint::kSensor}) {

@@ -135,6 +135,67 @@ TEST(CloudScene, CameraColoursAreThoseOfThePixels) {
   EXPECT_GT(green, 100);
 }
 
+// A board across the x axis, of whose returns those on its left half lie 4 mm too far, all
+// scattered by far more.
+TEST(CloudScene, ResidualsAreMeansOverTheBoard) {
+  Rigid3 pose;
+  pose.translation = Eigen::Vector3d(3.0, 0.0, 0.0);
+  // The print faces the sensor.
+  pose.rotation =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitX());
+  Target target;
+  const BoardOutline outline = target.outline();
+  Random random(3);
+  auto cloud = std::make_shared<Cloud>();
+  std::vector<SurfaceSample> samples;
+  for (int k = 0; k < 40'000; ++k) {
+    const Eigen::Vector2d at =
+        outline.lower_left_m +
+        outline.size_m().cwiseProduct(Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)));
+    const double off = (at.x() < outline.center_m().x() ? 4e-3 : 0.0) + 0.02 * random.normal();
+    const Eigen::Vector3d p = pose * Eigen::Vector3d(at.x(), at.y(), 0.0);
+    cloud->points_m.push_back(((1.0 + off / p.norm()) * p).cast<float>());
+    samples.push_back({at, off});
+  }
+  cloud->points_m.push_back({5.0F, 0.0F, 0.0F});  // The wall behind it.
+  CloudSceneInput input;
+  input.full = cloud;
+  input.target = target;
+  input.color = CloudColor::kResidual;
+  input.surface = [&] {
+    return BoardSurface{BoardSurface::Against::kBase, pose, {outline, samples, 0.05}};
+  };
+  const auto scene = build_cloud_scene(input, {});
+  EXPECT_TRUE(scene->notice.isEmpty());
+  EXPECT_TRUE(scene->quantity.contains("base model")) << scene->quantity.toStdString();
+  EXPECT_TRUE(scene->quantity.contains("50 mm"));
+  // Single returns reach 60 mm; what is shown are millimetres.
+  EXPECT_LT(scene->whole.high, 10.0);
+  EXPECT_EQ(scene->scale.map, ColorMap::kDiverging);
+  const BoardSurface surface = *input.surface();
+  int left_red = 0;
+  int left = 0;
+  for (std::size_t k = 0; k < scene->size(); ++k) {
+    const std::uint32_t i = scene->order[k];
+    const QRgb shown = qRgb(scene->rgb[3 * k], scene->rgb[3 * k + 1], scene->rgb[3 * k + 2]);
+    if (i == cloud->size() - 1) {
+      EXPECT_EQ(shown, scene->scale.color(NAN)) << "not of the board";
+      continue;
+    }
+    // Not the point's own residual: that of its place.
+    const auto mean = surface.residuals.mean_m(samples[i].board_m);
+    ASSERT_TRUE(mean);
+    if (std::abs(samples[i].residual_m - *mean) > 0.02 && *mean > 2e-3) {
+      EXPECT_GT(qRed(shown), qBlue(shown));
+    }
+    if (samples[i].board_m.x() > outline.center_m().x() - 0.05) continue;
+    ++left;
+    left_red += qRed(shown) > qBlue(shown) ? 1 : 0;
+  }
+  EXPECT_GT(left, 10'000);
+  EXPECT_GT(left_red, 0.95 * left);
+}
+
 TEST(CloudScene, SaysWhatIsMissing) {
   CloudSceneInput input;
   EXPECT_FALSE(build_cloud_scene(input, {})->notice.isEmpty());
@@ -144,7 +205,7 @@ TEST(CloudScene, SaysWhatIsMissing) {
   const auto scene = build_cloud_scene(input, {});
   EXPECT_FALSE(scene->notice.isEmpty());
   EXPECT_EQ(scene->size(), 100U);
-  input.color = CloudColor::kPlaneResidual;
+  input.color = CloudColor::kResidual;
   EXPECT_FALSE(build_cloud_scene(input, {})->notice.isEmpty());
   input.color = CloudColor::kCameraColor;
   EXPECT_FALSE(build_cloud_scene(input, {})->notice.isEmpty());

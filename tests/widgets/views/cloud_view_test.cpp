@@ -3,6 +3,7 @@
 
 #include <QAction>
 #include <QElapsedTimer>
+#include <QLabel>
 #include <QMenu>
 #include <QSignalSpy>
 #include <QTabWidget>
@@ -134,6 +135,51 @@ TEST_F(CloudViewTest, DraggingTurnsAndKeysReset) {
   EXPECT_GT((top - start).norm(), 0.1);
   QTest::keyClick(view_.canvas(), Qt::Key_Left);
   EXPECT_GT((view_.canvas()->pipeline().clipFromWorld() - top).norm(), 0.01);
+}
+
+TEST_F(CloudViewTest, FliesFromViewToView) {
+  view_.setScene(scene_of(wall(50'000)));
+  QTest::qWait(50);
+  ASSERT_TRUE(settle());
+  const Viewer start = view_.canvas()->pipeline().viewer();
+  std::vector<Eigen::Vector3d> places;
+  QObject::connect(view_.canvas(), &CloudCanvas::begun, &view_,
+                   [&] { places.push_back(view_.canvas()->pipeline().viewer().eye_m); });
+  view_.canvas()->setFocus();
+  QTest::keyClick(view_.canvas(), Qt::Key_T);
+  EXPECT_FALSE(view_.canvas()->complete());
+  ASSERT_TRUE(settle());
+  const Viewer end = view_.canvas()->pipeline().viewer();
+  const double way_m = (end.eye_m - start.eye_m).norm();
+  ASSERT_GT(way_m, 0.5);
+  const auto under_way = std::count_if(places.begin(), places.end(), [&](const auto& p) {
+    return (p - start.eye_m).norm() > 0.02 * way_m && (p - end.eye_m).norm() > 0.02 * way_m;
+  });
+  EXPECT_GE(under_way, 3);
+  // A key that turns does so from where the flight goes to.
+  QTest::keyClick(view_.canvas(), Qt::Key_R);
+  QTest::keyClick(view_.canvas(), Qt::Key_Plus);
+  ASSERT_TRUE(settle());
+  EXPECT_LT((view_.canvas()->pipeline().viewer().focus_m - start.focus_m).norm(), 1e-6);
+}
+
+TEST_F(CloudViewTest, SaysWhenTheBoardIsSeenFromBehind) {
+  auto scene = std::make_shared<CloudScene>(*scene_of(wall(50'000)));
+  scene->board_center_m = scene->center_m;
+  scene->board_radius_m = 0.5;
+  scene->board_normal = -scene->center_m.normalized();  // Towards the sensor.
+  view_.setScene(scene);
+  ASSERT_TRUE(settle());
+  auto* side = view_.findChild<QLabel*>("cloud-side");
+  QTest::qWait(20);
+  EXPECT_FALSE(side->isVisible());
+  Viewer viewer = view_.canvas()->pipeline().viewer();
+  viewer.eye_m = scene->center_m - 2.0 * scene->board_normal;
+  view_.canvas()->pipeline().setViewer(viewer);
+  view_.canvas()->viewMoved();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return side->isVisible(); }, 2000));
+  view_.look(CloudViewpoint::kSensor);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !side->isVisible(); }, 2000));
 }
 
 TEST_F(CloudViewTest, WheelZooms) {

@@ -121,7 +121,7 @@ TEST_F(MainWindowTest, AcceptAndRejectActOnAllSelectedScenes) {
   EXPECT_TRUE(named);
   QTest::keyClick(dialog, Qt::Key_Escape);
   ASSERT_TRUE(trigger(*window_, "accept"));
-  EXPECT_EQ(cell(*window_, "B", SceneModel::kState), "not run yet");
+  EXPECT_EQ(cell(*window_, "B", SceneModel::kState), "not run");
 }
 
 TEST_F(MainWindowTest, AParameterRunsFromItsStageAndIsOneUndoStep) {

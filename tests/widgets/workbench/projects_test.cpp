@@ -117,7 +117,7 @@ TEST_F(ProjectsTest, MissingScenesAreMarkedAndTheRestIsUsable) {
   ASSERT_TRUE(write_project(path("p.lvcalib").toStdString(), project).ok());
   open(path("p.lvcalib"));
   EXPECT_EQ(cell(*window_, "Z", SceneModel::kState), "missing on disk");
-  EXPECT_EQ(cell(*window_, "A", SceneModel::kState), "not run yet");
+  EXPECT_EQ(cell(*window_, "A", SceneModel::kState), "not run");
   test::click_scene(*window_, "Z", true);
   EXPECT_FALSE(window_->workspace().dirty());
   EXPECT_EQ(
@@ -143,7 +143,7 @@ TEST_F(ProjectsTest, ScenesFromElsewhereJoinAndCanBeUndone) {
   fs::copy((dataset() + "/scenes/A").toStdString(), path("X").toStdString());
   answers_.scenes = {path("X")};
   ASSERT_TRUE(trigger(*window_, "add_scenes"));
-  EXPECT_EQ(cell(*window_, "X", SceneModel::kState), "not run yet");
+  EXPECT_EQ(cell(*window_, "X", SceneModel::kState), "not run");
   ASSERT_TRUE(trigger(*window_, "add_scenes"));  // Its name is taken now.
   EXPECT_NE(find<QDialog>(*window_, "error_dialog"), nullptr);
   window_->workspace().undo_stack().undo();

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the window has to reach with six scenes of a quarter million points each: memory, and how
+// long it lets a click wait. The marks are 600 MB and 100 ms on a machine that does nothing else;
+// the limits below leave room for one that does.
+#include <QComboBox>
+#include <QDialog>
+#include <QTabWidget>
+#include <QTemporaryDir>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include "runner/demo.h"
+#include "runner/memory.h"
+#include "widgets/support/driver.h"
+
+namespace lvcalib::window_marks_test {
+namespace {
+
+using widgets::MainWindow;
+
+// A number of /proc/self/status, in MB.
+double process_mb(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    double kb = 0.0;
+    if (word == name + ":" && status >> kb) return kb / 1024.0;
+  }
+  return 0.0;
+}
+
+// From here on VmHWM tells the largest size since now.
+void forget_peak() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+class WindowMarksTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    widgets::give_memory_back();
+    data_ = new QTemporaryDir;
+    simulation::SimulationOptions options;
+    options.seed = 3;
+    options.scenes = 6;
+    options.lidar.points = 250'000;
+    ASSERT_TRUE(widgets::make_demo(dataset().toStdString(), options, {}).ok());
+  }
+  static void TearDownTestSuite() {
+    delete data_;
+    EXPECT_TRUE(widgets::Runner::wait_for_workers(60'000));
+  }
+  static QString dataset() { return data_->filePath(QStringLiteral("dataset")); }
+
+  void SetUp() override {
+    forget_peak();
+    before_mb_ = process_mb("VmRSS");
+    settings_ = std::make_unique<widgets::AppSettings>(folder_.path());
+    window_ = std::make_unique<MainWindow>(*settings_, answers_);
+    window_->resize(1500, 900);
+    window_->show();
+    window_->open(dataset());
+    ASSERT_TRUE(test::wait_until(
+        [&] { return window_->workspace().is_open() && !window_->workspace().busy(); }));
+    ASSERT_TRUE(test::trigger(*window_, "run"));
+    ASSERT_TRUE(test::wait_for_result(*window_));
+  }
+  static void tell(const std::string& after) {
+    std::printf("  %.0f MB after %s\n", process_mb("VmRSS"), after.c_str());
+  }
+  // Every page, every scene.
+  void look_at_everything() {
+    auto* tabs = test::find<QTabWidget>(*window_, "pages");
+    tell("the run");
+    for (int tab = 0; tab < tabs->count(); ++tab) {
+      tabs->setCurrentIndex(tab);
+      QTest::qWait(500);
+      tell("page " + tabs->tabText(tab).toStdString());
+    }
+    ASSERT_TRUE(test::wait_until(
+        [&] { return window_->model_work().step() && !window_->model_work().busy(); }, 300'000));
+    tell("the model");
+    tabs->setCurrentIndex(0);
+    for (const char* scene : {"B", "C", "D", "E", "F", "A"}) {
+      test::click_scene(*window_, scene, false);
+      QTest::qWait(800);
+    }
+    tell("every scene");
+  }
+
+  static inline QTemporaryDir* data_ = nullptr;
+  QTemporaryDir folder_;
+  test::Answers answers_;
+  std::unique_ptr<widgets::AppSettings> settings_;
+  std::unique_ptr<MainWindow> window_;
+  double before_mb_ = 0.0;
+};
+
+TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
+  look_at_everything();
+  const double peak_mb = process_mb("VmHWM");
+  malloc_trim(0);
+  const double now_mb = process_mb("VmRSS");
+  std::printf("six scenes of 250 000 points: %.0f MB, %.0f MB at most (%.0f before the window)\n",
+              now_mb, peak_mb, before_mb_);
+  RecordProperty("window_mb", static_cast<int>(now_mb));
+  RecordProperty("window_peak_mb", static_cast<int>(peak_mb));
+  EXPECT_LT(now_mb, 660.0);
+}
+
+TEST_F(WindowMarksTest, EveryClickIsAnswered) {
+  look_at_everything();
+  test::Watchdog watchdog;
+  double worst_ms = 0.0;
+  const auto answered = [&](const std::string& what, const std::function<void()>& click) {
+    QTest::qWait(60);
+    watchdog.take_largest_ms();
+    click();
+    QCoreApplication::processEvents();
+    QTest::qWait(150);
+    const auto gap = static_cast<double>(watchdog.take_largest_ms());
+    if (gap > 60.0) std::cout << "  " << gap << " ms after " << what << '\n';
+    worst_ms = std::max(worst_ms, gap);
+  };
+  auto* tabs = test::find<QTabWidget>(*window_, "pages");
+  for (int k = 0; k < tabs->count(); ++k)
+    answered("tab " + std::to_string(k), [&] { tabs->setCurrentIndex(k); });
+  tabs->setCurrentIndex(0);
+  for (const char* scene : {"B", "C", "D", "A"})
+    answered(std::string("scene ") + scene, [&] { test::click_scene(*window_, scene, false); });
+  for (const char* box : {"cloud-color", "cloud-filter"}) {
+    auto* choice = test::find<QComboBox>(*window_, box);
+    for (int k = choice->count() - 1; k >= 0; --k)
+      answered(std::string(box) + " " + std::to_string(k), [&] { choice->setCurrentIndex(k); });
+  }
+  for (const char* name : {"results", "compare_results", "check_fresh_data", "plan_scenes",
+                           "target_camera", "print_board", "correct_clouds", "guide", "about"}) {
+    answered(name, [&] { test::trigger(*window_, name); });
+    for (QDialog* dialog : window_->findChildren<QDialog*>()) dialog->close();
+  }
+  for (const char* what : {"theme", "language"}) {
+    for (QAction* action : window_->findChildren<QAction*>(QString::fromLatin1(what)))
+      answered(what + (" " + action->data().toString().toStdString()), [&] { action->trigger(); });
+  }
+  answered("unticking a scene", [&] { test::click_scene(*window_, "B", true); });
+  answered("undoing that", [&] { test::trigger(*window_, "undo"); });
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  std::printf("slowest answer to a click: %.0f ms\n", worst_ms);
+  RecordProperty("slowest_answer_ms", static_cast<int>(worst_ms));
+  EXPECT_LT(worst_ms, 1500.0);
+}
+
+}  // namespace
+}  // namespace lvcalib::window_marks_test
