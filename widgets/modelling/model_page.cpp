@@ -43,7 +43,7 @@ ModelPage::~ModelPage() = default;
 
 void ModelPage::createLayout() {
   auto* left = new QWidget(this);
-  left->setMinimumWidth(255);  // Room for names and values.
+  left->setMinimumWidth(215);  // Room for names and values.
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(terms_, 1);
@@ -53,7 +53,7 @@ void ModelPage::createLayout() {
   columns->addWidget(left);
   columns->addWidget(where_);
   columns->addWidget(missing_);
-  missing_->setMinimumWidth(320);  // Names of effects, verdicts and falls side by side.
+  missing_->setMinimumWidth(285);  // Names of effects, verdicts and falls side by side.
   columns->setStretchFactor(0, 0);
   columns->setStretchFactor(1, 1);
   columns->setStretchFactor(2, 0);
