@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the window has to reach with six scenes of a quarter million points each: memory, and how
-// long it lets a click wait. The marks are 600 MB and 100 ms on a machine that does nothing else;
-// the limits below leave room for one that does.
+// long it lets a click wait. The marks are 600 MB and 100 ms, the
+// latter told and not asserted: other machines have other clocks.
 #include <QComboBox>
 #include <QDialog>
 #include <QTabWidget>
@@ -110,7 +110,7 @@ TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
               now_mb, peak_mb, before_mb_);
   RecordProperty("window_mb", static_cast<int>(now_mb));
   RecordProperty("window_peak_mb", static_cast<int>(peak_mb));
-  EXPECT_LT(now_mb, 660.0);
+  EXPECT_LT(now_mb, 600.0);
 }
 
 TEST_F(WindowMarksTest, EveryClickIsAnswered) {
@@ -152,7 +152,6 @@ TEST_F(WindowMarksTest, EveryClickIsAnswered) {
   ASSERT_TRUE(test::wait_for_result(*window_));
   std::printf("slowest answer to a click: %.0f ms\n", worst_ms);
   RecordProperty("slowest_answer_ms", static_cast<int>(worst_ms));
-  EXPECT_LT(worst_ms, 1500.0);
 }
 
 }  // namespace
