@@ -55,8 +55,10 @@ class Placer {
   // A point on a random camera ray at a random distance from the LiDAR.
   std::optional<Eigen::Vector3d> random_position() {
     const double border = options_.partial ? 0.05 : kImageBorder;
-    const Eigen::Vector2d pixel(camera_.width_px * random_.uniform(border, 1.0 - border),
-                                camera_.height_px * random_.uniform(border, 1.0 - border));
+    // One draw a statement: in which order a compiler evaluates arguments is its own choice.
+    const double down = random_.uniform(border, 1.0 - border);
+    const double across = random_.uniform(border, 1.0 - border);
+    const Eigen::Vector2d pixel(camera_.width_px * across, camera_.height_px * down);
     const double distance = random_.uniform(options_.min_distance_m, options_.max_distance_m);
     const auto ray = camera_.unproject(pixel);
     if (!ray) return std::nullopt;

@@ -42,15 +42,18 @@ class RoomBuilder {
       const int boxes = 2 + static_cast<int>(random_.below(3));
       for (int i = 0; i < boxes; ++i) add_box();
     }
-    const Eigen::Vector3d lamp(random_.uniform(-0.8, -0.2), random_.uniform(-0.6, 0.6), 1.0);
+    const double left = random_.uniform(-0.6, 0.6);
+    const Eigen::Vector3d lamp(random_.uniform(-0.8, -0.2), left, 1.0);
     room_.light = (lidar_from_room_ * lamp).normalized();
     return room_;
   }
 
  private:
   void turn_room() {
-    const Eigen::Vector3d turn(random_.normal(0.0, 1.0), random_.normal(0.0, 1.0),
-                               random_.uniform(-12.0, 12.0));
+    // One draw a statement: in which order a compiler evaluates arguments is its own choice.
+    const double yaw = random_.uniform(-12.0, 12.0);
+    const double pitch = random_.normal(0.0, 1.0);
+    const Eigen::Vector3d turn(random_.normal(0.0, 1.0), pitch, yaw);
     lidar_from_room_ = so3_exp(turn * kRadPerDeg).toRotationMatrix();
     if (!options_.placement.flush_on_wall) return;
     const Eigen::Vector3d ahead = -(lidar_from_board_.rotation * Eigen::Vector3d::UnitZ());
@@ -201,13 +204,16 @@ class RoomBuilder {
   }
 
   void add_box() {
-    const Eigen::Vector3d half(random_.uniform(0.12, 0.4), random_.uniform(0.12, 0.4),
-                               random_.uniform(0.15, 0.6));
-    const Texture print = texture(Texture::Kind::kClouds, random_.uniform(0.1, 0.7),
-                                  random_.uniform(0.0, 0.3), random_.uniform(0.1, 0.3));
+    const double half_height = random_.uniform(0.15, 0.6);
+    const double half_width = random_.uniform(0.12, 0.4);
+    const Eigen::Vector3d half(random_.uniform(0.12, 0.4), half_width, half_height);
+    const double grain_m = random_.uniform(0.1, 0.3);
+    const double contrast = random_.uniform(0.0, 0.3);
+    const Texture print =
+        texture(Texture::Kind::kClouds, random_.uniform(0.1, 0.7), contrast, grain_m);
     for (int attempt = 0; attempt < 100; ++attempt) {
-      const Eigen::Vector3d center(random_.uniform(1.0, limits_.high.x()),
-                                   random_.uniform(limits_.low.y(), limits_.high.y()),
+      const double sideways = random_.uniform(limits_.low.y(), limits_.high.y());
+      const Eigen::Vector3d center(random_.uniform(1.0, limits_.high.x()), sideways,
                                    limits_.low.z() + half.z());
       // On the floor: only its sides must keep off the walls.
       Eigen::Vector3d raised = center;
