@@ -87,8 +87,10 @@ Rigid3 moved_start(const Rigid3& lidar_from_board, const Target& target, Random&
   const double degree = std::numbers::pi / 180.0;
   const Eigen::Vector2d c = target.outline().center_m();
   const Eigen::Vector3d center(c.x(), c.y(), 0.0);
-  const Eigen::Vector3d shift(random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06),
-                              random.uniform(-0.005, 0.005));
+  // One draw a statement: compilers evaluate arguments in orders of their own.
+  const double off = random.uniform(-0.005, 0.005);
+  const double up = random.uniform(-0.06, 0.06);
+  const Eigen::Vector3d shift(random.uniform(-0.06, 0.06), up, off);
   const Eigen::Quaterniond turn =
       so3_exp({random.uniform(-0.5, 0.5) * degree, random.uniform(-0.5, 0.5) * degree,
                random.uniform(-5.0, 5.0) * degree});

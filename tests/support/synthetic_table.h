@@ -147,8 +147,9 @@ inline void add_table_return(SyntheticTable& out, int scene, const SceneGeometry
   RangeRow row;
   double reach = 0.0;
   do {
-    const Eigen::Vector2d at(random.uniform(outline.lower_left_m.x(), outline.upper_right_m.x()),
-                             random.uniform(outline.lower_left_m.y(), outline.upper_right_m.y()));
+    const double up = random.uniform(outline.lower_left_m.y(), outline.upper_right_m.y());
+    const double across = random.uniform(outline.lower_left_m.x(), outline.upper_right_m.x());
+    const Eigen::Vector2d at(across, up);
     row.beam = table_beam(geometry, scene, at, recipe, random);
     reach = 3.5 * row.beam.range_m * kTableBeam_rad / std::cos(row.beam.incidence_rad);
   } while ((table.target.albedo(row.beam.board_m).value_or(1.0) < 0.5) != black ||

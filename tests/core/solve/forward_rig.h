@@ -60,7 +60,8 @@ inline ForwardRig forward_rig(const simulation::SimulationOptions& options) {
       const auto pixel =
           rig.camera.project(forward.camera_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0));
       if (!pixel || !rig.camera.in_image(*pixel)) return;
-      const Eigen::Vector2d noise(random.normal(), random.normal());
+      Eigen::Vector2d noise;
+      for (double& part : noise) part = random.normal();
       forward.corners.push_back({feature, corner, at, *pixel + kRigCornerSigma_px * noise, 0.0});
     };
     for (const TargetTag& tag :

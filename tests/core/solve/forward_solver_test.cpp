@@ -202,8 +202,7 @@ TEST(PrintSize, FollowsFromWhereBoardsStandHoweverThePrintIsMatched) {
       by_camera.push_back(scene.camera_from_board);
       by_camera.back().translation /= 0.9;
       by_lidar.push_back(scene.lidar_from_board);
-      by_lidar.back().translation +=
-          0.01 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      for (double& part : by_lidar.back().translation) part += 0.01 * random.normal();
     }
     const PrintSize size = size_from_places(by_camera, by_lidar, rig.camera_from_lidar, {0, 0});
     ASSERT_TRUE(size.measured);
@@ -283,9 +282,8 @@ TEST(ForwardSolver, ErrorsThatScenesShareWidenTheInterval) {
   const auto clean = solve(rig, Vector6d::Zero());
   Random random(9);
   for (Cloud& cloud : rig.clouds) {
-    const Eigen::Vector3f shift(0.003F * static_cast<float>(random.normal()),
-                                0.003F * static_cast<float>(random.normal()),
-                                0.003F * static_cast<float>(random.normal()));
+    Eigen::Vector3f shift;
+    for (float& part : shift) part = 0.003F * static_cast<float>(random.normal());
     for (Eigen::Vector3f& p : cloud.points_m) p += shift;
   }
   const auto moved = solve(rig, Vector6d::Zero());

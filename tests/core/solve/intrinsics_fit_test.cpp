@@ -59,7 +59,8 @@ Views seen(std::uint64_t seed, int count, double tilt_rad, double noise_px = kNo
       for (std::size_t k = 0; k < at.size(); ++k) {
         const auto p = camera.project(pose * Eigen::Vector3d(at[k].x(), at[k].y(), 0));
         if (!p || !camera.in_image(*p)) continue;
-        const Eigen::Vector2d e(random.normal(), random.normal());
+        Eigen::Vector2d e;
+        for (double& part : e) part = random.normal();
         corners.push_back({tag.id, static_cast<int>(k), at[k], *p + noise_px * e, 0.0});
       }
     }
