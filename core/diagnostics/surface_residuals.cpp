@@ -9,7 +9,9 @@
 namespace lvcalib {
 namespace {
 
+// Below a footprint's width neighbours share their returns.
 constexpr double kFinestCell_m = 5e-3;
+// A mean of so many scatters by a quarter of what single returns do.
 constexpr double kSamplesPerCell = 16.0;
 constexpr int kMostCells = 1000;  // Along one side.
 

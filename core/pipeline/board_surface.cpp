@@ -9,6 +9,7 @@
 namespace lvcalib {
 namespace {
 
+// Ten times what ranges scatter: what is farther off belongs to something else.
 constexpr double kReach_m = 0.1;
 
 std::optional<BoardSurface> by_step(const CalibrationResult& result, const std::string& scene,
