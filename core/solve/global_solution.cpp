@@ -38,6 +38,29 @@ Eigen::MatrixXd board_spread(const SceneEquations& scene, const Eigen::MatrixXd&
   return out;
 }
 
+bool is_weighed(std::size_t kind, BoardMotion motion) {
+  return motion == BoardMotion::kWeighed || !moves_board(kind);
+}
+
+// The scene's equations for its own unknowns, with the priors of its shared errors; of a kind that
+// is not weighed, as if there were none.
+Eigen::MatrixXd own_equations(const SceneEquations& scene, const SharedVariances& variances,
+                              BoardMotion motion) {
+  const Eigen::Index n = scene.normal.rows() - scene.globals;
+  Eigen::MatrixXd own = scene.normal.bottomRightCorner(n, n);
+  for (std::size_t k = 0; k < kSceneErrors; ++k) {
+    for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
+      const Eigen::Index u = kLocals + scene.columns.first[k] + i;
+      own(u, u) += 1.0 / (is_weighed(k, motion) ? variances[k] : kAbsentShared[k]);
+    }
+  }
+  // Levels without any intensity row are nobody's.
+  for (Eigen::Index i = 6; i < kLocals; ++i) {
+    if (own(i, i) <= 0.0) own(i, i) = 1.0;
+  }
+  return own;
+}
+
 }  // namespace
 
 std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& terms,
@@ -88,17 +111,7 @@ RangeFaultTerm range_fault_term(const SceneEquations& scene, const SharedVarianc
   out.coupling = Eigen::MatrixXd::Zero(globals, kRangeFaults);
   const Eigen::Index n = scene.normal.rows() - globals;
   if (n <= 0 || scene.by_range_faults.rows() == 0) return out;
-  Eigen::MatrixXd own = scene.normal.bottomRightCorner(n, n);
-  for (std::size_t k = 0; k < kSceneErrors; ++k) {
-    for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
-      const Eigen::Index u = kLocals + scene.columns.first[k] + i;
-      own(u, u) += 1.0 / (moves_board(k) ? kAbsentShared[k] : variances[k]);
-    }
-  }
-  for (Eigen::Index i = 6; i < kLocals; ++i) {
-    if (own(i, i) <= 0.0) own(i, i) = 1.0;
-  }
-  const Eigen::LLT<Eigen::MatrixXd> factor(own);
+  const Eigen::LLT<Eigen::MatrixXd> factor(own_equations(scene, variances, BoardMotion::kWidens));
   if (factor.info() != Eigen::Success) return out;
   const Eigen::MatrixXd& by = scene.by_range_faults;
   const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
@@ -121,9 +134,7 @@ void GlobalPrior::set_sensor(const SensorErrors& sensor, const SharedVariances& 
 GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, GlobalPrior prior,
                                const SensorErrors& sensor, const SharedVariances& variances,
                                BoardMotion motion, bool measure_shared, int threads) {
-  const auto weighed = [&](std::size_t kind) {
-    return motion == BoardMotion::kWeighed || !moves_board(kind);
-  };
+  const auto weighed = [&](std::size_t kind) { return is_weighed(kind, motion); };
   GlobalSolution out;
   const Eigen::Index globals = scenes.front().globals;
   if (globals > kGlobals) prior.set_sensor(sensor, variances);
@@ -138,22 +149,16 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, Global
     const SceneEquations& scene = scenes[s];
     const Eigen::Index n = scene.normal.rows() - globals;
     if (n <= 0) return;
-    Eigen::MatrixXd own = scene.normal.bottomRightCorner(n, n);
     Eigen::VectorXd gradient = scene.gradient.tail(n);
     for (std::size_t k = 0; k < kSceneErrors; ++k) {
       for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
         const Eigen::Index u = scene.columns.first[k] + i;
         const double variance = weighed(k) ? variances[k] : kAbsentShared[k];
-        own(kLocals + u, kLocals + u) += 1.0 / variance;
         gradient(kLocals + u) -= scene.shared(u) / variance;
       }
     }
-    // Levels without any intensity row are nobody's.
-    for (Eigen::Index i = 6; i < kLocals; ++i) {
-      if (own(i, i) <= 0.0) own(i, i) = 1.0;
-    }
     Eliminated& part = parts[s];
-    part.own.compute(own);
+    part.own.compute(own_equations(scene, variances, motion));
     if (part.own.info() != Eigen::Success) return;
     const Eigen::MatrixXd coupling = scene.normal.bottomLeftCorner(n, globals);
     part.to_globals = part.own.solve(coupling);
