@@ -10,7 +10,7 @@ build_packages=(
   build-essential clang cmake ninja-build ccache pkg-config
   libeigen3-dev libopencv-dev libopencv-contrib-dev libceres-dev libapriltag-dev
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libcairo2-dev liblzf-dev libboost-dev libssl-dev
-  libmuparser-dev libzstd-dev liblz4-dev libbz2-dev libsqlite3-dev
+  libpng-dev libjpeg-dev libtiff-dev zlib1g-dev libmuparser-dev libzstd-dev liblz4-dev libbz2-dev libsqlite3-dev
   qt6-base-dev libqt6opengl6-dev qt6-svg-dev libqt6svg6 qt6-tools-dev qt6-l10n-tools
   qt6-qpa-plugins libvtk9-dev libqcustomplot-dev libgl1-mesa-dev libegl-dev fonts-dejavu-core
 )

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/image_header.h"
 
-#include <array>
 #include <cstdint>
 #include <cstdlib>
+
+#include <zlib.h>
 
 namespace lvcalib {
 namespace {
@@ -34,24 +35,6 @@ Error truncated(const char* format) {
                       "copy or save the image again");
 }
 
-// CRC-32 of ISO 3309 as PNG uses it.
-std::uint32_t crc32(std::string_view data) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> out{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-      std::uint32_t c = n;
-      for (int bit = 0; bit < 8; ++bit) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1U) : c >> 1U;
-      out[n] = c;
-    }
-    return out;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const char byte : data) {
-    crc = table[(crc ^ static_cast<unsigned char>(byte)) & 0xFFU] ^ (crc >> 8U);
-  }
-  return crc ^ 0xFFFFFFFFU;
-}
-
 Result<ImageHeader> read_png(std::string_view data) {
   const Bytes bytes(data, true);
   ImageHeader header;
@@ -60,9 +43,9 @@ Result<ImageHeader> read_png(std::string_view data) {
     const std::size_t length = bytes.u32(at);
     if (length > data.size() - at - 12) return truncated("png");
     const std::string_view type = data.substr(at + 4, 4);
-    if (crc32(data.substr(at + 4, length + 4)) != bytes.u32(at + 8 + length)) {
+    const auto* const checked = reinterpret_cast<const Bytef*>(data.data() + at + 4);
+    if (crc32(0, checked, static_cast<uInt>(length + 4)) != bytes.u32(at + 8 + length))
       return truncated("png");
-    }
     if (type == "IHDR") header = {bytes.u32(at + 8), bytes.u32(at + 12)};
     if (type == "IEND") return header;
     at += length + 12;

@@ -6,8 +6,9 @@
 #include <map>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "base/image_codec.h"
 
 namespace lvcalib {
 namespace {
@@ -56,12 +57,38 @@ Error damaged_image(const std::string& where) {
   return Error::input("an image cannot be decoded: its data are damaged", where);
 }
 
+// Blue first, as OpenCV has colours; grey without alpha.
+cv::Mat in_opencv_order(const DecodedImage& image) {
+  const cv::Mat view(image.height_px, image.width_px,
+                     CV_MAKETYPE(image.bits == 8 ? CV_8U : CV_16U, image.channels),
+                     const_cast<std::uint8_t*>(image.bytes.data()), image.row_bytes());
+  cv::Mat out;
+  if (image.channels == 1) return view.clone();
+  if (image.channels == 2) {
+    cv::extractChannel(view, out, 0);
+  } else {
+    cv::cvtColor(view, out, image.channels == 3 ? cv::COLOR_RGB2BGR : cv::COLOR_RGBA2BGRA);
+  }
+  return out;
+}
+
+// Blue and red exchanged, as a file has them.
+Result<std::string> png_of(const cv::Mat& bgr) {
+  cv::Mat pixels;
+  if (bgr.channels() < 3) {
+    pixels = bgr;
+  } else {
+    cv::cvtColor(bgr, pixels, bgr.channels() == 3 ? cv::COLOR_BGR2RGB : cv::COLOR_BGRA2RGBA);
+  }
+  return encode_png({pixels.cols, pixels.rows, pixels.channels(), pixels.depth() == CV_16U ? 16 : 8,
+                     pixels.data, pixels.step[0]});
+}
+
 // The pixels as they were sent; an empty matrix if they cannot be decoded.
 cv::Mat pixels_of(const ImageMessage& message) {
   if (message.compressed) {
-    const cv::Mat raw(1, static_cast<int>(message.data.size()), CV_8U,
-                      const_cast<char*>(message.data.data()));  // imdecode only reads
-    return cv::imdecode(raw, cv::IMREAD_UNCHANGED);
+    const auto decoded = decode_image(message.data);
+    return decoded ? in_opencv_order(*decoded) : cv::Mat{};
   }
   const int type = conversion_of(message.encoding).type;
   const cv::Mat view(message.height_px, message.width_px, type,
@@ -197,13 +224,10 @@ Result<ImageFile> make_image_file(const ImageMessage& message, const std::string
       cv::cvtColor(pixels, color, code);
       pixels = color;
     }
-    std::vector<std::uint8_t> bytes;
-    // Noise does not compress: the fastest level is as small as the slowest within a few percent.
-    if (!cv::imencode(".png", pixels, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-      return damaged_image(where);
-    }
+    auto png = png_of(pixels);
+    if (!png) return damaged_image(where);
     out.extension = ".png";
-    out.bytes.assign(bytes.begin(), bytes.end());
+    out.bytes = std::move(*png);
     return out;
   } catch (const cv::Exception&) {
     return damaged_image(where);

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "base/image_codec.h"
+#include "detection/board_view.h"
 
 namespace lvcalib {
 
@@ -29,8 +31,12 @@ std::string base64(const unsigned char* bytes, std::size_t count) {
 std::optional<PageImage> page_image(const std::filesystem::path& path, const Eigen::Vector2d& low,
                                     const Eigen::Vector2d& high, int most_px) {
   try {
-    const cv::Mat image = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
-    if (image.empty() || !low.allFinite() || !high.allFinite()) return std::nullopt;
+    const auto decoded = read_image(path);
+    if (!decoded || !low.allFinite() || !high.allFinite()) return std::nullopt;
+    cv::Mat image;
+    cv::Mat(decoded->height_px, decoded->width_px, CV_32F,
+            const_cast<float*>(decoded->pixels.data()))
+        .convertTo(image, CV_8U);
     const auto clamp = [](double v, int most) {
       return static_cast<int>(std::lround(std::clamp(v, 0.0, static_cast<double>(most))));
     };
@@ -46,10 +52,13 @@ std::optional<PageImage> page_image(const std::filesystem::path& path, const Eig
       cv::resize(part, smaller, {}, scale, scale, cv::INTER_AREA);
       part = smaller;
     }
-    std::vector<unsigned char> jpeg;
-    if (!cv::imencode(".jpg", part, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85})) return std::nullopt;
+    constexpr int kQuality = 85;
+    const auto jpeg =
+        encode_grey_jpeg({part.cols, part.rows, 1, 8, part.data, part.step[0]}, kQuality);
+    if (!jpeg) return std::nullopt;
     PageImage out;
-    out.data_uri = "data:image/jpeg;base64," + base64(jpeg.data(), jpeg.size());
+    out.data_uri = "data:image/jpeg;base64," +
+                   base64(reinterpret_cast<const unsigned char*>(jpeg->data()), jpeg->size());
     out.from_px = Eigen::Vector2d(x0 - 0.5, y0 - 0.5);
     out.size_px = Eigen::Vector2d(x1 - x0, y1 - y0);
     return out;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <unistd.h>
 
 #include "base/file_io.h"
+#include "base/image_codec.h"
 #include "cloud/cloud.h"
 
 namespace lvcalib::simulation {
@@ -94,14 +94,8 @@ Result<std::string> encode_png(const SimulatedImage& image) {
   if (image.pixels.empty() || image.pixels.size() != expected) {
     return Error::output("the image has no pixels, so no PNG can be made of it");
   }
-  const cv::Mat grey(image.height_px, image.width_px, CV_8U,
-                     const_cast<std::uint8_t*>(image.pixels.data()));
-  std::vector<std::uint8_t> bytes;
-  // Noise does not compress: the fastest level is as small as the slowest within a few percent.
-  if (!cv::imencode(".png", grey, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    return Error::output("the image could not be encoded as PNG");
-  }
-  return std::string(bytes.begin(), bytes.end());
+  return lvcalib::encode_png(PixelView{image.width_px, image.height_px, 1, 8, image.pixels.data(),
+                                       static_cast<std::size_t>(image.width_px)});
 }
 
 DatasetWriter::DatasetWriter(const SimulatedRig& rig, fs::path dataset, fs::path truth,

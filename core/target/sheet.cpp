@@ -10,6 +10,7 @@
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>
+#include <zlib.h>
 
 #include "target/sheet_drawing.h"
 
@@ -106,15 +107,6 @@ Result<std::string> draw_vector(const Target& target, SheetFormat format, const 
   return std::move(sink.bytes);
 }
 
-std::uint32_t png_crc(std::string_view bytes) {
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const char byte : bytes) {
-    crc ^= static_cast<unsigned char>(byte);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
-  }
-  return ~crc;
-}
-
 void append_big_endian(std::string& out, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) {
     out += static_cast<char>((value >> static_cast<unsigned>(shift)) & 0xFFU);
@@ -131,7 +123,9 @@ void insert_resolution(std::string& png, double dpi) {
   std::string chunk;
   append_big_endian(chunk, static_cast<std::uint32_t>(body.size() - 4));
   chunk += body;
-  append_big_endian(chunk, png_crc(body));
+  append_big_endian(chunk,
+                    static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(body.data()),
+                                                     static_cast<uInt>(body.size()))));
   constexpr std::size_t kAfterHeader = 8 + 4 + 4 + 13 + 4;  // signature, IHDR chunk
   png.insert(kAfterHeader, chunk);
 }

@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "cli/bad_input.h"
 #include "cloud/cloud.h"
+#include "support/image_files.h"
 #include "target/target.h"
 
 namespace lvcalib::testing {
@@ -23,11 +23,11 @@ using ::testing::HasSubstr;
 void change_images(const fs::path& dataset, const std::function<void(cv::Mat&)>& change) {
   for (const std::string& scene : scene_names(dataset)) {
     const fs::path path = dataset / "scenes" / scene / "image.png";
-    cv::Mat image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    cv::Mat image = test::read_pixels(path);
     ASSERT_FALSE(image.empty());
     change(image);
     fs::remove(path);
-    ASSERT_TRUE(cv::imwrite(path.string(), image));
+    ASSERT_TRUE(test::write_png(path, image));
   }
 }
 

@@ -10,11 +10,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "cli/bad_input.h"
 #include "cloud/cloud.h"
+#include "support/image_files.h"
 
 namespace lvcalib::testing {
 namespace {
@@ -65,10 +65,10 @@ std::string damaged(std::string bytes) {
 
 Spoil resize_image(double factor) {
   return [=](const fs::path& dataset) {
-    cv::Mat image = cv::imread((dataset / kSceneImage).string(), cv::IMREAD_UNCHANGED);
+    cv::Mat image = test::read_pixels(dataset / kSceneImage);
     cv::resize(image, image, {}, factor, factor);
     fs::remove(dataset / kSceneImage);
-    cv::imwrite((dataset / kSceneImage).string(), image);
+    test::write_png(dataset / kSceneImage, image);
   };
 }
 
@@ -208,7 +208,7 @@ std::vector<BadInput> costing_a_scene() {
        [](const fs::path& dataset) {
          const cv::Mat grey(768, 1024, CV_8U, cv::Scalar(128));
          fs::remove(dataset / kSceneImage);
-         cv::imwrite((dataset / kSceneImage).string(), grey);
+         test::write_png(dataset / kSceneImage, grey);
        },
        0,
        {"scene B is not used", "B/image.png: no tags in the image"}},

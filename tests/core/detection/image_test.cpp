@@ -74,6 +74,25 @@ TEST_F(ImageFile, ReadsEveryDepthAndNumberOfChannels) {
   }
 }
 
+TEST_F(ImageFile, AJpegHasOpenCvsColours) {
+  for (const int type : {CV_8UC1, CV_8UC3}) {
+    cv::Mat mat = ramp(type);
+    if (type == CV_8UC3) cv::multiply(mat, cv::Scalar(0.3, 1.0, 0.7), mat);
+    ASSERT_TRUE(cv::imwrite(path("ramp.jpg"), mat));
+    const cv::Mat wanted = cv::imread(path("ramp.jpg"), cv::IMREAD_COLOR);
+    const auto image = read_color_image(path("ramp.jpg"));
+    ASSERT_TRUE(image.ok()) << image.error().text();
+    for (int y = 0; y < mat.rows; ++y) {
+      for (int x = 0; x < mat.cols; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          const auto k = static_cast<std::size_t>(3 * (y * mat.cols + x) + c);
+          ASSERT_EQ(image->rgb[k], wanted.at<cv::Vec3b>(y, x)[2 - c]) << x << ' ' << y;
+        }
+      }
+    }
+  }
+}
+
 TEST_F(ImageFile, WeighsColorsAsLuma) {
   ASSERT_TRUE(cv::imwrite(path("red.png"), cv::Mat(4, 4, CV_8UC3, cv::Scalar(0, 0, 200))));
   EXPECT_NEAR(read_image(path("red.png"))->at(1, 1), 0.299 * 200, 0.01);

@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "base/file_io.h"
 #include "cloud/cloud.h"
+#include "support/image_files.h"
 #include "support/temporary_folder.h"
 
 namespace lvcalib {
@@ -23,8 +23,8 @@ class FolderWatchTest : public ::testing::Test {
   [[nodiscard]] fs::path place() const { return folder_.path() / "out"; }
   void SetUp() override { fs::create_directories(place()); }
   void write_image(const std::string& name) const {
-    ASSERT_TRUE(cv::imwrite((place() / (name + ".png")).string(),
-                            cv::Mat(32, 48, CV_8UC1, cv::Scalar(99))));
+    ASSERT_TRUE(
+        test::write_png(place() / (name + ".png"), cv::Mat(32, 48, CV_8UC1, cv::Scalar(99))));
   }
   static Cloud cloud(int points) {
     Cloud out;

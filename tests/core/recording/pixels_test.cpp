@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "support/image_files.h"
 
 namespace lvcalib {
 namespace {
@@ -42,8 +43,7 @@ cv::Mat decoded(const ImageMessage& message) {
   const auto file = make_image_file(message, "test");
   EXPECT_TRUE(file.ok());
   EXPECT_EQ(file->extension, ".png");
-  const std::vector<std::uint8_t> bytes(file->bytes.begin(), file->bytes.end());
-  return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  return test::decode_pixels(file->bytes);
 }
 
 TEST(Pixels, ColorsAndGreyAreKept) {
@@ -104,12 +104,14 @@ TEST(Pixels, Yuv422OfBothOrders) {
 }
 
 TEST(Pixels, PackedImagesKeepTheirBytes) {
-  std::vector<std::uint8_t> jpeg;
-  cv::imencode(".jpg", picture(), jpeg);
+  cv::Mat grey;
+  cv::cvtColor(picture(), grey, cv::COLOR_BGR2GRAY);
+  const std::string jpeg =
+      *encode_grey_jpeg({grey.cols, grey.rows, 1, 8, grey.data, grey.step[0]}, 90);
   ImageMessage message;
   message.compressed = true;
   message.encoding = "jpeg";
-  message.data = {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()};
+  message.data = jpeg;
   const auto file = make_image_file(message, "test");
   ASSERT_TRUE(file.ok());
   EXPECT_EQ(file->extension, ".jpg");

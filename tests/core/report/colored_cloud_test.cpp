@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "support/image_files.h"
 #include "support/synthetic_observations.h"
 #include "support/temporary_folder.h"
 
@@ -102,7 +102,7 @@ class ColoredPly : public ::testing::Test {
     for (std::size_t i = 0; i < image.rgb.size() / 3; ++i) {
       for (std::size_t c = 0; c < 3; ++c) bgr.data[3 * i + c] = image.rgb[3 * i + 2 - c];
     }
-    cv::imwrite((folder_.path() / "scenes/A/image.png").string(), bgr);
+    test::write_png(folder_.path() / "scenes/A/image.png", bgr);
     ASSERT_TRUE(
         write_pcd(folder_.path() / "scenes/A/cloud.pcd", wall(input_.camera_from_lidar)).ok());
   }

@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
+#include "support/image_files.h"
 #include "support/temporary_folder.h"
 
 namespace lvcalib {
@@ -27,7 +27,7 @@ TEST(ReportImages, Base64) {
 TEST(ReportImages, ShowsThePartAskedForWithinTheImage) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "image.png";
-  cv::imwrite(path.string(), cv::Mat(100, 200, CV_8UC1, cv::Scalar(90)));
+  test::write_png(path, cv::Mat(100, 200, CV_8UC1, cv::Scalar(90)));
   const auto part = page_image(path, {150.2, -30.0}, {260.0, 40.3}, 1000);
   ASSERT_TRUE(part.has_value());
   EXPECT_TRUE(part->data_uri.starts_with("data:image/jpeg;base64,/9j/"));
@@ -45,7 +45,7 @@ TEST(ReportImages, WhatIsNoImageGivesNone) {
   EXPECT_FALSE(page_image(path, {0, 0}, {10, 10}, 100).has_value());
   std::ofstream(path) << "no image";
   EXPECT_FALSE(page_image(path, {0, 0}, {10, 10}, 100).has_value());
-  cv::imwrite(path.string(), cv::Mat(10, 10, CV_8UC1, cv::Scalar(90)));
+  test::write_png(path, cv::Mat(10, 10, CV_8UC1, cv::Scalar(90)));
   EXPECT_FALSE(page_image(path, {50, 50}, {60, 60}, 100).has_value());
 }
 

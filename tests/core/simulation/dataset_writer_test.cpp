@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "base/file_io.h"
 #include "camera/camera.h"
 #include "cloud/cloud.h"
+#include "support/image_files.h"
 
 namespace lvcalib::simulation {
 namespace {
@@ -68,8 +68,7 @@ TEST_F(DatasetFolder, HoldsWhatWasSimulated) {
   EXPECT_EQ(cloud->intensity, scene.cloud.intensity);
   EXPECT_EQ(cloud->line, scene.cloud.line);
   EXPECT_TRUE(cloud->has_time());
-  const cv::Mat image =
-      cv::imread((folder / "set/scenes/B/image.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat image = test::read_pixels(folder / "set/scenes/B/image.png");
   ASSERT_EQ(image.type(), CV_8U);
   EXPECT_TRUE(std::equal(image.begin<std::uint8_t>(), image.end<std::uint8_t>(),
                          scene.image.pixels.begin(), scene.image.pixels.end()));

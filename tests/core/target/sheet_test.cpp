@@ -11,10 +11,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "base/file_io.h"
 #include "core/target/sheet_raster.h"
+#include "support/image_files.h"
 #include "support/ordinary_boards.h"
 
 namespace lvcalib {
@@ -64,6 +64,15 @@ bool reads_as_april_tags(const Target& target) {
   return target.tag_family == "tag36h11" && target.has_tags() && target.tag_border_bits == 1;
 }
 
+cv::Mat grey_pixels(const fs::path& path) {
+  const cv::Mat pixels = test::read_pixels(path);
+  if (pixels.channels() == 1) return pixels;
+  // A sheet has no colours.
+  cv::Mat grey;
+  cv::extractChannel(pixels, grey, 0);
+  return grey;
+}
+
 class SheetFile : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -89,14 +98,13 @@ class SheetFile : public ::testing::Test {
 
   // All pages of a PDF, rasterised.
   std::vector<Raster> pages(const fs::path& pdf, int dpi) {
-    const Output out = shell("pdftoppm -gray -r " + std::to_string(dpi) + " '" + pdf.string() +
+    const Output out = shell("pdftoppm -gray -png -r " + std::to_string(dpi) + " '" + pdf.string() +
                              "' '" + (folder_ / "page").string() + "'");
     EXPECT_EQ(out.status, 0) << out.text;
     std::map<std::string, Raster> sorted;
     for (const auto& entry : fs::directory_iterator(folder_)) {
-      if (entry.path().extension() != ".pgm") continue;
-      sorted[entry.path().string()] = {cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE),
-                                       dpi / 25.4};
+      if (entry.path().extension() != ".png") continue;
+      sorted[entry.path().string()] = {grey_pixels(entry.path()), dpi / 25.4};
     }
     std::vector<Raster> out_pages;
     for (auto& [name, raster] : sorted) out_pages.push_back(raster);
@@ -110,8 +118,7 @@ TEST_F(SheetFile, PngIsTheBoardToScale) {
   for (const Target& target : {default_board(), odd_grid(), checkerboard(), test::charuco_target(),
                                test::legacy_charuco_target(), test::single_tag_target()}) {
     const SheetLayout layout = *lay_out_sheet(target, options);
-    const Raster raster{
-        cv::imread(draw(target, "sheet.png", options).string(), cv::IMREAD_GRAYSCALE), 3.0};
+    const Raster raster{grey_pixels(draw(target, "sheet.png", options)), 3.0};
     EXPECT_EQ(raster.image.cols, std::ceil(3.0 * layout.page_mm.x()));
     EXPECT_EQ(raster.image.rows, std::ceil(3.0 * layout.page_mm.y()));
     EXPECT_GT(compare_with_model(target, layout, raster, 0, 0, 1), 5000);
@@ -185,7 +192,7 @@ TEST_F(SheetFile, SvgHasSizeOutlinesAndParameters) {
     const Output out = shell("rsvg-convert -d 76.2 -p 76.2 -b white -o '" + png.string() + "' '" +
                              (folder_ / "sheet.svg").string() + "'");
     ASSERT_EQ(out.status, 0) << out.text;
-    const Raster raster{cv::imread(png.string(), cv::IMREAD_GRAYSCALE), 3.0};
+    const Raster raster{grey_pixels(png), 3.0};
     EXPECT_GT(compare_with_model(target, layout, raster, 0, 0, 3), 5000);
     expect_tags(target, layout, raster);
     expect_circles(target, layout, raster);

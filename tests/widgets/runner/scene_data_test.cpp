@@ -5,7 +5,8 @@
 #include <QTemporaryDir>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
+
+#include "support/image_files.h"
 
 namespace lvcalib::widgets::scene_data_test {
 namespace {
@@ -20,7 +21,7 @@ class SceneData : public ::testing::Test {
   }
   void write_scene(int type) const {
     cv::Mat mat(40, 60, type, cv::Scalar::all(type == CV_16UC1 ? 257 * 200 : 200));
-    cv::imwrite(folder_.filePath("image.png").toStdString(), mat);
+    test::write_png(folder_.filePath("image.png").toStdString(), mat);
     Cloud cloud;
     cloud.points_m = {{1, 2, 3}, {4, 5, 6}};
     cloud.intensity = {7, 8};
