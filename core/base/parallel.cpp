@@ -52,4 +52,31 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   if (failure) std::rethrow_exception(failure);
 }
 
+void parallel_two_steps(std::size_t count, int threads,
+                        const std::function<void(std::size_t)>& first,
+                        const std::function<void(std::size_t)>& second) {
+  enum State : int { kOpen, kDone, kFailed };
+  std::vector<std::atomic<int>> states(count);
+  const auto set = [&](std::size_t i, State state) {
+    states[i] = state;
+    states[i].notify_all();
+  };
+  parallel_for(2 * count, threads, [&](std::size_t task) {
+    const std::size_t i = task % count;
+    if (task >= count) {
+      // Handed out before, so that another thread is at it if it is not done.
+      states[i].wait(kOpen);
+      if (states[i] == kDone) second(i);
+      return;
+    }
+    try {
+      first(i);
+    } catch (...) {
+      set(i, kFailed);
+      throw;
+    }
+    set(i, kDone);
+  });
+}
+
 }  // namespace lvcalib

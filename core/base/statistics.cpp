@@ -2,6 +2,7 @@
 #include "base/statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -74,7 +75,50 @@ double tukey_weight(double residual, double threshold) {
   return k * k;
 }
 
+namespace {
+
+// Values of the normal distribution at steps, for Taylor's series in between.
+class NormalTable {
+ public:
+  static constexpr double kEnd = 6.0;
+
+  NormalTable() {
+    for (int k = 0; k <= kSteps; ++k) {
+      const double x = k * kStep - kEnd;
+      nodes_[static_cast<std::size_t>(k)] = {0.5 * std::erfc(-x / std::numbers::sqrt2),
+                                             normal_pdf(x)};
+    }
+  }
+
+  // Derivatives of the density are Hermite's polynomials times it. What is left out, of the sixth
+  // order, is below 2·10⁻¹³ and, relative to the tail, 10⁻⁹.
+  [[nodiscard]] double cdf(double x) const {
+    const auto k = static_cast<std::size_t>((x + kEnd) / kStep + 0.5);
+    const double a = static_cast<double>(k) * kStep - kEnd;
+    const double h = x - a;
+    const double aa = a * a;
+    const double series =
+        1.0 -
+        h / 2.0 *
+            (a -
+             h / 3.0 * (aa - 1.0 - h / 4.0 * (a * (aa - 3.0) - h / 5.0 * (aa * (aa - 6.0) + 3.0))));
+    return nodes_[k].cdf + nodes_[k].pdf * h * series;
+  }
+
+ private:
+  static constexpr double kStep = 1.0 / 32.0;
+  static constexpr int kSteps = static_cast<int>(2.0 * kEnd / kStep);
+  struct Node {
+    double cdf, pdf;
+  };
+  std::array<Node, kSteps + 1> nodes_{};
+};
+
+}  // namespace
+
 double normal_cdf(double x) {
+  static const NormalTable table;
+  if (std::abs(x) < NormalTable::kEnd) return table.cdf(x);
   return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 }
 

@@ -25,32 +25,6 @@ Cloud read_as(const Cloud& cloud, const CloudReading& reading) {
   return out;
 }
 
-// A file's size; 0 if it cannot be had, which no scene's file has.
-std::uintmax_t size_of(const fs::path& path) {
-  std::error_code code;
-  const auto size = fs::file_size(path, code);
-  return code ? 0 : size;
-}
-
-// Per file the place of the first one with the same content. Only files of like sizes are read.
-std::vector<std::optional<std::size_t>> first_of_same(const std::vector<fs::path>& files,
-                                                      const RunContext& context) {
-  std::vector<std::optional<std::size_t>> out(files.size());
-  std::map<std::uintmax_t, std::vector<std::size_t>> alike;
-  for (std::size_t k = 0; k < files.size(); ++k) alike[size_of(files[k])].push_back(k);
-  for (const auto& [size, places] : alike) {
-    if (places.size() < 2 || size == 0) continue;
-    std::map<std::string, std::size_t> first;
-    for (const std::size_t k : places) {
-      InputFile file;
-      if (!hash_file(files[k], context, file)) continue;
-      const auto [at, is_new] = first.try_emplace(file.sha256, k);
-      if (!is_new) out[k] = at->second;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
@@ -171,17 +145,26 @@ std::string diagnose_guess(const Rigid3& guess, const Rigid3& found) {
 }
 
 std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
-                                      const RunContext& context) {
-  std::vector<fs::path> images;
-  std::vector<fs::path> clouds;
-  for (const SceneFiles& f : dataset.scenes) {
-    images.push_back(f.image);
-    clouds.push_back(use_crops && !f.crop.empty() ? f.crop : f.cloud);
-  }
-  const auto same_image = first_of_same(images, context);
-  const auto same_cloud = first_of_same(clouds, context);
+                                      const std::vector<InputFile>& inputs) {
+  std::map<std::string, const InputFile*> by_path;
+  for (const InputFile& file : inputs) by_path.emplace(file.path, &file);
+  std::map<std::string, std::size_t> images;
+  std::map<std::string, std::size_t> clouds;
+  // The first scene with a file's content, if that is another.
+  const auto first = [&](auto& seen, const fs::path& path,
+                         std::size_t s) -> std::optional<std::size_t> {
+    const auto file = by_path.find(path.lexically_relative(dataset.path).generic_string());
+    if (file == by_path.end() || file->second->bytes == 0 || file->second->sha256.empty())
+      return std::nullopt;
+    const auto [at, is_new] = seen.try_emplace(file->second->sha256, s);
+    return is_new ? std::nullopt : std::optional(at->second);
+  };
   std::vector<SameContent> out(dataset.scenes.size());
-  for (std::size_t s = 0; s < out.size(); ++s) out[s] = {same_image[s], same_cloud[s]};
+  for (std::size_t s = 0; s < out.size(); ++s) {
+    const SceneFiles& f = dataset.scenes[s];
+    out[s].image = first(images, f.image, s);
+    out[s].cloud = first(clouds, use_crops && !f.crop.empty() ? f.crop : f.cloud, s);
+  }
   return out;
 }
 

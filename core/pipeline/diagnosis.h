@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/calibration.h"
+#include "pipeline/input_hashes.h"
 
 namespace lvcalib {
 
@@ -37,7 +38,7 @@ struct SameContent {
 };
 /// Per scene.
 std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
-                                      const RunContext& context);
+                                      const std::vector<InputFile>& inputs);
 
 /// Whole rows or columns at the end of a grid of tags that no image shows, of two images or more:
 /// "no image shows tags 16 to 19: tagRows: 4 would fit". Empty if there are none.

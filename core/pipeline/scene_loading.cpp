@@ -2,9 +2,7 @@
 #include "pipeline/scene_loading.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <mutex>
 
 #include "base/parallel.h"
@@ -24,31 +22,21 @@ class SceneLoader {
  public:
   SceneLoader(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context,
               CalibrationResult& result, StageCache* cache)
-      : dataset_(dataset),
-        request_(request),
-        context_(context),
-        result_(result),
-        cache_(cache),
-        pyramid_(dataset.target) {}
+      : dataset_(dataset), request_(request), context_(context), result_(result), cache_(cache) {}
 
   Status run() {
     const std::size_t n = dataset_.scenes.size();
-    std::vector<std::promise<void>> seen(n);
-    std::vector<std::future<void>> image_done;
-    for (auto& promise : seen) image_done.push_back(promise.get_future());
-    // Images first, then clouds: with few scenes both cores stay busy to the end. A cloud waits
-    // only for its own image, which was handed out before it.
-    parallel_for(2 * n, context_.thread_count(), [&](std::size_t task) {
-      const std::size_t s = task % n;
-      if (task < n) {
-        if (wanted(s)) look_at_image(s);
-        seen[s].set_value();
-      } else {
-        image_done[s].wait();
-        if (wanted(s) && result_.scenes[s].view) look_at_cloud(s);
-      }
-      report(task);
-    });
+    // Images first, then clouds: with few scenes both cores stay busy to the end.
+    parallel_two_steps(
+        n, context_.thread_count(),
+        [&](std::size_t s) {
+          if (wanted(s)) look_at_image(s);
+          report("detect", s);
+        },
+        [&](std::size_t s) {
+          if (wanted(s) && result_.scenes[s].view) look_at_cloud(s);
+          report("localize", s);
+        });
     if (context_.stopped()) return Error::cancelled();
     if (failure_) return *failure_;
     return Done{};
@@ -131,7 +119,7 @@ class SceneLoader {
     quiet.progress = {};
     std::optional<BoardSearchRegion> region;
     if (request_.guess) region = predicted_region(s, *request_.guess, true);
-    auto search = search_board(*cloud, dataset_.target, pyramid_,
+    auto search = search_board(*cloud, dataset_.target, pyramid(),
                                board_distance(*result_.scenes[s].view, dataset_.target), region,
                                request_.options.localization, quiet);
     if (context_.stopped()) return;  // Half a search is not to be kept.
@@ -141,6 +129,12 @@ class SceneLoader {
     result_.times.localize_ms += localize;
     if (cache_) cache_->scene(files.name).search.keep(key, search);
     result_.scenes[s].search = std::move(search);
+  }
+
+  // Made by the first cloud's thread, while others are still busy with images.
+  const PatternPyramid& pyramid() {
+    std::call_once(pyramid_made_, [this] { pyramid_.emplace(dataset_.target); });
+    return *pyramid_;
   }
 
   [[nodiscard]] BoardSearchRegion predicted_region(std::size_t s, const Rigid3& guess,
@@ -165,12 +159,11 @@ class SceneLoader {
     if (!failure_) failure_ = std::move(error);
   }
 
-  void report(std::size_t task) {
+  void report(const char* stage, std::size_t s) {
     const std::lock_guard lock(mutex_);
     ++done_;
-    const std::size_t n = dataset_.scenes.size();
-    const double fraction = 0.7 * static_cast<double>(done_) / static_cast<double>(2 * n);
-    context_.report(task < n ? "detect" : "localize", fraction, dataset_.scenes[task % n].name);
+    const double tasks = 2.0 * static_cast<double>(dataset_.scenes.size());
+    context_.report(stage, 0.7 * static_cast<double>(done_) / tasks, dataset_.scenes[s].name);
   }
 
   const Dataset& dataset_;
@@ -178,7 +171,8 @@ class SceneLoader {
   const RunContext& context_;
   CalibrationResult& result_;
   StageCache* cache_;
-  PatternPyramid pyramid_;
+  std::once_flag pyramid_made_;
+  std::optional<PatternPyramid> pyramid_;
   std::mutex mutex_;
   std::optional<Error> failure_;
   std::size_t done_ = 0;

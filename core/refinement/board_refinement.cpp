@@ -279,34 +279,6 @@ class NodeRefiner {
   std::vector<Eigen::Vector2d> raw_;
 };
 
-// The plane of the board's points, fitted twice: the second time with the points that the first
-// plane puts inside the outline.
-bool fit_board_plane(const Cloud& cloud, const Target& target, BoardRefinement& result) {
-  for (int round = 0; round < 2; ++round) {
-    const BoardPoints points = points_on_board(cloud, target, result.lidar_from_board);
-    result.board_points = points.points_m.size();
-    const auto plane =
-        fit_plane(points.points_m, plane_guess(result.lidar_from_board, target), points.groups);
-    if (!plane) return false;
-    result.plane = *plane;
-    // The pose follows the plane: same place and turn, new normal.
-    const Eigen::Vector2d center = target.outline().center_m();
-    const Eigen::Vector3d middle =
-        result.lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
-    Eigen::Matrix3d R;
-    R.col(2) = plane->normal;
-    const Eigen::Vector3d x = result.lidar_from_board.rotation * Eigen::Vector3d::UnitX();
-    R.col(0) = (x - plane->normal * plane->normal.dot(x)).normalized();
-    R.col(1) = R.col(2).cross(R.col(0));
-    const double along = plane->normal.dot(middle);
-    if (std::abs(along) < 1e-9) return false;
-    const Eigen::Vector3d on_plane = middle * (plane->normal.dot(plane->center_m) / along);
-    result.lidar_from_board =
-        Rigid3::from_matrix(R, on_plane - R * Eigen::Vector3d(center.x(), center.y(), 0.0));
-  }
-  return true;
-}
-
 }  // namespace
 
 RefinementOptions as_in_paper(RefinementOptions options) {
@@ -342,17 +314,56 @@ int BoardRefinement::valid_nodes() const {
       std::count_if(nodes.begin(), nodes.end(), [](const RefinedNode& n) { return n.valid; }));
 }
 
+Result<BoardPlane> fit_board_plane(const Cloud& board_points, const Target& target,
+                                   const Rigid3& lidar_from_board) {
+  BoardPlane out;
+  out.lidar_from_board = lidar_from_board;
+  const Eigen::Vector2d center = target.outline().center_m();
+  // Twice: the second time with the points that the first plane puts inside the outline.
+  for (int round = 0; round < 2; ++round) {
+    const BoardPoints points = points_on_board(board_points, target, out.lidar_from_board);
+    out.board_points = points.points_m.size();
+    const auto plane =
+        fit_plane(points.points_m, plane_guess(out.lidar_from_board, target), points.groups);
+    const Eigen::Vector3d middle =
+        out.lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
+    if (!plane || std::abs(plane->normal.dot(middle)) < 1e-9) {
+      return Error::input("no plane fits the board's " + std::to_string(out.board_points) +
+                              " LiDAR points; at least ten, not all on one scan line, are needed",
+                          {}, "let the scanner dwell longer or bring the board nearer");
+    }
+    out.plane = *plane;
+    // The pose follows the plane: same place and turn, new normal.
+    Eigen::Matrix3d R;
+    R.col(2) = plane->normal;
+    const Eigen::Vector3d x = out.lidar_from_board.rotation * Eigen::Vector3d::UnitX();
+    R.col(0) = (x - plane->normal * plane->normal.dot(x)).normalized();
+    R.col(1) = R.col(2).cross(R.col(0));
+    const double along = plane->normal.dot(middle);
+    const Eigen::Vector3d on_plane = middle * (plane->normal.dot(plane->center_m) / along);
+    out.lidar_from_board =
+        Rigid3::from_matrix(R, on_plane - R * Eigen::Vector3d(center.x(), center.y(), 0.0));
+  }
+  return out;
+}
+
 Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& target,
                                      const Rigid3& lidar_from_board,
                                      const RefinementOptions& options, const RunContext& context,
                                      const RefinementObserver& on_iteration) {
+  const auto plane = fit_board_plane(board_points, target, lidar_from_board);
+  if (!plane) return plane.error();
+  return refine_nodes(board_points, target, *plane, options, context, on_iteration);
+}
+
+Result<BoardRefinement> refine_nodes(const Cloud& board_points, const Target& target,
+                                     const BoardPlane& plane, const RefinementOptions& options,
+                                     const RunContext& context,
+                                     const RefinementObserver& on_iteration) {
   BoardRefinement result;
-  result.lidar_from_board = lidar_from_board;
-  if (!fit_board_plane(board_points, target, result)) {
-    return Error::input("no plane fits the board's " + std::to_string(result.board_points) +
-                            " LiDAR points; at least ten, not all on one scan line, are needed",
-                        {}, "let the scanner dwell longer or bring the board nearer");
-  }
+  result.plane = plane.plane;
+  result.lidar_from_board = plane.lidar_from_board;
+  result.board_points = plane.board_points;
   if (!target.has_circles() || !board_points.has_contrast()) {
     result.converged = true;
     return result;

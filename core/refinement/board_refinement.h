@@ -126,6 +126,18 @@ struct BoardRefinement {
 /// Sees a refinement while it runs; called from the thread that refines.
 using RefinementObserver = std::function<void(const BoardRefinement& so_far)>;
 
+/// Where the board's plane is, and the pose with it.
+struct BoardPlane {
+  FittedPlane plane;
+  Rigid3 lidar_from_board;       ///< Place and turn of the start, normal of the plane.
+  std::size_t board_points = 0;  ///< Inside the outline.
+};
+
+/// The plane of the board's points: those inside the outline at a start pose, white and black print
+/// with a range noise each. Errors (kInput): fewer than ten points on the plane.
+Result<BoardPlane> fit_board_plane(const Cloud& board_points, const Target& target,
+                                   const Rigid3& lidar_from_board);
+
 /// Angle–distance refinement of the circular nodes (LV-Calib, section III-B): plane; samples by
 /// ray ∩ plane; per node and angular bin the mid-level crossing d*; the first-order wave
 /// d* = Δc_u cos ψ + Δc_v sin ψ + Δr by weighted least squares; projection of all centres to the
@@ -142,6 +154,12 @@ using RefinementObserver = std::function<void(const BoardRefinement& so_far)>;
 Result<BoardRefinement> refine_board(const Cloud& board_points, const Target& target,
                                      const Rigid3& lidar_from_board,
                                      const RefinementOptions& options, const RunContext& context,
+                                     const RefinementObserver& on_iteration = {});
+
+/// The same on a plane that is known. Errors: cancelled.
+Result<BoardRefinement> refine_nodes(const Cloud& board_points, const Target& target,
+                                     const BoardPlane& plane, const RefinementOptions& options,
+                                     const RunContext& context,
                                      const RefinementObserver& on_iteration = {});
 
 }  // namespace lvcalib

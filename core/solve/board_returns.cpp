@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/parallel.h"
 #include "solve/surface_noise.h"
 
 namespace lvcalib {
@@ -227,24 +228,27 @@ double correlation(const Samples& samples, const TurnedSamples& turned,
 // All shifts and turns about a pose, by steps; best first.
 std::vector<Trial> trials_about(const Trial& from, const Samples& samples,
                                 const BlurredPrint& print, double sigma_m, double reach_m,
-                                double turns_rad, double step_m, double turn_rad) {
+                                double turns_rad, double step_m, double turn_rad, int threads = 1) {
   const int n = static_cast<int>(std::ceil(reach_m / step_m));
   const int m = static_cast<int>(std::ceil(turns_rad / turn_rad));
   const BlurredPrint::Coarse blurred = print.coarse(sigma_m);
   const Eigen::Vector2d center = print.outline().center_m();
-  std::vector<Trial> tried;
-  for (int it = -m; it <= m; ++it) {
+  const auto side = static_cast<std::size_t>(2 * n + 1);
+  const auto turns = static_cast<std::size_t>(2 * m + 1);
+  std::vector<Trial> tried(turns * side * side);
+  parallel_for(turns, threads, [&](std::size_t k) {
     Trial t = from;
-    t.turn_rad += turn_rad * it;
+    t.turn_rad += turn_rad * (static_cast<int>(k) - m);
     const TurnedSamples turned(samples, blurred, center, t.turn_rad);
+    Trial* at = tried.data() + k * side * side;
     for (int ix = -n; ix <= n; ++ix) {
       for (int iy = -n; iy <= n; ++iy) {
         t.shift_m = from.shift_m + step_m * Eigen::Vector2d(ix, iy);
         t.correlation = correlation(samples, turned, blurred, t.shift_m);
-        tried.push_back(t);
+        *at++ = t;
       }
     }
-  }
+  });
   std::sort(tried.begin(), tried.end(), better);
   return tried;
 }
@@ -265,7 +269,8 @@ std::vector<Trial> distinct(const std::vector<Trial>& tried, double apart_m, std
 }  // namespace
 
 std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
-                                    const Rigid3& lidar_from_board, const PrintSearch& search) {
+                                    const Rigid3& lidar_from_board, const PrintSearch& search,
+                                    int threads) {
   constexpr std::size_t kFewest = 30;  // A correlation of 0.3, asked for below, is then 1.6 σ.
   constexpr double kLeastCorrelation = 0.3;
   if (!returns.has_intensity || returns.size() < kFewest) return {};
@@ -277,19 +282,20 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   const double radius = 0.5 * print.outline().size_m().norm();
   const auto turn_of = [&](double sigma) { return std::max(0.002, 1.2 * sigma / radius); };
   constexpr double kCoarse_m = 0.016;
-  std::vector<Trial> best = distinct(trials_about({}, samples, print, kCoarse_m, search.reach_m,
-                                                  search.turn_rad, kCoarse_m, turn_of(kCoarse_m)),
-                                     kOtherPlace_m, search.places);
+  std::vector<Trial> best =
+      distinct(trials_about({}, samples, print, kCoarse_m, search.reach_m, search.turn_rad,
+                            kCoarse_m, turn_of(kCoarse_m), threads),
+               kOtherPlace_m, search.places);
   // Down to a millimetre: a place is worse than another by its step otherwise. No beam sees finer
   // than the last blur.
   constexpr double kFinest_m = 0.004;
-  for (const double step : {0.008, 0.004, 0.002, 0.001}) {
-    for (Trial& t : best) {
-      t = trials_about(t, samples, print, std::max(step, kFinest_m), 2.0 * step,
-                       turn_of(2.0 * step), step, turn_of(step))
-              .front();
+  parallel_for(best.size(), threads, [&](std::size_t k) {
+    for (const double step : {0.008, 0.004, 0.002, 0.001}) {
+      best[k] = trials_about(best[k], samples, print, std::max(step, kFinest_m), 2.0 * step,
+                             turn_of(2.0 * step), step, turn_of(step))
+                    .front();
     }
-  }
+  });
   std::sort(best.begin(), best.end(), better);
   // Two may have come together.
   best = distinct(best, kOtherPlace_m, search.places);

@@ -90,6 +90,7 @@ struct PrintSearch {
 /// Slides and turns the board on its plane until the intensities fit best. The best pose first,
 /// then the best of those elsewhere (`places` in all); none where no pose correlates.
 std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
-                                    const Rigid3& lidar_from_board, const PrintSearch& search = {});
+                                    const Rigid3& lidar_from_board, const PrintSearch& search = {},
+                                    int threads = 1);
 
 }  // namespace lvcalib

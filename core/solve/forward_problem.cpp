@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "base/parallel.h"
@@ -122,7 +123,7 @@ struct SparseRow {
   }
 };
 
-// Lower triangle of the normal matrix, and gradient.
+// Upper triangle of the normal matrix, and gradient.
 struct Accumulator {
   Eigen::MatrixXd normal;
   Eigen::VectorXd gradient;
@@ -156,10 +157,11 @@ struct Accumulator {
       const auto ia = static_cast<std::size_t>(a);
       const double wa = weight * row.value[ia];
       gradient(row.at[ia]) += wa * residual;
+      // Entries come in rising order: down a column of the upper triangle, as memory lies.
+      double* const column = normal.col(row.at[ia]).data();
       for (int b = 0; b <= a; ++b) {
         const auto ib = static_cast<std::size_t>(b);
-        // Entries come in rising order, so this is the lower triangle.
-        normal(row.at[ia], row.at[ib]) += wa * row.value[ib];
+        column[row.at[ib]] += wa * row.value[ib];
       }
     }
   }
@@ -460,77 +462,134 @@ Eigen::Matrix3d blur_by_factor(const Eigen::Vector3d& f) {
   return j;
 }
 
-SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
-                               const BoardReturns& returns, const BlurredPrint& print,
-                               const ForwardState& state, const ForwardNoise& noise,
-                               const LinearizationOptions& options, int threads, SceneFit& fit,
-                               std::vector<LocalPrint>* seen) {
-  // Chunks of a fixed size, summed in order: the result does not depend on the threads.
-  constexpr std::size_t kChunk = 4096;
-  const Layout layout = make_layout(scene, returns, print, state.sensor, options);
-  LidarRows rows(returns, print, state, index, noise.scenes[index], layout, options, seen);
-  const std::size_t stride = options.stride;
-  const std::size_t chunk = kChunk * stride;
-  const std::size_t chunks = (returns.size() + chunk - 1) / chunk;
-  const Eigen::Index sensor = layout.sensor < 0 ? 0 : state.sensor.count();
-  // The LiDAR's own unknowns, and with the sensor's errors.
-  const Eigen::Index own_size = layout.sensor < 0 ? layout.size : layout.sensor;
-  const Eigen::Index lidar_size = own_size + sensor;
-  Accumulator sums(lidar_size);
-  std::vector<Accumulator> parts(chunks, Accumulator(0));
-  parallel_for(chunks, threads, [&](std::size_t c) {
-    parts[c] = Accumulator(lidar_size);
-    rows.add(c * chunk, std::min(returns.size(), (c + 1) * chunk), parts[c]);
-  });
-  for (const Accumulator& part : parts) sums.merge(part);
-  sums.normal.triangularView<Eigen::StrictlyUpper>() = sums.normal.transpose();
-  fit = sums.fit;
-  update_noise(noise.scenes[index], sums, rows, returns, fit);
+namespace {
 
-  // From the board's pose in the LiDAR frame to both poses in the camera frame:
-  // T_LB = X⁻¹ B, so δ = Ad(X⁻¹)(ξ_B − ξ_X).
-  const Matrix6d ad = state.camera_from_lidar.inverse().adjoint();
-  const Eigen::Index shared = layout.size - kLidarFixed;
-  const Eigen::Index globals = kGlobals + sensor;
-  const Eigen::Index size = globals + kLocals + shared;
-  // The board's pose in the LiDAR frame (6) by both poses and by the board's own motion; everything
-  // else only changes its place.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> pose = Eigen::MatrixXd::Zero(6, size);
-  pose.leftCols<6>() = -ad;
-  pose.middleCols<6>(globals) = ad;
-  if (layout.board >= 0) {
-    pose.middleCols<kBoardTerms>(globals + kLocals + layout.board - kLidarFixed) =
-        board_motion(state.lidar_from_board(index), print.outline().center_m());
+// One scene's linearization in three steps, so that all scenes' rows are worked off side by side.
+class SceneLinearization {
+ public:
+  SceneLinearization(const ForwardScene& scene, std::size_t index, const BoardReturns& returns,
+                     const BlurredPrint& print, const ForwardState& state,
+                     const ForwardNoise& noise, const LinearizationOptions& options,
+                     std::vector<LocalPrint>* seen)
+      : scene_(scene),
+        index_(index),
+        returns_(returns),
+        print_(print),
+        state_(state),
+        noise_(noise),
+        options_(options),
+        layout_(make_layout(scene, returns, print, state.sensor, options)),
+        rows_(returns, print, state, index, noise.scenes[index], layout_, options, seen),
+        sensor_(layout_.sensor < 0 ? 0 : state.sensor.count()),
+        own_size_(layout_.sensor < 0 ? layout_.size : layout_.sensor) {
+    // Chunks of a fixed size, summed in order: the result does not depend on the threads. With
+    // shared errors a sum is some hundred kilobytes, which many small chunks would be busy with.
+    const std::size_t rows = options.shared_errors ? 4096 : 1024;
+    chunk_ = rows * options.stride;
+    parts_.assign((returns.size() + chunk_ - 1) / chunk_, Accumulator(0));
   }
-  const auto place = [&](Eigen::Index i) {
-    if (i < 6 + kBlurParameters) return i;
-    if (i < kLidarFixed) return globals + i - kBlurParameters;
-    if (i < own_size) return globals + kLocals + i - kLidarFixed;
-    return kGlobals + i - own_size;
-  };
-  const auto placed = [&](const Eigen::MatrixXd& rows_in) {
-    Eigen::MatrixXd moved = pose.transpose() * rows_in.topRows<6>();
-    for (Eigen::Index i = 6; i < lidar_size; ++i) moved.row(place(i)) += rows_in.row(i);
-    return moved;
-  };
-  SceneEquations out;
-  out.globals = globals;
-  out.columns = layout.columns;
-  out.shared = index < state.shared.size() && state.shared[index].size() == shared
-                   ? state.shared[index]
-                   : Eigen::VectorXd(Eigen::VectorXd::Zero(shared));
-  out.normal = placed(placed(sums.normal).transpose());
-  out.gradient = placed(sums.gradient);
-  if (options.range_faults) {
-    out.by_range_faults = placed(sums.by_faults);
-    out.range_faults = sums.faults;
+
+  [[nodiscard]] std::size_t chunks() const { return parts_.size(); }
+
+  void add_chunk(std::size_t c) {
+    parts_[c] = Accumulator(lidar_size());
+    rows_.add(c * chunk_, std::min(returns_.size(), (c + 1) * chunk_), parts_[c]);
   }
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    const Eigen::Index at = globals + 6 + 2 + i;
-    out.normal(at, at) += 1.0 / (kSlopeSigma * kSlopeSigma);
-    out.gradient(at) -= state.levels[index].slope(i) / (kSlopeSigma * kSlopeSigma);
+
+  SceneEquations finish(SceneFit& fit) {
+    Accumulator sums(lidar_size());
+    for (const Accumulator& part : parts_) sums.merge(part);
+    sums.normal.triangularView<Eigen::StrictlyLower>() = sums.normal.transpose();
+    fit = sums.fit;
+    update_noise(noise_.scenes[index_], sums, rows_, returns_, fit);
+
+    // From the board's pose in the LiDAR frame to both poses in the camera frame:
+    // T_LB = X⁻¹ B, so δ = Ad(X⁻¹)(ξ_B − ξ_X).
+    const Matrix6d ad = state_.camera_from_lidar.inverse().adjoint();
+    const Eigen::Index shared = layout_.size - kLidarFixed;
+    const Eigen::Index globals = kGlobals + sensor_;
+    const Eigen::Index size = globals + kLocals + shared;
+    // The board's pose in the LiDAR frame (6) by both poses and by the board's own motion;
+    // everything else only changes its place.
+    Eigen::Matrix<double, 6, Eigen::Dynamic> pose = Eigen::MatrixXd::Zero(6, size);
+    pose.leftCols<6>() = -ad;
+    pose.middleCols<6>(globals) = ad;
+    if (layout_.board >= 0) {
+      pose.middleCols<kBoardTerms>(globals + kLocals + layout_.board - kLidarFixed) =
+          board_motion(state_.lidar_from_board(index_), print_.outline().center_m());
+    }
+    const auto place = [&](Eigen::Index i) {
+      if (i < 6 + kBlurParameters) return i;
+      if (i < kLidarFixed) return globals + i - kBlurParameters;
+      if (i < own_size_) return globals + kLocals + i - kLidarFixed;
+      return kGlobals + i - own_size_;
+    };
+    const auto placed = [&](const Eigen::MatrixXd& rows_in) {
+      Eigen::MatrixXd moved = pose.transpose() * rows_in.topRows<6>();
+      for (Eigen::Index i = 6; i < lidar_size(); ++i) moved.row(place(i)) += rows_in.row(i);
+      return moved;
+    };
+    SceneEquations out;
+    out.globals = globals;
+    out.columns = layout_.columns;
+    out.shared = index_ < state_.shared.size() && state_.shared[index_].size() == shared
+                     ? state_.shared[index_]
+                     : Eigen::VectorXd(Eigen::VectorXd::Zero(shared));
+    out.normal = placed(placed(sums.normal).transpose());
+    out.gradient = placed(sums.gradient);
+    if (options_.range_faults) {
+      out.by_range_faults = placed(sums.by_faults);
+      out.range_faults = sums.faults;
+    }
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      const Eigen::Index at = globals + 6 + 2 + i;
+      out.normal(at, at) += 1.0 / (kSlopeSigma * kSlopeSigma);
+      out.gradient(at) -= state_.levels[index_].slope(i) / (kSlopeSigma * kSlopeSigma);
+    }
+    add_corners(scene_, index_, print_, state_, noise_.corner_px, layout_, options_, out, fit);
+    return out;
   }
-  add_corners(scene, index, print, state, noise.corner_px, layout, options, out, fit);
+
+ private:
+  // The LiDAR's own unknowns, and with the sensor's errors.
+  [[nodiscard]] Eigen::Index lidar_size() const { return own_size_ + sensor_; }
+
+  const ForwardScene& scene_;
+  std::size_t index_;
+  const BoardReturns& returns_;
+  const BlurredPrint& print_;
+  const ForwardState& state_;
+  const ForwardNoise& noise_;
+  const LinearizationOptions& options_;
+  Layout layout_;
+  LidarRows rows_;
+  Eigen::Index sensor_;
+  Eigen::Index own_size_;
+  std::size_t chunk_ = 1;
+  std::vector<Accumulator> parts_;
+};
+
+}  // namespace
+
+std::vector<SceneEquations> linearize_scenes(const std::vector<ForwardScene>& scenes,
+                                             const std::vector<BoardReturns>& returns,
+                                             const BlurredPrint& print, const ForwardState& state,
+                                             const ForwardNoise& noise,
+                                             const LinearizationOptions& options, int threads,
+                                             std::vector<SceneFit>& fits,
+                                             std::vector<std::vector<LocalPrint>>& seen) {
+  std::vector<std::unique_ptr<SceneLinearization>> work;
+  std::vector<std::pair<std::size_t, std::size_t>> chunks;  // Scene and chunk.
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    work.push_back(std::make_unique<SceneLinearization>(scenes[s], s, returns[s], print, state,
+                                                        noise, options, &seen[s]));
+    for (std::size_t c = 0; c < work.back()->chunks(); ++c) chunks.emplace_back(s, c);
+  }
+  parallel_for(chunks.size(), threads,
+               [&](std::size_t k) { work[chunks[k].first]->add_chunk(chunks[k].second); });
+  std::vector<SceneEquations> out(scenes.size());
+  fits.assign(scenes.size(), {});
+  parallel_for(scenes.size(), threads, [&](std::size_t s) { out[s] = work[s]->finish(fits[s]); });
   return out;
 }
 

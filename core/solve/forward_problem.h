@@ -176,13 +176,15 @@ struct LinearizationOptions {
   bool range_faults = false;  ///< Fill SceneEquations::by_range_faults.
 };
 
-/// Linearizes corners, ranges and intensities of one scene at a state, in parallel. `seen`: one
-/// per return, kept from one linearization to the next; null if there is no next.
-SceneEquations linearize_scene(const ForwardScene& scene, std::size_t index,
-                               const BoardReturns& returns, const BlurredPrint& print,
-                               const ForwardState& state, const ForwardNoise& noise,
-                               const LinearizationOptions& options, int threads, SceneFit& fit,
-                               std::vector<LocalPrint>* seen = nullptr);
+/// Linearizes corners, ranges and intensities of all scenes at a state, in parallel. `fits` becomes
+/// one per scene. `seen`: per scene one per return, kept from one linearization to the next.
+std::vector<SceneEquations> linearize_scenes(const std::vector<ForwardScene>& scenes,
+                                             const std::vector<BoardReturns>& returns,
+                                             const BlurredPrint& print, const ForwardState& state,
+                                             const ForwardNoise& noise,
+                                             const LinearizationOptions& options, int threads,
+                                             std::vector<SceneFit>& fits,
+                                             std::vector<std::vector<LocalPrint>>& seen);
 
 /// The beam's blur as its Cholesky factor (a, b, c), and back.
 Eigen::Vector3d blur_factor(const Eigen::Matrix2d& blur_rad2);

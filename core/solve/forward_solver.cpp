@@ -17,6 +17,8 @@ namespace {
 constexpr double kCoarseBlur_m = 0.008;
 // Rows per scene until the end is near; all of them then.
 constexpr std::size_t kEarlyRows = 6000;
+// While the print is blurred on purpose fewer tell as much as it can.
+constexpr std::size_t kCoarseRows = 2000;
 constexpr int kCoarseIterations = 6;
 // Of re-estimating the shared errors' variances within one linearization; they go on in the next.
 constexpr int kVarianceRounds = 12;
@@ -132,10 +134,11 @@ class ForwardSolver {
   void match() {
     std::vector<std::vector<PrintMatch>> matches(scenes_.size());
     print_unseen_.assign(scenes_.size(), false);
-    parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (context_.stopped()) return;
-      matches[s] = match_print(returns_[s], print_, state().lidar_from_board(s), options_.search);
-    });
+      matches[s] = match_print(returns_[s], print_, state().lidar_from_board(s), options_.search,
+                               context_.thread_count());
+    }
     std::vector<Rigid3> votes{state().camera_from_lidar};
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       ForwardSceneResult& scene = solution_.scenes[s];
@@ -267,7 +270,7 @@ class ForwardSolver {
     state().beam.blur_rad2 =
         natural + std::max(0.0, wide - natural(0, 0)) * Eigen::Matrix2d::Identity();
     for (int i = 0; i < kCoarseIterations; ++i) {
-      const auto step = iterate(early_rows(), false);
+      const auto step = iterate(early_rows(kCoarseRows), false);
       if (!step) return false;
       if (*step < 0.3) break;
     }
@@ -279,7 +282,7 @@ class ForwardSolver {
     // Few rows until the state stands still, then all of them, with shared errors.
     double last = HUGE_VAL;
     for (; rounds_left > 1; --rounds_left) {
-      const auto step = iterate(early_rows(), true);
+      const auto step = iterate(early_rows(kEarlyRows), true);
       if (!step) return false;
       // Where steps hardly shrink any more it is shared errors that are missing.
       if (*step < 0.5 || *step > kShrinks * last) break;
@@ -287,13 +290,19 @@ class ForwardSolver {
     }
     if (!select(true)) return false;
     list_lines();
+    last = HUGE_VAL;
     for (; rounds_left > 0; --rounds_left) {
       const auto step = iterate(final_rows(), true);
       if (!step) return false;
-      if (*step < options_.tolerance) {
+      // What is still to come of steps that shrink by a ratio q: the last one's q/(1 − q).
+      const double ratio = *step / last;
+      const double left =
+          ratio > 0.0 && ratio < kShrinks ? *step * ratio / (1.0 - ratio) : HUGE_VAL;
+      if (*step < options_.tolerance || left < options_.tolerance / 3.0) {
         solution_.converged = true;
         break;
       }
+      last = *step;
     }
     return true;
   }
@@ -311,11 +320,11 @@ class ForwardSolver {
     if (state().sensor.lines.size() < 2) state().sensor.lines.clear();
   }
 
-  [[nodiscard]] LinearizationOptions early_rows() const {
+  [[nodiscard]] LinearizationOptions early_rows(std::size_t rows) const {
     LinearizationOptions how;
     how.shared_errors = false;
     std::size_t most = 1;
-    for (const BoardReturns& r : returns_) most = std::max(most, r.size() / kEarlyRows);
+    for (const BoardReturns& r : returns_) most = std::max(most, r.size() / rows);
     how.stride = most;
     how.robust_threshold = options_.robust_threshold;
     how.patch_m = options_.patch_m;
@@ -334,12 +343,8 @@ class ForwardSolver {
   std::optional<double> iterate(const LinearizationOptions& how, bool free_blur) {
     if (context_.stopped()) return std::nullopt;
     ++solution_.iterations;
-    std::vector<SceneEquations> equations(scenes_.size());
-    fits_.assign(scenes_.size(), {});
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      equations[s] = linearize_scene(scenes_[s], s, returns_[s], print_, state(), noise(), how,
-                                     context_.thread_count(), fits_[s], &seen_[s]);
-    }
+    std::vector<SceneEquations> equations = linearize_scenes(
+        scenes_, returns_, print_, state(), noise(), how, context_.thread_count(), fits_, seen_);
     prior_ = global_prior(free_blur, how.stride == 1);
     GlobalSolution step =
         solve_equations(equations, prior_, state().sensor, noise().shared, BoardMotion::kWidens,

@@ -17,8 +17,8 @@ struct ForwardOptions {
   double robust_threshold = 3.0;  ///< Huber's, in standard deviations.
   double patch_m = 0.2;           ///< Side of the patches over which the print may move.
   int max_iterations = 30;
-  /// Done when a step moves the extrinsic by less than this share of its standard deviation; the
-  /// next would be far smaller.
+  /// Done when a step moves the extrinsic by less than this share of its standard deviation, or all
+  /// steps still to come by a third of it.
   double tolerance = 0.03;
   double sigma_px_floor = 0.01;
   /// A kind of shared error is taken into the model if chance alone makes it look as large so

@@ -38,7 +38,7 @@ class SizeFit {
       const Eigen::Vector3d point = returns.point_m(k);
       const auto hit = predictor.hit(point.normalized());
       if (!hit) continue;
-      places_.push_back({hit->board_m, returns.intensity(k)});
+      places_.push_back({hit->board_m, returns.intensity(k), {}});
       if (returns.intensity(k) > 0.5 * (levels.white + levels.black))
         farther.push_back(point.norm() / hit->range_m);
     }
@@ -73,6 +73,7 @@ class SizeFit {
   struct Place {
     Eigen::Vector2d board_m;
     double intensity;
+    LocalPrint seen = {};  // The print as it was seen here last.
   };
 
   // Where on the drawing the print at a place of the board comes from.
@@ -117,10 +118,11 @@ class SizeFit {
     Vector7 gradient = Vector7::Zero();
     double squares = 0.0;
     double rows = 0.0;
-    for (const Place& place : places_) {
+    for (Place& place : places_) {
       const Eigen::Vector2d q = on_drawing(place.board_m);
       const Eigen::Vector3d at = lidar_from_board_ * Eigen::Vector3d(q.x(), q.y(), 0.0);
-      const auto p = predictor.predict(at.normalized());
+      const auto p =
+          predictor.predict(at.normalized(), Eigen::Vector2d::Zero(), &place.seen, &place.seen);
       if (!p) continue;
       const double plain = std::exp(p->white * std::log(noise_.intensity_white) +
                                     (1.0 - p->white) * std::log(noise_.intensity_black));

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/statistics.h"
@@ -284,7 +286,18 @@ struct BlurredPrint::Level {
     samples.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
                    {1.0F, 0.0F, 0.0F, 0.0F});
     const BlackShapes shapes = black_shapes(target);
-    for (const BlackRectangle& r : shapes.rectangles) blacken(r, sigma);
+    // Tags have many bits between the same two lines.
+    std::map<std::pair<double, double>, Strip> across;
+    std::map<std::pair<double, double>, Strip> along;
+    const auto of = [&](auto& strips, double a, double b, double start, int count) -> const Strip& {
+      const auto [at, fresh] = strips.try_emplace({a, b});
+      if (fresh) at->second = strip(a, b, start, count, sigma);
+      return at->second;
+    };
+    for (const BlackRectangle& r : shapes.rectangles) {
+      blacken(of(across, r.lower_left.x(), r.upper_right.x(), origin.x(), columns),
+              of(along, r.lower_left.y(), r.upper_right.y(), origin.y(), rows));
+    }
     if (shapes.discs.empty()) return;
     const DiscProfile profile(shapes.disc_radius, sigma);
     for (const Eigen::Vector2d& center : shapes.discs)
@@ -311,9 +324,7 @@ struct BlurredPrint::Level {
   }
 
   // A rectangle's blur is the product of its two strips'.
-  void blacken(const BlackRectangle& r, double sigma) {
-    const Strip x = strip(r.lower_left.x(), r.upper_right.x(), origin.x(), columns, sigma);
-    const Strip y = strip(r.lower_left.y(), r.upper_right.y(), origin.y(), rows, sigma);
+  void blacken(const Strip& x, const Strip& y) {
     for (std::size_t j = 0; j < y.value.size(); ++j) {
       std::array<float, 4>* row =
           &samples[(static_cast<std::size_t>(y.first) + j) * static_cast<std::size_t>(columns) +

@@ -90,6 +90,15 @@ TEST(Statistics, NormalDistributionAgreesWithTables) {
   EXPECT_NEAR(normal_cdf(0), 0.5, 1e-15);
   EXPECT_NEAR(normal_cdf(1.959963985), 0.975, 1e-9);
   EXPECT_NEAR(normal_cdf(-3), 0.0013498980316, 1e-12);
+  double worst = 0.0;
+  double worst_share = 0.0;
+  for (double x = -9.0; x < 9.0; x += 0.000917) {
+    const double exact = 0.5 * std::erfc(-x / std::sqrt(2.0));
+    worst = std::max(worst, std::abs(normal_cdf(x) - exact));
+    worst_share = std::max(worst_share, std::abs(normal_cdf(x) / exact - 1.0));
+  }
+  EXPECT_LT(worst, 2e-13);
+  EXPECT_LT(worst_share, 1e-9);
   EXPECT_NEAR(normal_pdf(0), 0.3989422804014327, 1e-15);
   EXPECT_NEAR(normal_pdf(1.5), (normal_cdf(1.5 + 1e-5) - normal_cdf(1.5 - 1e-5)) / 2e-5, 1e-8);
 }

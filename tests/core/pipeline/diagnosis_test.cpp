@@ -106,7 +106,7 @@ TEST(SameContent, ImagesAndCloudsAreComparedEachForItself) {
   add("C", "image 1", "cloud 2");
   add("D", "image 2", "cloud 1");
   add("E", "image 3", "cloud 3");
-  const auto same = same_content(dataset, false, {});
+  const auto same = same_content(dataset, false, hash_inputs(dataset, false, {}));
   ASSERT_EQ(same.size(), 5U);
   EXPECT_FALSE(same[0].image || same[0].cloud);
   EXPECT_FALSE(same[1].image.has_value());
