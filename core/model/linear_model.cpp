@@ -88,8 +88,9 @@ class SceneAccumulator {
  public:
   SceneAccumulator(const MeasurementTable& table, const ModelState& state,
                    const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                   const LocalLayout& layout, std::size_t scene)
+                   const LocalLayout& layout, std::size_t scene, PrintMemory* memory)
       : table_(table),
+        memory_(memory),
         scene_(static_cast<int>(scene)),
         geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
         camera_from_board_(state.camera_from_board[scene]),
@@ -160,7 +161,7 @@ class SceneAccumulator {
   }
 
   void range(const RangeRow& r) {
-    const auto row = print_.range(r);
+    const auto row = print_.range(r, seen(r, table_.range, &PrintMemory::range));
     if (!row) return;
     begin(*row);
     BoardPolynomials z{};
@@ -196,7 +197,9 @@ class SceneAccumulator {
   }
 
   void reading(const IntensityRow& r, const BoundaryRow* edge) {
-    const auto row = edge != nullptr ? print_.edge(*edge) : print_.intensity(r);
+    const auto row = edge != nullptr
+                         ? print_.edge(*edge, seen(*edge, table_.boundary, &PrintMemory::boundary))
+                         : print_.intensity(r, seen(r, table_.intensity, &PrintMemory::intensity));
     if (!row) return;
     begin(*row);
     const int patch = layout_.patch_column() + 2 * patch_of(r.beam.board_m);
@@ -243,7 +246,16 @@ class SceneAccumulator {
     }
   }
 
+  // Where a row remembers the print.
+  template <class Row>
+  LocalPrint* seen(const Row& row, const std::vector<Row>& rows,
+                   std::vector<LocalPrint> PrintMemory::*places) const {
+    if (memory_ == nullptr) return nullptr;
+    return &(memory_->*places)[static_cast<std::size_t>(&row - rows.data())];
+  }
+
   const MeasurementTable& table_;
+  PrintMemory* memory_;
   int scene_;
   SceneGeometry geometry_;
   Rigid3 camera_from_board_;
@@ -327,9 +339,16 @@ std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
   return {line_column() + lines, lines};
 }
 
+PrintMemory::PrintMemory(const MeasurementTable& table) {
+  for (const RangeRow& row : table.range) range.push_back(row.seen);
+  for (const BoundaryRow& row : table.boundary) boundary.push_back(row.reading.seen);
+  for (const IntensityRow& row : table.intensity) intensity.push_back(row.reading.seen);
+}
+
 Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                        const RunContext& context, const ChannelMask& channels) {
+                        const RunContext& context, const ChannelMask& channels,
+                        PrintMemory* memory) {
   Linearization out;
   out.columns = columns;
   out.scenes.resize(table.scenes.size());
@@ -349,7 +368,7 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
     const std::size_t channel = task % kChannels;
     if (context.stopped() || !channels[channel]) return;
     SceneProducts& scene = out.scenes[s];
-    SceneAccumulator(table, state, in_use, columns, scene.layout, s)
+    SceneAccumulator(table, state, in_use, columns, scene.layout, s, memory)
         .run(kAllChannels[channel], scene);
   });
   if (context.stopped()) out.scenes.assign(table.scenes.size(), {});

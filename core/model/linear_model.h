@@ -129,12 +129,21 @@ struct Linearization {
 using ChannelMask = std::array<bool, kChannels>;
 inline constexpr ChannelMask kEveryChannel{true, true, true, true};
 
+/// The print as each row of a table saw it last: while a model moves, most predictions follow from
+/// there. Starts with what the table's rows saw.
+struct PrintMemory {
+  PrintMemory() = default;
+  explicit PrintMemory(const MeasurementTable& table);
+  std::vector<LocalPrint> range, boundary, intensity;
+};
+
 /// Computes the cross products; scenes in parallel. Cost is linear in rows and in the number of
 /// effects that act on a row. Channels left out stay zero. Stops early (empty scenes) when asked
-/// to.
+/// to. `memory`, of the same table: used and brought up to date; null: the table's own.
 Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                        const RunContext& context, const ChannelMask& channels = kEveryChannel);
+                        const RunContext& context, const ChannelMask& channels = kEveryChannel,
+                        PrintMemory* memory = nullptr);
 
 /// The state moved by left perturbations.
 ModelState moved(const ModelState& state, const Vector6d& extrinsic,

@@ -26,7 +26,7 @@ Matrix6d PrintRows::board_motion_by_pose() const {
   return motion_.transpose() * by_camera.inverse();
 }
 
-std::optional<PrintRow> PrintRows::range(const RangeRow& row) {
+std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   double further = 0.0;
   const auto edge = edge_beside(row.beam, log_contrast_);
@@ -39,7 +39,8 @@ std::optional<PrintRow> PrintRows::range(const RangeRow& row) {
                   shift += value(c, k) * by.shift_m[k];
                 }
               });
-  const auto p = predictor_.predict(row.beam.direction, shift, &row.seen);
+  const auto p =
+      predictor_.predict(row.beam.direction, shift, seen != nullptr ? seen : &row.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
   out.residual = row.measured_m - p->range_m - further;
@@ -48,16 +49,17 @@ std::optional<PrintRow> PrintRows::range(const RangeRow& row) {
   return out;
 }
 
-std::optional<PrintRow> PrintRows::edge(const BoundaryRow& row) {
+std::optional<PrintRow> PrintRows::edge(const BoundaryRow& row, LocalPrint* seen) {
   const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
-  return reading({row.beam, side, 0.0, 1.0, row.reading}, &row);
+  return reading({row.beam, side, 0.0, 1.0, row.reading}, &row, seen);
 }
 
-std::optional<PrintRow> PrintRows::intensity(const IntensityRow& row) {
-  return reading(row, nullptr);
+std::optional<PrintRow> PrintRows::intensity(const IntensityRow& row, LocalPrint* seen) {
+  return reading(row, nullptr, seen);
 }
 
-std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const BoundaryRow* edge) {
+std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const BoundaryRow* edge,
+                                           LocalPrint* seen) {
   const Eigen::Vector3d& direction = row.beam.direction;
   // Sums of what the effects in use do: the print's displacement under the beam, the blur, the
   // logarithm of the intensity.
@@ -73,7 +75,8 @@ std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const Bounda
       log += v * by.log_intensity[k];
     }
   });
-  const auto p = predictor_.predict(direction, shift, &row.reading.seen);
+  const auto p =
+      predictor_.predict(direction, shift, seen != nullptr ? seen : &row.reading.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
   const double unit = row.reading.unit;

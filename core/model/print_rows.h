@@ -35,9 +35,11 @@ class PrintRows {
   PrintRows(const PrintRows&) = delete;
   PrintRows& operator=(const PrintRows&) = delete;
 
-  [[nodiscard]] std::optional<PrintRow> range(const RangeRow& row);
-  [[nodiscard]] std::optional<PrintRow> edge(const BoundaryRow& row);
-  [[nodiscard]] std::optional<PrintRow> intensity(const IntensityRow& row);
+  /// `seen`: the print as the row saw it last, brought up to date; null: as the table's row has it.
+  [[nodiscard]] std::optional<PrintRow> range(const RangeRow& row, LocalPrint* seen = nullptr);
+  [[nodiscard]] std::optional<PrintRow> edge(const BoundaryRow& row, LocalPrint* seen = nullptr);
+  [[nodiscard]] std::optional<PrintRow> intensity(const IntensityRow& row,
+                                                  LocalPrint* seen = nullptr);
 
   /// Rotation of T_lidar_board.
   [[nodiscard]] const Eigen::Matrix3d& lidar_from_board() const { return rotation_; }
@@ -47,7 +49,8 @@ class PrintRows {
   [[nodiscard]] Matrix6d board_motion_by_pose() const;
 
  private:
-  std::optional<PrintRow> reading(const IntensityRow& row, const BoundaryRow* edge);
+  std::optional<PrintRow> reading(const IntensityRow& row, const BoundaryRow* edge,
+                                  LocalPrint* seen);
   [[nodiscard]] double value(const EffectColumns& c, std::size_t k) const {
     const auto at = static_cast<std::size_t>(&c - columns_.list().data());
     return in_use_[at].values(static_cast<Eigen::Index>(k));

@@ -46,6 +46,7 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
                            const RunContext& context)
     : base_(&table),
       table_(&table),
+      memory_(table),
       state_(std::move(state)),
       options_(options),
       context_(context),
@@ -117,7 +118,7 @@ void EffectSearch::refit() {
   joint_covariance_.reset();
   shape_sigmas_.clear();
   ranked_ = false;
-  linear_ = linearize(table(), state_, model(), own_columns(), context_);
+  linear_ = linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
     variances_ = reference_.fit.variances;
@@ -143,7 +144,8 @@ bool EffectSearch::descend() {
   const double before = misfit(linear_, reference_.subset, variances_);
   for (double share = 1.0; share > kLeastShare; share *= 0.5) {
     move(share);
-    Linearization next = linearize(table(), state_, model(), own_columns(), context_);
+    Linearization next =
+        linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
     if (context_.stopped()) return false;
     if (misfit(next, own_subset(next.columns), variances_) < before) {
       linear_ = std::move(next);
@@ -239,6 +241,7 @@ void EffectSearch::remake() {
     next->again = base_->again;
     remade_ = std::move(next);
     table_ = remade_.get();
+    memory_ = PrintMemory(table());
     refit();
     if (admit_structure()) refit();
     if (context_.stopped()) return;
@@ -306,7 +309,7 @@ void EffectSearch::rank() {
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   append_candidates(columns);
-  linear_ = linearize(table(), state_, model(), columns, context_);
+  linear_ = linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
   candidates_.clear();
   if (context_.stopped()) return;
   reference_ = make_reference(linear_, subset, variances_, {});
@@ -457,7 +460,8 @@ std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect)
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   columns.add(effect, shape, table());
-  const Linearization linear = linearize(table(), state_, model(), columns, context_);
+  const Linearization linear =
+      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
   if (context_.stopped()) return std::nullopt;
   const Reference reference = make_reference(linear, subset, variances_, {.rounds = 0});
   const Candidate c = evaluate_candidate(linear, reference, own_count(), options_.tolerance, {});
@@ -470,7 +474,8 @@ std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect)
 std::optional<std::size_t> EffectSearch::superfluous() {
   // The model with all effects in use against those with one less.
   const EffectColumnsList columns = own_columns();
-  const Linearization linear = linearize(table(), state_, model(), columns, context_);
+  const Linearization linear =
+      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
   if (context_.stopped()) return std::nullopt;
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
     // Without the effect its rows still hold the values in use: the candidate's increment undoes

@@ -132,6 +132,7 @@ class EffectSearch {
   const MeasurementTable* base_;   // what was given
   const MeasurementTable* table_;  // that, or …
   std::shared_ptr<const MeasurementTable> remade_;
+  mutable PrintMemory memory_;  ///< Of the table in use: a cache of predictions.
   ModelState state_;
   const DiscoveryOptions& options_;
   RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it

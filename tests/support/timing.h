@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdlib>
+
+namespace lvcalib::test {
+
+/// A limit for a time that the machine's other work may stretch: the mark itself where
+/// LVCALIB_TIMINGS is set (by night, with nothing else running); else thirty times as much, so that
+/// only what hangs fails.
+template <class Number>
+Number time_limit(Number mark) {
+  return std::getenv("LVCALIB_TIMINGS") != nullptr ? mark : 30 * mark;
+}
+
+}  // namespace lvcalib::test
