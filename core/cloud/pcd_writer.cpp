@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Our own, as PCL's writer wants a copy of the cloud in points of its own, and takes 13 ms of one
+// core for half a million of them where this takes 6 (pcl_benchmark); and it leaves half a file
+// behind.
 #include <cerrno>
 #include <cstring>
 #include <string>

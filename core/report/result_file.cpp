@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/result_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +18,10 @@ namespace lvcalib {
 namespace {
 
 using nlohmann::ordered_json;
+
+bool is_number(const nlohmann::json& value) {
+  return value.is_number();
+}
 
 ordered_json pose_json(const Rigid3& pose) {
   const Eigen::Vector4d q = pose.rotation.coeffs();
@@ -394,8 +399,18 @@ Result<StoredExtrinsic> result_from_json(const std::string& text,
     return Error::input("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers",
                         path.string());
   }
-  const auto transform = rigid(m, "T_camera_lidar.matrix", path);
+  auto transform = rigid(m, "T_camera_lidar.matrix", path);
   if (!transform) return transform.error();
+  // The same rotation as a quaternion comes back as it was, to the last digit.
+  if (const auto q = pose->find("quaternion_xyzw"); q != pose->end() && q->is_array() &&
+                                                    q->size() == 4 &&
+                                                    std::all_of(q->begin(), q->end(), is_number)) {
+    Rigid3 same = *transform;
+    for (Eigen::Index k = 0; k < 4; ++k)
+      same.rotation.coeffs()(k) = (*q)[static_cast<std::size_t>(k)].get<double>();
+    constexpr double kRounding = 1e-12;
+    if ((same.matrix() - m).cwiseAbs().maxCoeff() < kRounding) *transform = same;
+  }
   StoredExtrinsic out;
   out.camera_from_lidar = *transform;
   if (j->contains("covariance") && read_rows((*j)["covariance"], 6, 6, m)) out.covariance = m;

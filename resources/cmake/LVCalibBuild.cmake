@@ -83,7 +83,7 @@ endif()
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc calib3d imgcodecs features2d aruco)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc calib3d features2d aruco)
 find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)

@@ -97,10 +97,9 @@ void PlotView::changeEvent(QEvent* event) {
   }
   if (isVisible()) return rebuild();
   // What nobody sees waits its turn: all figures at once would keep the window from answering.
-  static int turn = 0;
-  constexpr int kTurns = 32;
+  constexpr std::size_t kTurns = 32;
   constexpr int kTurn_ms = 12;
-  turn = (turn + 1) % kTurns;
+  const auto turn = static_cast<int>(qHash(this) % kTurns);
   QTimer::singleShot(kTurn_ms * (1 + turn), this, [this] { rebuild(); });
 }
 

@@ -101,6 +101,7 @@ TEST(SameContent, ImagesAndCloudsAreComparedEachForItself) {
     folder.write(name + ".pcd", cloud);
     dataset.scenes.push_back(files);
   };
+  dataset.path = folder.path();
   add("A", "image 1", "cloud 1");
   add("B", "image 2", "cloud 1");
   add("C", "image 1", "cloud 2");
