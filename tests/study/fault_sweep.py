@@ -127,11 +127,11 @@ def spelled(value, text):
     return any(f"{value:.{digits}g}" in text for digits in range(6, 18))
 
 
-def killed(name, arguments, out, expected, moments, seconds, random_):
+def killed(name, arguments, out, fresh, expected, moments, seconds, random_):
     failures = []
     ended = 0
     for _ in range(moments):
-        shutil.rmtree(out, ignore_errors=True)
+        fresh()
         after = random_.uniform(0.0, 1.05 * seconds)
         status, error, _, _ = run(arguments, out.parent, kill_after_s=after)
         if status == 0:
@@ -145,13 +145,13 @@ def killed(name, arguments, out, expected, moments, seconds, random_):
     return not failures
 
 
-def starved(name, arguments, out, expected, steps, peak):
+def starved(name, arguments, out, fresh, expected, steps, peak):
     failures = []
     statuses = {}
     for k in range(steps):
-        shutil.rmtree(out, ignore_errors=True)
+        fresh()
         # From the least in which a program of this size can be loaded.
-        limit = int(peak * (0.1 + 0.9 * (k + 1) / steps))
+        limit = int(peak * (0.1 + 1.1 * (k + 1) / steps))
         status, error, _, _ = run(arguments, out.parent, limit_bytes=limit)
         messages = [line for line in error.splitlines() if line.startswith("lvcalib: error: ")]
         statuses[status] = statuses.get(status, 0) + 1
@@ -231,7 +231,7 @@ def main():
             "discover": ["discover", rig, "-o", out],
             "report": ["report", done, "-o", out / "report.html"],
             "export": ["export", done / "result.json", "--format", "ros2-tf", "-o", out / "tf.py"],
-            "correct": ["correct", rig / "scenes" / "01" / "cloud.pcd", "--with",
+            "correct": ["correct", rig / "scenes" / "A" / "cloud.pcd", "--with",
                         done / "result.json", "-o", out / "fixed.pcd"],
             "import": ["import", pairs, "-o", out, "--target", target, "--camera", camera],
         }
@@ -252,9 +252,8 @@ def main():
             files = [p for p in out.rglob("*") if p.is_file()]
             expected = {p.name for p in files}
             size = sum(p.stat().st_size for p in files)
-            ok = killed(command, arguments, out, expected, options.moments, seconds, random_)
-            fresh()
-            ok = starved(command, arguments, out, expected, options.steps, peak) and ok
+            ok = killed(command, arguments, out, fresh, expected, options.moments, seconds, random_)
+            ok = starved(command, arguments, out, fresh, expected, options.steps, peak) and ok
             fresh()
             if str(out) in arguments and size > 64 * KIB:
                 ok = full_disk(command, arguments, out, expected, size, 4) and ok
