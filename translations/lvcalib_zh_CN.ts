@@ -2853,6 +2853,10 @@ were saved. Take them up again?</source>
         <source>is of another size than the camera&apos;s images</source>
         <translation>与相机图像的尺寸不同</translation>
     </message>
+    <message>
+        <source>white print is saturated, so that the place of its edges is not measured: scene %1; lower the LiDAR&apos;s gain or print the white greyer</source>
+        <translation>白色印刷部分已饱和，无法测量其边缘的位置：场景 %1；请降低激光雷达增益，或将白色印得灰一些</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

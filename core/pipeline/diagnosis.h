@@ -15,6 +15,11 @@ namespace lvcalib {
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
                                      const CalibrationResult& result, const RunContext& context);
 
+/// Looks for the board in other sizes, after it was not found in its own. The size (over the
+/// model's) at which it is found, or nothing.
+std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
+                                        const CalibrationResult& result, const RunContext& context);
+
 /// The two scenes after whose images have been exchanged all scenes agree, if they did not before.
 std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
     std::vector<SceneHypotheses> scenes, int agreeing, const ConsensusOptions& options);

@@ -2,7 +2,6 @@
 #include "pipeline/quality.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -13,12 +12,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "base/parallel.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "model/board_prediction.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/forward_stage.h"
-#include "pipeline/scene_loading.h"
 
 namespace lvcalib {
 namespace {
@@ -379,16 +377,34 @@ void judge_print_size(const CalibrationResult& result, const QualityOptions& opt
 }
 
 // What the intensities say about the print, and what keeps them from saying it.
+// Share of the returns on the board that lie on white print, seen through a blur of millimetres.
+double white_share(const BlurredPrint& print, const Cloud& points, const Rigid3& lidar_from_board) {
+  constexpr double kBlur_m = 0.004;
+  const BoardPredictor predictor(print, lidar_from_board, {}, {});
+  const BlurredPrint::Coarse blurred = print.coarse(kBlur_m);
+  double white = 0.0;
+  double count = 0.0;
+  for (const Eigen::Vector3f& point : points.points_m) {
+    const auto hit = predictor.hit(point.cast<double>().normalized());
+    if (!hit || print.inside_m(hit->board_m) <= 0.0) continue;
+    white += blurred.at(hit->board_m);
+    count += 1.0;
+  }
+  return count > 0.0 ? white / count : 1.0;
+}
+
 void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
   const ForwardSolution& forward = *result.forward;
   std::map<PrintState, std::string> unseen;
   std::string saturated;
+  std::string clipped;
   std::size_t next = 0;
   std::size_t scenes = 0;
   for (const SceneSolution& solved : result.extrinsic.scenes) {
     if (!solved.used || next >= forward.scenes.size()) continue;
     const auto scene = std::find_if(result.scenes.begin(), result.scenes.end(),
                                     [&](const SceneResult& s) { return s.name == solved.name; });
+    const Rigid3 lidar_from_board = forward.state.lidar_from_board(next);
     const ForwardSceneResult& found = forward.scenes[next++];
     if (scene == result.scenes.end()) continue;
     ++scenes;
@@ -396,7 +412,13 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
     if (state != PrintState::kSeen)
       unseen[state] += (unseen[state].empty() ? "" : ", ") + scene->name;
     // A fiftieth of the intensities at the ceiling bends no edge.
-    if (found.saturated > 0.0) {
+    // Where the median white return is at the ceiling the level of white is not measured, and an
+    // edge's middle is taken for where half of the ceiling is.
+    if (found.saturated > 0.0 && result.print &&
+        found.saturated > 0.5 * white_share(*result.print, scene->board_points, lidar_from_board)) {
+      clipped += (clipped.empty() ? "" : ", ") + scene->name +
+                 formatted(" (%.0f %%)", 100.0 * found.saturated);
+    } else if (found.saturated > 0.0) {
       saturated += (saturated.empty() ? "" : ", ") + scene->name +
                    formatted(" (%.0f %%)", 100.0 * found.saturated);
     }
@@ -423,6 +445,12 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
   if (!saturated.empty()) {
     verdict.note("the intensities are saturated on part of the board: scene " + saturated +
                  "; lower the LiDAR's gain or print the white greyer");
+  }
+  if (!clipped.empty()) {
+    verdict.doubtful(
+        "white print is saturated, so that the place of its edges is not measured: "
+        "scene " +
+        clipped + "; lower the LiDAR's gain or print the white greyer");
   }
   if (!forward.uses_intensity) return;
   if (forward.lattice_margin < options.min_margin) {
@@ -453,15 +481,6 @@ void judge_place(const CalibrationResult& result, Verdict& verdict) {
           1e3 * rotation_distance_rad(solved.transform, localized.transform)) +
       ", more than both leave open: it may have locked onto another place of the print; add scenes "
       "with the board turned differently");
-}
-
-Target scaled(Target t, double s) {
-  for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
-                         &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
-    *length *= s;
-  }
-  t.board_offset_m *= s;
-  return t;
 }
 
 // Which scenes are out of use and why; equal reasons once.
@@ -626,78 +645,6 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   }
   for (std::size_t k = before; k < result.warnings.size(); ++k)
     result.warnings[k].insert(0, "result: ");
-}
-
-namespace {
-
-// Wrong units and wrong readings: from half to double in steps that the search bridges.
-constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9,  0.95, 1.05,
-                               1.1, 1.16, 1.22, 1.3,  1.4,  1.5,  1.6, 1.72, 1.86, 2.0};
-
-// The board's best candidate if it were `size` times as large as in target.yaml; gain 0: none.
-BoardCandidate best_at_size(const Cloud& cloud, const CalibrationResult& result,
-                            const BoardView& view, double size, const BoardSearchOptions& options,
-                            const RunContext& context) {
-  const Target target = scaled(result.target, size);
-  const double distance_m = size * view.camera_from_board.transform.translation.norm();
-  const auto search = search_board(cloud, target, PatternPyramid(target), distance_m, std::nullopt,
-                                   options, context);
-  BoardCandidate best;
-  for (const BoardCandidate& candidate : search.candidates) {
-    if (candidate.gain > best.gain) best = candidate;
-  }
-  return best;
-}
-
-}  // namespace
-
-std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
-                                        const CalibrationResult& result,
-                                        const RunContext& context) {
-  constexpr double kSameSize = 0.03;
-  RunContext quiet = context;
-  quiet.progress = {};
-  quiet.threads = 1;
-  std::optional<double> measured;
-  for (std::size_t k = 0; k < result.scenes.size() && !context.stopped(); ++k) {
-    if (!result.scenes[k].view || result.scenes[k].unreadable) continue;
-    const SceneFiles& files = dataset.scenes[k];
-    const auto cloud = read_scene_cloud(files, request, context.stop);
-    if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;
-    const auto look = [&](double size) {
-      return best_at_size(*cloud, result, *result.scenes[k].view, size,
-                          request.options.localization, quiet);
-    };
-    if (measured) {
-      // Among so many sizes something may look like the board by chance, but not in two scenes.
-      const BoardCandidate again = look(*measured);
-      if (again.gain > 0 && std::abs(again.scale - 1.0) < kSameSize) return measured;
-      continue;
-    }
-    // The size of the strongest evidence, and the candidate there.
-    const auto best_of = [&](const std::vector<double>& sizes) {
-      std::vector<BoardCandidate> found(sizes.size());
-      parallel_for(sizes.size(), context.thread_count(), [&](std::size_t i) {
-        if (!context.stopped()) found[i] = look(sizes[i]);
-      });
-      const auto best = std::max_element(
-          found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
-      return std::pair(sizes[static_cast<std::size_t>(best - found.begin())], *best);
-    };
-    const auto [coarse, first] = best_of({kSizes.begin(), kSizes.end()});
-    if (first.gain <= 0) return std::nullopt;
-    // Some per cent off, a board set slightly askew fits nearly as well, and measures a wrong
-    // scale: only next to the true size can the measured scale be trusted.
-    std::vector<double> finer;
-    for (int percent = -5; percent <= 5; ++percent)
-      finer.push_back(coarse * (1.0 + 0.01 * percent));
-    const auto [size, candidate] = best_of(finer);
-    if (candidate.gain <= 0) return std::nullopt;
-    measured = size * candidate.scale;
-  }
-  const auto views = std::count_if(result.scenes.begin(), result.scenes.end(),
-                                   [](const SceneResult& scene) { return scene.view.has_value(); });
-  return views == 1 ? measured : std::nullopt;
 }
 
 }  // namespace lvcalib

@@ -25,9 +25,4 @@ MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult&
 /// Sets quality and adds the warnings that explain it.
 void judge_quality(CalibrationResult& result, const QualityOptions& options);
 
-/// Looks for the board in other sizes, after it was not found in its own. The size (over the
-/// model's) at which it is found, or nothing.
-std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
-                                        const CalibrationResult& result, const RunContext& context);
-
 }  // namespace lvcalib

@@ -117,7 +117,7 @@ void add_other_cameras(Kinds& all) {
     c.distortion(0) -= 0.04;
     c.distortion(1) += 0.03;
   }));
-  all.push_back(camera("camera.yaml says another size of the image", {"px", "size"}, [](Camera& c) {
+  all.push_back(camera("camera.yaml says another size of the image", {"pixels", "size"}, [](Camera& c) {
     c.width_px += 160;
     c.height_px += 100;
   }));

@@ -146,6 +146,9 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP(
         "Core", "the LiDAR sees %1 % of the board only: something covers it, or it is cut off"),
     QT_TRANSLATE_NOOP("Core",
+                      "white print is saturated, so that the place of its edges is not measured: "
+                      "scene %1; lower the LiDAR's gain or print the white greyer"),
+    QT_TRANSLATE_NOOP("Core",
                       "the intensities are saturated on part of the board: scene %1; lower the "
                       "LiDAR's gain or print the white greyer"),
     QT_TRANSLATE_NOOP("Core",

@@ -333,6 +333,11 @@ TEST_F(MainWindowTest, OneBadFileCostsOneScene) {
   fs::copy(dataset().toStdString(), bad, fs::copy_options::recursive);
   fs::copy(bad / "scenes/A", bad / "scenes/D", fs::copy_options::recursive);
   fs::remove(bad / "scenes/D/cloud.pcd");
+  // An image of another size than the intrinsics are for.
+  fs::copy(bad / "scenes/B", bad / "scenes/E", fs::copy_options::recursive);
+  const QString wrong = QString::fromStdString((bad / "scenes/E/image.png").string());
+  const QImage whole(wrong);
+  ASSERT_TRUE(whole.copy(0, 0, whole.width() / 2, whole.height() / 2).save(wrong));
   fs::resize_file(bad / "scenes/B/cloud.pcd", fs::file_size(bad / "scenes/B/cloud.pcd") / 2);
   fs::resize_file(bad / "scenes/C/image.png", 0);
   window_->open(QString::fromStdString(bad.string()));
@@ -355,6 +360,7 @@ TEST_F(MainWindowTest, OneBadFileCostsOneScene) {
   EXPECT_TRUE(state("B").contains("truncated")) << state("B").toStdString();
   EXPECT_TRUE(state("C").contains("image.png"));
   EXPECT_TRUE(state("D").contains("no cloud"));
+  EXPECT_TRUE(state("E").contains("pixels")) << state("E").toStdString();
   ASSERT_TRUE(workspace().result());
   EXPECT_EQ(workspace().result()->extrinsic.used_scenes, 1);
   // Mended, and run again.

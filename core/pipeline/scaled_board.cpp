@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The board is there, but of another size than target.yaml says.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/parallel.h"
+#include "localization/board_search.h"
+#include "pipeline/diagnosis.h"
+#include "pipeline/scene_loading.h"
+
+namespace lvcalib {
+namespace {
+
+Target scaled(Target t, double s) {
+  for (double* length : {&t.tag_size_m, &t.circle_radius_m, &t.margin_m, &t.column_spacing_m,
+                         &t.row_spacing_m, &t.board_width_m, &t.board_height_m}) {
+    *length *= s;
+  }
+  t.board_offset_m *= s;
+  return t;
+}
+
+// Wrong units and wrong readings: from half to double in steps that the search bridges.
+constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9,  0.95, 1.05,
+                               1.1, 1.16, 1.22, 1.3,  1.4,  1.5,  1.6, 1.72, 1.86, 2.0};
+
+// The board's best candidate if it were `size` times as large as in target.yaml; gain 0: none.
+BoardCandidate best_at_size(const Cloud& cloud, const CalibrationResult& result,
+                            const BoardView& view, double size, const BoardSearchOptions& options,
+                            const RunContext& context) {
+  const Target target = scaled(result.target, size);
+  const double distance_m = size * view.camera_from_board.transform.translation.norm();
+  const auto search = search_board(cloud, target, PatternPyramid(target), distance_m, std::nullopt,
+                                   options, context);
+  BoardCandidate best;
+  for (const BoardCandidate& candidate : search.candidates) {
+    if (candidate.gain > best.gain) best = candidate;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
+                                        const CalibrationResult& result,
+                                        const RunContext& context) {
+  constexpr double kSameSize = 0.03;
+  RunContext quiet = context;
+  quiet.progress = {};
+  quiet.threads = 1;
+  std::optional<double> measured;
+  for (std::size_t k = 0; k < result.scenes.size() && !context.stopped(); ++k) {
+    if (!result.scenes[k].view || result.scenes[k].unreadable) continue;
+    const SceneFiles& files = dataset.scenes[k];
+    const auto cloud = read_scene_cloud(files, request, context.stop);
+    if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;
+    const auto look = [&](double size) {
+      return best_at_size(*cloud, result, *result.scenes[k].view, size,
+                          request.options.localization, quiet);
+    };
+    if (measured) {
+      // Among so many sizes something may look like the board by chance, but not in two scenes.
+      const BoardCandidate again = look(*measured);
+      if (again.gain > 0 && std::abs(again.scale - 1.0) < kSameSize) return measured;
+      continue;
+    }
+    // The size of the strongest evidence, and the candidate there.
+    const auto best_of = [&](const std::vector<double>& sizes) {
+      std::vector<BoardCandidate> found(sizes.size());
+      parallel_for(sizes.size(), context.thread_count(), [&](std::size_t i) {
+        if (!context.stopped()) found[i] = look(sizes[i]);
+      });
+      const auto best = std::max_element(
+          found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
+      return std::pair(sizes[static_cast<std::size_t>(best - found.begin())], *best);
+    };
+    const auto [coarse, first] = best_of({kSizes.begin(), kSizes.end()});
+    if (first.gain <= 0) return std::nullopt;
+    // Some per cent off, a board set slightly askew fits nearly as well, and measures a wrong
+    // scale: only next to the true size can the measured scale be trusted.
+    std::vector<double> finer;
+    for (int percent = -5; percent <= 5; ++percent)
+      finer.push_back(coarse * (1.0 + 0.01 * percent));
+    const auto [size, candidate] = best_of(finer);
+    if (candidate.gain <= 0) return std::nullopt;
+    measured = size * candidate.scale;
+  }
+  const auto views = std::count_if(result.scenes.begin(), result.scenes.end(),
+                                   [](const SceneResult& scene) { return scene.view.has_value(); });
+  return views == 1 ? measured : std::nullopt;
+}
+
+}  // namespace lvcalib
