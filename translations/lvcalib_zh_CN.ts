@@ -2857,6 +2857,10 @@ were saved. Take them up again?</source>
         <source>white print is saturated, so that the place of its edges is not measured: scene %1; lower the LiDAR&apos;s gain or print the white greyer</source>
         <translation>白色印刷部分已饱和，无法测量其边缘的位置：场景 %1；请降低激光雷达增益，或将白色印得灰一些</translation>
     </message>
+    <message>
+        <source>the board is not found in the cloud, which holds %1 points only</source>
+        <translation>点云中未找到标定板：该点云只有 %1 个点</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

@@ -114,6 +114,13 @@ class SceneLoader {
       result_.scenes[s].reason = "the crop box holds no points";
       return;
     }
+    constexpr std::size_t kFewest = 10;  // A plane takes as many.
+    if (cloud->size() < kFewest) {
+      const std::lock_guard lock(mutex_);
+      result_.scenes[s].reason = "the board is not found in the cloud, which holds " +
+                                 std::to_string(cloud->size()) + " points only";
+      return;
+    }
     start = Clock::now();
     RunContext quiet = context_;
     quiet.progress = {};

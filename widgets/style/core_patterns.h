@@ -145,6 +145,7 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core", "the clouds' intensities do not follow the target's print"),
     QT_TRANSLATE_NOOP(
         "Core", "the LiDAR sees %1 % of the board only: something covers it, or it is cut off"),
+    QT_TRANSLATE_NOOP("Core", "the board is not found in the cloud, which holds %1 points only"),
     QT_TRANSLATE_NOOP("Core",
                       "white print is saturated, so that the place of its edges is not measured: "
                       "scene %1; lower the LiDAR's gain or print the white greyer"),
