@@ -3327,6 +3327,73 @@ were saved. Take them up again?</source>
     </message>
 </context>
 <context>
+    <name>RunStory</name>
+    <message>
+        <source>first run, or asked for</source>
+        <translation>首次运行，或应要求运行</translation>
+    </message>
+    <message>
+        <source>the scenes in use or options of the solve changed</source>
+        <translation>所用场景或求解选项已改变</translation>
+    </message>
+    <message>
+        <source>options changed</source>
+        <translation>选项已改变</translation>
+    </message>
+    <message>
+        <source>scenes were added or removed</source>
+        <translation>场景有增减</translation>
+    </message>
+    <message>
+        <source>the scenes in use changed</source>
+        <translation>所用场景已改变</translation>
+    </message>
+    <message>
+        <source>crops changed</source>
+        <translation>裁剪已改变</translation>
+    </message>
+    <message>
+        <source>what is left out by hand changed</source>
+        <translation>手动排除的内容已改变</translation>
+    </message>
+    <message>
+        <source>the rough extrinsic changed</source>
+        <translation>粗略外参已改变</translation>
+    </message>
+    <message>
+        <source>it was asked for, or files changed</source>
+        <translation>应要求运行，或文件已改变</translation>
+    </message>
+    <message>
+        <source>images</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>search in the clouds</source>
+        <translation>点云搜索</translation>
+    </message>
+    <message>
+        <source>refinement</source>
+        <translation>精化</translation>
+    </message>
+    <message>
+        <source>%1 %2 s</source>
+        <translation>%1 %2 s</translation>
+    </message>
+    <message>
+        <source>joint solve</source>
+        <translation>联合求解</translation>
+    </message>
+    <message>
+        <source>Ran (%1): %2.</source>
+        <translation>已运行（%1）：%2。</translation>
+    </message>
+    <message>
+        <source>Kept: %1.</source>
+        <translation>沿用：%1。</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets</name>
     <message>
         <source>good</source>

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "runner/demo.h"
+#include "runner/run_story.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -431,6 +432,7 @@ void Workspace::bring_up_to_date() {
 
 void Workspace::take_run(SessionRun run) {
   const bool cancelled = run.error && run.error->kind == ErrorKind::kCancelled;
+  const QString story = run.error ? QString() : run_story(state_, run);
   state_ = std::move(run.state);
   if (cancelled) return;  // The runner says so.
   if (run.error) {
@@ -450,6 +452,7 @@ void Workspace::take_run(SessionRun run) {
                            .arg(r.scenes.size())
                            .arg(r.extrinsic.rms_px, 0, 'f', 3)
                            .arg(r.extrinsic.rms_mm, 0, 'f', 3);
+  Q_EMIT logged(story);
   Q_EMIT logged(line);
   for (const std::string& warning : r.warnings) Q_EMIT logged(QString::fromStdString(warning));
   Q_EMIT result_changed();

@@ -9,6 +9,7 @@
 #include <QFile>
 #include <QListWidget>
 #include <QMimeData>
+#include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QRegularExpression>
@@ -324,6 +325,26 @@ TEST_F(MainWindowTest, ThemesAndLanguagesSwitchWhileOpen) {
   }
   QTest::qWait(20);
   EXPECT_EQ(find<QAction>(*window_, "run")->text(), "&Run all");
+}
+
+// What ran and why; a run after a change keeps what the change does not touch.
+TEST_F(MainWindowTest, TheLogSaysWhatRanAndWhy) {
+  run();
+  auto* log = find<QPlainTextEdit>(*window_, "log");
+  const QString first = log->toPlainText();
+  EXPECT_TRUE(first.contains("Ran (first run, or asked for): images")) << first.toStdString();
+  EXPECT_FALSE(first.contains("Kept:"));
+  log->clear();
+  auto options = workspace().decisions().options;
+  for (const OptionDeclaration& option : option_declarations()) {
+    if (option.key == "refinement.max_iterations")
+      workspace().set_option(option, option.get(options) + 1.0);
+  }
+  QTest::keyClick(window_.get(), Qt::Key_F5);
+  ASSERT_TRUE(wait_until([&] { return log->toPlainText().contains("Ran ("); }));
+  const QString again = log->toPlainText();
+  EXPECT_TRUE(again.contains("Ran (options changed): refinement")) << again.toStdString();
+  EXPECT_TRUE(again.contains("Kept: images, search in the clouds.")) << again.toStdString();
 }
 
 // Each bad scene is red with its reason, the others are solved, and mended files are taken up.
