@@ -2861,6 +2861,10 @@ were saved. Take them up again?</source>
         <source>the board is not found in the cloud, which holds %1 points only</source>
         <translation>点云中未找到标定板：该点云只有 %1 个点</translation>
     </message>
+    <message>
+        <source>the clouds hold a second board with this print: another extrinsic has %1 % of the evidence of this one; take one of the boards away, or give a rough extrinsic with --init</source>
+        <translation>点云中有第二块同样图案的标定板：另一外参拥有此外参 %1 % 的证据；请移走其中一块，或用 --init 给出粗略外参</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

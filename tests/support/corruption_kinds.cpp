@@ -117,10 +117,11 @@ void add_other_cameras(Kinds& all) {
     c.distortion(0) -= 0.04;
     c.distortion(1) += 0.03;
   }));
-  all.push_back(camera("camera.yaml says another size of the image", {"pixels", "size"}, [](Camera& c) {
-    c.width_px += 160;
-    c.height_px += 100;
-  }));
+  all.push_back(
+      camera("camera.yaml says another size of the image", {"pixels", "size"}, [](Camera& c) {
+        c.width_px += 160;
+        c.height_px += 100;
+      }));
 }
 
 // --- Clouds ------------------------------------------------------------------------------------
@@ -785,7 +786,7 @@ void add_covers(Kinds& all) {
   all.push_back(scenes("60 % of every board covered in the images", {}, [](CorruptedRig& c) {
     for (std::size_t s = 0; s < c.rig.scenes.size(); ++s) cover(c, s, 0.6, false, true);
   }));
-  all.push_back(scenes("a second board in every cloud", {}, [](CorruptedRig& c) {
+  all.push_back(scenes("a second board in every cloud", {"second board"}, [](CorruptedRig& c) {
     for (SimulatedScene& s : c.rig.scenes) {
       const Eigen::AngleAxisf aside(0.6F, Eigen::Vector3f::UnitZ());
       const std::size_t n = s.cloud.size();

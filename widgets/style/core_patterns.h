@@ -147,6 +147,10 @@ inline constexpr const char* kCorePatterns[] = {
         "Core", "the LiDAR sees %1 % of the board only: something covers it, or it is cut off"),
     QT_TRANSLATE_NOOP("Core", "the board is not found in the cloud, which holds %1 points only"),
     QT_TRANSLATE_NOOP("Core",
+                      "the clouds hold a second board with this print: another extrinsic has %1 % "
+                      "of the evidence of this one; take one of the boards away, or give a rough "
+                      "extrinsic with --init"),
+    QT_TRANSLATE_NOOP("Core",
                       "white print is saturated, so that the place of its edges is not measured: "
                       "scene %1; lower the LiDAR's gain or print the white greyer"),
     QT_TRANSLATE_NOOP("Core",
