@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "base/memory.h"
+
 namespace lvcalib {
 
 using nlohmann::ordered_json;
@@ -32,6 +34,10 @@ inline nlohmann::json parse_json(const std::string& text) {
       --depth;
     }
   }
+  // Its destructor asks for memory, and must not fail: what the values take, a dozen bytes for one
+  // of a text of numbers, and as much again.
+  constexpr std::size_t kPerByte = 24;
+  require_memory(kPerByte * text.size() + (std::size_t{1} << 20U));
   return nlohmann::json::parse(text, nullptr, false);
 }
 
