@@ -25,9 +25,9 @@
 #include "importing/stretch_list.h"
 #include "importing/time_line.h"
 #include "report/result_file.h"
+#include "support/timing.h"
 #include "widgets/importing/recorded_walk.h"
 #include "widgets/workbench/main_window_fixture.h"
-#include "support/timing.h"
 
 namespace lvcalib::widgets::import_dialog_test {
 namespace {

@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include "support/timing.h"
 #include "views/angle_distance_plot.h"
 #include "views/board_map_plot.h"
 #include "views/convergence_plot.h"
 #include "widgets/support/calibrated_demo.h"
-#include "support/timing.h"
 
 namespace lvcalib::widgets::refinement_page_test {
 namespace {

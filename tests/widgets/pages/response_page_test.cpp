@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "support/timing.h"
 #include "views/sample_map_plot.h"
 #include "widgets/support/calibrated_demo.h"
-#include "support/timing.h"
 
 namespace lvcalib::widgets::response_page_test {
 namespace {

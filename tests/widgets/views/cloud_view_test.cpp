@@ -15,9 +15,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "support/timing.h"
 #include "views/cloud_scene_builder.h"
 #include "widgets/views/plots_test.h"
-#include "support/timing.h"
 
 namespace lvcalib::widgets::cloud_view_test {
 namespace {
