@@ -51,6 +51,37 @@ TEST(ParallelFor, HandsOnTheFirstExceptionAndStops) {
   }
 }
 
+TEST(ParallelTwoSteps, TheSecondFollowsTheFirst) {
+  for (const int threads : {1, 2, 5}) {
+    std::vector<int> steps(7, 0);
+    std::atomic<int> wrong{0};
+    parallel_two_steps(
+        steps.size(), threads, [&](std::size_t i) { steps[i] = 1; },
+        [&](std::size_t i) {
+          if (steps[i] != 1) ++wrong;
+          steps[i] = 2;
+        });
+    EXPECT_EQ(wrong, 0) << threads;
+    for (const int step : steps) EXPECT_EQ(step, 2) << threads;
+  }
+}
+
+TEST(ParallelTwoSteps, AFailureOfTheFirstIsHandedOnAndNobodyWaitsForIt) {
+  for (const int threads : {1, 2, 5}) {
+    std::atomic<bool> followed{false};
+    EXPECT_THROW(parallel_two_steps(
+                     4, threads,
+                     [](std::size_t i) {
+                       if (i == 2) throw std::runtime_error("third");
+                     },
+                     [&](std::size_t i) {
+                       if (i == 2) followed = true;
+                     }),
+                 std::runtime_error);
+    EXPECT_FALSE(followed) << threads;
+  }
+}
+
 TEST(RunContext, ReportsStopsAndCountsThreads) {
   std::stop_source stop;
   std::vector<std::string> stages;
