@@ -114,7 +114,8 @@ struct JpegReading {
   explicit JpegReading(std::string_view bytes) : file(bytes) {
     codec.err = &errors.manager;
     monitor.progress_monitor = [](j_common_ptr common) {
-      // Every scan goes over the whole image: a small file of thousands takes minutes.
+      // Every scan goes over the whole image: a small file of thousands takes minutes. Encoders
+      // write a dozen.
       constexpr int kMostScans = 200;
       const auto* of = reinterpret_cast<jpeg_decompress_struct*>(common);
       if (of->input_scan_number > kMostScans) common->err->error_exit(common);

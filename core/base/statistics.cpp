@@ -80,6 +80,7 @@ namespace {
 // Values of the normal distribution at steps, for Taylor's series in between.
 class NormalTable {
  public:
+  // Beyond it a tail of 10⁻⁹ is left, which nothing that is called often asks for.
   static constexpr double kEnd = 6.0;
 
   NormalTable() {

@@ -379,7 +379,8 @@ void judge_print_size(const CalibrationResult& result, const QualityOptions& opt
 // What the intensities say about the print, and what keeps them from saying it.
 // Share of the returns on the board that lie on white print, seen through a blur of millimetres.
 double white_share(const BlurredPrint& print, const Cloud& points, const Rigid3& lidar_from_board) {
-  constexpr double kBlur_m = 0.004;
+  constexpr double kBlur_m =
+      0.004;  // A beam of 1.5 mrad at the usual distance; a mean hardly asks.
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
   const BlurredPrint::Coarse blurred = print.coarse(kBlur_m);
   double white = 0.0;
@@ -469,7 +470,7 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
 // Without a second one the best other extrinsic has the evidence of one scene, of two scenes half
 // of all; with one it has nearly all. Outlines alone have likenesses of their own.
 void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
-  constexpr double kMostOfIt = 0.75;
+  constexpr double kMostOfIt = 0.75;  // Half way between the two.
   const auto by_print = [](const SceneResult& scene) {
     return scene.chosen && scene.search && *scene.chosen < scene.search->candidates.size() &&
            scene.search->candidates[*scene.chosen].correlation > 0.0;

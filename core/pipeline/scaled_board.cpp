@@ -46,7 +46,7 @@ BoardCandidate best_at_size(const Cloud& cloud, const CalibrationResult& result,
 std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
                                         const CalibrationResult& result,
                                         const RunContext& context) {
-  constexpr double kSameSize = 0.03;
+  constexpr double kSameSize = 0.03;  // Less than the steps of the sizes tried.
   RunContext quiet = context;
   quiet.progress = {};
   quiet.threads = 1;

@@ -52,7 +52,7 @@ std::optional<PageImage> page_image(const std::filesystem::path& path, const Eig
       cv::resize(part, smaller, {}, scale, scale, cv::INTER_AREA);
       part = smaller;
     }
-    constexpr int kQuality = 85;
+    constexpr int kQuality = 85;  // No block shows beside the marks drawn on it.
     const auto jpeg =
         encode_grey_jpeg({part.cols, part.rows, 1, 8, part.data, part.step[0]}, kQuality);
     if (!jpeg) return std::nullopt;

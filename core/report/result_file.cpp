@@ -408,7 +408,7 @@ Result<StoredExtrinsic> result_from_json(const std::string& text,
     Rigid3 same = *transform;
     for (Eigen::Index k = 0; k < 4; ++k)
       same.rotation.coeffs()(k) = (*q)[static_cast<std::size_t>(k)].get<double>();
-    constexpr double kRounding = 1e-12;
+    constexpr double kRounding = 1e-12;  // Of a matrix from a quaternion of doubles, and some.
     if ((same.matrix() - m).cwiseAbs().maxCoeff() < kRounding) *transform = same;
   }
   StoredExtrinsic out;
