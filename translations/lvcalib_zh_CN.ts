@@ -2865,6 +2865,18 @@ were saved. Take them up again?</source>
         <source>the clouds hold a second board with this print: another extrinsic has %1 % of the evidence of this one; take one of the boards away, or give a rough extrinsic with --init</source>
         <translation>点云中有第二块同样图案的标定板：另一外参拥有此外参 %1 % 的证据；请移走其中一块，或用 --init 给出粗略外参</translation>
     </message>
+    <message>
+        <source>the board moves against the LiDAR while it scans, in all scenes alike, by %1 mm/s; with that the extrinsic moves by %2 mm and %3 mrad; let board and rig rest, or find the effect with lvcalib discover</source>
+        <translation>扫描期间标定板相对激光雷达运动，所有场景一致，速度 %1 mm/s；计入后外参移动 %2 mm 和 %3 mrad；请让标定板和设备静止，或用 lvcalib discover 查找该效应</translation>
+    </message>
+    <message>
+        <source>the board moves against the LiDAR while it scans, in scene %1, by %2 mm/s; with that the extrinsic moves by %3 mm and %4 mrad; let board and rig rest, or find the effect with lvcalib discover</source>
+        <translation>扫描期间场景 %1 中标定板相对激光雷达运动，速度 %2 mm/s；计入后外参移动 %3 mm 和 %4 mrad；请让标定板和设备静止，或用 lvcalib discover 查找该效应</translation>
+    </message>
+    <message>
+        <source>the print lies displaced along the scan, by %1 µs of it; with that the extrinsic moves by %2 mm and %3 mrad: intensity or angle is read too late; find the effect with lvcalib discover</source>
+        <translation>图案沿扫描方向偏移，相当于 %1 µs 的扫描；计入后外参移动 %2 mm 和 %3 mrad：强度或角度读取滞后；请用 lvcalib discover 查找该效应</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

@@ -2,10 +2,9 @@
 #include "model/scan_velocity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-
-#include <Eigen/Cholesky>
 
 #include "base/statistics.h"
 
@@ -21,27 +20,49 @@ struct Ray {
   double elevation;
 };
 
+// An azimuth's difference, across ±π too.
+double turned(double to, double from) {
+  const double difference = to - from;
+  if (difference > M_PI) return difference - 2.0 * M_PI;
+  return difference < -M_PI ? difference + 2.0 * M_PI : difference;
+}
+
 // Velocity at a ray by a polynomial in time through it and its neighbours: of second order from
 // five rays on, as scans are curved, and else straight.
 Eigen::Vector2d velocity(const std::vector<Ray>& rays, std::size_t at, std::size_t begin,
                          std::size_t end) {
   const double unit = (rays[end - 1].time_s - rays[begin].time_s) / 2.0;
   if (!(unit > 0.0)) return Eigen::Vector2d::Zero();
-  const int order = end - begin >= 5 ? 2 : 1;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 2> rhs = Eigen::Matrix<double, 3, 2>::Zero();
+  // Sums of powers of time, and of these times azimuth and elevation.
+  std::array<double, 5> t{};
+  Eigen::Matrix<double, 3, 2> moved = Eigen::Matrix<double, 3, 2>::Zero();
   for (std::size_t k = begin; k < end; ++k) {
-    const double t = (rays[k].time_s - rays[at].time_s) / unit;
-    const Eigen::Vector3d powers(1.0, t, t * t);
-    const Eigen::RowVector2d moved(
-        std::remainder(rays[k].azimuth - rays[at].azimuth, 2 * M_PI) * std::cos(rays[at].elevation),
-        rays[k].elevation - rays[at].elevation);
-    normal += powers * powers.transpose();
-    rhs += powers * moved;
+    const double time = (rays[k].time_s - rays[at].time_s) / unit;
+    const double square = time * time;
+    t[0] += 1.0;
+    t[1] += time;
+    t[2] += square;
+    t[3] += square * time;
+    t[4] += square * square;
+    const Eigen::RowVector2d by(turned(rays[k].azimuth, rays[at].azimuth),
+                                rays[k].elevation - rays[at].elevation);
+    moved.row(0) += by;
+    moved.row(1) += time * by;
+    moved.row(2) += square * by;
   }
-  const int n = order + 1;
-  const Eigen::MatrixXd fit = normal.topLeftCorner(n, n).ldlt().solve(rhs.topRows(n));
-  const Eigen::Vector2d out = fit.row(1).transpose() / unit;
+  Eigen::RowVector2d slope;
+  if (end - begin >= 5) {
+    // Second row of the inverse of [t0 t1 t2; t1 t2 t3; t2 t3 t4].
+    const double c0 = t[2] * t[3] - t[1] * t[4];
+    const double c1 = t[0] * t[4] - t[2] * t[2];
+    const double c2 = t[1] * t[2] - t[0] * t[3];
+    const double determinant = t[1] * c0 + t[2] * c1 + t[3] * c2;
+    slope = (c0 * moved.row(0) + c1 * moved.row(1) + c2 * moved.row(2)) / determinant;
+  } else {
+    slope = (t[0] * moved.row(1) - t[1] * moved.row(0)) / (t[0] * t[2] - t[1] * t[1]);
+  }
+  slope.x() *= std::cos(rays[at].elevation);
+  const Eigen::Vector2d out = slope.transpose() / unit;
   return out.allFinite() ? out : Eigen::Vector2d::Zero().eval();
 }
 

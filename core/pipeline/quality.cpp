@@ -154,6 +154,42 @@ void judge_bump(const CalibrationResult& result, Verdict& verdict) {
   if (!text.empty()) verdict.doubtful(text);
 }
 
+// What moved while the scans were taken, or trails along them, where the clouds' times tell.
+void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdict& verdict) {
+  if (!result.forward || result.model_fit) return;
+  const UncertainRigid3& solved = result.extrinsic.camera_from_lidar;
+  const double sigma_m = std::sqrt(solved.covariance.topLeftCorner<3, 3>().trace());
+  const double sigma_rad = std::sqrt(solved.covariance.bottomRightCorner<3, 3>().trace());
+  std::vector<std::string> names;
+  for (const SceneSolution& scene : result.extrinsic.scenes) {
+    if (scene.used) names.push_back(scene.name);
+  }
+  for (const ScanFault& fault : result.forward->scan_faults) {
+    const Rigid3 moved = se3_exp(fault.move) * solved.transform;
+    const double move_m = translation_distance_m(moved.inverse(), solved.transform.inverse());
+    const double move_rad = rotation_distance_rad(moved, solved.transform);
+    const bool matters = move_m > std::max(q.tolerance_m, q.tolerance_sigmas * sigma_m) ||
+                         move_rad > std::max(q.tolerance_rad, q.tolerance_sigmas * sigma_rad);
+    if (!fault.is_there() || !matters) continue;
+    const std::string moves = formatted("; with that the extrinsic moves by %.1f mm and %.2f mrad",
+                                        1e3 * move_m, 1e3 * move_rad);
+    if (fault.kind == ScanFault::Kind::kLag) {
+      verdict.doubtful(
+          "the print lies displaced along the scan" +
+          formatted(", by %.1f ± %.1f µs of it", 1e6 * std::abs(fault.size), 1e6 * fault.sigma) +
+          moves +
+          ": intensity or angle is read too late; find the effect with "
+          "lvcalib discover");
+      continue;
+    }
+    std::string where = "in all scenes alike";
+    if (fault.scene && *fault.scene < names.size()) where = "in scene " + names[*fault.scene];
+    verdict.doubtful("the board moves against the LiDAR while it scans, " + where +
+                     formatted(", by %.1f ± %.1f mm/s", 1e3 * fault.size, 1e3 * fault.sigma) +
+                     moves + "; let board and rig rest, or find the effect with lvcalib discover");
+  }
+}
+
 // Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
 void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
   if (!result.intrinsics.spacing.empty()) {
@@ -376,11 +412,10 @@ void judge_print_size(const CalibrationResult& result, const QualityOptions& opt
   }
 }
 
-// What the intensities say about the print, and what keeps them from saying it.
 // Share of the returns on the board that lie on white print, seen through a blur of millimetres.
 double white_share(const BlurredPrint& print, const Cloud& points, const Rigid3& lidar_from_board) {
-  constexpr double kBlur_m =
-      0.004;  // A beam of 1.5 mrad at the usual distance; a mean hardly asks.
+  // A beam of 1.5 mrad at the usual distance; a mean hardly asks.
+  constexpr double kBlur_m = 0.004;
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
   const BlurredPrint::Coarse blurred = print.coarse(kBlur_m);
   double white = 0.0;
@@ -394,6 +429,7 @@ double white_share(const BlurredPrint& print, const Cloud& points, const Rigid3&
   return count > 0.0 ? white / count : 1.0;
 }
 
+// What the intensities say about the print, and what keeps them from saying it.
 void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
   const ForwardSolution& forward = *result.forward;
   std::map<PrintState, std::string> unseen;
@@ -412,7 +448,6 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
     const PrintState state = print_state(*scene, found);
     if (state != PrintState::kSeen)
       unseen[state] += (unseen[state].empty() ? "" : ", ") + scene->name;
-    // A fiftieth of the intensities at the ceiling bends no edge.
     // Where the median white return is at the ceiling the level of white is not measured, and an
     // edge's middle is taken for where half of the ceiling is.
     if (found.saturated > 0.0 && result.print &&
@@ -463,9 +498,6 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
   judge_print_size(result, options, verdict);
 }
 
-// The joint solve ends where the boards were localized, or it has locked onto something else. What
-// localization states holds a systematic part besides its noise, so that nothing but another place
-// reaches the gate; added effects may move the extrinsic on purpose.
 // Two boards with the same print, in every cloud, are two extrinsics that all scenes agree on.
 // Without a second one the best other extrinsic has the evidence of one scene, of two scenes half
 // of all; with one it has nearly all. Outlines alone have likenesses of their own.
@@ -488,6 +520,9 @@ void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
       "; take one of the boards away, or give a rough extrinsic with --init");
 }
 
+// The joint solve ends where the boards were localized, or it has locked onto something else. What
+// localization states holds a systematic part besides its noise, so that nothing but another place
+// reaches the gate; added effects may move the extrinsic on purpose.
 void judge_place(const CalibrationResult& result, Verdict& verdict) {
   const UncertainRigid3& localized = result.consensus.camera_from_lidar;
   if (!result.model.empty() || !(localized.covariance.diagonal().minCoeff() > 0.0)) return;
@@ -624,6 +659,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_splits(result, verdict);
   judge_leverage(result, verdict);
   judge_bump(result, verdict);
+  judge_scans(result, options, verdict);
   if (!result.unverified.empty()) verdict.note(result.unverified);
   if (x.sigma_px > options.max_sigma_px) {
     verdict.doubtful(formatted(

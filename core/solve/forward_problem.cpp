@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "model/linear_model.h"
+#include "model/scan_velocity.h"
 #include "solve/surface_noise.h"
 
 namespace lvcalib {
@@ -131,25 +132,26 @@ struct Accumulator {
   std::array<double, 4> cut_squares{};  // range white, black; intensity white, black
   std::array<double, 4> cut_rows{};
   double weight = 0.0, sum = 0.0, squares = 0.0, residual_squares = 0.0;
-  Eigen::Matrix<double, Eigen::Dynamic, kRangeFaults> by_faults;
-  Eigen::Matrix<double, kRangeFaults, kRangeFaults> faults;
+  Eigen::Matrix<double, kFaults, Eigen::Dynamic> by_faults;
+  FaultMatrix faults = FaultMatrix::Zero();
+  FaultRow fault_gradient = FaultRow::Zero();
 
-  explicit Accumulator(Eigen::Index size)
+  explicit Accumulator(Eigen::Index size, bool with_faults = false)
       : normal(Eigen::MatrixXd::Zero(size, size)),
         gradient(Eigen::VectorXd::Zero(size)),
-        by_faults(size, kRangeFaults) {
+        by_faults(kFaults, with_faults ? size : 0) {
     by_faults.setZero();
-    faults.setZero();
   }
 
-  // What an offset and a scale of the ranges do to a row of one.
-  void add_faults(const SparseRow& row, double range_m, double row_weight) {
-    const Eigen::RowVector2d by(1.0, range_m);
+  // What a row that the faults change by `by` says of them.
+  void add_faults(const SparseRow& row, const FaultRow& by, double residual, double row_weight) {
     for (int a = 0; a < row.count; ++a) {
       const auto ia = static_cast<std::size_t>(a);
-      by_faults.row(row.at[ia]) += row_weight * row.value[ia] * by;
+      const double wa = row_weight * row.value[ia];
+      by_faults.col(row.at[ia]) += wa * by.transpose();
     }
     faults += row_weight * by.transpose() * by;
+    fault_gradient += row_weight * residual * by;
   }
 
   void add(const SparseRow& row, double residual, double weight) {
@@ -171,6 +173,7 @@ struct Accumulator {
     gradient += other.gradient;
     by_faults += other.by_faults;
     faults += other.faults;
+    fault_gradient += other.fault_gradient;
     fit.range_rows += other.fit.range_rows;
     fit.intensity_rows += other.fit.intensity_rows;
     fit.range_squares += other.fit.range_squares;
@@ -208,6 +211,8 @@ class LidarRows {
         has_intensity_(returns.has_intensity),
         range_z(returns.size(), kUnused),
         intensity_z(returns.size(), kUnused) {
+    if (options.faults && has_intensity_ && returns.size() > 0)
+      scan_rad_s_ = scan_velocities(*returns.cloud);
     if (layout.sensor < 0) return;
     // The LiDAR's own shared errors and the sensor's, as they stand among its unknowns.
     const Eigen::Index own = layout.sensor - kLidarFixed;
@@ -260,7 +265,12 @@ class LidarRows {
     const double robust = huber_weight(z, options_.robust_threshold);
     const double weight = robust / (sigma * sigma * noise_.range_inflation);
     out.add(row, e, weight);
-    if (options_.range_faults) out.add_faults(row, returns_.point_m(k).norm(), weight);
+    if (options_.faults) {
+      FaultRow by = FaultRow::Zero();
+      by.head<kRangeFaults>() << 1.0, returns_.point_m(k).norm();
+      by.segment<kMotionFaults>(kFirstMotion) = time_s(k) * p.range_by_pose.head<kMotionFaults>();
+      out.add_faults(row, by, e, weight);
+    }
     out.fit.range_squares += robust * z * z;
     ++out.fit.range_rows;
     note_noise(p.white, e, sigma, 0, out);
@@ -289,7 +299,15 @@ class LidarRows {
     const double z = e / sigma;
     intensity_z[k] = static_cast<float>(z);
     const double robust = huber_weight(z, options_.robust_threshold);
-    out.add(row, e, robust / (variance * noise_.intensity_inflation));
+    const double weight = robust / (variance * noise_.intensity_inflation);
+    out.add(row, e, weight);
+    if (options_.faults) {
+      FaultRow by = FaultRow::Zero();
+      by.segment<kMotionFaults>(kFirstMotion) =
+          time_s(k) * p.intensity_by_pose.head<kMotionFaults>();
+      if (!scan_rad_s_.empty()) by(kLagFault) = by_angle.dot(scan_rad_s_[returns_.index[k]]);
+      out.add_faults(row, by, e, weight);
+    }
     out.fit.intensity_squares += robust * z * z;
     ++out.fit.intensity_rows;
     const double intensity = p.intensity + e;
@@ -305,6 +323,10 @@ class LidarRows {
     out.fit.jitter_normal += w * g * g.transpose();
     for (std::size_t i = 0; i < 2; ++i)
       out.fit.jitter_sums[i] += w * g(static_cast<Eigen::Index>(i)) * wanted;
+  }
+
+  [[nodiscard]] double time_s(std::size_t k) const {
+    return returns_.cloud->has_time() ? returns_.cloud->time_s[returns_.index[k]] : 0.0;
   }
 
   [[nodiscard]] int line_of(std::size_t k) const {
@@ -335,7 +357,8 @@ class LidarRows {
   Eigen::Vector2d center_;
   Eigen::Vector2d half_;
   bool has_intensity_;
-  Vector6d board_ = Vector6d::Zero();  // Left perturbation that the board's own motion makes.
+  std::vector<Eigen::Vector2d> scan_rad_s_;  // Per point of the cloud; empty where not asked for.
+  Vector6d board_ = Vector6d::Zero();        // Left perturbation that the board's own motion makes.
 
  public:
   std::vector<float> range_z, intensity_z;  // Per return; kUnused where there is no row.
@@ -492,12 +515,12 @@ class SceneLinearization {
   [[nodiscard]] std::size_t chunks() const { return parts_.size(); }
 
   void add_chunk(std::size_t c) {
-    parts_[c] = Accumulator(lidar_size());
+    parts_[c] = Accumulator(lidar_size(), options_.faults);
     rows_.add(c * chunk_, std::min(returns_.size(), (c + 1) * chunk_), parts_[c]);
   }
 
   SceneEquations finish(SceneFit& fit) {
-    Accumulator sums(lidar_size());
+    Accumulator sums(lidar_size(), options_.faults);
     for (const Accumulator& part : parts_) sums.merge(part);
     sums.normal.triangularView<Eigen::StrictlyLower>() = sums.normal.transpose();
     fit = sums.fit;
@@ -537,9 +560,10 @@ class SceneLinearization {
                      : Eigen::VectorXd(Eigen::VectorXd::Zero(shared));
     out.normal = placed(placed(sums.normal).transpose());
     out.gradient = placed(sums.gradient);
-    if (options_.range_faults) {
-      out.by_range_faults = placed(sums.by_faults);
-      out.range_faults = sums.faults;
+    if (options_.faults) {
+      out.by_faults = placed(sums.by_faults.transpose());
+      out.faults = sums.faults;
+      out.fault_gradient = sums.fault_gradient;
     }
     for (Eigen::Index i = 0; i < 2; ++i) {
       const Eigen::Index at = globals + 6 + 2 + i;
@@ -578,12 +602,14 @@ std::vector<SceneEquations> linearize_scenes(const std::vector<ForwardScene>& sc
                                              const LinearizationOptions& options, int threads,
                                              std::vector<SceneFit>& fits,
                                              std::vector<std::vector<LocalPrint>>& seen) {
-  std::vector<std::unique_ptr<SceneLinearization>> work;
+  std::vector<std::unique_ptr<SceneLinearization>> work(scenes.size());
+  parallel_for(scenes.size(), threads, [&](std::size_t s) {
+    work[s] = std::make_unique<SceneLinearization>(scenes[s], s, returns[s], print, state, noise,
+                                                   options, &seen[s]);
+  });
   std::vector<std::pair<std::size_t, std::size_t>> chunks;  // Scene and chunk.
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    work.push_back(std::make_unique<SceneLinearization>(scenes[s], s, returns[s], print, state,
-                                                        noise, options, &seen[s]));
-    for (std::size_t c = 0; c < work.back()->chunks(); ++c) chunks.emplace_back(s, c);
+    for (std::size_t c = 0; c < work[s]->chunks(); ++c) chunks.emplace_back(s, c);
   }
   parallel_for(chunks.size(), threads,
                [&](std::size_t k) { work[chunks[k].first]->add_chunk(chunks[k].second); });

@@ -138,8 +138,16 @@ struct SharedErrorColumns {
   Eigen::Index total = 0;
 };
 
-/// An offset and a scale of all ranges.
+/// Faults that the solve does not have, as columns of the LiDAR's rows: an offset (m) and a scale
+/// of all ranges; where times tell, a velocity of the boards against the LiDAR while it scans (m/s,
+/// LiDAR frame), and a lag of the intensities along the scan (s).
 inline constexpr int kRangeFaults = 2;
+inline constexpr int kFirstMotion = kRangeFaults;
+inline constexpr int kMotionFaults = 3;
+inline constexpr int kLagFault = kFirstMotion + kMotionFaults;
+inline constexpr int kFaults = kLagFault + 1;
+using FaultRow = Eigen::Matrix<double, 1, kFaults>;
+using FaultMatrix = Eigen::Matrix<double, kFaults, kFaults>;
 
 /// Normal equations of one scene about the current state, in the order: globals, locals, shared
 /// errors (whose prior 1/D is not in yet). N x = g.
@@ -149,11 +157,11 @@ struct SceneEquations {
   Eigen::VectorXd gradient;
   SharedErrorColumns columns;
   Eigen::VectorXd shared;  ///< The shared errors at the linearization; x holds their change.
-  /// If asked for: by how much the gradient changes with errors that all ranges share (an offset in
-  /// m, a scale), and what the ranges say of these.
-  Eigen::Matrix<double, Eigen::Dynamic, kRangeFaults> by_range_faults;
-  Eigen::Matrix<double, kRangeFaults, kRangeFaults> range_faults =
-      Eigen::Matrix<double, kRangeFaults, kRangeFaults>::Zero();
+  /// If asked for: by how much the gradient changes with the faults, and what the rows say of them:
+  /// information and gradient.
+  Eigen::Matrix<double, Eigen::Dynamic, kFaults> by_faults;
+  FaultMatrix faults = FaultMatrix::Zero();
+  FaultRow fault_gradient = FaultRow::Zero();
 };
 
 /// How well the rows of one scene fit at the state of the linearization.
@@ -173,7 +181,7 @@ struct LinearizationOptions {
   std::size_t stride = 1;         ///< Every how many-th return; 1 at the end.
   double robust_threshold = 3.0;  ///< Huber's, in σ.
   double patch_m = 0.2;
-  bool range_faults = false;  ///< Fill SceneEquations::by_range_faults.
+  bool faults = false;  ///< Fill SceneEquations' faults.
 };
 
 /// Linearizes corners, ranges and intensities of all scenes at a state, in parallel. `fits` becomes

@@ -60,7 +60,7 @@ class ForwardSolver {
     if (!select(true)) return Error::untrusted("no LiDAR return lies on the board");
     if (!fine()) return failure();
     if (context_.stopped()) return Error::cancelled();
-    measure_board_motion();
+    last_step();
     finish();
     return std::move(solution_);
   }
@@ -298,7 +298,7 @@ class ForwardSolver {
       const double ratio = *step / last;
       const double left =
           ratio > 0.0 && ratio < kShrinks ? *step * ratio / (1.0 - ratio) : HUGE_VAL;
-      if (*step < options_.tolerance || left < options_.tolerance / 3.0) {
+      if (std::min(*step, left) < options_.tolerance) {
         solution_.converged = true;
         break;
       }
@@ -335,7 +335,6 @@ class ForwardSolver {
     LinearizationOptions how;
     how.robust_threshold = options_.robust_threshold;
     how.patch_m = options_.patch_m;
-    how.range_faults = true;
     return how;
   }
 
@@ -438,16 +437,32 @@ class ForwardSolver {
     }
   }
 
-  // How far boards move between camera and LiDAR, all else as it was found; and the covariance with
-  // it.
+  // With the noise found at the solution, and with faults that it does not have.
+  void last_step() {
+    LinearizationOptions how = final_rows();
+    how.faults = true;
+    equations_ = linearize_scenes(scenes_, returns_, print_, state(), noise(), how,
+                                  context_.thread_count(), fits_, seen_);
+    prior_ = global_prior(true, true);
+    before_ = state().sensor;
+    measure_board_motion();
+    GlobalSolution step = solve_equations(equations_, prior_, before_, noise().shared,
+                                          BoardMotion::kWidens, true, context_.thread_count());
+    if (!step.solvable) return;
+    for (std::size_t k = 0; k < kSharedErrors; ++k) {
+      if (moves_board(k)) step.determined[k] = board_determined_[k];
+    }
+    apply(step);
+    last_ = std::move(step);
+  }
+
+  // How far boards move between camera and LiDAR, all else as it was found.
   void measure_board_motion() {
     asks_boards_ = true;
-    const auto solve = [&](BoardMotion motion, bool measure) {
-      return solve_equations(equations_, prior_, before_, noise().shared, motion, measure,
-                             context_.thread_count());
-    };
     for (int round = 0; round < kBoardRounds; ++round) {
-      const GlobalSolution step = solve(BoardMotion::kWeighed, true);
+      const GlobalSolution step =
+          solve_equations(equations_, prior_, before_, noise().shared, BoardMotion::kWeighed, true,
+                          context_.thread_count());
       if (!step.solvable) break;
       for (std::size_t k = 0; k < kSharedErrors; ++k) {
         if (moves_board(k)) board_determined_[k] = step.determined[k];
@@ -455,12 +470,6 @@ class ForwardSolver {
       const bool moved = update_shared(step);
       if (!moved && !admit_shared(step)) break;
     }
-    GlobalSolution wide = solve(BoardMotion::kWidens, true);
-    if (!wide.solvable) return;
-    for (std::size_t k = 0; k < kSharedErrors; ++k) {
-      if (moves_board(k)) wide.determined[k] = board_determined_[k];
-    }
-    last_ = std::move(wide);
   }
 
   // MacKay's fixed point σ² = uᵀu/γ, equal to restricted maximum likelihood where it stands still.
@@ -553,7 +562,9 @@ class ForwardSolver {
     solution_.prior.set_sensor(state().sensor, noise().shared);
     solution_.globals_covariance = last_.covariance;
     for (const SceneEquations& scene : equations_)
-      solution_.range_faults.push_back(range_fault_term(scene, noise().shared));
+      solution_.faults.push_back(fault_term(scene, noise().shared, BoardMotion::kWidens));
+    solution_.scan_faults =
+        find_scan_faults(equations_, prior_, before_, noise().shared, context_.thread_count());
     parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       ForwardSceneResult& scene = solution_.scenes[s];
       const SceneFit& fit = fits_[s];

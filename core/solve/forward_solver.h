@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "solve/global_solution.h"
 #include "solve/print_size.h"
+#include "solve/scan_faults.h"
 
 namespace lvcalib {
 
@@ -18,7 +19,7 @@ struct ForwardOptions {
   double patch_m = 0.2;           ///< Side of the patches over which the print may move.
   int max_iterations = 30;
   /// Done when a step moves the extrinsic by less than this share of its standard deviation, or all
-  /// steps still to come by a third of it.
+  /// steps still to come would; one more is taken then.
   double tolerance = 0.03;
   double sigma_px_floor = 0.01;
   /// A kind of shared error is taken into the model if chance alone makes it look as large so
@@ -65,7 +66,8 @@ struct ForwardSolution {
   Eigen::Matrix3d blur_covariance = Eigen::Matrix3d::Zero();  ///< Of (hh, hv, vv), rad⁴.
   std::vector<ForwardSceneResult> scenes;
   std::vector<GlobalTerm> terms;  ///< What each scene says about the globals, at the solution.
-  std::vector<RangeFaultTerm> range_faults;  ///< Per scene, for total_covariance().
+  std::vector<FaultTerm> faults;  ///< Per scene, for total_covariance().
+  std::vector<ScanFault> scan_faults;
   GlobalPrior prior;
   Eigen::MatrixXd globals_covariance;  ///< Of all globals, prior included; zero where held.
   int iterations = 0;

@@ -61,6 +61,20 @@ Eigen::MatrixXd own_equations(const SceneEquations& scene, const SharedVariances
   return own;
 }
 
+// Their right hand side.
+Eigen::VectorXd own_gradient(const SceneEquations& scene, const SharedVariances& variances,
+                             BoardMotion motion) {
+  Eigen::VectorXd gradient = scene.gradient.tail(scene.gradient.size() - scene.globals);
+  for (std::size_t k = 0; k < kSceneErrors; ++k) {
+    for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
+      const Eigen::Index u = scene.columns.first[k] + i;
+      gradient(kLocals + u) -=
+          scene.shared(u) / (is_weighed(k, motion) ? variances[k] : kAbsentShared[k]);
+    }
+  }
+  return gradient;
+}
+
 }  // namespace
 
 std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& terms,
@@ -105,20 +119,24 @@ std::optional<GlobalStep> solve_terms(const std::vector<const GlobalTerm*>& term
   return out;
 }
 
-RangeFaultTerm range_fault_term(const SceneEquations& scene, const SharedVariances& variances) {
+FaultTerm fault_term(const SceneEquations& scene, const SharedVariances& variances,
+                     BoardMotion motion) {
   const Eigen::Index globals = scene.globals;
-  RangeFaultTerm out;
-  out.coupling = Eigen::MatrixXd::Zero(globals, kRangeFaults);
+  FaultTerm out;
+  out.coupling = Eigen::MatrixXd::Zero(globals, kFaults);
   const Eigen::Index n = scene.normal.rows() - globals;
-  if (n <= 0 || scene.by_range_faults.rows() == 0) return out;
-  const Eigen::LLT<Eigen::MatrixXd> factor(own_equations(scene, variances, BoardMotion::kWidens));
+  if (n <= 0 || scene.by_faults.rows() == 0) return out;
+  const Eigen::LLT<Eigen::MatrixXd> factor(own_equations(scene, variances, motion));
   if (factor.info() != Eigen::Success) return out;
-  const Eigen::MatrixXd& by = scene.by_range_faults;
+  const Eigen::MatrixXd& by = scene.by_faults;
   const Eigen::MatrixXd eliminated = factor.solve(by.bottomRows(n));
-  const RangeFaultTerm term{
+  const FaultTerm term{
       by.topRows(globals) - scene.normal.topRightCorner(globals, n) * eliminated,
-      scene.range_faults - by.bottomRows(n).transpose() * eliminated};
-  return term.coupling.allFinite() && term.information.allFinite() ? term : out;
+      scene.faults - by.bottomRows(n).transpose() * eliminated,
+      scene.fault_gradient - own_gradient(scene, variances, motion).transpose() * eliminated};
+  return term.coupling.allFinite() && term.information.allFinite() && term.gradient.allFinite()
+             ? term
+             : out;
 }
 
 void GlobalPrior::set_sensor(const SensorErrors& sensor, const SharedVariances& variances) {
@@ -149,14 +167,7 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, Global
     const SceneEquations& scene = scenes[s];
     const Eigen::Index n = scene.normal.rows() - globals;
     if (n <= 0) return;
-    Eigen::VectorXd gradient = scene.gradient.tail(n);
-    for (std::size_t k = 0; k < kSceneErrors; ++k) {
-      for (Eigen::Index i = 0; i < scene.columns.count[k]; ++i) {
-        const Eigen::Index u = scene.columns.first[k] + i;
-        const double variance = weighed(k) ? variances[k] : kAbsentShared[k];
-        gradient(kLocals + u) -= scene.shared(u) / variance;
-      }
-    }
+    const Eigen::VectorXd gradient = own_gradient(scene, variances, motion);
     Eliminated& part = parts[s];
     part.own.compute(own_equations(scene, variances, motion));
     if (part.own.info() != Eigen::Success) return;

@@ -57,16 +57,17 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, Global
                                const SensorErrors& sensor, const SharedVariances& variances,
                                BoardMotion motion, bool measure_shared, int threads);
 
-/// What one scene says about faults of its ranges that the solve does not have (see
-/// SceneEquations::by_range_faults), its own unknowns eliminated.
-struct RangeFaultTerm {
-  Eigen::Matrix<double, Eigen::Dynamic, kRangeFaults> coupling;  ///< By the globals.
-  Eigen::Matrix<double, kRangeFaults, kRangeFaults> information =
-      Eigen::Matrix<double, kRangeFaults, kRangeFaults>::Zero();
+/// What one scene says about faults that the solve does not have (see kFaults), its own unknowns
+/// eliminated.
+struct FaultTerm {
+  Eigen::Matrix<double, Eigen::Dynamic, kFaults> coupling;  ///< By the globals.
+  FaultMatrix information = FaultMatrix::Zero();
+  FaultRow gradient = FaultRow::Zero();
 };
 
 /// Zero where the scene's equations cannot be solved for its own unknowns.
-RangeFaultTerm range_fault_term(const SceneEquations& scene, const SharedVariances& variances);
+FaultTerm fault_term(const SceneEquations& scene, const SharedVariances& variances,
+                     BoardMotion motion);
 
 /// The globals' step and its covariance from some scenes' terms. Nothing if they do not determine
 /// the extrinsic.

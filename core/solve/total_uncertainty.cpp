@@ -10,7 +10,7 @@ namespace lvcalib {
 
 Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& sizes) {
   const Matrix6d& own = solution.camera_from_lidar.covariance;
-  const std::vector<RangeFaultTerm>& faults = solution.range_faults;
+  const std::vector<FaultTerm>& faults = solution.faults;
   const Eigen::Index globals = solution.prior.sigma.size();
   const Eigen::Index all = globals + kRangeFaults;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
@@ -26,8 +26,10 @@ Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& s
     if (!solution.terms[s].usable) continue;
     information.topLeftCorner(globals, globals) += solution.terms[s].information;
     gradient.head(globals) += solution.terms[s].gradient;
-    information.topRightCorner(globals, kRangeFaults) += faults[s].coupling;
-    information.bottomRightCorner<kRangeFaults, kRangeFaults>() += faults[s].information;
+    information.topRightCorner(globals, kRangeFaults) +=
+        faults[s].coupling.leftCols<kRangeFaults>();
+    information.bottomRightCorner<kRangeFaults, kRangeFaults>() +=
+        faults[s].information.topLeftCorner<kRangeFaults, kRangeFaults>();
   }
   information.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) +=
       solution.prior.evidence;

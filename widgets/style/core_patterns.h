@@ -17,6 +17,18 @@ inline constexpr const char* kCorePatterns[] = {
                       "without scene %1 the extrinsic moves by %2 mm and %3 mrad, more than three "
                       "of its standard deviations: did something move while that scene was taken?"),
     QT_TRANSLATE_NOOP("Core",
+                      "the board moves against the LiDAR while it scans, in all scenes alike, by "
+                      "%1 mm/s; with that the extrinsic moves by %2 mm and %3 mrad; let board and "
+                      "rig rest, or find the effect with lvcalib discover"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the board moves against the LiDAR while it scans, in scene %1, by %2 mm/s; "
+                      "with that the extrinsic moves by %3 mm and %4 mrad; let board and rig rest, "
+                      "or find the effect with lvcalib discover"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the print lies displaced along the scan, by %1 µs of it; with that the "
+                      "extrinsic moves by %2 mm and %3 mrad: intensity or angle is read too late; "
+                      "find the effect with lvcalib discover"),
+    QT_TRANSLATE_NOOP("Core",
                       "the images contradict the standard deviations of the intrinsics: %1; "
                       "calibrate the camera again, or use --intrinsics free"),
     QT_TRANSLATE_NOOP(

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What score tests say of motion and lag within the scans, against the simulator's truth.
+#include "solve/scan_faults.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "forward_rig.h"
+
+namespace lvcalib {
+namespace {
+
+using simulation::LidarKind;
+using test::forward_rig;
+using test::ForwardRig;
+using test::solve;
+
+simulation::SimulationOptions moving_options(std::uint64_t seed, LidarKind kind,
+                                             const std::map<std::string, double>& effects) {
+  auto o = test::cloud_only_options(seed, kind);
+  o.scenes = 4;
+  o.effects = effects;
+  return o;
+}
+
+std::vector<ScanFault> faults_of(const ForwardRig& rig) {
+  const auto solution = solve(rig, Vector6d::Zero());
+  EXPECT_TRUE(solution) << solution.error().text();
+  return solution ? solution->scan_faults : std::vector<ScanFault>{};
+}
+
+const ScanFault* of_all(const std::vector<ScanFault>& faults, ScanFault::Kind kind) {
+  const auto found = std::find_if(faults.begin(), faults.end(),
+                                  [&](const ScanFault& f) { return f.kind == kind && !f.scene; });
+  return found == faults.end() ? nullptr : &*found;
+}
+
+class ScanFaults : public testing::TestWithParam<LidarKind> {};
+
+TEST_P(ScanFaults, NothingIsFoundWhereNothingIs) {
+  for (const std::uint64_t seed : {61, 62}) {
+    const auto faults = faults_of(forward_rig(moving_options(seed, GetParam(), {})));
+    EXPECT_EQ(faults.size(), 6U);  // Motion and lag of all scenes, and each scene's motion.
+    for (const ScanFault& fault : faults) EXPECT_FALSE(fault.is_there()) << fault.chi_square;
+  }
+}
+
+TEST_P(ScanFaults, AMotionIsFoundAndMeasured) {
+  const ForwardRig rig = forward_rig(moving_options(63, GetParam(), {{"scan_motion", 20.0}}));
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  const ScanFault* motion = of_all(solution->scan_faults, ScanFault::Kind::kMotion);
+  ASSERT_TRUE(motion != nullptr);
+  EXPECT_TRUE(motion->is_there());
+  // To first order about a state that it has moved and blurred.
+  EXPECT_NEAR(motion->size, 0.02, 0.002);
+  // With it in the model the extrinsic moves back to where it is.
+  const Rigid3& found = solution->camera_from_lidar.transform;
+  const double before = translation_distance_m(found.inverse(), rig.camera_from_lidar.inverse());
+  const Rigid3 moved = se3_exp(motion->move) * found;
+  EXPECT_GT(before, 0.002);
+  EXPECT_LT(translation_distance_m(moved.inverse(), rig.camera_from_lidar.inverse()), 0.1 * before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scanners, ScanFaults,
+                         testing::Values(LidarKind::kAvia, LidarKind::kRosette,
+                                         LidarKind::kSpinning),
+                         [](const auto& info) {
+                           return info.param == LidarKind::kAvia      ? "Avia"
+                                  : info.param == LidarKind::kRosette ? "Rosette"
+                                                                      : "Spinning";
+                         });
+
+TEST(ScanFaultsOfOneScene, AMotionInOneSceneIsThatScenes) {
+  ForwardRig rig = forward_rig(moving_options(64, LidarKind::kAvia, {}));
+  // The board of the second scene drifts by 15 mm/s across the view.
+  Cloud& cloud = rig.clouds[1];
+  for (std::size_t k = 0; k < cloud.size(); ++k) cloud.points_m[k].y() += 0.015F * cloud.time_s[k];
+  const auto faults = faults_of(rig);
+  for (const ScanFault& fault : faults) {
+    if (!fault.scene) continue;
+    EXPECT_EQ(fault.is_there(), *fault.scene == 1) << *fault.scene << ' ' << fault.chi_square;
+    if (*fault.scene == 1) EXPECT_NEAR(fault.size, 0.015, 0.002);
+  }
+}
+
+TEST(ScanFaultsLag, ALagIsMeasuredWhereTheScanTurns) {
+  const auto faults =
+      faults_of(forward_rig(moving_options(65, LidarKind::kRosette, {{"encoder_lag", 5.0}})));
+  const ScanFault* lag = of_all(faults, ScanFault::Kind::kLag);
+  ASSERT_TRUE(lag != nullptr);
+  EXPECT_TRUE(lag->is_there());
+  EXPECT_NEAR(std::abs(lag->size), 5e-6, 5e-7);
+  EXPECT_LT(lag->sigma, 2e-7);
+}
+
+TEST(ScanFaultsTimes, WithoutTimesThereIsNothingToTest) {
+  ForwardRig rig = forward_rig(moving_options(66, LidarKind::kAvia, {{"scan_motion", 20.0}}));
+  for (Cloud& cloud : rig.clouds) cloud.time_s.clear();
+  EXPECT_THAT(faults_of(rig), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace lvcalib
