@@ -289,11 +289,18 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   // Down to a millimetre: a place is worse than another by its step otherwise. No beam sees finer
   // than the last blur.
   constexpr double kFinest_m = 0.004;
+  // At every step to the best of the neighbours until none is better.
+  constexpr int kMostMoves = 8;
   parallel_for(best.size(), threads, [&](std::size_t k) {
     for (const double step : {0.008, 0.004, 0.002, 0.001}) {
-      best[k] = trials_about(best[k], samples, print, std::max(step, kFinest_m), 2.0 * step,
-                             turn_of(2.0 * step), step, turn_of(step))
-                    .front();
+      const double sigma = std::max(step, kFinest_m);
+      for (int move = 0; move < kMostMoves; ++move) {
+        const Trial before = best[k];
+        best[k] = trials_about(before, samples, print, sigma, step, turn_of(step), step,
+                               turn_of(step))
+                      .front();
+        if (best[k].shift_m == before.shift_m && best[k].turn_rad == before.turn_rad) break;
+      }
     }
   });
   std::sort(best.begin(), best.end(), better);

@@ -324,7 +324,7 @@ class ForwardSolver {
     LinearizationOptions how;
     how.shared_errors = false;
     std::size_t most = 1;
-    for (const BoardReturns& r : returns_) most = std::max(most, r.size() / rows);
+    for (const BoardReturns& r : returns_) most = std::max(most, (r.size() + rows - 1) / rows);
     how.stride = most;
     how.robust_threshold = options_.robust_threshold;
     how.patch_m = options_.patch_m;
