@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kFinalists = 12;  // candidates whose variances are settled fully
 constexpr std::size_t kFewShapes = 8;   // more than these are first sieved on the residuals
 constexpr std::size_t kSievedShapes = 3;
+// A displacement of so many standard deviations leaves a hundredth of itself to the next.
+constexpr double kStands = 0.1;
 constexpr std::size_t kRefitted = 3;  // candidates that get a full refit when they need one
 
 // Keeps the columns just appended where they are: their increments are known to be zero.
@@ -26,6 +28,17 @@ void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
     subset.prior_sigma[first + k] = 1e-6 * columns.parameters[k].material;
     subset.prior_mean[first + k] = 0.0;
+  }
+}
+
+// Takes an effect in use out of a model about its values: its increment is known to undo them.
+// Columns of effects in use come first.
+void hold_at_zero(const EffectColumns& columns, const Eigen::VectorXd& values,
+                  ColumnSubset& subset) {
+  for (int p = 0; p < columns.count(); ++p) {
+    const auto at = static_cast<std::size_t>(columns.first + p);
+    subset.prior_sigma[at] = 1e-6 * columns.parameters[static_cast<std::size_t>(p)].material;
+    subset.prior_mean[at] = -values(p);
   }
 }
 
@@ -108,8 +121,17 @@ void EffectSearch::remove(std::size_t k) {
 }
 
 void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape) {
-  const auto parameters = effect->parameters(table());
-  in_use_[k] = {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
+  EffectColumnsList columns = own_columns();
+  ColumnSubset subset = own_subset(columns);
+  hold_at_zero(columns.list()[k], in_use_[k].values, subset);
+  columns.add(effect, shape, table());
+  append_columns(columns.list().back(), nullptr, subset);
+  const Linearization linear =
+      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  if (context_.stopped()) return;
+  const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 0});
+  move(fit, 1.0);
+  in_use_[k] = {effect, shape, fit.solution.tail(columns.list().back().count())};
   refit();
 }
 
@@ -122,49 +144,53 @@ void EffectSearch::refit() {
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
     variances_ = reference_.fit.variances;
-    // A displacement of a tenth of the standard deviations leaves a hundredth of itself to the
-    // next.
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
-    if ((reference_.fit.solution.cwiseAbs().array() <= 0.1 * sigma.array()).all()) {
-      move(1.0);
+    const double size = (reference_.fit.solution.cwiseAbs().array() / sigma.array()).maxCoeff();
+    if (size <= kStands) {
+      move(reference_.fit, 1.0);
       return;
     }
-    if (!descend()) return;
+    const Descent descent = descend(size);
+    if (descent == Descent::kNone) return;
+    if (descent == Descent::kLittle) break;
   }
   if (!context_.stopped())
     reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
 }
 
 // A print is seen through a blur of millimetres: far from linear in what moves it. Steps that do
-// not lower what is fitted are halved.
-bool EffectSearch::descend() {
-  constexpr double kLeastShare = 0.01;
+// not lower what is fitted are halved, down to the size that counts as none. What effects do is
+// known to first order, so that steps of some tenths of a standard deviation may lead nowhere.
+EffectSearch::Descent EffectSearch::descend(double size) {
+  constexpr double kSmall = 0.5;
+  constexpr double kLittle = 0.1;  // A third of a standard deviation, squared.
   const ModelState state = state_;
   const std::vector<EffectInUse> in_use = in_use_;
   const double before = misfit(linear_, reference_.subset, variances_);
-  for (double share = 1.0; share > kLeastShare; share *= 0.5) {
-    move(share);
+  for (double share = 1.0; share * size > kStands; share *= 0.5) {
+    move(reference_.fit, share);
     Linearization next =
         linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
-    if (context_.stopped()) return false;
-    if (misfit(next, own_subset(next.columns), variances_) < before) {
+    if (context_.stopped()) return Descent::kNone;
+    const double after = misfit(next, own_subset(next.columns), variances_);
+    if (after < before) {
       linear_ = std::move(next);
-      return true;
+      return size < kSmall && before - after < kLittle ? Descent::kLittle : Descent::kOn;
     }
     state_ = state;
     in_use_ = in_use;
+    if (size < kSmall) break;
   }
-  return false;
+  return Descent::kNone;
 }
 
-// By a share of the reference's solution.
-void EffectSearch::move(double share) {
-  const Eigen::VectorXd x = share * reference_.fit.solution;
+// By a share of a fit's solution.
+void EffectSearch::move(const ModelFit& fit, double share) {
+  const Eigen::VectorXd x = share * fit.solution;
   std::vector<Vector6d> boards;
-  for (const Eigen::VectorXd& local : reference_.fit.local)
-    boards.push_back(share * local.head<6>());
+  for (const Eigen::VectorXd& local : fit.local) boards.push_back(share * local.head<6>());
   state_ = moved(state_, x.head<6>(), boards);
-  move_levels(share);
+  move_levels(fit, share);
   Eigen::Index at = 6;
   for (EffectInUse& use : in_use_) {
     use.values += x.segment(at, use.values.size());
@@ -173,10 +199,9 @@ void EffectSearch::move(double share) {
   if (sees_print()) move_blur(x.segment<3>(at));
 }
 
-void EffectSearch::move_levels(double share) {
+void EffectSearch::move_levels(const ModelFit& fit, double share) {
   for (std::size_t s = 0; s < state_.levels.size(); ++s) {
-    const Eigen::VectorXd step =
-        share * reference_.fit.local[s].segment<kLevelParameters>(LocalLayout::kPose);
+    const Eigen::VectorXd step = share * fit.local[s].segment<kLevelParameters>(LocalLayout::kPose);
     BoardLevels& levels = state_.levels[s];
     levels.white += step(0);
     levels.black += step(1);
@@ -482,13 +507,7 @@ std::optional<std::size_t> EffectSearch::superfluous() {
     // them, so that the test of "increment equals minus the value" is that of the removal.
     const Reference with = make_reference(linear, own_subset(columns), variances_, {.rounds = 0});
     ColumnSubset frozen = own_subset(columns);
-    const EffectColumns& c = columns.list()[k];
-    for (int p = 0; p < c.count(); ++p) {
-      // Held at zero effect: increment −value, known exactly. Columns of effects in use come first.
-      const auto at = static_cast<std::size_t>(c.first + p);
-      frozen.prior_sigma[at] = 1e-6 * c.parameters[static_cast<std::size_t>(p)].material;
-      frozen.prior_mean[at] = -in_use_[k].values(p);
-    }
+    hold_at_zero(columns.list()[k], in_use_[k].values, frozen);
     const Reference without = make_reference(linear, frozen, variances_, {});
     std::vector<double> gain;
     for (std::size_t s = 0; s < with.density.size(); ++s)

@@ -33,7 +33,8 @@ class EffectSearch {
   void add(const EffectPtr& effect, double shape);
   /// Takes effect number k out and refits.
   void remove(std::size_t k);
-  /// Puts another effect in the place of number k and refits.
+  /// Puts another effect in the place of number k and refits, from where one step leads in which
+  /// the one goes as the other comes.
   void replace(std::size_t k, const EffectPtr& effect, double shape);
   /// Among an effect's shape numbers the one whose model predicts held-out scenes best.
   [[nodiscard]] double preferred_shape(const EffectPtr& effect) const;
@@ -99,9 +100,15 @@ class EffectSearch {
  private:
   // Lets groups of random effects in that were absent and that the residuals show.
   bool admit_structure();
-  bool descend();
-  void move(double share);
-  void move_levels(double share);
+  // What became of a step that is `size` standard deviations long.
+  enum class Descent {
+    kNone,    // No part of it fits better.
+    kLittle,  // It is taken and hardly fits better: the last.
+    kOn,      // It is taken.
+  };
+  Descent descend(double size);
+  void move(const ModelFit& fit, double share);
+  void move_levels(const ModelFit& fit, double share);
   void move_blur(const Eigen::Vector3d& step);
   // Judges promising candidates again after a full refit, until one is accepted.
   void refit_promising();
