@@ -69,13 +69,14 @@ std::vector<Proposal> propose(const std::vector<SceneHypotheses>& scenes,
 struct Vote {
   double score = 0.0;
   std::vector<std::optional<std::size_t>> proposals;  // per scene, index into the proposals
+  std::vector<double> values;                         // per scene, what they add to the score
 };
 
 Vote count_votes(const std::vector<Proposal>& proposals, std::size_t scenes,
                  const UncertainRigid3& extrinsic, bool own_scene_exact, std::size_t own) {
   Vote vote;
   vote.proposals.resize(scenes);
-  std::vector<double> best(scenes, 0.0);
+  vote.values.assign(scenes, 0.0);
   for (std::size_t p = 0; p < proposals.size(); ++p) {
     const Proposal& proposal = proposals[p];
     if (own_scene_exact && proposal.scene == proposals[own].scene && p != own) continue;
@@ -83,13 +84,33 @@ Vote count_votes(const std::vector<Proposal>& proposals, std::size_t scenes,
         own_scene_exact && p == own ? 0.0 : squared_distance(proposal.camera_from_lidar, extrinsic);
     if (d > agreement_gate()) continue;
     const double value = proposal.gain - 0.5 * d;
-    if (!vote.proposals[proposal.scene] || value > best[proposal.scene]) {
+    if (!vote.proposals[proposal.scene] || value > vote.values[proposal.scene]) {
       vote.proposals[proposal.scene] = p;
-      best[proposal.scene] = value;
+      vote.values[proposal.scene] = value;
     }
   }
-  for (std::size_t s = 0; s < scenes; ++s) vote.score += vote.proposals[s] ? best[s] : 0.0;
+  for (const double value : vote.values) vote.score += value;
   return vote;
+}
+
+// The part of a vote that comes from boards which stand elsewhere than those of another one. Boards
+// side by side are a board's width apart; no board for a LiDAR is narrower than this.
+double evidence_elsewhere(const std::vector<SceneHypotheses>& scenes,
+                          const std::vector<Proposal>& proposals, const Vote& vote,
+                          const Vote& chosen) {
+  constexpr double kApart_m = 0.2;
+  const auto middle = [&](std::size_t s, std::size_t p) -> Eigen::Vector3d {
+    const Eigen::Vector2d& at = scenes[s].board_middle_m;
+    return scenes[s].candidates[proposals[p].candidate].lidar_from_board.transform *
+           Eigen::Vector3d(at.x(), at.y(), 0.0);
+  };
+  double out = 0.0;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    if (!vote.proposals[s] || !chosen.proposals[s]) continue;
+    if ((middle(s, *vote.proposals[s]) - middle(s, *chosen.proposals[s])).norm() > kApart_m)
+      out += vote.values[s];
+  }
+  return out;
 }
 
 // The mean of the agreeing proposals, at least one.
@@ -133,6 +154,8 @@ std::optional<SceneConsensus> decide_scenes(const std::vector<SceneHypotheses>& 
     if (squared_distance(proposals[p].camera_from_lidar, result.camera_from_lidar) >
         agreement_gate()) {
       result.runner_up = std::max(result.runner_up, votes[p].score);
+      result.elsewhere =
+          std::max(result.elsewhere, evidence_elsewhere(scenes, proposals, votes[p], votes[best]));
     }
   }
   return result;

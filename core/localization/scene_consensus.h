@@ -15,6 +15,7 @@ struct SceneHypotheses {
   UncertainRigid3 camera_from_board;
   std::optional<Rigid3> alternative_camera_from_board;
   std::vector<BoardCandidate> candidates;
+  Eigen::Vector2d board_middle_m = Eigen::Vector2d::Zero();
 };
 
 /// The extrinsic that the scenes agree on.
@@ -24,6 +25,9 @@ struct SceneConsensus {
   std::vector<std::optional<std::size_t>> chosen;
   double score = 0.0;      ///< Evidence in nats.
   double runner_up = 0.0;  ///< Evidence of the best extrinsic that contradicts it.
+  /// Evidence of the best extrinsic that puts the boards elsewhere into the clouds, of these boards
+  /// alone. Of another reading of the same board there is none.
+  double elsewhere = 0.0;
   int agreeing = 0;
   [[nodiscard]] double margin() const { return score - runner_up; }
 };

@@ -16,7 +16,7 @@ namespace {
 
 std::vector<SceneHypotheses> hypotheses(const CalibrationResult& result) {
   std::vector<SceneHypotheses> out;
-  for (const SceneResult& scene : result.scenes) out.push_back(hypotheses_of(scene));
+  for (const SceneResult& scene : result.scenes) out.push_back(hypotheses_of(scene, result.target));
   return out;
 }
 

@@ -198,12 +198,13 @@ std::string diagnose_unseen_tags(const CalibrationResult& result) {
   return "no image shows the tags of the upper rows that target.yaml has: " + fields + " would fit";
 }
 
-SceneHypotheses hypotheses_of(const SceneResult& scene) {
+SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target) {
   SceneHypotheses h;
   if (!scene.view || !scene.search) return h;
   h.camera_from_board = scene.view->camera_from_board;
   h.alternative_camera_from_board = scene.view->alternative_pose;
   h.candidates = scene.search->candidates;
+  h.board_middle_m = target.outline().center_m();
   return h;
 }
 
@@ -245,7 +246,7 @@ std::string diagnose_bump(const CalibrationResult& result) {
   for (auto at = order.begin(); at != order.end(); ++at) {
     std::string& list = names[used(*at) ? 0 : 1];
     list += (list.empty() ? "" : ", ") + result.scenes[*at].name;
-    if (!used(*at)) others.push_back(hypotheses_of(result.scenes[*at]));
+    if (!used(*at)) others.push_back(hypotheses_of(result.scenes[*at], result.target));
   }
   const auto agreed = decide_scenes(others, std::nullopt, result.options.consensus);
   if (!agreed || agreed->agreeing != static_cast<int>(others.size())) return {};

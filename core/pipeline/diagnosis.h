@@ -50,7 +50,7 @@ std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
 std::string diagnose_unseen_tags(const CalibrationResult& result);
 
 /// What a scene that has been searched brings to the joint decision; nothing if it brings nothing.
-SceneHypotheses hypotheses_of(const SceneResult& scene);
+SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target);
 
 /// Scenes that agree on an extrinsic: their names, joined by commas, and it.
 struct SceneGroup {

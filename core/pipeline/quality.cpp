@@ -499,8 +499,8 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
 }
 
 // Two boards with the same print, in every cloud, are two extrinsics that all scenes agree on.
-// Without a second one the best other extrinsic has the evidence of one scene, of two scenes half
-// of all; with one it has nearly all. Outlines alone have likenesses of their own.
+// Without a second one the best extrinsic by other places has the evidence of one scene, of two
+// scenes half of all; with one it has nearly all. Outlines alone have likenesses of their own.
 void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
   constexpr double kMostOfIt = 0.75;  // Half way between the two.
   const auto by_print = [](const SceneResult& scene) {
@@ -511,7 +511,7 @@ void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
   if (consensus.agreeing < 2 || !(consensus.score > 0.0) ||
       std::none_of(result.scenes.begin(), result.scenes.end(), by_print))
     return;
-  const double share = consensus.runner_up / consensus.score;
+  const double share = consensus.elsewhere / consensus.score;
   if (share < kMostOfIt) return;
   verdict.doubtful(
       formatted("the clouds hold a second board with this print: another extrinsic has "

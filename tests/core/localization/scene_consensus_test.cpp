@@ -82,6 +82,29 @@ TEST_F(SceneConsensusTest, ASceneWithADecoyOnlyIsVotedDown) {
   EXPECT_THAT(decided->camera_from_lidar.transform, test::IsNearPose(truth_, 30.0, 15.0));
 }
 
+TEST_F(SceneConsensusTest, OnlyABoardThatStandsElsewhereIsEvidenceOfASecondOne) {
+  std::vector<SceneHypotheses> scenes{scene(0), scene(1), scene(2)};
+  for (SceneHypotheses& s : scenes) s.board_middle_m = target_.outline().center_m();
+  // Other readings of the same board, and one that is off by some centimetres.
+  scenes[1].candidates[0] = scenes[1].candidates[1];
+  scenes[1].candidates[0].lidar_from_board.transform.translation.y() += 0.08;
+  const auto one = decide_scenes(scenes, std::nullopt, options_);
+  ASSERT_TRUE(one.has_value());
+  EXPECT_DOUBLE_EQ(one->elsewhere, 0.0);
+  EXPECT_GT(one->runner_up, 40.0);
+  // A second board beside the first, wherever that is.
+  for (SceneHypotheses& s : scenes) {
+    BoardCandidate second = s.candidates[1];
+    second.lidar_from_board.transform.translation.y() += 1.2;
+    second.gain -= 1.0;
+    s.candidates.push_back(second);
+  }
+  const auto two = decide_scenes(scenes, std::nullopt, options_);
+  ASSERT_TRUE(two.has_value());
+  EXPECT_EQ(two->chosen[0], 1U);
+  EXPECT_GT(two->elsewhere, 0.9 * two->score);
+}
+
 TEST_F(SceneConsensusTest, OneSceneAloneHasNoMarginToSpeakOf) {
   std::vector<SceneHypotheses> scenes{scene(0)};
   for (BoardCandidate& c : scenes[0].candidates) c.gain = 50.0;
