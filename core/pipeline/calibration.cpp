@@ -66,7 +66,7 @@ class Calibration {
       scene.name = files.name;
       if (std::find(request_.rejected.begin(), request_.rejected.end(), files.name) !=
           request_.rejected.end()) {
-        scene.reason = kRejectedByUser;
+        reject(scene);
       } else if (files.problem) {
         scene.reason = files.problem->text();
         scene.unreadable = true;
@@ -136,7 +136,7 @@ class Calibration {
       return Error::input("no scene can be used; scene " + unreadable->name + ": " +
                           unreadable->reason);
     for (const SceneResult& scene : result_.scenes) {
-      if (!scene.reason.empty() && scene.reason != kRejectedByUser) {
+      if (!scene.reason.empty() && !scene.rejected) {
         return Error::input("the board is not found in any image; scene " + scene.name + ": " +
                             scene.reason);
       }

@@ -37,6 +37,7 @@ struct SceneResult {
   bool used = false;
   std::string reason;       ///< Why it is not used, in words.
   bool unreadable = false;  ///< Left out because of its files, not of what they show.
+  bool rejected = false;    ///< Left out by the user; nothing need speak against it.
   bool insisted = false;    ///< The user wants it used, whatever speaks against it.
   SceneEdits edits;         ///< What the user left out by hand, or wants used.
   /// Insisted on: what spoke against it.
@@ -167,8 +168,8 @@ Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationReq
 /// circles, three usable ones.
 bool can_be_used(const SceneResult& scene, const Target& target);
 
-/// Why a scene is left out that the user does not want.
-inline constexpr const char* kRejectedByUser = "rejected by the user";
+/// Leaves a scene out because the user does not want it, and says so as its reason.
+void reject(SceneResult& scene);
 
 /// Solves again from kept features with other scenes in use (`use` per scene): extrinsic, methods,
 /// uncertainty, boundary response, quality. A fraction of a second.

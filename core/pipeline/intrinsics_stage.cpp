@@ -41,7 +41,7 @@ void append_views(std::vector<CornerView>& views, const std::vector<CornerView>&
 std::vector<CornerView> views_of(const CalibrationResult& result) {
   std::vector<CornerView> views;
   for (const SceneResult& scene : result.scenes) {
-    if (scene.view && scene.reason != kRejectedByUser)
+    if (scene.view && !scene.rejected)
       views.push_back({&scene.view->corners, scene.view->camera_from_board.transform});
   }
   append_views(views, extra_views(result.intrinsics));

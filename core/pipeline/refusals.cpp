@@ -58,7 +58,7 @@ bool contains_circle(const std::vector<Refusal>& all, const std::string& scene, 
 bool can_be_insisted_on(const SceneResult& scene) {
   const bool board = scene.refinement || (scene.search && !scene.search->candidates.empty());
   return !scene.used && scene.view && board && !scene.unreadable && !scene.reason.empty() &&
-         scene.reason != kRejectedByUser;
+         !scene.rejected;
 }
 
 std::vector<Refusal> refusals(const CalibrationResult& result) {
@@ -84,7 +84,7 @@ std::vector<Refusal> refusals(const CalibrationResult& result) {
     refuse_features(solved, found == result.scenes.end() ? nullptr : &*found, out);
   }
   for (const SceneResult& scene : result.scenes) {
-    if (scene.used || scene.reason.empty() || scene.reason == kRejectedByUser) continue;
+    if (scene.used || scene.reason.empty() || scene.rejected) continue;
     out.push_back({scene.name, What::kScene, -1, 0, scene.reason, can_be_insisted_on(scene)});
   }
   const auto refused_whole = [&](const std::string& name) {

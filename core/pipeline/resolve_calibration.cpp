@@ -174,6 +174,11 @@ Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const T
 
 }  // namespace
 
+void reject(SceneResult& scene) {
+  scene.rejected = true;
+  scene.reason = "rejected by the user";
+}
+
 bool can_be_used(const SceneResult& scene, const Target& target) {
   return scene.view && scene.refinement &&
          (!target.has_circles() || scene.refinement->nodes.empty() ||

@@ -49,8 +49,9 @@ Result<CalibrationResult> solve_again(const CalibrationRequest& request,
     const bool usable = can_be_used(scene, result.target);
     use.push_back(wanted && usable);
     if (!wanted) {
-      scene.reason = kRejectedByUser;
+      reject(scene);
     } else if (usable) {
+      scene.rejected = false;
       scene.reason.clear();  // The solve says anew whether it contradicts the others.
     }
   }

@@ -51,6 +51,10 @@ Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& s
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(all, all));
   const Vector6d shift = factor.solve(asked).head<6>();
   Matrix6d total = inverse.topLeftCorner<6, 6>() + shift * shift.transpose();
+  // Faults within the scans that are there: what they do to the extrinsic is not in the solve.
+  for (const ScanFault& fault : solution.scan_faults) {
+    if (fault.is_there()) total += fault.move * fault.move.transpose();
+  }
   if (!total.allFinite()) return own;
   // Estimation with more unknowns cannot be better; rounding may say so.
   Matrix6d more = total - own;

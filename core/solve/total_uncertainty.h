@@ -20,7 +20,8 @@ struct LeftOutSizes {
 /// The extrinsic's covariance if those faults may be there: the posterior of the joint solve with
 /// them as further unknowns that are drawn to zero by their sizes. What the data rule out thus adds
 /// nothing, and what leaves no trace adds all it can do. To first order about `solution`; where the
-/// data ask for other intrinsics than the held ones, the square of that shift is in it as well.
+/// data ask for other intrinsics than the held ones, the square of that shift is in it as well,
+/// and so is that of what faults within the scans would move (see ScanFault).
 /// Never below the solution's own covariance.
 Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& sizes);
 

@@ -111,6 +111,7 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     row.refused = refusals_text(result, scene.name);
     row.objection = QString::fromStdString(scene.objection);
     row.reason = QString::fromStdString(scene.reason);
+    row.rejected = scene.rejected;
     if (scene.view && result.target.has_tags()) row.tags = scene.view->tag_count;
     if (scene.refinement) row.points = static_cast<int>(scene.refinement->board_points);
   }
@@ -280,8 +281,7 @@ QString SceneModel::state_words(const Row& row) const {
     return tr("used all the same: %1").arg(core_text(row.objection)) + crop;
   if (row.used) return tr("used") + crop;
   // A scene just taken back in still has the reason of the last run.
-  if (row.reason.isEmpty() || row.reason == QLatin1String(kRejectedByUser))
-    return tr("to be run") + crop;
+  if (row.reason.isEmpty() || row.rejected) return tr("to be run") + crop;
   return core_text(row.reason) + crop;
 }
 
@@ -289,7 +289,7 @@ Mark SceneModel::mark_of(const Row& row) const {
   if (row.missing) return Mark::kMissing;
   if (!row.use) return Mark::kLeftOut;
   if (!row.ran && problems_.contains(row.name)) return Mark::kBad;
-  if (!row.ran || row.reason == QLatin1String(kRejectedByUser)) return Mark::kIdle;
+  if (!row.ran || row.rejected) return Mark::kIdle;
   if (row.used && !row.objection.isEmpty()) return Mark::kDoubtful;
   return row.used ? Mark::kGood : Mark::kBad;
 }

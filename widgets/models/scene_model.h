@@ -93,9 +93,10 @@ class SceneModel : public QAbstractTableModel {
     bool insisted = false;
     bool can_be_insisted_on = false;
     QString reason;
-    QString edited;     // What is left out by hand, in words.
-    QString refused;    // What the program refused of it, in words.
-    QString objection;  // What speaks against a scene that the user insists on.
+    bool rejected = false;  // By the user, in the last run.
+    QString edited;         // What is left out by hand, in words.
+    QString refused;        // What the program refused of it, in words.
+    QString objection;      // What speaks against a scene that the user insists on.
   };
   void fill_result(Row& row, const CalibrationResult& result) const;
   void refill();

@@ -235,8 +235,8 @@ void ScenePage::showRefusal() {
                          ? QString()
                          : tr("Drawn in red. A click on one says why, and offers to use "
                               "it all the same where that is possible."));
-  const bool refused = scene != nullptr && !scene->used && !scene->reason.empty() &&
-                       scene->reason != kRejectedByUser;
+  const bool refused =
+      scene != nullptr && !scene->used && !scene->reason.empty() && !scene->rejected;
   refusal_->setVisible(refused);
   if (!refused) return;
   QString text = QStringLiteral("<b>%1</b> %2")

@@ -148,7 +148,7 @@ TEST(JudgeQuality, KeepsWarningsOfOthersAndTheUsersChoicesToItself) {
   CalibrationResult result = flawless();
   result.warnings = {"camera.yaml: unknown key"};
   result.scenes[1].used = false;
-  result.scenes[1].reason = "rejected by the user";
+  reject(result.scenes[1]);
   judge_quality(result, {});
   EXPECT_EQ(result.warnings, std::vector<std::string>{"camera.yaml: unknown key"});
 }

@@ -27,7 +27,7 @@ TEST(LoadScenes, GivesViewAndCandidatesOfEverySceneNotRejected) {
   const test::SimulatedDataset data(test::dataset_options(11, 3));
   const Dataset dataset = data.open();
   CalibrationResult result = prepared(dataset);
-  result.scenes[1].reason = "rejected by the user";
+  reject(result.scenes[1]);
   const Status status = load_scenes(dataset, {}, {}, result);
   ASSERT_TRUE(status.ok()) << status.error().text();
   for (const std::size_t s : {0U, 2U}) {

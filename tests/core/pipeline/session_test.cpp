@@ -74,7 +74,8 @@ TEST_F(Session, TakingOutAndBackInOnlySolves) {
   EXPECT_TRUE(out.refined.empty());
   const CalibrationResult& result = *out.run.state.latest;
   EXPECT_FALSE(result.scenes[1].used);
-  EXPECT_EQ(result.scenes[1].reason, kRejectedByUser);
+  EXPECT_TRUE(result.scenes[1].rejected);
+  EXPECT_EQ(result.scenes[1].reason, "rejected by the user");
   EXPECT_EQ(result.extrinsic.used_scenes, 2);
   CalibrationRequest request;
   request.rejected = {"B"};

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "forward_rig.h"
+#include "solve/total_uncertainty.h"
 
 namespace lvcalib {
 namespace {
@@ -62,6 +63,17 @@ TEST_P(ScanFaults, AMotionIsFoundAndMeasured) {
   const Rigid3 moved = se3_exp(motion->move) * found;
   EXPECT_GT(before, 0.002);
   EXPECT_LT(translation_distance_m(moved.inverse(), rig.camera_from_lidar.inverse()), 0.1 * before);
+}
+
+// A fault too small to matter is still in what may be wrong.
+TEST_P(ScanFaults, WhatIsFoundIsInTheTotalUncertainty) {
+  const ForwardRig rig = forward_rig(moving_options(67, GetParam(), {{"scan_motion", 3.0}}));
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  const UncertainRigid3& own = solution->camera_from_lidar;
+  EXPECT_GT(test::size_in_sigmas(own, rig.camera_from_lidar), 3.0);
+  const UncertainRigid3 total{own.transform, total_covariance(*solution, {})};
+  EXPECT_LT(test::size_in_sigmas(total, rig.camera_from_lidar), 1.7);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scanners, ScanFaults,

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of the verdict that the print on the board speaks for.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/text.h"
+#include "model/board_prediction.h"
+#include "pipeline/verdict.h"
+
+namespace lvcalib {
+namespace {
+
+// Why the intensities of a scene are not used.
+enum class PrintState { kSeen, kNoIntensity, kNoContrast, kOtherPrint };
+
+PrintState print_state(const SceneResult& scene, const ForwardSceneResult& solved) {
+  if (scene.no_contrast) return PrintState::kNoContrast;
+  if (!scene.board_points.has_contrast()) return PrintState::kNoIntensity;
+  if (solved.print_correlation > 0.0) return PrintState::kSeen;
+  return solved.intensity_structure < kPlainStructure ? PrintState::kNoContrast
+                                                      : PrintState::kOtherPrint;
+}
+
+std::string print_problem(PrintState state) {
+  switch (state) {
+    case PrintState::kNoIntensity:
+      return "the clouds' intensity is missing or the same everywhere";
+    case PrintState::kNoContrast:
+      return "the print has no contrast for this LiDAR";
+    default:
+      return "the clouds' intensities do not follow the target's print";
+  }
+}
+
+// The field of target.yaml that states a size, and its present value.
+std::pair<const char*, double> size_field(const Target& t, int axis) {
+  switch (t.type) {
+    case TargetType::kCheckerboard:
+      return axis == 0 ? std::pair("colSpacingMeters", t.column_spacing_m)
+                       : std::pair("rowSpacingMeters", t.row_spacing_m);
+    case TargetType::kCharuco:
+      return {"squareSize", t.column_spacing_m};
+    default:
+      return {"tagSize", t.tag_size_m};
+  }
+}
+
+// A print of another size than the target's, by the intensities.
+void judge_print_size(const CalibrationResult& result, const QualityOptions& options,
+                      Verdict& verdict) {
+  const PrintSize& size = result.forward->print_size;
+  if (!size.measured) return;
+  // What the model in force says of the print is no contradiction any more.
+  const Eigen::Array2d off = size.scale.array() - 1.0 - result.modelled_print_scale.array();
+  const bool clear =
+      (off.abs() > 4.0 * size.sigma.array() && off.abs() > options.scale_warning).any();
+  if (!clear) return;
+  std::string fits;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto [field, value] = size_field(result.target, axis);
+    if (fits.find(field) != std::string::npos) continue;
+    fits += (fits.empty() ? "" : ", ") + std::string(field) +
+            formatted(": %.5f", value * size.scale(axis));
+  }
+  // One number where both axes say the same.
+  const double apart = std::abs(size.scale.x() - size.scale.y());
+  const Eigen::Array2d weight = size.sigma.array().square().inverse();
+  const double mean = (weight * off).sum() / weight.sum();
+  std::string text = "LiDAR and camera disagree on the board's size: the LiDAR sees the print ";
+  if (apart < 3.0 * size.sigma.norm()) {
+    text += formatted("%.2f ± %.2f %% ", 100.0 * std::abs(mean), 100.0 / std::sqrt(weight.sum())) +
+            (mean > 0 ? "larger" : "smaller") + " than target.yaml says; ";
+  } else {
+    text += formatted("%.2f ± %.2f %% as wide ", 100.0 * size.scale.x(), 100.0 * size.sigma.x()) +
+            formatted("and %.2f ± %.2f %% as high as target.yaml says; ", 100.0 * size.scale.y(),
+                      100.0 * size.sigma.y());
+  }
+  text += fits + " would fit; measure the print";
+  if (off.abs().maxCoeff() > options.scale_failure) {
+    verdict.failed(text);
+  } else {
+    verdict.doubtful(text);
+  }
+}
+
+// Share of the returns on the board that lie on white print, seen through a blur of millimetres.
+double white_share(const BlurredPrint& print, const Cloud& points, const Rigid3& lidar_from_board) {
+  // A beam of 1.5 mrad at the usual distance; a mean hardly asks.
+  constexpr double kBlur_m = 0.004;
+  const BoardPredictor predictor(print, lidar_from_board, {}, {});
+  const BlurredPrint::Coarse blurred = print.coarse(kBlur_m);
+  double white = 0.0;
+  double count = 0.0;
+  for (const Eigen::Vector3f& point : points.points_m) {
+    const auto hit = predictor.hit(point.cast<double>().normalized());
+    if (!hit || print.inside_m(hit->board_m) <= 0.0) continue;
+    white += blurred.at(hit->board_m);
+    count += 1.0;
+  }
+  return count > 0.0 ? white / count : 1.0;
+}
+
+}  // namespace
+
+void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
+  const ForwardSolution& forward = *result.forward;
+  std::map<PrintState, std::string> unseen;
+  std::string saturated;
+  std::string clipped;
+  std::size_t next = 0;
+  std::size_t scenes = 0;
+  for (const SceneSolution& solved : result.extrinsic.scenes) {
+    if (!solved.used || next >= forward.scenes.size()) continue;
+    const auto scene = std::find_if(result.scenes.begin(), result.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == solved.name; });
+    const Rigid3 lidar_from_board = forward.state.lidar_from_board(next);
+    const ForwardSceneResult& found = forward.scenes[next++];
+    if (scene == result.scenes.end()) continue;
+    ++scenes;
+    const PrintState state = print_state(*scene, found);
+    if (state != PrintState::kSeen)
+      unseen[state] += (unseen[state].empty() ? "" : ", ") + scene->name;
+    // Where the median white return is at the ceiling the level of white is not measured, and an
+    // edge's middle is taken for where half of the ceiling is.
+    if (found.saturated > 0.0 && result.print &&
+        found.saturated > 0.5 * white_share(*result.print, scene->board_points, lidar_from_board)) {
+      clipped += (clipped.empty() ? "" : ", ") + scene->name +
+                 formatted(" (%.0f %%)", 100.0 * found.saturated);
+    } else if (found.saturated > 0.0) {
+      saturated += (saturated.empty() ? "" : ", ") + scene->name +
+                   formatted(" (%.0f %%)", 100.0 * found.saturated);
+    }
+    if (found.seen < 0.6) {
+      verdict.note("scene " + scene->name +
+                   formatted(": the LiDAR sees %.0f %% of the board only: something covers it, or "
+                             "it is cut off",
+                             100.0 * found.seen));
+    }
+  }
+  for (const auto& [state, names] : unseen) {
+    const bool all = !forward.uses_intensity && unseen.size() == 1;
+    std::string text = print_problem(state);
+    if (!all) text += " in scene " + names;
+    text += all ? ": the extrinsic rests on planes and corners, and the print does not hold it "
+                  "sideways"
+                : ": planes and corners are used there";
+    if (state == PrintState::kOtherPrint) {
+      verdict.doubtful(text + "; does target.yaml describe this board?");
+    } else {
+      verdict.note(text);
+    }
+  }
+  if (!saturated.empty()) {
+    verdict.note("the intensities are saturated on part of the board: scene " + saturated +
+                 "; lower the LiDAR's gain or print the white greyer");
+  }
+  if (!clipped.empty()) {
+    verdict.doubtful(
+        "white print is saturated, so that the place of its edges is not measured: "
+        "scene " +
+        clipped + "; lower the LiDAR's gain or print the white greyer");
+  }
+  if (!forward.uses_intensity) return;
+  if (forward.lattice_margin < options.min_margin) {
+    verdict.doubtful(
+        formatted("ambiguous: another place of the print on the board fits the intensities of all "
+                  "scenes nearly as well (log-likelihood %.1f less)",
+                  forward.lattice_margin));
+  }
+  judge_print_size(result, options, verdict);
+}
+
+}  // namespace lvcalib

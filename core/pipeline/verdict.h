@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "pipeline/calibration.h"
+
+namespace lvcalib {
+
+/// Collects the warnings of a result and keeps the worst verdict with its first reason.
+class Verdict {
+ public:
+  explicit Verdict(CalibrationResult& result) : result_(result) {
+    result_.quality = Quality::kGood;
+    result_.quality_reason.clear();
+    result_.quality_reasons.clear();
+  }
+  void note(std::string text) { result_.warnings.push_back(std::move(text)); }
+  void doubtful(std::string text) {
+    become(Quality::kDoubtful, text);
+    note(std::move(text));
+  }
+  void failed(std::string text) {
+    become(Quality::kFailed, text);
+    note(std::move(text));
+  }
+
+ private:
+  void become(Quality quality, const std::string& reason) {
+    result_.quality_reasons.push_back(reason);
+    if (result_.quality >= quality) return;
+    result_.quality = quality;
+    result_.quality_reason = reason;
+  }
+  CalibrationResult& result_;
+};
+
+/// What the intensities say about the print, and what keeps them from saying it.
+void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict);
+
+// Scenes against each other, and what is within one of them.
+
+/// Scenes on which the result rests alone: without one the extrinsic moves by more than three of
+/// its standard deviations, and by more than the scene's weight explains.
+void judge_leverage(const CalibrationResult& result, Verdict& verdict);
+/// Scenes before and after some moment that contradict each other, two at least on either side: one
+/// alone is what judge_leverage() asks about.
+void judge_bump(const CalibrationResult& result, Verdict& verdict);
+/// What moved while the scans were taken, or trails along them, where the clouds' times tell.
+void judge_scans(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict);
+/// Halves of the scenes that contradict each other: something depends on what parts them.
+void judge_splits(const CalibrationResult& result, Verdict& verdict);
+/// Two boards with the same print, in every cloud, are two extrinsics that all scenes agree on.
+void judge_second_board(const CalibrationResult& result, Verdict& verdict);
+/// The joint solve ends where the boards were localized, or it has locked onto something else.
+void judge_place(const CalibrationResult& result, Verdict& verdict);
+
+}  // namespace lvcalib
