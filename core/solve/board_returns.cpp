@@ -296,9 +296,9 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
       const double sigma = std::max(step, kFinest_m);
       for (int move = 0; move < kMostMoves; ++move) {
         const Trial before = best[k];
-        best[k] = trials_about(before, samples, print, sigma, step, turn_of(step), step,
-                               turn_of(step))
-                      .front();
+        best[k] =
+            trials_about(before, samples, print, sigma, step, turn_of(step), step, turn_of(step))
+                .front();
         if (best[k].shift_m == before.shift_m && best[k].turn_rad == before.turn_rad) break;
       }
     }
