@@ -94,7 +94,8 @@ Vote count_votes(const std::vector<Proposal>& proposals, std::size_t scenes,
 }
 
 // The part of a vote that comes from boards which stand elsewhere than those of another one. Boards
-// side by side are a board's width apart; no board for a LiDAR is narrower than this.
+// side by side are a board's width apart, of which the narrowest that a LiDAR resolves has twice
+// this; readings of one board differ by less, or turn it about its middle.
 double evidence_elsewhere(const std::vector<SceneHypotheses>& scenes,
                           const std::vector<Proposal>& proposals, const Vote& vote,
                           const Vote& chosen) {

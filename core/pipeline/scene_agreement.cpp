@@ -14,17 +14,30 @@
 #include "pipeline/verdict.h"
 
 namespace lvcalib {
+namespace {
+
+// The extrinsic of some of the scenes, under the model in force.
+SubsetSolver subsets_of(const CalibrationResult& result) {
+  if (!result.model_fit) return forward_subsets(*result.forward, result.extrinsic);
+  return model_subsets(result.model_fit, result.extrinsic.camera_from_lidar.transform,
+                       result.extrinsic);
+}
+
+std::vector<std::size_t> scenes_in_use(const ExtrinsicSolution& extrinsic) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < extrinsic.scenes.size(); ++k) {
+    if (extrinsic.scenes[k].used) out.push_back(k);
+  }
+  return out;
+}
+
+}  // namespace
 
 void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
   if (!result.forward) return;
   const UncertainRigid3& all = result.extrinsic.camera_from_lidar;
-  const SubsetSolver subset = result.model_fit
-                                  ? model_subsets(result.model_fit, all.transform, result.extrinsic)
-                                  : forward_subsets(*result.forward, result.extrinsic);
-  std::vector<std::size_t> in_use;
-  for (std::size_t k = 0; k < result.extrinsic.scenes.size(); ++k) {
-    if (result.extrinsic.scenes[k].used) in_use.push_back(k);
-  }
+  const SubsetSolver subset = subsets_of(result);
+  const std::vector<std::size_t> in_use = scenes_in_use(result.extrinsic);
   const std::size_t n = in_use.size();
   // As many tests as scenes, one in a hundred together.
   const double gate = chi_square_gate(6, 0.01 / static_cast<double>(std::max<std::size_t>(1, n)));
@@ -55,14 +68,8 @@ void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
 
 void judge_bump(const CalibrationResult& result, Verdict& verdict) {
   if (!result.forward) return;
-  const UncertainRigid3& all = result.extrinsic.camera_from_lidar;
-  const SubsetSolver subset = result.model_fit
-                                  ? model_subsets(result.model_fit, all.transform, result.extrinsic)
-                                  : forward_subsets(*result.forward, result.extrinsic);
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < result.extrinsic.scenes.size(); ++k) {
-    if (result.extrinsic.scenes[k].used) order.push_back(k);
-  }
+  const SubsetSolver subset = subsets_of(result);
+  std::vector<std::size_t> order = scenes_in_use(result.extrinsic);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return result.extrinsic.scenes[a].name < result.extrinsic.scenes[b].name;
   });
@@ -104,10 +111,7 @@ void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
   const UncertainRigid3& solved = result.extrinsic.camera_from_lidar;
   const double sigma_m = std::sqrt(solved.covariance.topLeftCorner<3, 3>().trace());
   const double sigma_rad = std::sqrt(solved.covariance.bottomRightCorner<3, 3>().trace());
-  std::vector<std::string> names;
-  for (const SceneSolution& scene : result.extrinsic.scenes) {
-    if (scene.used) names.push_back(scene.name);
-  }
+  const std::vector<std::size_t> in_use = scenes_in_use(result.extrinsic);
   for (const ScanFault& fault : result.forward->scan_faults) {
     const Rigid3 moved = se3_exp(fault.move) * solved.transform;
     const double move_m = translation_distance_m(moved.inverse(), solved.transform.inverse());
@@ -127,7 +131,8 @@ void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
       continue;
     }
     std::string where = "in all scenes alike";
-    if (fault.scene && *fault.scene < names.size()) where = "in scene " + names[*fault.scene];
+    if (fault.scene && *fault.scene < in_use.size())
+      where = "in scene " + result.extrinsic.scenes[in_use[*fault.scene]].name;
     verdict.doubtful("the board moves against the LiDAR while it scans, " + where +
                      formatted(", by %.1f ± %.1f mm/s", 1e3 * fault.size, 1e3 * fault.sigma) +
                      moves + "; let board and rig rest, or find the effect with lvcalib discover");

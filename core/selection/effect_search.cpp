@@ -162,7 +162,7 @@ void EffectSearch::refit() {
 // not lower what is fitted are halved, down to the size that counts as none. What effects do is
 // known to first order, so that steps of some tenths of a standard deviation may lead nowhere.
 EffectSearch::Descent EffectSearch::descend(double size) {
-  constexpr double kSmall = 0.5;
+  constexpr double kSmall = 0.5;   // Steps of this size were seen to lower nothing however short.
   constexpr double kLittle = 0.1;  // A third of a standard deviation, squared.
   const ModelState state = state_;
   const std::vector<EffectInUse> in_use = in_use_;

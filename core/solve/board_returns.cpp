@@ -289,7 +289,8 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   // Down to a millimetre: a place is worse than another by its step otherwise. No beam sees finer
   // than the last blur.
   constexpr double kFinest_m = 0.004;
-  // At every step to the best of the neighbours until none is better.
+  // At every step to the best of the neighbours until none is better: the step before left one or
+  // two to go, and a ridge may take some more.
   constexpr int kMostMoves = 8;
   parallel_for(best.size(), threads, [&](std::size_t k) {
     for (const double step : {0.008, 0.004, 0.002, 0.001}) {

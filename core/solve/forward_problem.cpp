@@ -326,7 +326,9 @@ class LidarRows {
   }
 
   [[nodiscard]] double time_s(std::size_t k) const {
-    return returns_.cloud->has_time() ? returns_.cloud->time_s[returns_.index[k]] : 0.0;
+    if (!returns_.cloud->has_time()) return 0.0;
+    const double time = returns_.cloud->time_s[returns_.index[k]];
+    return std::isfinite(time) ? time : 0.0;
   }
 
   [[nodiscard]] int line_of(std::size_t k) const {
