@@ -120,8 +120,10 @@ class ScenePredictor {
   void add_return(const ReturnPrediction& p, BeamPoint beam, double root) {
     set_darkness(p.intensity, beam);
     const PrintView view = view_print(p, levels_, beam_);
-    if (view.kind == PrintView::Kind::kEdge)
-      beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m};
+    if (view.slope > 0.0) {
+      beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m,
+                           view.kind == PrintView::Kind::kPlain};
+    }
     const Print print = p.white > 0.5 ? Print::kWhite : Print::kBlack;
     RangeRow range;
     range.beam = beam;

@@ -73,7 +73,7 @@ PrintSample BoardPredictor::look(const Eigen::Vector2d& board_m, const Eigen::Ma
 }
 
 std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& direction,
-                                                        const Eigen::Vector2d& print_shift_m,
+                                                        const PrintChange& change,
                                                         const LocalPrint* known,
                                                         LocalPrint* seen) const {
   const auto met = hit(direction);
@@ -96,7 +96,10 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   out.board_m = met->board_m;
   out.spot_m2 = spot;
   out.cos_incidence = -along;
-  const PrintSample print = look(met->board_m - print_shift_m, spot, known, seen);
+  const Eigen::Vector2d place_m = met->board_m - change.shift_m;
+  PrintSample print = look(place_m, spot, known, seen);
+  const double by_growth =
+      change.growth_m ? print_.edges().grow(place_m, spot, *change.growth_m, print) : 0.0;
   out.white = print.white;
   const double widest = std::sqrt(0.5 * (spot(0, 0) + spot(1, 1)) +
                                   std::hypot(0.5 * (spot(0, 0) - spot(1, 1)), spot(0, 1)));
@@ -119,6 +122,7 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
                                     plain * levels_.slope.transpose() / half_size_m_;
   out.intensity = plain * light;
   out.intensity_by_pose = by_hit * hit_by_pose;
+  out.intensity_by_growth = -light * contrast * by_growth;
   out.intensity_by_shift = -light * contrast * print.gradient_per_m.transpose();
   out.intensity_by_angle = light * contrast * print.gradient_per_m.transpose() * hit_by_angle;
   out.intensity_by_levels << light * print.white, light * (1.0 - print.white), plain * place.x(),
@@ -140,6 +144,9 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   const Eigen::Matrix2d log_power_slope =
       contrast / power * print.hessian_per_m2 - log_power * log_power.transpose();
   out.range_by_shift = -pull * log_power_slope;
+  const double steepness = print.gradient_per_m.norm();
+  if (by_growth > 0.0 && steepness > 0.0)
+    out.range_by_growth = out.range_by_shift.dot(print.gradient_per_m) / steepness;
   out.range_by_pose = hit_range_by_pose - out.range_by_shift * hit_by_pose;
   return out;
 }

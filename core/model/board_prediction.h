@@ -50,6 +50,17 @@ struct ReturnPrediction {
   Eigen::RowVector2d intensity_by_shift;  ///< By a shift of the print on the board, 1/m.
   Eigen::RowVector2d range_by_shift;      ///< The same of the range: the pull of the footprint.
   Eigen::RowVector2d intensity_by_angle;  ///< By the beam's two angles, 1/rad.
+  /// By black that grows all around, 1/m and 1; if asked for. The range's is that of the nearest
+  /// edge, moved.
+  double intensity_by_growth = 0.0, range_by_growth = 0.0;
+};
+
+/// What effects do to the print.
+struct PrintChange {
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();  ///< Displacement on the board.
+  /// By how much black has grown all around (see PrintEdges); nothing: it has not, and what it
+  /// would do is not asked for.
+  std::optional<double> growth_m = {};
 };
 
 /// The forward model of a LiDAR return on the board: the one place where it stands.
@@ -67,13 +78,13 @@ class BoardPredictor {
   /// Of a return reported along the unit vector `direction`. Nothing if the ray does not meet the
   /// board's front side at less than 80° of incidence.
   [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction) const {
-    return predict(direction, Eigen::Vector2d::Zero());
+    return predict(direction, PrintChange{});
   }
-  /// The same with the print displaced on the board by `print_shift_m`. What was seen of the print
-  /// before is taken from `known` if it was seen near enough; if it has to be looked up, `seen`
-  /// gets it. Either may be null, or both the same.
+  /// The same with the print changed. What was seen of the print as it is drawn is taken from
+  /// `known` if it was seen near enough; if it has to be looked up, `seen` gets it. Either may be
+  /// null, or both the same.
   [[nodiscard]] std::optional<ReturnPrediction> predict(const Eigen::Vector3d& direction,
-                                                        const Eigen::Vector2d& print_shift_m,
+                                                        const PrintChange& change,
                                                         const LocalPrint* known = nullptr,
                                                         LocalPrint* seen = nullptr) const;
 

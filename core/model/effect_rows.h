@@ -16,37 +16,35 @@ namespace lvcalib {
 struct PrintSensitivity {
   Eigen::RowVector2d by_shift = Eigen::RowVector2d::Zero();  ///< Print displaced on the board (m).
   Eigen::RowVector3d by_blur = Eigen::RowVector3d::Zero();   ///< Beam's blur: hh, hv, vv (rad²).
+  double by_growth = 0.0;                                    ///< Black that grows all around (m).
   double by_log_intensity = 0.0;
 
   /// What one unit of each parameter of an effect changes.
   struct Change {
     std::span<const Eigen::Vector2d> shift_m;
+    std::span<const double> growth_m;
     std::span<const Eigen::Vector3d> blur_rad2;
     std::span<const double> log_intensity;
   };
   [[nodiscard]] double of(const Change& change, std::size_t k) const {
-    return by_shift.dot(change.shift_m[k]) + by_blur.dot(change.blur_rad2[k]) +
-           by_log_intensity * change.log_intensity[k];
+    return by_shift.dot(change.shift_m[k]) + by_growth * change.growth_m[k] +
+           by_blur.dot(change.blur_rad2[k]) + by_log_intensity * change.log_intensity[k];
   }
   /// Turns displacements of a measured point (LiDAR frame), or of the board under it, into
   /// displacements of the print as the beam sees it; what happens along the ray does not count.
   struct Moves {
     Moves(const SceneGeometry& geometry, const Eigen::Matrix3d& lidar_from_board,
-          const Eigen::Vector3d& direction, const BoundaryRow* edge)
+          const Eigen::Vector3d& direction)
         : rotation(lidar_from_board) {
       const Eigen::Vector3d& n = geometry.normal();
       const Eigen::Matrix3d along =
           Eigen::Matrix3d::Identity() - direction * n.transpose() / n.dot(direction);
       shift_by_move = lidar_from_board.leftCols<2>().transpose() * along;
-      if (edge == nullptr) return;
-      const double growth = edge->beam.edge ? edge->beam.edge->growth : 1.0;
-      outward = growth * Eigen::Vector2d(std::cos(edge->psi_rad), std::sin(edge->psi_rad));
     }
-    Moves(const SceneGeometry&, Eigen::Matrix3d&&, const Eigen::Vector3d&,
-          const BoundaryRow*) = delete;  // The rotation is referred to, not kept.
+    Moves(const SceneGeometry&, Eigen::Matrix3d&&,
+          const Eigen::Vector3d&) = delete;  // The rotation is referred to, not kept.
     const Eigen::Matrix3d& rotation;
     Eigen::Matrix<double, 2, 3> shift_by_move;
-    Eigen::Vector2d outward = Eigen::Vector2d::Zero();
   };
 };
 
@@ -65,10 +63,11 @@ class EffectRows {
   }
 
   /// What one unit of each parameter of an effect does to a range: by itself, and by displacing the
-  /// print whose edges pull the range.
+  /// print whose edges pull the range, or by letting its black grow.
   struct RangeChange {
     std::span<const double> range_m;
     std::span<const Eigen::Vector2d> shift_m;
+    std::span<const double> growth_m;
   };
   /// Movements of a beam's measured point and of the board under it, projected on the row. `edge`:
   /// that in whose blur the return is, if any. What moves the light alone leaves the range.
@@ -90,9 +89,9 @@ class EffectRows {
       for (std::size_t k = 0; k < n; ++k) {
         const Eigen::Vector3d move = moves_[k] + moves.rotation * board_[k];
         scalars_[k] = sign * (row.dot(move) + further_[k]);
-        if (!c.print_contrast) shift_[k] = shift_of(move, outward_[k], moves);
+        if (!c.print_contrast) shift_[k] = shift_of(move, moves);
       }
-      sink(c, RangeChange{std::span(scalars_).first(n), shift_});
+      sink(c, RangeChange{std::span(scalars_).first(n), shift_, outward_});
     }
   }
 
@@ -126,8 +125,9 @@ class EffectRows {
       c.effect->intensity(r, table_, c.shape, std::span(scalars_).first(n));
       if (c.print_contrast) {
         // A difference between the prints: edges have both.
+        const bool plain = edge == nullptr || (edge->beam.edge && edge->beam.edge->plain);
         for (std::size_t k = 0; k < n; ++k)
-          scalars_[k] *= edge != nullptr ? 0.0 : r.print == Print::kWhite ? 1.0 : -1.0;
+          scalars_[k] *= !plain ? 0.0 : r.print == Print::kWhite ? 1.0 : -1.0;
       } else {
         c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
         c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
@@ -139,20 +139,20 @@ class EffectRows {
         c.effect->blur(r.beam, table_, c.shape, blur_);
         if (edge != nullptr) c.effect->edge(*edge, table_, c.shape, outward_);
         for (std::size_t k = 0; k < n; ++k) {
-          shift_[k] = shift_of(moves_[k] + moves.rotation * board_[k], outward_[k], moves);
+          shift_[k] = shift_of(moves_[k] + moves.rotation * board_[k], moves);
         }
       }
-      sink(c, PrintSensitivity::Change{shift_, blur_, std::span(scalars_).first(n)});
+      sink(c, PrintSensitivity::Change{shift_, outward_, blur_, std::span(scalars_).first(n)});
     }
   }
 
  private:
-  static Eigen::Vector2d shift_of(const Eigen::Vector3d& move, double outward_m,
+  static Eigen::Vector2d shift_of(const Eigen::Vector3d& move,
                                   const PrintSensitivity::Moves& moves) {
     Eigen::Vector2d shift = moves.shift_by_move * move;
     // What is left of a move along the ray is rounding.
     if (shift.squaredNorm() < 1e-18 * move.squaredNorm()) shift.setZero();
-    return shift + outward_m * moves.outward;
+    return shift;
   }
 
   void reset(std::size_t n) {

@@ -99,7 +99,8 @@ class SceneAccumulator {
         in_use_columns_(columns_in_use(in_use, table)),
         used_rows_(table, in_use_columns_.list()),
         candidate_rows_(table, columns.list()),
-        print_(table, state, scene, in_use),
+        // Others than those in use may let black grow.
+        print_(table, state, scene, in_use, columns.list().size() > in_use.size()),
         log_contrast_(log_contrast(state.levels[scene])),
         layout_(layout) {
     extrinsic_ = layout_.size();
@@ -172,12 +173,13 @@ class SceneAccumulator {
     if (line >= 0) row_.set(layout_.line_column() + line, 1.0);
     const auto edge = edge_beside(r.beam, log_contrast_);
     const BoundaryRow* const beside = edge ? &*edge : nullptr;
-    const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction, beside);
+    const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction);
     candidate_rows_.range(r, geometry_.range_row(r.beam.direction), moves, beside,
                           [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
                             for (std::size_t k = 0; k < by.range_m.size(); ++k) {
                               row_.set(effects_ + c.first + static_cast<int>(k),
-                                       by.range_m[k] + row->range_by_shift.dot(by.shift_m[k]));
+                                       by.range_m[k] + row->range_by_shift.dot(by.shift_m[k]) +
+                                           row->range_by_growth * by.growth_m[k]);
                             }
                           });
     finish(row->residual, r.sigma_m);
@@ -208,7 +210,9 @@ class SceneAccumulator {
     const int line = line_of(r.beam);
     if (line >= 0)
       row_.set(layout_.line_column() + layout_.lines + line, row->print.by_log_intensity);
-    const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction, edge);
+    const auto trace = edge == nullptr ? edge_beside(r.beam, log_contrast_) : std::nullopt;
+    if (trace) edge = &*trace;
+    const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction);
     candidate_rows_.reading(
         r, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
           for (std::size_t k = 0; k < by.shift_m.size(); ++k)

@@ -24,9 +24,7 @@ struct NearEdge {
   double distance_m = 0.0;    ///< Outside positive.
   double psi_rad = 0.0;       ///< Polar angle about the node, board frame.
   double transition_m = 0.0;  ///< Width σ of the transition along ψ.
-  /// What black that grows all around does to the spot, over what this edge alone does: more than
-  /// one where the spot sees another edge beside it.
-  double growth = 1.0;
+  bool plain = false;         ///< The spot is on plain print and sees a trace of the edge.
 };
 
 /// What a beam hits, by geometry.
@@ -48,7 +46,7 @@ struct BeamPoint {
   /// Received power as the print and the scene's two levels predict it, on a logarithmic scale
   /// common to all scenes: 0 for the usual white, 1 for the usual black.
   double darkness = 0.0;
-  std::optional<NearEdge> edge;  ///< Within a few σ only.
+  std::optional<NearEdge> edge;  ///< Of which at least a trace is seen.
   double time_s = 0.0;           ///< From the start of the scan; 0 if absent.
   int line = 0;                  ///< 0 if absent.
   /// Scan velocity across the beam (azimuth·cos elevation, elevation), rad/s; 0 where unknown.

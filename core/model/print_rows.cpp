@@ -4,8 +4,18 @@
 #include <cmath>
 
 namespace lvcalib {
+namespace {
+
+// An effect that lets black grow asks what that does, be it nothing yet.
+void add_growth(double value, double by_parameter_m, PrintChange& change) {
+  if (by_parameter_m != 0.0)
+    change.growth_m = change.growth_m.value_or(0.0) + value * by_parameter_m;
+}
+
+}  // namespace
+
 PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std::size_t scene,
-                     const std::vector<EffectInUse>& in_use)
+                     const std::vector<EffectInUse>& in_use, bool growth)
     : in_use_(in_use),
       columns_(columns_in_use(in_use, table)),
       rows_(table, columns_.list()),
@@ -13,7 +23,8 @@ PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std
       rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
       predictor_(*table.print, geometry_.lidar_from_board(), state.levels[scene], state.beam),
       log_contrast_(log_contrast(state.levels[scene])),
-      motion_(board_motion(geometry_.lidar_from_board(), table.print->outline().center_m())) {}
+      motion_(board_motion(geometry_.lidar_from_board(), table.print->outline().center_m())),
+      growth_(growth) {}
 
 void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
   out.by_board_pose = geometry_.by_camera_pose(by_lidar_pose);
@@ -27,24 +38,27 @@ Matrix6d PrintRows::board_motion_by_pose() const {
 }
 
 std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) {
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  PrintChange change;
   double further = 0.0;
   const auto edge = edge_beside(row.beam, log_contrast_);
   const BoundaryRow* const beside = edge ? &*edge : nullptr;
-  const PrintSensitivity::Moves moves(geometry_, rotation_, row.beam.direction, beside);
+  if (beside != nullptr && growth_) change.growth_m = 0.0;
+  const PrintSensitivity::Moves moves(geometry_, rotation_, row.beam.direction);
   rows_.range(row, geometry_.range_row(row.beam.direction), moves, beside,
               [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
                 for (std::size_t k = 0; k < by.range_m.size(); ++k) {
                   further += value(c, k) * by.range_m[k];
-                  shift += value(c, k) * by.shift_m[k];
+                  change.shift_m += value(c, k) * by.shift_m[k];
+                  add_growth(value(c, k), by.growth_m[k], change);
                 }
               });
   const auto p =
-      predictor_.predict(row.beam.direction, shift, seen != nullptr ? seen : &row.seen, seen);
+      predictor_.predict(row.beam.direction, change, seen != nullptr ? seen : &row.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
   out.residual = row.measured_m - p->range_m - further;
   out.range_by_shift = p->range_by_shift;
+  out.range_by_growth = p->range_by_growth;
   set_pose(p->range_by_pose.transpose(), out);
   return out;
 }
@@ -55,28 +69,31 @@ std::optional<PrintRow> PrintRows::edge(const BoundaryRow& row, LocalPrint* seen
 }
 
 std::optional<PrintRow> PrintRows::intensity(const IntensityRow& row, LocalPrint* seen) {
-  return reading(row, nullptr, seen);
+  const auto edge = edge_beside(row.beam, log_contrast_);
+  return reading(row, edge ? &*edge : nullptr, seen);
 }
 
 std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const BoundaryRow* edge,
                                            LocalPrint* seen) {
   const Eigen::Vector3d& direction = row.beam.direction;
-  // Sums of what the effects in use do: the print's displacement under the beam, the blur, the
-  // logarithm of the intensity.
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  // Sums of what the effects in use do: to the print under the beam, to the blur, to the logarithm
+  // of the intensity.
+  PrintChange change;
+  if (edge != nullptr && growth_) change.growth_m = 0.0;
   Eigen::Vector3d blur = Eigen::Vector3d::Zero();
   double log = 0.0;
-  PrintSensitivity::Moves moves(geometry_, rotation_, direction, edge);
+  PrintSensitivity::Moves moves(geometry_, rotation_, direction);
   rows_.reading(row, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
     for (std::size_t k = 0; k < by.shift_m.size(); ++k) {
       const double v = value(c, k);
-      shift += v * by.shift_m[k];
+      change.shift_m += v * by.shift_m[k];
+      add_growth(v, by.growth_m[k], change);
       blur += v * by.blur_rad2[k];
       log += v * by.log_intensity[k];
     }
   });
   const auto p =
-      predictor_.predict(direction, shift, seen != nullptr ? seen : &row.reading.seen, seen);
+      predictor_.predict(direction, change, seen != nullptr ? seen : &row.reading.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
   const double unit = row.reading.unit;
@@ -86,6 +103,7 @@ std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const Bounda
   set_pose(gain / unit * p->intensity_by_pose.transpose(), out);
   out.by_levels = gain / unit * p->intensity_by_levels.transpose();
   out.print.by_shift = gain / unit * p->intensity_by_shift;
+  out.print.by_growth = gain / unit * p->intensity_by_growth;
   out.print.by_blur = gain / unit * p->intensity_by_blur;
   out.print.by_log_intensity = predicted / unit;
   return out;

@@ -20,16 +20,18 @@ struct PrintRow {
   Eigen::Matrix<double, kLevelParameters, 1> by_levels =
       Eigen::Matrix<double, kLevelParameters, 1>::Zero();
   PrintSensitivity print;
-  Eigen::RowVector2d range_by_shift = Eigen::RowVector2d::Zero();  ///< Of a range (1).
+  Eigen::RowVector2d range_by_shift = Eigen::RowVector2d::Zero();  ///< Of a range (1),
+  double range_by_growth = 0.0;  ///< as PrintSensitivity::by_growth.
 };
 
 /// Rows of one scene of a table with a print, predicted by BoardPredictor with effects in use: the
-/// ray that the LiDAR reports is moved to the true one (in the print's coordinates), everything
-/// else is added to first order.
+/// ray that the LiDAR reports is moved to the true one (in the print's coordinates), black grows,
+/// everything else is added to first order.
 class PrintRows {
  public:
+  /// `growth`: whether it is asked what growing black would do, without such an effect in use.
   PrintRows(const MeasurementTable& table, const ModelState& state, std::size_t scene,
-            const std::vector<EffectInUse>& in_use);
+            const std::vector<EffectInUse>& in_use, bool growth = false);
 
   // What it refers to lies within itself.
   PrintRows(const PrintRows&) = delete;
@@ -65,6 +67,7 @@ class PrintRows {
   BoardPredictor predictor_;
   double log_contrast_;
   Matrix6d motion_;  // Left perturbation of T_lidar_board by the board's motion.
+  bool growth_;
 };
 
 }  // namespace lvcalib

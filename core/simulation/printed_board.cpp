@@ -95,19 +95,11 @@ bool PrintedBoard::is_white(double x_m, double y_m) const {
   return as_drawn ? drawn_white(x_m, y_m) : is_white_beyond(0.0, {x_m, y_m});
 }
 
-// Black grows by a disc: a point is black if anything black lies within the radius. Of tags eight
-// points of the rim tell, as all their edges run along the axes and everything is wider than the
-// disc; circles grow exactly.
+// Black grows by a disc: a point is black if anything black lies within the radius; circles grow
+// exactly. All edges of tags and squares run along the axes and everything is wider than the disc:
+// of a cell beside the point's own the four points of the rim on the axes tell, of one that only
+// touches it with a corner that corner's distance.
 bool PrintedBoard::is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m) const {
-  constexpr double kDiagonal = 0.70710678118654752;
-  constexpr std::array<std::array<double, 2>, 8> kRim{{{1, 0},
-                                                       {0, 1},
-                                                       {-1, 0},
-                                                       {0, -1},
-                                                       {kDiagonal, kDiagonal},
-                                                       {-kDiagonal, kDiagonal},
-                                                       {-kDiagonal, -kDiagonal},
-                                                       {kDiagonal, -kDiagonal}}};
   if (disturbance_.moves_print()) point_m = disturbance_.on_drawing(point_m);
   const double growth = edge_shift_m + disturbance_.ink_gain_m();
   const bool white = drawn_white(point_m.x(), point_m.y());
@@ -115,10 +107,45 @@ bool PrintedBoard::is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m)
   if (growth == 0.0 || white != (growth > 0.0)) return white;
   const auto beyond = from_circle_m(point_m.x(), point_m.y());
   if (beyond && *beyond <= std::max(growth, 0.0)) return *beyond > growth;
-  for (const auto& [dx, dy] : kRim) {
-    if (drawn_white(point_m.x() + growth * dx, point_m.y() + growth * dy) != white) return !white;
+  const double x = point_m.x();
+  const double y = point_m.y();
+  for (const double r : {growth, -growth}) {
+    if (drawn_white(x + r, y) != white || drawn_white(x, y + r) != white) return !white;
+  }
+  for (const Eigen::Vector2d& corner : nearest_corners(point_m)) {
+    const Eigen::Vector2d to = corner - point_m;
+    if (to.norm() > std::abs(growth)) continue;
+    constexpr double kBeyond = 1e-9;
+    if (drawn_white(corner.x() + std::copysign(kBeyond, to.x()),
+                    corner.y() + std::copysign(kBeyond, to.y())) != white)
+      return !white;
   }
   return white;
+}
+
+std::array<Eigen::Vector2d, 2> PrintedBoard::nearest_corners(const Eigen::Vector2d& p) const {
+  // Of the bits of a tag whose lower left corner is the origin.
+  const auto of_tag = [&](double x) {
+    return bit_m_ * std::round(std::clamp(x, 0.0, target_.tag_size_m) / bit_m_);
+  };
+  if (target_.has_squares()) {
+    const Eigen::Vector2d size(target_.column_spacing_m, target_.row_spacing_m);
+    const Eigen::Vector2d square = p.cwiseQuotient(size).array().round().matrix();
+    const Eigen::Vector2d corner = square.cwiseProduct(size);
+    if (!target_.has_tags()) return {corner, corner};
+    const double gap = 0.5 * (target_.column_spacing_m - target_.tag_size_m);
+    const Eigen::Vector2d cell = p.cwiseQuotient(size).array().floor().matrix();
+    const Eigen::Vector2d marker = cell.cwiseProduct(size) + Eigen::Vector2d(gap, gap);
+    return {corner,
+            marker + Eigen::Vector2d(of_tag(p.x() - marker.x()), of_tag(p.y() - marker.y()))};
+  }
+  const auto of_grid = [&](double x) {
+    const double first = pitch_m_ * std::floor(x / pitch_m_);
+    const bool next = x - first > 0.5 * (target_.tag_size_m + pitch_m_);
+    return next ? first + pitch_m_ : first + of_tag(x - first);
+  };
+  const Eigen::Vector2d corner(of_grid(p.x()), of_grid(p.y()));
+  return {corner, corner};
 }
 
 bool PrintedBoard::drawn_white(double x_m, double y_m) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -49,6 +50,9 @@ class PrintedBoard {
  private:
   [[nodiscard]] bool drawn_white(double x_m, double y_m) const;
   [[nodiscard]] bool is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m) const;
+  // The corners of squares and of bits that are nearest to a point; twice the same where there is
+  // one kind only. What is drawn there is asked of drawn_white().
+  [[nodiscard]] std::array<Eigen::Vector2d, 2> nearest_corners(const Eigen::Vector2d& p) const;
   // Distance from the edge of the nearest circle as drawn, outside positive.
   [[nodiscard]] std::optional<double> from_circle_m(double x_m, double y_m) const;
   void lay_squares();

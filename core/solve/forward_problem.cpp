@@ -233,7 +233,7 @@ class LidarRows {
       const Eigen::Vector3d point = returns_.point_m(k);
       const double range = point.norm();
       LocalPrint* const seen = seen_ != nullptr ? &(*seen_)[k] : nullptr;
-      const auto p = predictor_.predict(point / range, Eigen::Vector2d::Zero(), seen, seen);
+      const auto p = predictor_.predict(point / range, {}, seen, seen);
       if (!p) continue;
       add_range(k, range - p->range_m, *p, out);
       if (has_intensity_) add_intensity(k, returns_.intensity(k) - p->intensity, *p, out);

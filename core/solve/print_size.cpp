@@ -121,8 +121,7 @@ class SizeFit {
     for (Place& place : places_) {
       const Eigen::Vector2d q = on_drawing(place.board_m);
       const Eigen::Vector3d at = lidar_from_board_ * Eigen::Vector3d(q.x(), q.y(), 0.0);
-      const auto p =
-          predictor.predict(at.normalized(), Eigen::Vector2d::Zero(), &place.seen, &place.seen);
+      const auto p = predictor.predict(at.normalized(), {}, &place.seen, &place.seen);
       if (!p) continue;
       const double plain = std::exp(p->white * std::log(noise_.intensity_white) +
                                     (1.0 - p->white) * std::log(noise_.intensity_black));

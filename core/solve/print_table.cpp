@@ -100,8 +100,8 @@ class ReturnEffects {
   ReturnEffects& operator=(const ReturnEffects&) = delete;
 
   struct Sum {
-    Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();        // Of the print under the light,
-    Eigen::Vector2d range_shift_m = Eigen::Vector2d::Zero();  // and under what is ranged.
+    PrintChange light;   // To the print under the light,
+    PrintChange ranged;  // and under what is ranged.
     double log_intensity = 0.0;
     double range_m = 0.0;
   };
@@ -115,11 +115,13 @@ class ReturnEffects {
     if (near) beam.edge = near;
     const auto edge = edge_beside(beam, log_contrast);
     const BoundaryRow* seen = edge ? &*edge : nullptr;
-    const PrintSensitivity::Moves moves(geometry, rotation, beam.direction, seen);
+    const PrintSensitivity::Moves moves(geometry, rotation, beam.direction);
+    double growth = 0.0;
     rows_.reading({beam, side, 0.0, 1.0, {}}, seen, moves,
                   [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
                     for (std::size_t k = 0; k < by.shift_m.size(); ++k) {
-                      out.shift_m += value(c, k) * by.shift_m[k];
+                      out.light.shift_m += value(c, k) * by.shift_m[k];
+                      growth += value(c, k) * by.growth_m[k];
                       out.log_intensity += value(c, k) * by.log_intensity[k];
                     }
                   });
@@ -131,9 +133,10 @@ class ReturnEffects {
                 [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
                   for (std::size_t k = 0; k < by.range_m.size(); ++k) {
                     out.range_m += value(c, k) * by.range_m[k];
-                    out.range_shift_m += value(c, k) * by.shift_m[k];
+                    out.ranged.shift_m += value(c, k) * by.shift_m[k];
                   }
                 });
+    if (growth != 0.0) out.light.growth_m = out.ranged.growth_m = growth;
     return out;
   }
 
@@ -225,31 +228,29 @@ class SceneRows {
       const Eigen::Vector3d direction = kept.point_m(k) / r.measured_m;
       r.lot = lot_of(direction);
       if (known_ != nullptr) r.seen = (*known_)[i];
-      auto p = predictor.predict(direction, Eigen::Vector2d::Zero(), &r.seen, &r.seen);
+      auto p = predictor.predict(direction, {}, &r.seen, &r.seen);
       if (!p || !geometry_.describe(direction, r.beam)) continue;
       if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
       if (cloud.has_line()) r.beam.line = cloud.line[i];
       if (!velocities_.empty()) r.beam.scan_rad_s = velocities_[i];
-      // What an edge grown by effects does to the spot is seen as by the print displaced.
       const PrintView view = view_print(*p, levels_, beam);
-      const double beside = beside_edge(*p, view);
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
-                                                near_edge(view, beside), log_contrast(levels_));
+                                                edge_of(*p, view), log_contrast(levels_));
       r.ranged = r.moved = r.seen;
       auto ranged = p;
-      if (!sum.range_shift_m.isZero())
-        ranged = predictor.predict(direction, sum.range_shift_m, &r.ranged, &r.ranged);
-      if ((sum.shift_m - sum.range_shift_m).isZero(1e-9)) {
+      if (!sum.ranged.shift_m.isZero() || sum.ranged.growth_m)
+        ranged = predictor.predict(direction, sum.ranged, &r.ranged, &r.ranged);
+      if ((sum.light.shift_m - sum.ranged.shift_m).isZero(1e-9)) {
         r.moved = r.ranged;
         p = ranged;
-      } else if (!sum.shift_m.isZero()) {
-        p = predictor.predict(direction, sum.shift_m, &r.moved, &r.moved);
+      } else {
+        p = predictor.predict(direction, sum.light, &r.moved, &r.moved);
       }
       r.range_residual_m = r.measured_m - ranged->range_m - sum.range_m;
       r.white = p->white;
       r.plain_level = p->intensity;
       if (has_intensity_)
-        describe_print(*p, beam, kept.intensity(k), std::exp(sum.log_intensity), beside, r);
+        describe_print(*p, beam, kept.intensity(k), std::exp(sum.log_intensity), r);
       returns_.push_back(r);
     }
     // In the order of the scan, whatever order the file has.
@@ -261,36 +262,30 @@ class SceneRows {
               [&](const Return& a, const Return& b) { return key(a) < key(b); });
   }
 
-  // What edges beside the nearest add to the intensity that growing black takes, per metre.
-  [[nodiscard]] double beside_edge(const ReturnPrediction& p, const PrintView& view) const {
-    if (!(view.slope > 0.0)) return 0.0;
-    const double contrast = levels_.white - levels_.black;
-    const double light = p.intensity / (levels_.black + contrast * p.white);
-    return print_.edges().growth_per_m(p.board_m, p.spot_m2) * std::abs(light * contrast) -
-           view.slope;
-  }
-
   // The edge that a spot sees, or of which plain print has a trace.
-  [[nodiscard]] static std::optional<NearEdge> near_edge(const PrintView& view,
-                                                         double beside_per_m) {
-    // More than one edge adds is more than one edge.
-    constexpr double kMost = 2.0;
+  [[nodiscard]] static std::optional<NearEdge> near_edge(const PrintView& view) {
     if (!(view.slope > 0.0)) return std::nullopt;
     return NearEdge{view.distance_m, view.psi_rad, view.width_m,
-                    std::clamp(1.0 + beside_per_m / view.slope, 1.0 / kMost, kMost)};
+                    view.kind == PrintView::Kind::kPlain};
+  }
+
+  // The same, and where no edge is seen one just out of sight: black that grows may bring it in.
+  [[nodiscard]] static NearEdge edge_of(const ReturnPrediction& p, const PrintView& view) {
+    if (const auto edge = near_edge(view)) return *edge;
+    const double width = std::sqrt(0.5 * p.spot_m2.trace());
+    return {p.white > 0.5 ? 4.0 * width : -4.0 * width, 0.0, width, true};
   }
 
   void describe_print(const ReturnPrediction& p, const BeamSpread& beam, double intensity,
-                      double gain, double beside_per_m, Return& r) const {
+                      double gain, Return& r) const {
     r.intensity = intensity;
     r.predicted = gain * p.intensity;
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
     r.jitter = std::sqrt(std::max(0.0, by_angle.dot(by_angle * beam.jitter_rad2)));
     const PrintView view = view_print(p, levels_, beam);
     r.print = view.kind;
-    if (view.kind != PrintView::Kind::kEdge) return;
     r.slope = view.slope;
-    r.beam.edge = near_edge(view, beside_per_m);
+    r.beam.edge = near_edge(view);
   }
 
   void measure_noise(const SceneNoise& fallback) {

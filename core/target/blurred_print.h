@@ -16,14 +16,6 @@
 
 namespace lvcalib {
 
-/// The share of white A in what a Gaussian spot sees of the print: A = print ⊗ N(0, S), 1 on white
-/// and 0 on black, with its gradient and Hessian on the board.
-struct PrintSample {
-  double white = 1.0;
-  Eigen::Vector2d gradient_per_m = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d hessian_per_m2 = Eigen::Matrix2d::Zero();
-};
-
 /// A sample with the place and the blur that it was taken for: it answers for their neighbourhood,
 /// where a solve comes back to the same returns again and again.
 class LocalPrint {

@@ -14,24 +14,13 @@ constexpr double kCell = 0.03;
 constexpr double kFar = 0.08;
 constexpr double kReach = 4.0;  // Widths beyond which an edge is not asked.
 
-// I₀(x)·exp(−x), by Abramowitz and Stegun 9.8.1 and 9.8.2 (to 2·10⁻⁷).
-double scaled_bessel_0(double x) {
-  if (x < 3.75) {
-    const double t = (x / 3.75) * (x / 3.75);
-    return std::exp(-x) *
-           (1.0 + t * (3.5156229 +
-                       t * (3.0899424 +
-                            t * (1.2067492 + t * (0.2659732 + t * (0.0360768 + t * 0.0045813))))));
-  }
-  const double t = 3.75 / x;
-  return (0.39894228 +
-          t * (0.01328592 +
-               t * (0.00225319 +
-                    t * (-0.00157565 +
-                         t * (0.00916281 +
-                              t * (-0.02057706 +
-                                   t * (0.02635537 + t * (-0.01647633 + t * 0.00392377)))))))) /
-         std::sqrt(x);
+// By how much one end of an edge goes on as it sweeps: half the growth where the corner stays
+// sharp, π/8 of it where it turns round (the strip's mean; at its far side twice that). Where two
+// corners of either colour meet, both strips run into each other whichever grows.
+double end_growth(double turn, double growth_m) {
+  constexpr double kRound = 0.39269908169872414;
+  if (turn == 0.0) return -0.5 * std::abs(growth_m);
+  return turn * growth_m * (turn * growth_m > 0.0 ? kRound : 0.5);
 }
 
 }  // namespace
@@ -78,14 +67,23 @@ void PrintEdges::add_grid(const Eigen::Vector2d& origin, const Eigen::Vector2d& 
     const int across = axis == 0 ? rows : columns;
     const auto black = [&](int i, int j) { return axis == 0 ? is_black(i, j) : is_black(j, i); };
     for (int j = 0; j <= across; ++j) {
-      const auto differ = [&](int i) { return black(i, j - 1) != black(i, j); };
+      // 1 where black lies below, −1 where it lies above, 0 between like cells.
+      const auto side = [&](int i) {
+        return static_cast<int>(black(i, j - 1)) - static_cast<int>(black(i, j));
+      };
+      // Whose corner the end before cell `beyond` is: black's if white goes on there, white's if
+      // black does, both's if the colours change places.
+      const auto turn = [&](int beyond) {
+        if (side(beyond) != 0) return 0.0;
+        return black(beyond, j) ? -1.0 : 1.0;
+      };
       for (int i = 0; i < along; ++i) {
-        if (!differ(i)) continue;
+        if (side(i) == 0) continue;
         const int first = i;
-        while (i + 1 < along && differ(i + 1)) ++i;
+        while (i + 1 < along && side(i + 1) == side(first)) ++i;
         segments_.push_back({axis, origin(1 - axis) + j * cell(1 - axis),
-                             origin(axis) + first * cell(axis),
-                             origin(axis) + (i + 1) * cell(axis)});
+                             origin(axis) + first * cell(axis), origin(axis) + (i + 1) * cell(axis),
+                             static_cast<double>(side(first)), turn(first - 1), turn(i + 1)});
       }
     }
   }
@@ -132,33 +130,84 @@ std::size_t PrintEdges::cell_of(const Eigen::Vector2d& board_m) const {
   return static_cast<std::size_t>(r * columns_ + c);
 }
 
-double PrintEdges::growth_per_m(const Eigen::Vector2d& p, const Eigen::Matrix2d& blur) const {
+double PrintEdges::grow(const Eigen::Vector2d& p, const Eigen::Matrix2d& blur, double growth_m,
+                        PrintSample& sample) const {
   const std::size_t cell = cell_of(p);
-  double sum = 0.0;
-  for (const int k : near_segments_[cell]) {
-    const Segment& s = segments_[static_cast<std::size_t>(k)];
-    const double across = std::sqrt(blur(1 - s.axis, 1 - s.axis));
-    const double off = s.at - p(1 - s.axis);
-    if (std::abs(off) > kReach * across) continue;
-    // What the Gaussian is along the edge, given that it lies so far across.
-    const double slope = blur(0, 1) / (across * across);
-    const double middle = p(s.axis) + slope * off;
-    const double along =
-        std::sqrt(std::max(1e-18, blur(s.axis, s.axis) - slope * slope * across * across));
-    sum += normal_pdf(off / across) / across *
-           (normal_cdf((s.to - middle) / along) - normal_cdf((s.from - middle) / along));
+  double density = 0.0;
+  for (const int k : near_segments_[cell])
+    density += sweep(segments_[static_cast<std::size_t>(k)], p, blur, growth_m, sample);
+  for (const int k : near_circles_[cell])
+    density += sweep_circle(p - circles_[static_cast<std::size_t>(k)], blur, growth_m, sample);
+  // Strips that overlap where little is left are taken away twice.
+  if (growth_m != 0.0) sample.white = std::clamp(sample.white, 0.0, 1.0);
+  return density;
+}
+
+double PrintEdges::sweep(const Segment& s, const Eigen::Vector2d& p, const Eigen::Matrix2d& blur,
+                         double growth_m, PrintSample& sample) {
+  const int n = 1 - s.axis;  // Across.
+  const double across = std::sqrt(blur(n, n));
+  const double old_z = (s.at - p(n)) / across;
+  const double new_z = old_z + s.outward * growth_m / across;
+  if (std::min(std::abs(old_z), std::abs(new_z)) > kReach && old_z * new_z > 0.0) return 0.0;
+  // What the Gaussian is along the edge, given the middle of the strip across it.
+  const double slope = blur(0, 1) / (across * across);
+  const double middle = p(s.axis) + slope * 0.5 * (old_z + new_z) * across;
+  const double along =
+      std::sqrt(std::max(1e-18, blur(s.axis, s.axis) - slope * slope * across * across));
+  const double from_end = end_growth(s.turn_from, growth_m);
+  const double to_end = end_growth(s.turn_to, growth_m);
+  const double from = (s.from - from_end - middle) / along;
+  const double to = (s.to + to_end - middle) / along;
+  const double length = normal_cdf(to) - normal_cdf(from);
+  const double new_pdf = normal_pdf(new_z) / across;
+  if (growth_m == 0.0) return new_pdf * length;
+
+  const double old_pdf = normal_pdf(old_z) / across;
+  const double from_pdf = normal_pdf(from) / along;
+  const double to_pdf = normal_pdf(to) / along;
+  const double length1 = from_pdf - to_pdf;  // By the middle, which follows p along and across.
+  const double length2 = (from * from_pdf - to * to_pdf) / along;
+  const double width = s.outward * (normal_cdf(new_z) - normal_cdf(old_z));
+  const double width1 = s.outward * (old_pdf - new_pdf);  // By p across.
+  const double width2 = s.outward * (old_z * old_pdf - new_z * new_pdf) / across;
+  sample.white -= width * length;
+  sample.gradient_per_m(n) -= width1 * length - slope * width * length1;
+  sample.gradient_per_m(s.axis) -= width * length1;
+  sample.hessian_per_m2(n, n) -=
+      width2 * length - 2.0 * slope * width1 * length1 + slope * slope * width * length2;
+  sample.hessian_per_m2(s.axis, s.axis) -= width * length2;
+  const double mixed = width1 * length1 - slope * width * length2;
+  sample.hessian_per_m2(0, 1) -= mixed;
+  sample.hessian_per_m2(1, 0) -= mixed;
+  // At the far side of the strip.
+  const double farther = slope * 0.5 * (new_z - old_z) * across;
+  const double ends =
+      normal_cdf(to + (to_end - farther) / along) - normal_cdf(from - (from_end + farther) / along);
+  return std::max(0.0, new_pdf * ends);
+}
+
+double PrintEdges::sweep_circle(const Eigen::Vector2d& from_center, const Eigen::Matrix2d& blur,
+                                double growth_m, PrintSample& sample) const {
+  const double rho = std::max(from_center.norm(), 1e-9);
+  const Eigen::Vector2d radial = from_center / rho;
+  const double across = std::sqrt(radial.dot(blur * radial));
+  const double old_z = (radius_m_ - rho) / across;
+  const double new_z = old_z + growth_m / across;
+  if (std::min(std::abs(old_z), std::abs(new_z)) > kReach && old_z * new_z > 0.0) return 0.0;
+  const double new_pdf = normal_pdf(new_z) / across;
+  if (growth_m != 0.0) {
+    const double old_pdf = normal_pdf(old_z) / across;
+    const double length = std::sqrt((radius_m_ + 0.5 * growth_m) / rho);
+    const double width = length * (normal_cdf(new_z) - normal_cdf(old_z));
+    const double by_rho = length * (old_pdf - new_pdf) - 0.5 * width / rho;
+    const Eigen::Matrix2d outer = radial * radial.transpose();
+    sample.white -= width;
+    sample.gradient_per_m -= by_rho * radial;
+    sample.hessian_per_m2 -= length * (old_z * old_pdf - new_z * new_pdf) / across * outer +
+                             by_rho / rho * (Eigen::Matrix2d::Identity() - outer);
   }
-  for (const int k : near_circles_[cell]) {
-    const Eigen::Vector2d from = p - circles_[static_cast<std::size_t>(k)];
-    const double rho = from.norm();
-    const Eigen::Vector2d radial = rho > 0.0 ? Eigen::Vector2d(from / rho) : Eigen::Vector2d(1, 0);
-    const double variance = radial.dot(blur * radial);
-    const double off = rho - radius_m_;
-    if (off * off > kReach * kReach * variance) continue;
-    sum += radius_m_ / variance * std::exp(-0.5 * off * off / variance) *
-           scaled_bessel_0(rho * radius_m_ / variance);
-  }
-  return sum;
+  return std::sqrt((radius_m_ + growth_m) / rho) * new_pdf;
 }
 
 }  // namespace lvcalib

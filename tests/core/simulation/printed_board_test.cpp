@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulation/printed_board.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "base/random.h"
@@ -50,6 +53,36 @@ TEST_P(PrintedBoardOf, AgreesWithTheTargetsAlbedo) {
     if (*albedo < 0.5) ++black;
   }
   EXPECT_GT(black, 500);
+}
+
+// A point has the other colour if anything of that lies within the growth; asked of a dense disc.
+TEST_P(PrintedBoardOf, BlackGrowsByADisc) {
+  constexpr int kRings = 8;
+  constexpr int kRim = 48;
+  const PrintedBoard board(GetParam());
+  Random random(9);
+  for (const double growth : {0.002, -0.002}) {
+    int changed = 0;
+    int missed = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Eigen::Vector2d p(random.uniform(0.0, 0.6), random.uniform(0.0, 0.5));
+      const bool white = board.is_white(p.x(), p.y());
+      bool other = false;
+      for (int k = 0; k < kRings * kRim && white == (growth > 0.0) && !other; ++k) {
+        const double angle = 2.0 * std::numbers::pi * (k % kRim) / kRim;
+        const double radius = std::abs(growth) * (1 + k / kRim) / kRings;
+        other = board.is_white(p.x() + radius * std::cos(angle),
+                               p.y() + radius * std::sin(angle)) != white;
+      }
+      const bool grown = board.reflectivity(p.x(), p.y(), growth) == PrintedBoard::kWhite;
+      changed += grown != white ? 1 : 0;
+      // The disc's points miss what lies between them, never the other way round.
+      if (other) ASSERT_NE(grown, white) << p.transpose();
+      missed += grown != white && !other ? 1 : 0;
+    }
+    EXPECT_GT(changed, 300);
+    EXPECT_LT(missed, 0.02 * changed);
+  }
 }
 
 TEST_P(PrintedBoardOf, NothingChangesWithinTheClearance) {
