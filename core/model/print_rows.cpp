@@ -40,7 +40,9 @@ Matrix6d PrintRows::board_motion_by_pose() const {
 std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) {
   PrintChange change;
   double further = 0.0;
-  const auto edge = edge_beside(row.beam, log_contrast_);
+  // A trace of black in a white spot hardly pulls a range; light in a black one does.
+  const bool pulled = row.beam.edge && !(row.beam.edge->plain && row.beam.edge->distance_m > 0.0);
+  const auto edge = pulled ? edge_beside(row.beam, log_contrast_) : std::nullopt;
   const BoundaryRow* const beside = edge ? &*edge : nullptr;
   if (beside != nullptr && growth_) change.growth_m = 0.0;
   const PrintSensitivity::Moves moves(geometry_, rotation_, row.beam.direction);

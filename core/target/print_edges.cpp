@@ -2,6 +2,7 @@
 #include "target/print_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/statistics.h"
@@ -12,7 +13,8 @@ namespace {
 constexpr double kCell = 0.03;
 // Edges farther than this are beyond four widths of any spot that still tells edges of bits apart.
 constexpr double kFar = 0.08;
-constexpr double kReach = 4.0;  // Widths beyond which an edge is not asked.
+// Widths beyond which an edge is not asked: 3·10⁻⁵ of the spot.
+constexpr double kReach = 4.0;
 
 // By how much one end of an edge goes on as it sweeps: half the growth where the corner stays
 // sharp, π/8 of it where it turns round (the strip's mean; at its far side twice that). Where two
@@ -21,6 +23,14 @@ double end_growth(double turn, double growth_m) {
   constexpr double kRound = 0.39269908169872414;
   if (turn == 0.0) return -0.5 * std::abs(growth_m);
   return turn * growth_m * (turn * growth_m > 0.0 ? kRound : 0.5);
+}
+
+// Φ(x) and φ(x), where an end of an edge is out of reach 0 or 1, and 0.
+double share_below(double x) {
+  return std::abs(x) > kReach ? (x > 0.0 ? 1.0 : 0.0) : normal_cdf(x);
+}
+double density_at(double x) {
+  return std::abs(x) > kReach ? 0.0 : normal_pdf(x);
 }
 
 }  // namespace
@@ -133,9 +143,12 @@ std::size_t PrintEdges::cell_of(const Eigen::Vector2d& board_m) const {
 double PrintEdges::grow(const Eigen::Vector2d& p, const Eigen::Matrix2d& blur, double growth_m,
                         PrintSample& sample) const {
   const std::size_t cell = cell_of(p);
+  const std::array<Spot, 2> spots{Spot(blur, 0), Spot(blur, 1)};
   double density = 0.0;
-  for (const int k : near_segments_[cell])
-    density += sweep(segments_[static_cast<std::size_t>(k)], p, blur, growth_m, sample);
+  for (const int k : near_segments_[cell]) {
+    const Segment& s = segments_[static_cast<std::size_t>(k)];
+    density += sweep(s, p, spots[static_cast<std::size_t>(s.axis)], growth_m, sample);
+  }
   for (const int k : near_circles_[cell])
     density += sweep_circle(p - circles_[static_cast<std::size_t>(k)], blur, growth_m, sample);
   // Strips that overlap where little is left are taken away twice.
@@ -143,48 +156,50 @@ double PrintEdges::grow(const Eigen::Vector2d& p, const Eigen::Matrix2d& blur, d
   return density;
 }
 
-double PrintEdges::sweep(const Segment& s, const Eigen::Vector2d& p, const Eigen::Matrix2d& blur,
+PrintEdges::Spot::Spot(const Eigen::Matrix2d& blur, int axis)
+    : across(std::sqrt(blur(1 - axis, 1 - axis))),
+      slope(blur(0, 1) / blur(1 - axis, 1 - axis)),
+      along(std::sqrt(std::max(1e-18, blur(axis, axis) - slope * blur(0, 1)))) {}
+
+double PrintEdges::sweep(const Segment& s, const Eigen::Vector2d& p, const Spot& spot,
                          double growth_m, PrintSample& sample) {
   const int n = 1 - s.axis;  // Across.
-  const double across = std::sqrt(blur(n, n));
-  const double old_z = (s.at - p(n)) / across;
-  const double new_z = old_z + s.outward * growth_m / across;
+  const double old_z = (s.at - p(n)) / spot.across;
+  const double new_z = old_z + s.outward * growth_m / spot.across;
   if (std::min(std::abs(old_z), std::abs(new_z)) > kReach && old_z * new_z > 0.0) return 0.0;
-  // What the Gaussian is along the edge, given the middle of the strip across it.
-  const double slope = blur(0, 1) / (across * across);
-  const double middle = p(s.axis) + slope * 0.5 * (old_z + new_z) * across;
-  const double along =
-      std::sqrt(std::max(1e-18, blur(s.axis, s.axis) - slope * slope * across * across));
+  const double middle = p(s.axis) + spot.slope * 0.5 * (old_z + new_z) * spot.across;
   const double from_end = end_growth(s.turn_from, growth_m);
   const double to_end = end_growth(s.turn_to, growth_m);
-  const double from = (s.from - from_end - middle) / along;
-  const double to = (s.to + to_end - middle) / along;
-  const double length = normal_cdf(to) - normal_cdf(from);
-  const double new_pdf = normal_pdf(new_z) / across;
-  if (growth_m == 0.0) return new_pdf * length;
+  const double from = (s.from - from_end - middle) / spot.along;
+  const double to = (s.to + to_end - middle) / spot.along;
+  if (from > kReach || to < -kReach) return 0.0;
+  const double new_pdf = normal_pdf(new_z) / spot.across;
+  // At the far side of the strip.
+  const double farther = spot.slope * 0.5 * (new_z - old_z) * spot.across;
+  const double density =
+      std::max(0.0, new_pdf * (share_below(to + (to_end - farther) / spot.along) -
+                               share_below(from - (from_end + farther) / spot.along)));
+  if (growth_m == 0.0) return density;
 
-  const double old_pdf = normal_pdf(old_z) / across;
-  const double from_pdf = normal_pdf(from) / along;
-  const double to_pdf = normal_pdf(to) / along;
+  const double length = share_below(to) - share_below(from);
+  const double old_pdf = normal_pdf(old_z) / spot.across;
+  const double from_pdf = density_at(from) / spot.along;
+  const double to_pdf = density_at(to) / spot.along;
   const double length1 = from_pdf - to_pdf;  // By the middle, which follows p along and across.
-  const double length2 = (from * from_pdf - to * to_pdf) / along;
+  const double length2 = (from * from_pdf - to * to_pdf) / spot.along;
   const double width = s.outward * (normal_cdf(new_z) - normal_cdf(old_z));
   const double width1 = s.outward * (old_pdf - new_pdf);  // By p across.
-  const double width2 = s.outward * (old_z * old_pdf - new_z * new_pdf) / across;
+  const double width2 = s.outward * (old_z * old_pdf - new_z * new_pdf) / spot.across;
   sample.white -= width * length;
-  sample.gradient_per_m(n) -= width1 * length - slope * width * length1;
+  sample.gradient_per_m(n) -= width1 * length - spot.slope * width * length1;
   sample.gradient_per_m(s.axis) -= width * length1;
-  sample.hessian_per_m2(n, n) -=
-      width2 * length - 2.0 * slope * width1 * length1 + slope * slope * width * length2;
+  sample.hessian_per_m2(n, n) -= width2 * length - 2.0 * spot.slope * width1 * length1 +
+                                 spot.slope * spot.slope * width * length2;
   sample.hessian_per_m2(s.axis, s.axis) -= width * length2;
-  const double mixed = width1 * length1 - slope * width * length2;
+  const double mixed = width1 * length1 - spot.slope * width * length2;
   sample.hessian_per_m2(0, 1) -= mixed;
   sample.hessian_per_m2(1, 0) -= mixed;
-  // At the far side of the strip.
-  const double farther = slope * 0.5 * (new_z - old_z) * across;
-  const double ends =
-      normal_cdf(to + (to_end - farther) / along) - normal_cdf(from - (from_end + farther) / along);
-  return std::max(0.0, new_pdf * ends);
+  return density;
 }
 
 double PrintEdges::sweep_circle(const Eigen::Vector2d& from_center, const Eigen::Matrix2d& blur,

@@ -43,8 +43,14 @@ class PrintEdges {
     // Whose corners stand at both ends: black's (1), white's (−1), both's (0).
     double turn_from = 0.0, turn_to = 0.0;
   };
-  static double sweep(const Segment& segment, const Eigen::Vector2d& board_m,
-                      const Eigen::Matrix2d& blur_m2, double growth_m, PrintSample& sample);
+  // A Gaussian spot as edges along an axis see it: its width across them, and what it is along
+  // them, given the place across: that moves on by `slope`, its width is `along`.
+  struct Spot {
+    Spot(const Eigen::Matrix2d& blur_m2, int axis);
+    double across, slope, along;
+  };
+  static double sweep(const Segment& segment, const Eigen::Vector2d& board_m, const Spot& spot,
+                      double growth_m, PrintSample& sample);
   double sweep_circle(const Eigen::Vector2d& from_center_m, const Eigen::Matrix2d& blur_m2,
                       double growth_m, PrintSample& sample) const;
   template <class IsBlack>
