@@ -12,6 +12,15 @@
 
 namespace lvcalib {
 
+/// What one unit of an effect's parameter does to what is predicted of a return.
+struct UnitChange {
+  double range_m = 0.0;                               ///< By itself,
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();  ///< and by the print under it: displaced,
+  double growth_m = 0.0;                              ///< or its black grown.
+  Eigen::Vector3d blur_rad2 = Eigen::Vector3d::Zero();
+  double log_intensity = 0.0;
+};
+
 /// How a predicted intensity depends on what effects change, in the units of its row.
 struct PrintSensitivity {
   Eigen::RowVector2d by_shift = Eigen::RowVector2d::Zero();  ///< Print displaced on the board (m).
@@ -29,6 +38,10 @@ struct PrintSensitivity {
   [[nodiscard]] double of(const Change& change, std::size_t k) const {
     return by_shift.dot(change.shift_m[k]) + by_growth * change.growth_m[k] +
            by_blur.dot(change.blur_rad2[k]) + by_log_intensity * change.log_intensity[k];
+  }
+  [[nodiscard]] double of(const UnitChange& change) const {
+    return by_shift.dot(change.shift_m) + by_growth * change.growth_m +
+           by_blur.dot(change.blur_rad2) + by_log_intensity * change.log_intensity;
   }
   /// Turns displacements of a measured point (LiDAR frame), or of the board under it, into
   /// displacements of the print as the beam sees it; what happens along the ray does not count.
@@ -52,7 +65,7 @@ struct PrintSensitivity {
 /// write nothing where they have nothing to say.
 class EffectRows {
  public:
-  EffectRows(const MeasurementTable& table, const std::vector<EffectColumns>& columns)
+  EffectRows(const MeasurementTable& table, std::span<const EffectColumns> columns)
       : table_(table), columns_(columns) {
     std::size_t most = 1;
     for (const EffectColumns& c : columns) most = std::max(most, c.parameters.size());
@@ -164,7 +177,7 @@ class EffectRows {
   }
 
   const MeasurementTable& table_;
-  const std::vector<EffectColumns>& columns_;
+  std::span<const EffectColumns> columns_;
   std::vector<Eigen::Vector3d> moves_;
   std::vector<Eigen::Vector3d> board_;
   std::vector<Eigen::Vector2d> pixels_;

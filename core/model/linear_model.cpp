@@ -65,6 +65,18 @@ LocalLayout layout_of(const MeasurementTable& table, std::size_t scene) {
   return layout;
 }
 
+// How many of the columns, from the first on, are those of the effects in use: what these do is
+// told with the rows' predictions.
+std::size_t columns_of_effects_in_use(const std::vector<EffectColumns>& columns,
+                                      const std::vector<EffectInUse>& in_use) {
+  if (columns.size() < in_use.size()) return 0;
+  for (std::size_t k = 0; k < in_use.size(); ++k) {
+    const EffectColumns& c = columns[k];
+    if (c.effect != in_use[k].effect || c.shape != in_use[k].shape || c.print_contrast) return 0;
+  }
+  return in_use.size();
+}
+
 int scene_of(const CornerRow& row) {
   return row.scene;
 }
@@ -98,7 +110,9 @@ class SceneAccumulator {
         in_use_(in_use),
         in_use_columns_(columns_in_use(in_use, table)),
         used_rows_(table, in_use_columns_.list()),
-        candidate_rows_(table, columns.list()),
+        told_(columns_of_effects_in_use(columns.list(), in_use)),
+        candidate_rows_(table, std::span(columns.list()).subspan(told_)),
+        corner_rows_(table, columns.list()),
         // Others than those in use may let black grow.
         print_(table, state, scene, in_use, columns.list().size() > in_use.size()),
         log_contrast_(log_contrast(state.levels[scene])),
@@ -174,6 +188,11 @@ class SceneAccumulator {
     const auto edge = edge_beside(r.beam, log_contrast_);
     const BoundaryRow* const beside = edge ? &*edge : nullptr;
     const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction);
+    for (std::size_t k = 0; k < parameters_told(); ++k) {
+      const UnitChange& by = print_.by_parameters()[k];
+      row_.set(effects_ + static_cast<int>(k), by.range_m + row->range_by_shift.dot(by.shift_m) +
+                                                   row->range_by_growth * by.growth_m);
+    }
     candidate_rows_.range(r, geometry_.range_row(r.beam.direction), moves, beside,
                           [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
                             for (std::size_t k = 0; k < by.range_m.size(); ++k) {
@@ -185,6 +204,9 @@ class SceneAccumulator {
     finish(row->residual, r.sigma_m);
   }
 
+  [[nodiscard]] std::size_t parameters_told() const {
+    return told_ > 0 ? print_.by_parameters().size() : 0;
+  }
   void begin(const PrintRow& row) {
     row_.clear();
     set_pose(row.by_board_pose);
@@ -213,6 +235,10 @@ class SceneAccumulator {
     const auto trace = edge == nullptr ? edge_beside(r.beam, log_contrast_) : std::nullopt;
     if (trace) edge = &*trace;
     const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction);
+    for (std::size_t k = 0; k < parameters_told(); ++k) {
+      const UnitChange& by = print_.by_parameters()[k];
+      row_.set(effects_ + static_cast<int>(k), row->print.of(by));
+    }
     candidate_rows_.reading(
         r, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
           for (std::size_t k = 0; k < by.shift_m.size(); ++k)
@@ -241,11 +267,11 @@ class SceneAccumulator {
       row_.clear();
       set_pose(p->by_pose.row(axis).transpose());
       row_.set(layout_.corner_column() + 2 * group + axis, 1.0);
-      candidate_rows_.corner(r, p->normalized, p->by_board_move,
-                             [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
-                               for (std::size_t k = 0; k < by.size(); ++k)
-                                 row_.set(effects_ + c.first + static_cast<int>(k), by[k](axis));
-                             });
+      corner_rows_.corner(r, p->normalized, p->by_board_move,
+                          [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
+                            for (std::size_t k = 0; k < by.size(); ++k)
+                              row_.set(effects_ + c.first + static_cast<int>(k), by[k](axis));
+                          });
       finish(residual(axis), r.sigma_px);
     }
   }
@@ -267,7 +293,9 @@ class SceneAccumulator {
   const std::vector<EffectInUse>& in_use_;
   EffectColumnsList in_use_columns_;
   EffectRows used_rows_;
-  EffectRows candidate_rows_;
+  std::size_t told_;           // Columns whose derivatives come with a row's prediction;
+  EffectRows candidate_rows_;  // the others'.
+  EffectRows corner_rows_;
   PrintRows print_;
   double log_contrast_;
   const LocalLayout& layout_;

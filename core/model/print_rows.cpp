@@ -46,9 +46,11 @@ std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) 
   const BoundaryRow* const beside = edge ? &*edge : nullptr;
   if (beside != nullptr && growth_) change.growth_m = 0.0;
   const PrintSensitivity::Moves moves(geometry_, rotation_, row.beam.direction);
+  changes_.clear();
   rows_.range(row, geometry_.range_row(row.beam.direction), moves, beside,
               [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
                 for (std::size_t k = 0; k < by.range_m.size(); ++k) {
+                  changes_.push_back({by.range_m[k], by.shift_m[k], by.growth_m[k]});
                   further += value(c, k) * by.range_m[k];
                   change.shift_m += value(c, k) * by.shift_m[k];
                   add_growth(value(c, k), by.growth_m[k], change);
@@ -85,8 +87,11 @@ std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const Bounda
   Eigen::Vector3d blur = Eigen::Vector3d::Zero();
   double log = 0.0;
   PrintSensitivity::Moves moves(geometry_, rotation_, direction);
+  changes_.clear();
   rows_.reading(row, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
     for (std::size_t k = 0; k < by.shift_m.size(); ++k) {
+      changes_.push_back(
+          {0.0, by.shift_m[k], by.growth_m[k], by.blur_rad2[k], by.log_intensity[k]});
       const double v = value(c, k);
       change.shift_m += v * by.shift_m[k];
       add_growth(v, by.growth_m[k], change);

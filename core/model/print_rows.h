@@ -43,6 +43,9 @@ class PrintRows {
   [[nodiscard]] std::optional<PrintRow> intensity(const IntensityRow& row,
                                                   LocalPrint* seen = nullptr);
 
+  /// What one unit of each parameter of the effects in use does to the row that was predicted last.
+  [[nodiscard]] const std::vector<UnitChange>& by_parameters() const { return changes_; }
+
   /// Rotation of T_lidar_board.
   [[nodiscard]] const Eigen::Matrix3d& lidar_from_board() const { return rotation_; }
   [[nodiscard]] const SceneGeometry& geometry() const { return geometry_; }
@@ -68,6 +71,7 @@ class PrintRows {
   double log_contrast_;
   Matrix6d motion_;  // Left perturbation of T_lidar_board by the board's motion.
   bool growth_;
+  std::vector<UnitChange> changes_;
 };
 
 }  // namespace lvcalib

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "base/parallel.h"
@@ -40,6 +41,10 @@ void hold_at_zero(const EffectColumns& columns, const Eigen::VectorXd& values,
     subset.prior_sigma[at] = 1e-6 * columns.parameters[static_cast<std::size_t>(p)].material;
     subset.prior_mean[at] = -values(p);
   }
+}
+
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 void sort_best_first(std::vector<Candidate>& candidates) {
@@ -133,6 +138,40 @@ void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape)
   move(fit, 1.0);
   in_use_[k] = {effect, shape, fit.solution.tail(columns.list().back().count())};
   refit();
+}
+
+std::vector<EffectSearch::Swap> EffectSearch::swaps(std::size_t k,
+                                                    const std::vector<EffectPtr>& effects) const {
+  EffectColumnsList columns = own_columns();
+  const std::size_t first = columns.list().size();
+  for (const EffectPtr& effect : effects) {
+    for (const double shape : shapes_worth_trying(*effect)) columns.add(effect, shape, table());
+  }
+  const Linearization linear =
+      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  if (context_.stopped()) return {};
+  const Reference as_it_is = make_reference(linear, own_subset(columns), variances_, {});
+  std::vector<Swap> tried(columns.list().size() - first);
+  parallel_for(tried.size(), context_.thread_count(), [&](std::size_t at) {
+    if (context_.stopped()) return;
+    const EffectColumns& c = columns.list()[first + at];
+    ColumnSubset subset = own_subset(columns);
+    hold_at_zero(columns.list()[k], in_use_[k].values, subset);
+    append_columns(c, nullptr, subset);
+    tried[at] = {c.effect, c.shape, make_reference(linear, subset, variances_, {}).density};
+    for (std::size_t s = 0; s < tried[at].gain.size(); ++s)
+      tried[at].gain[s] -= as_it_is.density[s];
+  });
+  if (context_.stopped()) return {};
+  std::vector<Swap> out;
+  for (Swap& swap : tried) {
+    if (out.empty() || out.back().effect != swap.effect) {
+      out.push_back(std::move(swap));
+    } else if (sum_of(swap.gain) > sum_of(out.back().gain)) {
+      out.back() = std::move(swap);
+    }
+  }
+  return out;
 }
 
 void EffectSearch::refit() {
@@ -257,8 +296,10 @@ bool EffectSearch::admit_structure() {
 // Weights and classes of rows follow the model, until both stand still.
 void EffectSearch::remake() {
   if (!base_->again || (in_use_.empty() && table_ == base_)) return;
-  // Each round leaves a few hundredths of what was wrong: more than two are rarely needed.
+  // Each round leaves a few hundredths of what was wrong (up to a sixth was seen): more than two
+  // are rarely needed.
   constexpr int kRounds = 5;
+  constexpr double kLeft = 0.2;
   for (int round = 0; round < kRounds; ++round) {
     const Rigid3 before = state_.camera_from_lidar;
     auto next = std::make_shared<MeasurementTable>(base_->again(state_, in_use_, context_));
@@ -274,7 +315,7 @@ void EffectSearch::remake() {
     constexpr double kStands = 0.05;
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().head<6>().cwiseSqrt();
     const Vector6d moved = se3_log(state_.camera_from_lidar * before.inverse());
-    if ((moved.array().abs() < kStands * sigma.array()).all()) return;
+    if ((kLeft * moved.array().abs() < kStands * sigma.array()).all()) return;
   }
 }
 

@@ -36,6 +36,15 @@ class EffectSearch {
   /// Puts another effect in the place of number k and refits, from where one step leads in which
   /// the one goes as the other comes.
   void replace(std::size_t k, const EffectPtr& effect, double shape);
+  /// One effect in the place of another.
+  struct Swap {
+    EffectPtr effect;
+    double shape = 0.0;
+    std::vector<double> gain;  ///< In held-out log-density, per scene.
+  };
+  /// What it would gain to put each of some effects in the place of number k, to first order about
+  /// the model as it is, at its shape number that gains most. Empty if stopped.
+  [[nodiscard]] std::vector<Swap> swaps(std::size_t k, const std::vector<EffectPtr>& effects) const;
   /// Among an effect's shape numbers the one whose model predicts held-out scenes best.
   [[nodiscard]] double preferred_shape(const EffectPtr& effect) const;
   /// Moves effect k's shape number from the grid of the search to where the restricted likelihood

@@ -84,29 +84,59 @@ class Growth {
     int left = options_.swaps;
     for (std::size_t k = 0; k < selections_.size(); ++k) {
       if (selections_[k].wanted) continue;
-      const std::vector<std::string> aliases = selections_[k].aliases;
-      for (const std::string& id : aliases) {
-        if (left-- <= 0 || context_.stopped()) return;
-        const EffectPtr effect = find_effect(id);
-        const bool used = std::any_of(selections_.begin(), selections_.end(),
-                                      [&](const Selection& other) { return other.id == id; });
-        if (effect == nullptr || used) continue;
-        EffectSearch trial(search_);
-        trial.replace(k, effect, trial.preferred_shape(effect));
-        if (context_.stopped()) return;
-        const double shape = trial.in_use()[k].shape;
-        if (is_gain(difference(trial, search_))) {
-          swap(k, effect, shape);
-          continue;
+      std::vector<std::string> aliases = selections_[k].aliases;
+      // What is tried against an effect is tried against the one that took its place.
+      for (bool swapped = true; swapped && !aliases.empty();) {
+        swapped = false;
+        for (const EffectSearch::Swap& next : search_.swaps(k, unused(aliases))) {
+          std::erase(aliases, next.effect->info().id);
+          if (is_hopeless(next.gain)) continue;
+          if (left-- <= 0 || context_.stopped()) return;
+          EffectSearch trial(search_);
+          trial.replace(k, next.effect, next.shape);
+          if (context_.stopped()) return;
+          if (is_gain(difference(trial, search_))) {
+            swap(k, next.effect, next.shape);
+            swapped = true;
+            break;
+          }
+          const auto dropped = dispensable(trial, k);
+          if (context_.stopped()) return;
+          if (dropped.empty() || is_gain(difference(search_, trial))) continue;
+          swap(k, next.effect, next.shape);
+          for (const std::string& gone : dropped) drop(gone);
+          return;  // Places have moved; what is left is tried after the next addition.
         }
-        const auto dropped = dispensable(trial, k);
-        if (context_.stopped()) return;
-        if (dropped.empty() || is_gain(difference(search_, trial))) continue;
-        swap(k, effect, shape);
-        for (const std::string& gone : dropped) drop(gone);
-        return;  // Places have moved; what is left is tried after the next addition.
       }
     }
+  }
+
+  // Effects of the catalogue that are not in the model.
+  [[nodiscard]] std::vector<EffectPtr> unused(const std::vector<std::string>& ids) const {
+    std::vector<EffectPtr> out;
+    for (const std::string& id : ids) {
+      const bool used = std::any_of(selections_.begin(), selections_.end(),
+                                    [&](const Selection& other) { return other.id == id; });
+      if (EffectPtr effect = find_effect(id); effect != nullptr && !used)
+        out.push_back(std::move(effect));
+    }
+    return out;
+  }
+
+  // What acts exactly alike cannot do better; and what a refit adds to a swap of effects that act
+  // nearly alike is some nats.
+  static bool is_hopeless(const std::vector<double>& gain) {
+    constexpr double kSame = 1e-6;
+    constexpr double kLost_nats = 30.0;
+    std::vector<double> loss;
+    double lost = 0.0;
+    double largest = 0.0;
+    for (const double g : gain) {
+      loss.push_back(-g);
+      lost -= g;
+      largest = std::max(largest, std::abs(g));
+    }
+    return largest < kSame || (lost > kLost_nats && is_gain(loss));
   }
 
   // Held-out log-density of one model over that of another, per scene.
