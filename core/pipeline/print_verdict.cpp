@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of the verdict that the print on the board speaks for.
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
 
 #include "base/text.h"
 #include "model/board_prediction.h"
@@ -32,6 +37,42 @@ std::string print_problem(PrintState state) {
     default:
       return "the clouds' intensities do not follow the target's print";
   }
+}
+
+// The step that a cloud's coordinates come in, of the axis where it is largest: the smallest gap
+// between different values. Of n points that are not rounded it is an n²-th of the board. 0 for few
+// points.
+double coordinate_step_m(const Cloud& cloud) {
+  constexpr std::size_t kFewest = 200;
+  constexpr std::size_t kMost = 4000;
+  if (cloud.size() < kFewest) return 0.0;
+  const std::size_t stride = (cloud.size() + kMost - 1) / kMost;
+  double step = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < cloud.size(); k += stride)
+      values.push_back(static_cast<double>(cloud.points_m[k](axis)));
+    std::sort(values.begin(), values.end());
+    // Single precision tells no less of some metres.
+    constexpr double kSame = 2e-6;
+    double gap = HUGE_VAL;
+    for (std::size_t k = 1; k < values.size(); ++k) {
+      if (values[k] - values[k - 1] > kSame) gap = std::min(gap, values[k] - values[k - 1]);
+    }
+    if (std::isfinite(gap)) step = std::max(step, gap);
+  }
+  return step;
+}
+
+// By how much rounding to steps h may displace an edge that runs along them: a spot of width s
+// spreads it over the steps, which leaves h/π·exp(−2π²s²/h²), the first harmonic of the rounding.
+// The width that the solve finds has the rounding's own in it.
+double displaced_by_rounding_m(double step_m, const BeamSpread& beam, double range_m) {
+  if (!(step_m > 0.0)) return 0.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(beam.blur_rad2);
+  const double spot2 = range_m * range_m * axes.eigenvalues()(0) - step_m * step_m / 12.0;
+  return step_m / std::numbers::pi *
+         std::exp(-2.0 * std::pow(std::numbers::pi / step_m, 2) * std::max(0.0, spot2));
 }
 
 // The field of target.yaml that states a size, and its present value.
@@ -109,6 +150,9 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
   std::map<PrintState, std::string> unseen;
   std::string saturated;
   std::string clipped;
+  std::string rounded;
+  double step_m = 0.0;
+  double displaced_m = 0.0;
   std::size_t next = 0;
   std::size_t scenes = 0;
   for (const SceneSolution& solved : result.extrinsic.scenes) {
@@ -131,6 +175,14 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
     } else if (found.saturated > 0.0) {
       saturated += (saturated.empty() ? "" : ", ") + scene->name +
                    formatted(" (%.0f %%)", 100.0 * found.saturated);
+    }
+    const double step = coordinate_step_m(scene->board_points);
+    const double displaced =
+        displaced_by_rounding_m(step, forward.state.beam, lidar_from_board.translation.norm());
+    if (displaced > options.tolerance_m && forward.uses_intensity) {
+      rounded += (rounded.empty() ? "" : ", ") + scene->name;
+      step_m = std::max(step_m, step);
+      displaced_m = std::max(displaced_m, displaced);
     }
     if (found.seen < 0.6) {
       verdict.note("scene " + scene->name +
@@ -161,6 +213,12 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
         "white print is saturated, so that the place of its edges is not measured: "
         "scene " +
         clipped + "; lower the LiDAR's gain or print the white greyer");
+  }
+  if (!rounded.empty()) {
+    verdict.doubtful(formatted("the clouds' coordinates are rounded to steps of %.0f mm, which may "
+                               "displace edges of the print by %.1f mm: scene ",
+                               1e3 * step_m, 1e3 * displaced_m) +
+                     rounded + "; write them to the millimetre");
   }
   if (!forward.uses_intensity) return;
   if (forward.lattice_margin < options.min_margin) {

@@ -130,6 +130,18 @@ void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
           "lvcalib discover");
       continue;
     }
+    if (fault.kind == ScanFault::Kind::kAngles) {
+      verdict.doubtful(
+          "the LiDAR's angles do not fit the boards (scale, eccentric encoder or tilted axis)" +
+          moves + ": find the effect with lvcalib discover");
+      continue;
+    }
+    if (fault.kind == ScanFault::Kind::kOrigin) {
+      verdict.doubtful("the LiDAR's beams start beside the origin of its frame" +
+                       formatted(", by %.1f ± %.1f mm", 1e3 * fault.size, 1e3 * fault.sigma) +
+                       moves + ": find the effect with lvcalib discover");
+      continue;
+    }
     std::string where = "in all scenes alike";
     if (fault.scene && *fault.scene < in_use.size())
       where = "in scene " + result.extrinsic.scenes[in_use[*fault.scene]].name;

@@ -191,6 +191,21 @@ struct Accumulator {
   }
 };
 
+// By how much one unit of each fault of angles and origin moves the reported direction of a point,
+// horizontally and vertically (rad).
+Eigen::Matrix<double, 2, kAngleFaults + kOriginFaults> direction_faults(
+    const Eigen::Vector3d& point_m) {
+  const double range = point_m.norm();
+  const double azimuth = std::atan2(point_m.y(), point_m.x());
+  const double sine = point_m.z() / range;
+  const double cosine = point_m.head<2>().norm() / range;
+  Eigen::Matrix<double, 2, kAngleFaults + kOriginFaults> out;
+  out << azimuth * cosine, 0.0, std::sin(azimuth) * cosine, std::cos(azimuth) * cosine, sine,
+      1.0 / range, 0.0,  //
+      0.0, std::asin(sine), 0.0, 0.0, 0.0, 0.0, 1.0 / range;
+  return out;
+}
+
 class LidarRows {
  public:
   LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
@@ -267,7 +282,15 @@ class LidarRows {
     out.add(row, e, weight);
     if (options_.faults) {
       FaultRow by = FaultRow::Zero();
-      by.head<kRangeFaults>() << 1.0, returns_.point_m(k).norm();
+      const Eigen::Vector3d point = returns_.point_m(k);
+      by.head<kRangeFaults>() << 1.0, point.norm();
+      // A direction moved by δ changes the range to the plane by −r·nᵀδ/(nᵀd), and n/(nᵀd) is what
+      // a displaced board changes.
+      const BeamAxes axes = beam_axes(point.normalized());
+      const Eigen::RowVector3d by_board = point.norm() * p.range_by_pose.head<3>();
+      by.segment<kAngleFaults + kOriginFaults>(kFirstAngle) =
+          Eigen::RowVector2d(by_board.dot(axes.horizontal), by_board.dot(axes.vertical)) *
+          direction_faults(point);
       by.segment<kMotionFaults>(kFirstMotion) = time_s(k) * p.range_by_pose.head<kMotionFaults>();
       out.add_faults(row, by, e, weight);
     }
@@ -303,6 +326,8 @@ class LidarRows {
     out.add(row, e, weight);
     if (options_.faults) {
       FaultRow by = FaultRow::Zero();
+      by.segment<kAngleFaults + kOriginFaults>(kFirstAngle) =
+          -by_angle * direction_faults(returns_.point_m(k));
       by.segment<kMotionFaults>(kFirstMotion) =
           time_s(k) * p.intensity_by_pose.head<kMotionFaults>();
       if (!scan_rad_s_.empty()) by(kLagFault) = by_angle.dot(scan_rad_s_[returns_.index[k]]);

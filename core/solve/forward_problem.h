@@ -139,10 +139,16 @@ struct SharedErrorColumns {
 };
 
 /// Faults that the solve does not have, as columns of the LiDAR's rows: an offset (m) and a scale
-/// of all ranges; where times tell, a velocity of the boards against the LiDAR while it scans (m/s,
-/// LiDAR frame), and a lag of the intensities along the scan (s).
+/// of all ranges; scales of azimuth and elevation, an eccentric encoder (sin az, cos az; rad) and a
+/// tilted axis (sin el; rad); beams that start beside the frame's origin (across, upwards; m);
+/// where times tell, a velocity of the boards against the LiDAR while it scans (m/s, LiDAR frame),
+/// and a lag of the intensities along the scan (s).
 inline constexpr int kRangeFaults = 2;
-inline constexpr int kFirstMotion = kRangeFaults;
+inline constexpr int kAngleFaults = 5;
+inline constexpr int kOriginFaults = 2;
+inline constexpr int kFirstAngle = kRangeFaults;
+inline constexpr int kFirstOrigin = kFirstAngle + kAngleFaults;
+inline constexpr int kFirstMotion = kFirstOrigin + kOriginFaults;
 inline constexpr int kMotionFaults = 3;
 inline constexpr int kLagFault = kFirstMotion + kMotionFaults;
 inline constexpr int kFaults = kLagFault + 1;

@@ -7,26 +7,57 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "solve/total_uncertainty.h"
 
 namespace lvcalib {
 namespace {
 
 // Of all tests together, by chance: as for bumps between scenes. Users run hundreds of data sets.
 constexpr double kFalseAlarm = 0.001;
-// Directions of a velocity of which the nuisances leave less than this share are not tested: sums
-// of 10⁵ rows in doubles leave rounding below it.
+// Directions among a kind's columns of which the nuisances leave less than this share are not
+// tested: sums of 10⁵ rows in doubles leave rounding below it,
 constexpr double kLeastShare = 1e-6;
-// How fast a board that is held, or a rig that rolls, moves (one σ), and how long detectors trail:
-// draws to zero what the rows hardly tell, so that the extrinsic's move is not noise.
+// and of what moves the scan as a motion of the LiDAR does, second order of the last step. Scales,
+// eccentricity and tilt have directions that are a rotation up to a share of 10⁻⁷ to 10⁻³, where χ²
+// was up to 1000 on clean rigs, and others from a tenth on; the origin's begin at 7·10⁻⁴, where χ²
+// was as it should be.
+constexpr double kLeastShareOfAngles = 1e-2;
+constexpr double kLeastShareOfOrigin = 5e-4;
+// How fast a board that is held, or a rig that rolls, moves (one σ), and how long detectors trail;
+// angles and origins as what is left out of a solve (see LeftOutSizes). They draw to zero what the
+// rows hardly tell, so that the extrinsic's move is not noise.
 constexpr double kUsualSpeed_m_s = 0.1;
 constexpr double kUsualLag_s = 2e-5;
+
+// Angles and origins that are there may be so many times their usual size.
+constexpr double kUnusual = 10.0;
+
+// The fault columns of one kind.
+struct Columns {
+  int first = 0;
+  Eigen::VectorXd usual;
+};
+Columns columns_of(ScanFault::Kind kind) {
+  const auto left_out = LeftOutSizes{}.of_the_lidar();
+  switch (kind) {
+    case ScanFault::Kind::kMotion:
+      return {kFirstMotion, Eigen::VectorXd::Constant(kMotionFaults, kUsualSpeed_m_s)};
+    case ScanFault::Kind::kLag:
+      return {kLagFault, Eigen::VectorXd::Constant(1, kUsualLag_s)};
+    case ScanFault::Kind::kAngles:
+      return {kFirstAngle, left_out.segment<kAngleFaults>(kFirstAngle)};
+    case ScanFault::Kind::kOrigin:
+      break;
+  }
+  return {kFirstOrigin, left_out.segment<kOriginFaults>(kFirstOrigin)};
+}
 
 // What the rows say of the fault columns of one kind, all else eliminated.
 ScanFault score_test(ScanFault::Kind kind, const std::vector<const FaultTerm*>& terms,
                      const GlobalSolution& solved, double chance) {
-  const bool motion = kind == ScanFault::Kind::kMotion;
-  const int first = motion ? kFirstMotion : kLagFault;
-  const int count = motion ? kMotionFaults : 1;
+  const Columns columns = columns_of(kind);
+  const int first = columns.first;
+  const auto count = static_cast<int>(columns.usual.size());
   Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(solved.globals.size(), count);
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
@@ -45,20 +76,34 @@ ScanFault score_test(ScanFault::Kind kind, const std::vector<const FaultTerm*>& 
       unit.asDiagonal() * (information - coupling.transpose() * answer) * unit.asDiagonal();
   const Eigen::VectorXd asked = unit.cwiseProduct(gradient - coupling.transpose() * solved.globals);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(0.5 * (left + left.transpose()));
-  int dof = 0;
+  const double least = kind == ScanFault::Kind::kAngles   ? kLeastShareOfAngles
+                       : kind == ScanFault::Kind::kOrigin ? kLeastShareOfOrigin
+                                                          : kLeastShare;
+  int dof = 0;  // The last ones: shares come in rising order.
   for (Eigen::Index k = 0; k < count; ++k) {
-    if (!(axes.eigenvalues()(k) > kLeastShare)) continue;
+    if (!(axes.eigenvalues()(k) > least)) continue;
     out.chi_square += std::pow(axes.eigenvectors().col(k).dot(asked), 2) / axes.eigenvalues()(k);
     ++dof;
   }
   if (dof == 0) return out;
   out.gate = chi_square_gate(dof, chance);
-  const double usual = motion ? kUsualSpeed_m_s : kUsualLag_s;
-  Eigen::MatrixXd drawn = left;
-  drawn.diagonal() += (unit / usual).cwiseAbs2();
-  const Eigen::MatrixXd covariance = unit.asDiagonal() * drawn.inverse() * unit.asDiagonal();
-  const Eigen::VectorXd fault = unit.cwiseProduct(drawn.ldlt().solve(asked));
-  out.size = motion ? fault.norm() : fault(0);
+  const Eigen::MatrixXd tested = axes.eigenvectors().rightCols(dof);
+  // Inverse information of the tested directions, with the fault drawn to zero by a size.
+  const auto inverse_of = [&](const Eigen::VectorXd& size) -> Eigen::MatrixXd {
+    Eigen::MatrixXd drawn = left;
+    drawn.diagonal() += unit.cwiseQuotient(size).cwiseAbs2();
+    return tested * (tested.transpose() * drawn * tested).inverse() * tested.transpose();
+  };
+  const bool sized = kind == ScanFault::Kind::kAngles || kind == ScanFault::Kind::kOrigin;
+  const Eigen::MatrixXd inverse = inverse_of(sized ? kUnusual * columns.usual : columns.usual);
+  const Eigen::MatrixXd covariance = unit.asDiagonal() * inverse * unit.asDiagonal();
+  const Eigen::VectorXd fault = unit.cwiseProduct(inverse * asked);
+  if (sized) {
+    out.usual_move = -(answer * unit.cwiseProduct(inverse_of(columns.usual) * asked)).head<6>();
+  }
+  out.size = kind == ScanFault::Kind::kLag      ? fault(0)
+             : kind == ScanFault::Kind::kAngles ? fault.cwiseAbs().maxCoeff()
+                                                : fault.norm();
   const Eigen::VectorXd along =
       fault.norm() > 0.0 ? Eigen::VectorXd(fault.normalized()) : Eigen::VectorXd::Unit(count, 0);
   out.sigma = std::sqrt(along.dot(covariance * along));
@@ -71,10 +116,13 @@ ScanFault score_test(ScanFault::Kind kind, const std::vector<const FaultTerm*>& 
 std::vector<ScanFault> find_scan_faults(const std::vector<SceneEquations>& scenes,
                                         const GlobalPrior& prior, const SensorErrors& sensor,
                                         const SharedVariances& variances, int threads) {
-  const auto is_timed = [](const SceneEquations& scene) {
-    return scene.faults.diagonal().tail<kFaults - kRangeFaults>().maxCoeff() > 0.0;
+  // Whether any scene's rows tell of the columns from `first` on.
+  const auto any_has = [&](int first) {
+    return std::any_of(scenes.begin(), scenes.end(), [&](const SceneEquations& scene) {
+      return scene.faults.diagonal().tail(kFaults - first).maxCoeff() > 0.0;
+    });
   };
-  if (std::none_of(scenes.begin(), scenes.end(), is_timed)) return {};
+  if (!any_has(0)) return {};
   const GlobalSolution solved =
       solve_equations(scenes, prior, sensor, variances, BoardMotion::kWeighed, false, threads);
   if (!solved.solvable) return {};
@@ -83,10 +131,13 @@ std::vector<ScanFault> find_scan_faults(const std::vector<SceneEquations>& scene
     terms.push_back(fault_term(scene, variances, BoardMotion::kWeighed));
   std::vector<const FaultTerm*> all;
   for (const FaultTerm& term : terms) all.push_back(&term);
-  const double chance = kFalseAlarm / static_cast<double>(scenes.size() + 2);
-  std::vector<ScanFault> out{score_test(ScanFault::Kind::kMotion, all, solved, chance),
-                             score_test(ScanFault::Kind::kLag, all, solved, chance)};
-  if (out.front().is_there() || scenes.size() < 2) return out;
+  const double chance = kFalseAlarm / static_cast<double>(scenes.size() + 4);
+  std::vector<ScanFault> out{score_test(ScanFault::Kind::kAngles, all, solved, chance),
+                             score_test(ScanFault::Kind::kOrigin, all, solved, chance)};
+  if (!any_has(kFirstMotion)) return out;
+  out.push_back(score_test(ScanFault::Kind::kLag, all, solved, chance));
+  out.push_back(score_test(ScanFault::Kind::kMotion, all, solved, chance));
+  if (out.back().is_there() || scenes.size() < 2) return out;
   for (std::size_t s = 0; s < terms.size(); ++s) {
     out.push_back(score_test(ScanFault::Kind::kMotion, {&terms[s]}, solved, chance));
     out.back().scene = s;

@@ -12,7 +12,7 @@ Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& s
   const Matrix6d& own = solution.camera_from_lidar.covariance;
   const std::vector<FaultTerm>& faults = solution.faults;
   const Eigen::Index globals = solution.prior.sigma.size();
-  const Eigen::Index all = globals + kRangeFaults;
+  const Eigen::Index all = globals + kFirstMotion;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(all);
   Eigen::VectorXd sigma = Eigen::VectorXd::Zero(all);
@@ -21,21 +21,21 @@ Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& s
     double& s = sigma(kFirstIntrinsic + k);
     if (!(s > 0.0)) s = sizes.intrinsics(k);
   }
-  sigma.tail<kRangeFaults>() << sizes.range_offset_m, sizes.range_scale;
+  sigma.tail<kFirstMotion>() = sizes.of_the_lidar();
   for (std::size_t s = 0; s < faults.size(); ++s) {
     if (!solution.terms[s].usable) continue;
     information.topLeftCorner(globals, globals) += solution.terms[s].information;
     gradient.head(globals) += solution.terms[s].gradient;
-    information.topRightCorner(globals, kRangeFaults) +=
-        faults[s].coupling.leftCols<kRangeFaults>();
-    information.bottomRightCorner<kRangeFaults, kRangeFaults>() +=
-        faults[s].information.topLeftCorner<kRangeFaults, kRangeFaults>();
+    information.topRightCorner(globals, kFirstMotion) +=
+        faults[s].coupling.leftCols<kFirstMotion>();
+    information.bottomRightCorner<kFirstMotion, kFirstMotion>() +=
+        faults[s].information.topLeftCorner<kFirstMotion, kFirstMotion>();
   }
   information.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) +=
       solution.prior.evidence;
   gradient.segment<kIntrinsics>(kFirstIntrinsic) += solution.prior.evidence_gradient;
-  information.bottomLeftCorner(kRangeFaults, globals) =
-      information.topRightCorner(globals, kRangeFaults).transpose();
+  information.bottomLeftCorner(kFirstMotion, globals) =
+      information.topRightCorner(globals, kFirstMotion).transpose();
   // In units of what each may be; the extrinsic in metres and radians.
   Eigen::VectorXd unit = sigma;
   unit.head<6>().setOnes();
@@ -51,9 +51,11 @@ Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& s
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(all, all));
   const Vector6d shift = factor.solve(asked).head<6>();
   Matrix6d total = inverse.topLeftCorner<6, 6>() + shift * shift.transpose();
-  // Faults within the scans that are there: what they do to the extrinsic is not in the solve.
+  // Faults of the scans that are there, and what the data ask for of angles and origin that may be
+  // there: what these do to the extrinsic is not in the solve.
   for (const ScanFault& fault : solution.scan_faults) {
-    if (fault.is_there()) total += fault.move * fault.move.transpose();
+    const Vector6d& move = fault.is_there() ? fault.move : fault.usual_move;
+    total += move * move.transpose();
   }
   if (!total.allFinite()) return own;
   // Estimation with more unknowns cannot be better; rounding may say so.

@@ -15,13 +15,28 @@ struct LeftOutSizes {
   double range_offset_m = 0.01;
   /// and clock and atmosphere leave their scale to some hundred ppm.
   double range_scale = 5e-4;
+  /// Angles are stated to 0.05 to 0.15° at one σ, some of which are scales, harmonics and tilts:
+  /// half a milliradian each on a board 30° off,
+  double angle_scale = 1e-3;
+  double eccentricity_rad = 5e-4;
+  double axis_tilt_rad = 1e-3;
+  /// and drawings of devices show beams that start millimetres beside the frame's origin.
+  double origin_m = 3e-3;
+  /// All but the intrinsics, in the order of the faults' columns (see kFaults).
+  [[nodiscard]] Eigen::Matrix<double, kFirstMotion, 1> of_the_lidar() const {
+    Eigen::Matrix<double, kFirstMotion, 1> out;
+    out << range_offset_m, range_scale, angle_scale, angle_scale, eccentricity_rad,
+        eccentricity_rad, axis_tilt_rad, origin_m, origin_m;
+    return out;
+  }
 };
 
 /// The extrinsic's covariance if those faults may be there: the posterior of the joint solve with
 /// them as further unknowns that are drawn to zero by their sizes. What the data rule out thus adds
 /// nothing, and what leaves no trace adds all it can do. To first order about `solution`; where the
-/// data ask for other intrinsics than the held ones, the square of that shift is in it as well,
-/// and so is that of what faults within the scans would move (see ScanFault).
+/// data ask for other intrinsics than the held ones, for other angles or another origin of the
+/// beams, the squares of those shifts are in it as well, and so are those of motion and lag within
+/// the scans where these are there (see ScanFault).
 /// Never below the solution's own covariance.
 Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& sizes);
 

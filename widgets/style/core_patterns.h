@@ -29,6 +29,17 @@ inline constexpr const char* kCorePatterns[] = {
                       "extrinsic moves by %2 mm and %3 mrad: intensity or angle is read too late; "
                       "find the effect with lvcalib discover"),
     QT_TRANSLATE_NOOP("Core",
+                      "the LiDAR's angles do not fit the boards (scale, eccentric encoder or tilted "
+                      "axis); with that the extrinsic moves by %1 mm and %2 mrad: find the effect "
+                      "with lvcalib discover"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the LiDAR's beams start beside the origin of its frame, by %1 mm; with that "
+                      "the extrinsic moves by %2 mm and %3 mrad: find the effect with lvcalib "
+                      "discover"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the clouds' coordinates are rounded to steps of %1 mm, which may displace "
+                      "edges of the print by %2 mm: scene %3; write them to the millimetre"),
+    QT_TRANSLATE_NOOP("Core",
                       "the images contradict the standard deviations of the intrinsics: %1; "
                       "calibrate the camera again, or use --intrinsics free"),
     QT_TRANSLATE_NOOP(

@@ -43,7 +43,8 @@ class ScanFaults : public testing::TestWithParam<LidarKind> {};
 TEST_P(ScanFaults, NothingIsFoundWhereNothingIs) {
   for (const std::uint64_t seed : {61, 62}) {
     const auto faults = faults_of(forward_rig(moving_options(seed, GetParam(), {})));
-    EXPECT_EQ(faults.size(), 6U);  // Motion and lag of all scenes, and each scene's motion.
+    // Angles, origin, lag and motion of all scenes, and each scene's motion.
+    EXPECT_EQ(faults.size(), 8U);
     for (const ScanFault& fault : faults) EXPECT_FALSE(fault.is_there()) << fault.chi_square;
   }
 }
@@ -63,6 +64,39 @@ TEST_P(ScanFaults, AMotionIsFoundAndMeasured) {
   const Rigid3 moved = se3_exp(motion->move) * found;
   EXPECT_GT(before, 0.002);
   EXPECT_LT(translation_distance_m(moved.inverse(), rig.camera_from_lidar.inverse()), 0.1 * before);
+}
+
+// Beams that start beside the origin; and, with little of it, what may be wrong.
+TEST_P(ScanFaults, AnOriginIsFoundAndMeasured) {
+  const ForwardRig rig =
+      forward_rig(moving_options(68, GetParam(), {{"beam_origin_offset", 20.0}}));
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution);
+  const ScanFault* origin = of_all(solution->scan_faults, ScanFault::Kind::kOrigin);
+  ASSERT_TRUE(origin != nullptr);
+  EXPECT_TRUE(origin->is_there());
+  EXPECT_NEAR(origin->size, 0.02, 0.006) << "chi2 " << origin->chi_square;
+  const Rigid3& found = solution->camera_from_lidar.transform;
+  const double before = translation_distance_m(found.inverse(), rig.camera_from_lidar.inverse());
+  EXPECT_GT(before, 0.005);
+  // Board and extrinsic have shared errors that took up part of it.
+  const Rigid3 moved = se3_exp(origin->move) * found;
+  EXPECT_LT(translation_distance_m(moved.inverse(), rig.camera_from_lidar.inverse()), 0.8 * before);
+}
+
+TEST_P(ScanFaults, AnglesThatDoNotHoldAreFoundOrInTheTotalUncertainty) {
+  for (const auto& [effect, size] : std::map<std::string, double>{
+           {"angle_scale", 2000.0}, {"encoder_eccentricity", 1.0}, {"beam_origin_offset", 3.0}}) {
+    const ForwardRig rig = forward_rig(moving_options(69, GetParam(), {{effect, size}}));
+    const auto solution = solve(rig, Vector6d::Zero());
+    ASSERT_TRUE(solution);
+    const UncertainRigid3& own = solution->camera_from_lidar;
+    const UncertainRigid3 total{own.transform, total_covariance(*solution, {})};
+    EXPECT_LT(test::size_in_sigmas(total, rig.camera_from_lidar), 3.0) << effect;
+    EXPECT_GT(test::size_in_sigmas(own, rig.camera_from_lidar),
+              test::size_in_sigmas(total, rig.camera_from_lidar))
+        << effect;
+  }
 }
 
 // A fault too small to matter is still in what may be wrong.
@@ -108,10 +142,12 @@ TEST(ScanFaultsLag, ALagIsMeasuredWhereTheScanTurns) {
   EXPECT_LT(lag->sigma, 2e-7);
 }
 
-TEST(ScanFaultsTimes, WithoutTimesThereIsNothingToTest) {
+TEST(ScanFaultsTimes, WithoutTimesAnglesAndOriginAreTestedAlone) {
   ForwardRig rig = forward_rig(moving_options(66, LidarKind::kAvia, {{"scan_motion", 20.0}}));
   for (Cloud& cloud : rig.clouds) cloud.time_s.clear();
-  EXPECT_THAT(faults_of(rig), testing::IsEmpty());
+  const auto kind = [](ScanFault::Kind k) { return testing::Field(&ScanFault::kind, k); };
+  EXPECT_THAT(faults_of(rig),
+              testing::ElementsAre(kind(ScanFault::Kind::kAngles), kind(ScanFault::Kind::kOrigin)));
 }
 
 }  // namespace
