@@ -2877,6 +2877,18 @@ were saved. Take them up again?</source>
         <source>the print lies displaced along the scan, by %1 µs of it; with that the extrinsic moves by %2 mm and %3 mrad: intensity or angle is read too late; find the effect with lvcalib discover</source>
         <translation>图案沿扫描方向偏移，相当于 %1 µs 的扫描；计入后外参移动 %2 mm 和 %3 mrad：强度或角度读取滞后；请用 lvcalib discover 查找该效应</translation>
     </message>
+    <message>
+        <source>the LiDAR&apos;s angles do not fit the boards (scale, eccentric encoder or tilted axis); with that the extrinsic moves by %1 mm and %2 mrad: find the effect with lvcalib discover</source>
+        <translation>激光雷达的角度与标定板不符（比例、编码器偏心或轴倾斜）；计入后外参移动 %1 mm 和 %2 mrad：请用 lvcalib discover 查找该效应</translation>
+    </message>
+    <message>
+        <source>the LiDAR&apos;s beams start beside the origin of its frame, by %1 mm; with that the extrinsic moves by %2 mm and %3 mrad: find the effect with lvcalib discover</source>
+        <translation>激光雷达的光束起点偏离其坐标原点 %1 mm；计入后外参移动 %2 mm 和 %3 mrad：请用 lvcalib discover 查找该效应</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; coordinates are rounded to steps of %1 mm, which may displace edges of the print by %2 mm: scene %3; write them to the millimetre</source>
+        <translation>点云坐标被取整为 %1 mm 的步长，可能使图案边缘偏移 %2 mm：场景 %3；请以毫米或更细的精度写出</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
