@@ -226,10 +226,11 @@ void add_ranges(Kinds& all) {
     all.push_back(ranges(named("ranges in steps of %g mm", mm), {}, [=](double r, Random&) {
       return 1e-3 * mm * std::max(1.0, std::round(1e3 * r / mm));
     }));
-    all.push_back(clouds(named("coordinates in steps of %g mm", mm), {}, [=](Cloud& c, Random&) {
-      for (Eigen::Vector3f& p : c.points_m)
-        p = (1e3F / static_cast<float>(mm) * p).array().round() * static_cast<float>(mm) / 1e3F;
-    }));
+    all.push_back(
+        clouds(named("coordinates in steps of %g mm", mm), {"rounded"}, [=](Cloud& c, Random&) {
+          for (Eigen::Vector3f& p : c.points_m)
+            p = (1e3F / static_cast<float>(mm) * p).array().round() * static_cast<float>(mm) / 1e3F;
+        }));
   }
   all.push_back(clouds("directions in steps of 0.2°", {}, [](Cloud& c, Random&) {
     constexpr double kStep = 0.2 * M_PI / 180.0;

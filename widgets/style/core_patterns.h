@@ -28,10 +28,11 @@ inline constexpr const char* kCorePatterns[] = {
                       "the print lies displaced along the scan, by %1 µs of it; with that the "
                       "extrinsic moves by %2 mm and %3 mrad: intensity or angle is read too late; "
                       "find the effect with lvcalib discover"),
-    QT_TRANSLATE_NOOP("Core",
-                      "the LiDAR's angles do not fit the boards (scale, eccentric encoder or tilted "
-                      "axis); with that the extrinsic moves by %1 mm and %2 mrad: find the effect "
-                      "with lvcalib discover"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "the LiDAR's angles do not fit the boards (scale, eccentric encoder or tilted "
+        "axis); with that the extrinsic moves by %1 mm and %2 mrad: find the effect "
+        "with lvcalib discover"),
     QT_TRANSLATE_NOOP("Core",
                       "the LiDAR's beams start beside the origin of its frame, by %1 mm; with that "
                       "the extrinsic moves by %2 mm and %3 mrad: find the effect with lvcalib "

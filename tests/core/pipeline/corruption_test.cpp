@@ -59,8 +59,8 @@ TEST(Corruption, OfTheIntrinsicsIsNeverGood) {
 
 TEST(Corruption, OfTheCloudsIsNeverGood) {
   EXPECT_GE(run_kinds({"intensity saturated at 20", "no points but five", "cloud in",
-                       "cloud mirrored", "all clouds"}),
-            8);
+                       "cloud mirrored", "all clouds", "coordinates in steps of 20"}),
+            9);
 }
 
 TEST(Corruption, OfTheImagesIsNeverGood) {
