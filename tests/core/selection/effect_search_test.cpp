@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,30 @@ TEST_F(SearchState, AddedEffectsTakeTheirValueAndLeaveTheCandidates) {
   search.rank();
   for (const Candidate& c : search.candidates()) EXPECT_NE(id_of(search, c), "range_walk");
   EXPECT_FALSE(search.best().has_value());
+}
+
+// To first order, without a refit: what acts alike gains nothing, what explains nothing loses.
+TEST_F(SearchState, SwapsAreForeseen) {
+  const auto made = with_walk(0.008);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.add(find_effect("range_walk"), 0.0);
+  const auto swaps = search.swaps(0, {find_effect("range_walk"), find_effect("range_near")});
+  ASSERT_EQ(swaps.size(), 2U);
+  EXPECT_EQ(swaps[0].effect, find_effect("range_walk"));
+  const auto total = [](const EffectSearch::Swap& swap) {
+    return std::accumulate(swap.gain.begin(), swap.gain.end(), 0.0);
+  };
+  EXPECT_GT(total(swaps[0]), -1.0);
+  EXPECT_LT(total(swaps[0]), 5.0);
+  EXPECT_LT(total(swaps[1]), -30.0);
+  // And it comes true.
+  const auto density = [](const EffectSearch& of) {
+    const auto& d = of.reference().density;
+    return std::accumulate(d.begin(), d.end(), 0.0);
+  };
+  const double before = density(search);
+  search.replace(0, swaps[1].effect, swaps[1].shape);
+  EXPECT_NEAR(density(search) - before, total(swaps[1]), 0.1 * std::abs(total(swaps[1])));
 }
 
 TEST_F(SearchState, RemovedEffectsLeaveNoTrace) {
