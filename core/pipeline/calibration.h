@@ -98,7 +98,8 @@ struct CalibrationResult {
   std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
   std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
   /// The extrinsic's covariance with what faults that are left out could still do to it: errors of
-  /// held intrinsics, a range offset and scale, all of usual size (see total_covariance()).
+  /// held intrinsics, of ranges, angles and the origin of the beams, all of usual size (see
+  /// total_covariance()).
   Matrix6d covariance_total = Matrix6d::Zero();
   /// Whether the scenes would have shown intrinsics that are wrong by what matters.
   bool verified = false;
