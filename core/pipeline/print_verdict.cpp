@@ -43,8 +43,8 @@ std::string print_problem(PrintState state) {
 // between different values. Of n points that are not rounded it is an n²-th of the board. 0 for few
 // points.
 double coordinate_step_m(const Cloud& cloud) {
-  constexpr std::size_t kFewest = 200;
-  constexpr std::size_t kMost = 4000;
+  constexpr std::size_t kFewest = 200;  // Unrounded: 20 µm of a board of 0.8 m.
+  constexpr std::size_t kMost = 4000;   // Rounded coordinates show in any of them.
   if (cloud.size() < kFewest) return 0.0;
   const std::size_t stride = (cloud.size() + kMost - 1) / kMost;
   double step = 0.0;
