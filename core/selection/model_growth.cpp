@@ -123,8 +123,8 @@ class Growth {
     return out;
   }
 
-  // What acts exactly alike cannot do better; and what a refit adds to a swap of effects that act
-  // nearly alike is some nats.
+  // What acts exactly alike differs by rounding alone and cannot do better; and what a refit adds
+  // to a swap of effects that act nearly alike is some nats, a tenth of what is foreseen lost.
   static bool is_hopeless(const std::vector<double>& gain) {
     constexpr double kSame = 1e-6;
     constexpr double kLost_nats = 30.0;

@@ -115,7 +115,7 @@ bool PrintedBoard::is_white_beyond(double edge_shift_m, Eigen::Vector2d point_m)
   for (const Eigen::Vector2d& corner : nearest_corners(point_m)) {
     const Eigen::Vector2d to = corner - point_m;
     if (to.norm() > std::abs(growth)) continue;
-    constexpr double kBeyond = 1e-9;
+    constexpr double kBeyond = 1e-9;  // Any place in the cell across the corner tells its colour.
     if (drawn_white(corner.x() + std::copysign(kBeyond, to.x()),
                     corner.y() + std::copysign(kBeyond, to.y())) != white)
       return !white;

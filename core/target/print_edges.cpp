@@ -20,7 +20,7 @@ constexpr double kReach = 4.0;
 // sharp, π/8 of it where it turns round (the strip's mean; at its far side twice that). Where two
 // corners of either colour meet, both strips run into each other whichever grows.
 double end_growth(double turn, double growth_m) {
-  constexpr double kRound = 0.39269908169872414;
+  constexpr double kRound = 0.39269908169872414;  // π/8
   if (turn == 0.0) return -0.5 * std::abs(growth_m);
   return turn * growth_m * (turn * growth_m > 0.0 ? kRound : 0.5);
 }
