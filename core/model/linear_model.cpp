@@ -386,6 +386,7 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
   out.scenes.resize(table.scenes.size());
   for (std::size_t s = 0; s < out.scenes.size(); ++s) {
     out.scenes[s].layout = layout_of(table, s);
+    out.scenes[s].inflation = table.scenes[s].inflation;
     const int size = out.scenes[s].layout.size() + 6 + columns.columns() + 1;
     for (const Channel channel : kAllChannels) {
       const auto at = static_cast<std::size_t>(channel);

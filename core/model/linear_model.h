@@ -76,6 +76,10 @@ enum class VarianceGroup {
   kLineGain = 8,     ///< Per scene and line: gain of the intensities (1).
 };
 constexpr std::size_t kVarianceGroups = 9;
+/// Motions of whole boards.
+constexpr std::array<VarianceGroup, 4> kBoardMotions{
+    VarianceGroup::kBoardShift, VarianceGroup::kBoardNormal, VarianceGroup::kBoardTilt,
+    VarianceGroup::kBoardSpin};
 /// Variances that are told from zero (µm, a hundredth of a milliradian, a ten-thousandth of a
 /// pixel): a group at its own is held there, as absent.
 constexpr std::array<double, kVarianceGroups> kAbsentVariance{1e-12, 1e-8,  1e-12, 1e-12, 1e-12,
@@ -110,6 +114,7 @@ struct SceneProducts {
   /// Sums of the whitened effect columns' fourth powers, one per effect column.
   std::array<Eigen::VectorXd, kChannels> fourth_powers;
   std::array<int, kChannels> rows{};
+  std::array<double, kChannels> inflation{1.0, 1.0, 1.0, 1.0};  ///< See TableScene.
 };
 
 /// The model linearised about a state: residuals = measured − predicted − effects in use.

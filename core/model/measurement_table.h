@@ -116,6 +116,8 @@ struct TableScene {
   /// Of the beam towards the board's middle: where its levels are told.
   double middle_range_m = 1.0;
   double middle_incidence_rad = 0.0;
+  /// Variance inflation per channel because neighbours along a line err alike (see SceneNoise).
+  std::array<double, kChannels> inflation{1.0, 1.0, 1.0, 1.0};
 };
 
 /// State that the measurements are predicted from: the extrinsic, a board pose and levels per

@@ -73,12 +73,12 @@ struct Blocks {
 };
 
 // With what is believed of the scene's own unknowns beforehand.
-Blocks blocks_of(const JointProducts& products, const Columns& at,
+Blocks blocks_of(const JointProducts& products, const Columns& at, const ChannelVariances& channel,
                  const ModelVariances& variances) {
   const auto size = static_cast<Eigen::Index>(at.joint.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (products[c].size() > 0) sum += 1.0 / variances.channel[c] * products[c];
+    if (products[c].size() > 0) sum += 1.0 / channel[c] * products[c];
   }
   for (std::size_t k = 0; k < kVarianceGroups; ++k) {
     const auto [first, count] = at.groups[k];
@@ -95,7 +95,7 @@ Blocks blocks_of(const JointProducts& products, const Columns& at,
 }
 
 Blocks blocks_of(const SceneProducts& scene, const Columns& at, const ModelVariances& variances) {
-  return blocks_of(gather(scene, at), at, variances);
+  return blocks_of(gather(scene, at), at, variances.channel, variances);
 }
 
 // A channel's squared residuals at given unknowns.
@@ -116,6 +116,7 @@ class Fitter {
     for (const SceneProducts& scene : linear.scenes) {
       columns_.push_back(columns_of(scene, subset, start, Locals::kPresent));
       products_.push_back(gather(scene, columns_.back()));
+      channel_.push_back(start.channel);
     }
     const auto g = static_cast<Eigen::Index>(6 + subset.columns.size());
     fit_.prior.information.setZero(g, g);
@@ -138,6 +139,31 @@ class Fitter {
       solve();
       if (change < options_.tolerance) break;
     }
+    return std::move(fit_);
+  }
+
+  // What each scene's rows scatter by, correlation of neighbours included, per channel: a scene
+  // with few of them takes what all have.
+  std::vector<ChannelVariances> scene_variances() {
+    constexpr double kFewest = 20.0;
+    solve();
+    std::vector<ChannelVariances> out = channel_;
+    for (std::size_t s = 0; s < linear_.scenes.size(); ++s) {
+      std::array<double, kVarianceGroups> squares{}, determined{};
+      ChannelVariances residual{}, freedom{};
+      collect(s, squares, determined, residual, freedom);
+      for (std::size_t c = 0; c < kChannels; ++c) {
+        if (freedom[c] >= kFewest) out[s][c] = std::clamp(residual[c] / freedom[c], 0.05, 1e4);
+        out[s][c] *= linear_.scenes[s].inflation[c];
+      }
+    }
+    return out;
+  }
+
+  // With given variances of each scene's channels.
+  ModelFit run_with(std::vector<ChannelVariances> channel) {
+    channel_ = std::move(channel);
+    solve();
     return std::move(fit_);
   }
 
@@ -183,7 +209,7 @@ class Fitter {
 
   void eliminate(std::size_t s) {
     const SceneProducts& scene = linear_.scenes[s];
-    Blocks b = blocks_of(products_[s], columns_[s], fit_.variances);
+    Blocks b = blocks_of(products_[s], columns_[s], channel_[s], fit_.variances);
     double log_prior = 0.0;
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
       log_prior -= 0.5 * static_cast<double>(columns_[s].groups[k].second) *
@@ -198,7 +224,7 @@ class Fitter {
     term.constant = -0.5 * (b.squares - b.local_gradient.dot(y)) + log_prior -
                     llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
     for (std::size_t c = 0; c < kChannels; ++c)
-      term.constant -= 0.5 * scene.rows[c] * std::log(fit_.variances.channel[c]);
+      term.constant -= 0.5 * scene.rows[c] * std::log(channel_[s][c]);
     fit_.scenes.push_back(std::move(term));
     factors_.push_back(std::move(llt));
     blocks_.push_back(std::move(b));
@@ -228,6 +254,7 @@ class Fitter {
       if (freedom[c] < 2.0) continue;
       move(fit_.variances.channel[c], std::clamp(residual[c] / freedom[c], 0.05, 1e4));
     }
+    channel_.assign(channel_.size(), fit_.variances.channel);
     return change;
   }
 
@@ -257,7 +284,7 @@ class Fitter {
       if (m.size() == 0) continue;
       residual[c] += squares_of(m, fit_.local[s], fit_.solution);
       const double used = covariance.cwiseProduct(m.topLeftCorner(n + g, n + g)).sum();
-      freedom[c] += linear_.scenes[s].rows[c] - used / fit_.variances.channel[c];
+      freedom[c] += linear_.scenes[s].rows[c] - used / channel_[s][c];
     }
   }
 
@@ -265,10 +292,42 @@ class Fitter {
   const MixedModelOptions& options_;
   ModelFit fit_;
   std::vector<Columns> columns_;  // Per scene, as the next ones.
+  std::vector<ChannelVariances> channel_;
   std::vector<JointProducts> products_;
   std::vector<Blocks> blocks_;
   std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
 };
+
+// What the gradient of the globals scatters by motions of the whole board that have no weight.
+Eigen::MatrixXd board_spread(const SceneProducts& scene, const ColumnSubset& subset,
+                             const ChannelVariances& channel, const ModelVariances& variances) {
+  const Columns at = columns_of(scene, subset, variances, Locals::kPresent);
+  const Blocks b = blocks_of(gather(scene, at), at, channel, variances);
+  std::vector<Eigen::Index> kept;
+  std::vector<std::pair<Eigen::Index, double>> boards;  // Column and variance.
+  for (Eigen::Index i = 0; i < LocalLayout::kFixed; ++i) kept.push_back(i);
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+    const bool moves = std::find(kBoardMotions.begin(), kBoardMotions.end(),
+                                 static_cast<VarianceGroup>(k)) != kBoardMotions.end();
+    const auto [first, count] = at.groups[k];
+    for (Eigen::Index i = first; i < first + count; ++i) {
+      if (moves) {
+        boards.emplace_back(i, variances.group[k]);
+      } else {
+        kept.push_back(i);
+      }
+    }
+  }
+  const Eigen::MatrixXd cross = b.cross(kept, Eigen::all);
+  const Eigen::MatrixXd x = b.local(kept, kept).llt().solve(cross);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(at.globals, at.globals);
+  for (const auto& [i, variance] : boards) {
+    const Eigen::VectorXd column = b.local.col(i);
+    const Eigen::VectorXd by = b.cross.row(i).transpose() - x.transpose() * column(kept);
+    out += variance * by * by.transpose();
+  }
+  return out;
+}
 
 // ½hᵀH⁻¹h − ½ log|H|: the log of the integral over the unknowns.
 double log_integral(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient) {
@@ -296,6 +355,40 @@ void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options) {
   return Fitter(linear, subset, start, options).run();
+}
+
+bool moves_boards(const ModelVariances& variances) {
+  return std::any_of(kBoardMotions.begin(), kBoardMotions.end(), [&](VarianceGroup group) {
+    const auto k = static_cast<std::size_t>(group);
+    return variances.group[k] > kAbsentVariance[k];
+  });
+}
+
+ModelVariances without_board_motion(const ModelVariances& variances) {
+  ModelVariances out = variances;
+  for (const VarianceGroup group : kBoardMotions) {
+    const auto k = static_cast<std::size_t>(group);
+    out.group[k] = kAbsentVariance[k];
+  }
+  return out;
+}
+
+ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
+                    const ModelVariances& variances) {
+  const MixedModelOptions as_given{.rounds = 0};
+  if (!moves_boards(variances)) return fit_model(linear, subset, variances, as_given);
+  const std::vector<ChannelVariances> channel =
+      Fitter(linear, subset, variances, as_given).scene_variances();
+  ModelFit fit =
+      Fitter(linear, subset, without_board_motion(variances), as_given).run_with(channel);
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(fit.covariance.rows(), fit.covariance.cols());
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+    fit.scenes[s].spread = board_spread(linear.scenes[s], subset, channel[s], variances);
+    spread += fit.scenes[s].spread;
+  }
+  fit.covariance += (fit.covariance * spread * fit.covariance).eval();
+  fit.variances = variances;
+  return fit;
 }
 
 double misfit(const Linearization& linear, const ColumnSubset& subset,
@@ -389,7 +482,7 @@ std::array<double, kChannels> squares_at(const Linearization& linear, std::size_
   const SceneProducts& products = linear.scenes[scene];
   const Columns at = columns_of(products, subset, variances, Locals::kFixed);
   const JointProducts joint = gather(products, at);
-  const Blocks b = blocks_of(joint, at, variances);
+  const Blocks b = blocks_of(joint, at, variances.channel, variances);
   const Eigen::VectorXd local = b.local.llt().solve(b.local_gradient - b.cross * globals);
   std::array<double, kChannels> out{};
   for (std::size_t c = 0; c < kChannels; ++c) {

@@ -11,10 +11,12 @@
 
 namespace lvcalib {
 
+/// Factor on the stated variance of each channel's rows.
+using ChannelVariances = std::array<double, kChannels>;
+
 /// Variances that the mixed model estimates.
 struct ModelVariances {
-  /// Factor on the stated variance of each channel's rows.
-  std::array<double, kChannels> channel{1.0, 1.0, 1.0, 1.0};
+  ChannelVariances channel{1.0, 1.0, 1.0, 1.0};
   /// Variance of each group of random effects, in the order of VarianceGroup.
   std::array<double, kVarianceGroups> group{1e-7,  4e-4,  1e-12, 1e-7, 1e-7,
                                             1e-12, 1e-12, 1e-12, 1e-9};
@@ -26,6 +28,9 @@ struct SceneTerm {
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
   double constant = 0.0;
+  /// What the gradient scatters beyond `information`, because the whole board moves; empty:
+  /// nothing.
+  Eigen::MatrixXd spread = {};
 };
 
 /// Which effect columns take part, with the Gaussian prior of each increment.
@@ -70,6 +75,19 @@ struct MixedModelOptions {
 /// kAbsentVariance stay out: they are held there, and would change nothing that is stated.
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options);
+
+/// Whether the variances hold motions of whole boards between camera and LiDAR.
+bool moves_boards(const ModelVariances& variances);
+/// Those variances without motions of whole boards.
+ModelVariances without_board_motion(const ModelVariances& variances);
+/// The fit with given variances in which motions of whole boards have no weight and widen the
+/// covariance instead, A⁻¹(A + S)A⁻¹ with A the information and S the spread: what is stated of a
+/// model, as it is stated of a calibration (see moves_board(); Liang & Zeger 1986). Rows then weigh
+/// by what their own scene's scatter, correlation of neighbours included: a scene that the model
+/// fits badly would else have the weight of its replicates. The log-likelihood is that without
+/// motions. Where boards do not move it is the fit with given variances.
+ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
+                    const ModelVariances& variances);
 
 /// How badly the state itself fits, all increments of extrinsic, poses, levels and columns zero and
 /// the random effects fitted: minus twice the log-posterior up to a constant of the variances. What

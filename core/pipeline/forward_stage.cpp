@@ -171,16 +171,19 @@ SubsetSolver model_subsets(const std::shared_ptr<const ModelFit>& fit,
     if (!fit) return std::nullopt;
     Eigen::MatrixXd information = fit->prior.information;
     Eigen::VectorXd gradient = fit->prior.gradient;
+    Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(information.rows(), information.cols());
     for (const std::size_t k : scenes) {
       if (place[k] >= fit->scenes.size()) return std::nullopt;
       information += fit->scenes[place[k]].information;
       gradient += fit->scenes[place[k]].gradient;
+      if (fit->scenes[place[k]].spread.size() > 0) spread += fit->scenes[place[k]].spread;
     }
     const auto solved = solve_normal_equations(information, gradient);
     if (!solved) return std::nullopt;
     const Vector6d move = solved->x.head<6>() - fit->solution.head<6>();
-    return UncertainRigid3{se3_exp(move) * camera_from_lidar,
-                           solved->covariance.topLeftCorner<6, 6>()};
+    const Eigen::MatrixXd& inverse = solved->covariance;
+    const Eigen::MatrixXd covariance = inverse + inverse * spread * inverse;
+    return UncertainRigid3{se3_exp(move) * camera_from_lidar, covariance.topLeftCorner<6, 6>()};
   };
 }
 

@@ -197,6 +197,41 @@ void EffectSearch::refit() {
     reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
 }
 
+ModelFit EffectSearch::fit_as_it_stands(const Linearization& linear,
+                                        const ColumnSubset& subset) const {
+  return settled_ ? fit_stated(linear, subset, variances_)
+                  : fit_model(linear, subset, variances_, {.rounds = 0});
+}
+
+std::optional<EffectSearch> EffectSearch::as_stated() const {
+  if (!moves_boards(variances_)) return std::nullopt;
+  EffectSearch out(*this);
+  out.settle();
+  return out;
+}
+
+void EffectSearch::settle() {
+  constexpr int kSteps = 15;
+  settled_ = true;
+  joint_covariance_.reset();
+  const ModelVariances all = variances_;
+  // Whether a step fits better is asked without what has no weight.
+  variances_ = without_board_motion(all);
+  for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
+    reference_.subset = own_subset(linear_.columns);
+    reference_.fit = fit_stated(linear_, reference_.subset, all);
+    const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
+    const double size = (reference_.fit.solution.cwiseAbs().array() / sigma.array()).maxCoeff();
+    if (size <= kStands) {
+      move(reference_.fit, 1.0);
+      break;
+    }
+    if (descend(size) == Descent::kNone) break;
+  }
+  variances_ = all;
+  if (!shape_sigmas_.empty()) estimate_joint_covariance();
+}
+
 // A print is seen through a blur of millimetres: far from linear in what moves it. Steps that do
 // not lower what is fitted are halved, down to the size that counts as none. What effects do is
 // known to first order, so that steps of some tenths of a standard deviation may lead nowhere.

@@ -68,6 +68,9 @@ class EffectSearch {
   /// Makes the table again for the model as it is (see MeasurementTable::again) and refits: to be
   /// called when effects have come or gone.
   void remake();
+  /// The search at what is stated of its model (see fit_stated()): what it compares has motions of
+  /// whole boards as random effects. Nothing where boards do not move: then it stands there.
+  [[nodiscard]] std::optional<EffectSearch> as_stated() const;
   /// The table that remake() made; null if there was nothing to do.
   [[nodiscard]] std::shared_ptr<const MeasurementTable> remade() const { return remade_; }
   /// Linearises with all candidates that are testable and not in use, and evaluates each. Does
@@ -133,6 +136,7 @@ class EffectSearch {
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns,
                                         const std::optional<OtherColumns>& other = {}) const;
   void append_candidates(EffectColumnsList& columns) const;
+  void settle();
   bool move_shape(std::size_t k);
   // Restricted log-likelihood at shape numbers of effect k, all other values as they are, to first
   // order in what the effect moves. Only the channels on which it acts change with the shape: the
@@ -141,6 +145,9 @@ class EffectSearch {
   [[nodiscard]] std::vector<double> shape_profile(std::size_t k, const std::vector<double>& shapes,
                                                   std::optional<Linearization>& elsewhere) const;
   void estimate_joint_covariance();
+  // Of own columns and others, with the variances of the search or as it is stated.
+  [[nodiscard]] ModelFit fit_as_it_stands(const Linearization& linear,
+                                          const ColumnSubset& subset) const;
   // Effects in use and the beam's blur, which only intensities tell.
   [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (sees_print() ? 1 : 0); }
   [[nodiscard]] bool sees_print() const { return table().has_intensity; }
@@ -155,6 +162,7 @@ class EffectSearch {
   std::vector<EffectInUse> in_use_;
   EffectInUse blur_;
   ModelVariances variances_;
+  bool settled_ = false;
   Linearization linear_;
   Reference reference_;
   std::vector<Candidate> candidates_;

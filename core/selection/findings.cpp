@@ -133,7 +133,11 @@ class Judge {
  public:
   Judge(const EffectSearch& search, const std::vector<Selection>& selected,
         const DiscoveryOptions& options)
-      : search_(search), selected_(selected), options_(options) {}
+      : search_(search),
+        settled_(search.as_stated()),
+        stated_(settled_ ? *settled_ : search),
+        selected_(selected),
+        options_(options) {}
 
   std::vector<EffectFinding> run() {
     for (const Selection& s : selected_) add_selected(s);
@@ -162,7 +166,7 @@ class Judge {
   }
 
   void add_selected(const Selection& s) {
-    const auto& in_use = search_.in_use();
+    const auto& in_use = stated_.in_use();
     Eigen::Index at = 6;
     for (std::size_t k = 0; k < in_use.size(); ++k) {
       const Eigen::Index n = in_use[k].values.size();
@@ -174,9 +178,9 @@ class Judge {
         f.heldout_gain = s.heldout_gain;
         f.log_density_gain = s.log_density_gain;
         f.p_value = s.p_value;
-        const Eigen::MatrixXd covariance = search_.joint_covariance().block(at, at, n, n);
+        const Eigen::MatrixXd covariance = stated_.joint_covariance().block(at, at, n, n);
         set_parameters(search_.linear().columns.list()[k], in_use[k].values, covariance, f);
-        f.shape_sigma = search_.shape_sigma(k);
+        f.shape_sigma = stated_.shape_sigma(k);
         f.shape_name = in_use[k].effect->shape_name();
         f.spec = in_use[k].effect->info().spec;
         f.curve = found_curve(in_use[k], covariance);
@@ -342,6 +346,8 @@ class Judge {
   }
 
   const EffectSearch& search_;
+  const std::optional<EffectSearch> settled_;
+  const EffectSearch& stated_;  // Where values and their standard deviations are read.
   const std::vector<Selection>& selected_;
   const DiscoveryOptions& options_;
   std::vector<EffectFinding> out_;

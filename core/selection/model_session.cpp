@@ -61,7 +61,10 @@ Status enough_scenes(std::size_t scenes) {
 }
 
 // The step at which a search stands whose shape numbers are refined.
-Result<ModelStepPtr> step_from(EffectSearch search, ModelStep step, const RunContext& context) {
+Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunContext& context) {
+  if (context.stopped()) return Error::cancelled();
+  const auto stated = found.as_stated();
+  const EffectSearch& search = stated ? *stated : found;
   if (context.stopped()) return Error::cancelled();
   step.state = search.state();
   step.remade = search.remade();
@@ -79,8 +82,8 @@ Result<ModelStepPtr> step_from(EffectSearch search, ModelStep step, const RunCon
   if (context.stopped()) return Error::cancelled();
   step.structure = std::move(scan.curves);
   step.places = std::move(scan.places);
-  search.set_context({});
-  step.search = std::make_shared<const EffectSearch>(std::move(search));
+  found.set_context({});
+  step.search = std::make_shared<const EffectSearch>(std::move(found));
   return ModelStepPtr(std::make_shared<const ModelStep>(std::move(step)));
 }
 

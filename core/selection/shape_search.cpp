@@ -163,7 +163,7 @@ void EffectSearch::estimate_joint_covariance() {
   const Linearization linear =
       linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
   if (context_.stopped()) return;
-  const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 0});
+  const ModelFit fit = fit_as_it_stands(linear, subset);
   const auto own = fit.covariance.rows() - static_cast<Eigen::Index>(shaped.size());
   joint_covariance_ = fit.covariance.topLeftCorner(own, own);
   shape_sigmas_.assign(in_use_.size(), 0.0);

@@ -453,6 +453,9 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
     TableScene scene;
     scene.name = scenes[s].measured.name;
     scene.clock = static_cast<double>(s) / last;
+    scene.inflation[static_cast<std::size_t>(Channel::kRange)] = noise.scenes[s].range_inflation;
+    for (const Channel channel : {Channel::kBoundary, Channel::kIntensity})
+      scene.inflation[static_cast<std::size_t>(channel)] = noise.scenes[s].intensity_inflation;
     table.scenes.push_back(std::move(scene));
     table.has_time = table.has_time && scenes[s].cloud.has_time();
     has_line = has_line && scenes[s].cloud.has_line();

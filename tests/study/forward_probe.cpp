@@ -3,11 +3,19 @@
 // splits, how far random halves of the scenes disagree.
 //
 //   forward_probe DATASET [--crops] [--truth FILE] [--splits N] [--free]
+//                 [--discover | --given] [--with ID]
 //
 // --free: intrinsics with a prior as wide as a factory's (1 % of the focal length, 10 px).
+// --discover: the splits to first order about the solution of all scenes, without effects and with
+// those that discovery finds; --with: with this effect from the start.
+// --given: the same with the effects of --with alone.
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,6 +24,8 @@
 #include "base/random.h"
 #include "base/statistics.h"
 #include "pipeline/calibration.h"
+#include "pipeline/forward_stage.h"
+#include "pipeline/model_discovery.h"
 #include "report/result_file.h"
 #include "solve/forward_solver.h"
 
@@ -103,6 +113,99 @@ void compare_truth(const char* name, const UncertainRigid3& x, const std::string
   std::printf("\n");
 }
 
+// Solves some of the scenes; nothing if they do not determine the extrinsic.
+using HalfSolver =
+    std::function<std::optional<UncertainRigid3>(const std::vector<std::size_t>& scenes)>;
+
+// How far random halves of the scenes disagree, and what they state.
+void print_splits(const char* name, std::size_t scenes, int splits, const HalfSolver& solve) {
+  Random random(1);
+  std::vector<double> mm, mrad;
+  int inside = 0, whole = 0, components = 0;
+  double chi = 0.0;
+  for (int k = 0; k < splits; ++k) {
+    std::vector<std::size_t> order(scenes);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = order.size(); i > 1; --i)
+      std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+    const auto x = solve({order.begin(), middle});
+    const auto y = solve({middle, order.end()});
+    if (!x || !y) continue;
+    const Rigid3& tx = x->transform;
+    const Rigid3& ty = y->transform;
+    mm.push_back(1e3 * translation_distance_m(tx.inverse(), ty.inverse()));
+    mrad.push_back(1e3 * rotation_distance_rad(tx, ty));
+    const Vector6d xi = se3_log(tx * ty.inverse());
+    const Matrix6d cov = x->covariance + y->covariance;
+    const Eigen::Vector3d apart = 1e3 * (ty.inverse().translation - tx.inverse().translation);
+    const Eigen::Vector3d turned = 1e3 * so3_log((tx.inverse() * ty).rotation);
+    std::printf(
+        "split %zu: camera in lidar %.1f %.1f %.1f mm, rotation %.2f %.2f %.2f mrad, sigma %.1f "
+        "%.1f %.1f mm\n",
+        mm.size(), apart.x(), apart.y(), apart.z(), turned.x(), turned.y(), turned.z(),
+        1e3 * std::sqrt(cov(0, 0)), 1e3 * std::sqrt(cov(1, 1)), 1e3 * std::sqrt(cov(2, 2)));
+    chi += xi.dot(cov.ldlt().solve(xi)) / 6.0;
+    int here = 0;
+    for (int i = 0; i < 6; ++i) here += std::abs(xi(i)) < 2.0 * std::sqrt(cov(i, i)) ? 1 : 0;
+    inside += here;
+    whole += here == 6 ? 1 : 0;
+    components += 6;
+  }
+  if (mm.empty()) return;
+  std::printf(
+      "%s, splits %zu: median %.2f mm %.3f mrad; within twice combined sigma %.1f %% of the "
+      "components, all six in %.0f %%; mean chi2/6 %.2f\n",
+      name, mm.size(), median(mm), median(mrad), 100.0 * inside / components,
+      100.0 * whole / static_cast<double>(mm.size()), chi / static_cast<double>(mm.size()));
+}
+
+// The same of the base model to first order about the solution of all scenes, and of the model that
+// discovery finds, its effects estimated anew from each half.
+void print_splits_of_model(const CalibrationResult& result, const std::vector<std::string>& with,
+                           bool given, int splits) {
+  if (!result.forward) return;
+  std::vector<std::size_t> used;
+  for (std::size_t k = 0; k < result.extrinsic.scenes.size(); ++k) {
+    if (result.extrinsic.scenes[k].used) used.push_back(k);
+  }
+  const auto halves = [&](const SubsetSolver& subset) {
+    return [&used, subset](const std::vector<std::size_t>& half) {
+      std::vector<std::size_t> some;
+      for (const std::size_t i : half) some.push_back(used[i]);
+      return subset(some);
+    };
+  };
+  print_splits("first order", used.size(), splits,
+               halves(forward_subsets(*result.forward, result.extrinsic)));
+  DiscoveryOptions options = discovery_options(result.options);
+  options.with = with;
+  if (given) options.max_effects = 0;
+  options.advise_scenes = false;
+  const auto found = discover(result, options, {});
+  if (!found) {
+    std::fprintf(stderr, "%s\n", found.error().text().c_str());
+    return;
+  }
+  const Vector6d apart =
+      se3_log(found->state.camera_from_lidar * result.forward->state.camera_from_lidar.inverse());
+  std::printf("model from calibration, in the calibration's sigma:");
+  for (int k = 0; k < 6; ++k)
+    std::printf(" %.3f", apart(k) / std::sqrt(result.forward->camera_from_lidar.covariance(k, k)));
+  std::printf("\nmodel's channels:");
+  for (const double v : found->fit->variances.channel) std::printf(" %.3f", v);
+  std::printf("; groups:");
+  for (const double v : found->fit->variances.group) std::printf(" %.4f", 1e3 * std::sqrt(v));
+  std::printf(" (x 1e-3)\n");
+  for (const EffectInUse& use : found->model)
+    std::printf("%s: %s\n", use.effect->info().id.c_str(),
+                (std::ostringstream() << use.values.transpose()).str().c_str());
+  std::string model = "with";
+  for (const std::string& id : found->selected) model += " " + id;
+  print_splits(model.c_str(), used.size(), splits,
+               halves(model_subsets(found->fit, found->state.camera_from_lidar, result.extrinsic)));
+}
+
 }  // namespace
 }  // namespace lvcalib
 
@@ -113,12 +216,17 @@ int main(int argc, char** argv) {
   CalibrationRequest request;
   std::string truth;
   int splits = 0;
+  bool find = false, given = false;
+  std::vector<std::string> with;
   ForwardOptions how;
   for (int i = 2; i < argc; ++i) {
     if (std::strcmp(argv[i], "--crops") == 0) request.use_crops = true;
     if (std::strcmp(argv[i], "--truth") == 0) truth = argv[++i];
     if (std::strcmp(argv[i], "--free") == 0)
       how.intrinsics_sigma << 12, 12, 10, 10, 0.05, 0.05, 0.05, 0.05, 0, 0, 0, 0;
+    if (std::strcmp(argv[i], "--discover") == 0) find = true;
+    if (std::strcmp(argv[i], "--given") == 0) find = given = true;
+    if (std::strcmp(argv[i], "--with") == 0) with.emplace_back(argv[++i]);
     if (std::strcmp(argv[i], "--splits") == 0) splits = std::atoi(argv[++i]);
   }
   const auto dataset = open_dataset(argv[1]);
@@ -144,50 +252,16 @@ int main(int argc, char** argv) {
     compare_truth("nodes  ", result->extrinsic.camera_from_lidar, truth);
     compare_truth("forward", solved->camera_from_lidar, truth);
   }
-  Random random(1);
-  std::vector<double> mm, mrad;
-  int inside = 0;
-  int components = 0;
-  double chi = 0.0;
-  for (int k = 0; k < splits; ++k) {
-    std::vector<std::size_t> order(scenes.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    for (std::size_t i = order.size(); i > 1; --i)
-      std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
-    std::vector<ForwardScene> halves[2];
-    for (std::size_t i = 0; i < order.size(); ++i)
-      halves[i < order.size() / 2 ? 0 : 1].push_back(scenes[order[i]]);
+  if (find) {
+    print_splits_of_model(*result, with, given, splits);
+    return 0;
+  }
+  print_splits("solved anew", scenes.size(), splits, [&](const std::vector<std::size_t>& half) {
+    std::vector<ForwardScene> some;
+    for (const std::size_t i : half) some.push_back(scenes[i]);
     const auto x =
-        solve_forward(halves[0], print, result->camera, a, result->extrinsic.sigma_px, how, {});
-    const auto y =
-        solve_forward(halves[1], print, result->camera, a, result->extrinsic.sigma_px, how, {});
-    if (!x || !y) continue;
-    const Rigid3& tx = x->camera_from_lidar.transform;
-    const Rigid3& ty = y->camera_from_lidar.transform;
-    mm.push_back(1e3 * translation_distance_m(tx.inverse(), ty.inverse()));
-    mrad.push_back(1e3 * rotation_distance_rad(tx, ty));
-    const Vector6d xi = se3_log(tx * ty.inverse());
-    const Matrix6d cov = x->camera_from_lidar.covariance + y->camera_from_lidar.covariance;
-    const Rigid3 d = tx.inverse() * ty;
-    std::printf(
-        "split %zu: camera in lidar %.1f %.1f %.1f mm, rotation %.2f %.2f %.2f mrad, sigma %.1f "
-        "%.1f %.1f mm\n",
-        mm.size(), 1e3 * (ty.inverse().translation - tx.inverse().translation).x(),
-        1e3 * (ty.inverse().translation - tx.inverse().translation).y(),
-        1e3 * (ty.inverse().translation - tx.inverse().translation).z(),
-        1e3 * so3_log(d.rotation).x(), 1e3 * so3_log(d.rotation).y(), 1e3 * so3_log(d.rotation).z(),
-        1e3 * std::sqrt(cov(0, 0)), 1e3 * std::sqrt(cov(1, 1)), 1e3 * std::sqrt(cov(2, 2)));
-    const double c2 = xi.dot(cov.ldlt().solve(xi)) / 6.0;
-    chi += c2;
-    for (int i = 0; i < 6; ++i, ++components)
-      inside += std::abs(xi(i)) < 2.0 * std::sqrt(cov(i, i)) ? 1 : 0;
-  }
-  if (!mm.empty()) {
-    std::printf(
-        "splits %zu: median %.2f mm %.3f mrad; within twice combined sigma %.1f %%; mean chi2/6 "
-        "%.2f\n",
-        mm.size(), median(mm), median(mrad), 100.0 * inside / components,
-        chi / static_cast<double>(mm.size()));
-  }
+        solve_forward(some, print, result->camera, a, result->extrinsic.sigma_px, how, {});
+    return x ? std::optional(x->camera_from_lidar) : std::nullopt;
+  });
   return 0;
 }

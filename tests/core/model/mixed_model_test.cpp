@@ -63,6 +63,82 @@ TEST(MixedModel, NoiseScalesAreThoseOfTheRows) {
   EXPECT_NEAR(f.variances.channel[static_cast<std::size_t>(Channel::kBoundary)], 1.0, 0.2);
 }
 
+// Boards that the LiDAR sees up to some millimetres before or behind where the camera does.
+test::SyntheticTable with_moved_boards(std::uint64_t seed, double sigma_m) {
+  test::TableRecipe recipe;
+  recipe.scenes = 10;
+  recipe.range_rows = 200;
+  recipe.seed = seed;
+  auto made = test::synthetic_table(recipe);
+  Random random(seed + 7919);
+  std::vector<double> moved(10);
+  for (double& u : moved) u = sigma_m * random.normal();
+  for (RangeRow& row : made.table.range)
+    row.measured_m +=
+        moved[static_cast<std::size_t>(row.beam.scene)] / std::cos(row.beam.incidence_rad);
+  return made;
+}
+
+ModelVariances of_moved_boards(double sigma_m) {
+  ModelVariances out;
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) out.group[k] = kAbsentVariance[k];
+  out.group[static_cast<std::size_t>(VarianceGroup::kBoardNormal)] = sigma_m * sigma_m;
+  return out;
+}
+
+// Motions of whole boards have no weight and are in what is stated: 40 draws at 95 %, four standard
+// deviations of the binomial are ±5.5. Without them the boards would be trusted far too much.
+TEST(MixedModel, StatedCovarianceHoldsMotionsOfBoards) {
+  constexpr double kMoved_m = 0.004;
+  constexpr int kDraws = 40;
+  int stated = 0;
+  int without = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const auto made = with_moved_boards(500 + static_cast<std::uint64_t>(draw), kMoved_m);
+    const Linearization linear = linearize(made.table, made.truth, {}, {}, {});
+    const ModelVariances variances = of_moved_boards(kMoved_m);
+    const auto covers = [](const ModelFit& f) {
+      const Vector6d x = f.solution.head<6>();
+      const Matrix6d c = f.covariance.topLeftCorner<6, 6>();
+      return x.dot(c.ldlt().solve(x)) < chi_square_gate(6, 0.05) ? 1 : 0;
+    };
+    stated += covers(fit_stated(linear, {}, variances));
+    without += covers(fit_model(linear, {}, without_board_motion(variances), {.rounds = 0}));
+  }
+  EXPECT_GE(stated, 38 - 6);
+  EXPECT_LE(without, kDraws / 2);
+}
+
+TEST(MixedModel, StatedFitIsThePlainOneWhereBoardsStandStill) {
+  const auto made = test::synthetic_table({});
+  const Linearization linear = linearize(made.table, made.truth, {}, {}, {});
+  const ModelVariances still = of_moved_boards(1e-6);
+  ASSERT_FALSE(moves_boards(still));
+  const ModelFit plain = fit_model(linear, {}, still, {.rounds = 0});
+  const ModelFit stated = fit_stated(linear, {}, still);
+  EXPECT_EQ(stated.solution, plain.solution);
+  EXPECT_EQ(stated.covariance, plain.covariance);
+}
+
+// Rows that state a third of their noise weigh no more than they scatter, and those whose
+// neighbours err alike weigh less by their inflation.
+TEST(MixedModel, StatedFitWeighsEachSceneByItsOwnScatter) {
+  auto made = with_moved_boards(3, 1e-3);
+  const ModelVariances variances = of_moved_boards(1e-3);
+  const auto of_scene = [&](const test::SyntheticTable& table, std::size_t s) {
+    const Linearization linear = linearize(table.table, table.truth, {}, {}, {});
+    return fit_stated(linear, {}, variances).scenes[s].information.topLeftCorner<6, 6>().trace();
+  };
+  const double usual = of_scene(made, 4);
+  const double other = of_scene(made, 5);
+  auto rough = made;
+  for (RangeRow& row : rough.table.range) row.sigma_m *= row.beam.scene == 4 ? 1.0 / 3.0 : 1.0;
+  EXPECT_NEAR(of_scene(rough, 4) / usual, 1.0, 0.1);
+  made.table.scenes[4].inflation = {1.0, 4.0, 4.0, 4.0};
+  EXPECT_LT(of_scene(made, 4), 0.5 * usual);
+  EXPECT_NEAR(of_scene(made, 5) / other, 1.0, 1e-9);
+}
+
 // Tags that are each shifted as a whole are put down to the tags, not to the corners' noise.
 TEST(MixedModel, StructurePerTagIsMeasured) {
   test::Disturbance wrong;
