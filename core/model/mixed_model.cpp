@@ -145,7 +145,7 @@ class Fitter {
   // What each scene's rows scatter by, correlation of neighbours included, per channel: a scene
   // with few of them takes what all have.
   std::vector<ChannelVariances> scene_variances() {
-    constexpr double kFewest = 20.0;
+    constexpr double kFewest = 20.0;  // A variance from fewer is known to a third at best, √(2/n).
     solve();
     std::vector<ChannelVariances> out = channel_;
     for (std::size_t s = 0; s < linear_.scenes.size(); ++s) {

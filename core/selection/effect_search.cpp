@@ -211,7 +211,7 @@ std::optional<EffectSearch> EffectSearch::as_stated() const {
 }
 
 void EffectSearch::settle() {
-  constexpr int kSteps = 15;
+  constexpr int kSteps = 15;  // As in refit(); two or three are usual.
   settled_ = true;
   joint_covariance_.reset();
   const ModelVariances all = variances_;
