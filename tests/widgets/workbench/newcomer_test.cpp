@@ -36,6 +36,10 @@ class NewcomerTest : public ::testing::Test {
   NewcomerTest() : settings_(folder_.filePath("settings")), window_(settings_, answers_) {
     window_.resize(1500, 940);
     window_.show();
+    // A short stage may come and go between two looks: the status line is read whenever it changes.
+    QObject::connect(&window_.workspace(), &Workspace::progressed, &window_, [this] {
+      seen_.insert(test::find<QLabel>(window_, "stage")->text());
+    });
     look_around();
   }
   ~NewcomerTest() override {
@@ -48,15 +52,8 @@ class NewcomerTest : public ::testing::Test {
     const test::TextCollector collector(window_);
     for (const test::SaidText& said : collector.texts()) seen_.insert(plain(said.text));
   }
-  // Waits and reads the status line meanwhile.
   bool wait(const std::function<bool()>& holds) {
-    auto* stage = test::find<QLabel>(window_, "stage");
-    const bool held = test::wait_until(
-        [&] {
-          seen_.insert(stage->text());
-          return holds();
-        },
-        300'000);
+    const bool held = test::wait_until(holds, 300'000);
     look_around();
     return held;
   }
