@@ -9,6 +9,9 @@
 namespace lvcalib {
 namespace {
 
+// A scene that was not taken: its channels weigh by what all have.
+constexpr auto kPlanned = static_cast<std::size_t>(-1);
+
 // Which of a scene's own unknowns take part.
 enum class Locals {
   kFixed,    // Pose and levels,
@@ -73,8 +76,9 @@ struct Blocks {
 };
 
 // With what is believed of the scene's own unknowns beforehand.
-Blocks blocks_of(const JointProducts& products, const Columns& at, const ChannelVariances& channel,
-                 const ModelVariances& variances) {
+Blocks blocks_of(const JointProducts& products, const Columns& at, const ModelVariances& variances,
+                 std::size_t scene) {
+  const ChannelVariances& channel = variances.channel_of(scene);
   const auto size = static_cast<Eigen::Index>(at.joint.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t c = 0; c < kChannels; ++c) {
@@ -92,10 +96,6 @@ Blocks blocks_of(const JointProducts& products, const Columns& at, const Channel
   const Eigen::Index g = at.globals;
   return {sum.topLeftCorner(n, n),   sum.block(0, n, n, g),           sum.block(n, n, g, g),
           sum.col(size - 1).head(n), sum.col(size - 1).segment(n, g), sum(size - 1, size - 1)};
-}
-
-Blocks blocks_of(const SceneProducts& scene, const Columns& at, const ModelVariances& variances) {
-  return blocks_of(gather(scene, at), at, variances.channel, variances);
 }
 
 // A channel's squared residuals at given unknowns.
@@ -116,7 +116,6 @@ class Fitter {
     for (const SceneProducts& scene : linear.scenes) {
       columns_.push_back(columns_of(scene, subset, start, Locals::kPresent));
       products_.push_back(gather(scene, columns_.back()));
-      channel_.push_back(start.channel);
     }
     const auto g = static_cast<Eigen::Index>(6 + subset.columns.size());
     fit_.prior.information.setZero(g, g);
@@ -147,7 +146,7 @@ class Fitter {
   std::vector<ChannelVariances> scene_variances() {
     constexpr double kFewest = 20.0;  // A variance from fewer is known to a third at best, √(2/n).
     solve();
-    std::vector<ChannelVariances> out = channel_;
+    std::vector<ChannelVariances> out(linear_.scenes.size(), fit_.variances.channel);
     for (std::size_t s = 0; s < linear_.scenes.size(); ++s) {
       std::array<double, kVarianceGroups> squares{}, determined{};
       ChannelVariances residual{}, freedom{};
@@ -158,13 +157,6 @@ class Fitter {
       }
     }
     return out;
-  }
-
-  // With given variances of each scene's channels.
-  ModelFit run_with(std::vector<ChannelVariances> channel) {
-    channel_ = std::move(channel);
-    solve();
-    return std::move(fit_);
   }
 
  private:
@@ -209,7 +201,7 @@ class Fitter {
 
   void eliminate(std::size_t s) {
     const SceneProducts& scene = linear_.scenes[s];
-    Blocks b = blocks_of(products_[s], columns_[s], channel_[s], fit_.variances);
+    Blocks b = blocks_of(products_[s], columns_[s], fit_.variances, s);
     double log_prior = 0.0;
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
       log_prior -= 0.5 * static_cast<double>(columns_[s].groups[k].second) *
@@ -224,7 +216,7 @@ class Fitter {
     term.constant = -0.5 * (b.squares - b.local_gradient.dot(y)) + log_prior -
                     llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
     for (std::size_t c = 0; c < kChannels; ++c)
-      term.constant -= 0.5 * scene.rows[c] * std::log(channel_[s][c]);
+      term.constant -= 0.5 * scene.rows[c] * std::log(fit_.variances.channel_of(s)[c]);
     fit_.scenes.push_back(std::move(term));
     factors_.push_back(std::move(llt));
     blocks_.push_back(std::move(b));
@@ -254,7 +246,6 @@ class Fitter {
       if (freedom[c] < 2.0) continue;
       move(fit_.variances.channel[c], std::clamp(residual[c] / freedom[c], 0.05, 1e4));
     }
-    channel_.assign(channel_.size(), fit_.variances.channel);
     return change;
   }
 
@@ -284,7 +275,7 @@ class Fitter {
       if (m.size() == 0) continue;
       residual[c] += squares_of(m, fit_.local[s], fit_.solution);
       const double used = covariance.cwiseProduct(m.topLeftCorner(n + g, n + g)).sum();
-      freedom[c] += linear_.scenes[s].rows[c] - used / channel_[s][c];
+      freedom[c] += linear_.scenes[s].rows[c] - used / fit_.variances.channel_of(s)[c];
     }
   }
 
@@ -292,17 +283,20 @@ class Fitter {
   const MixedModelOptions& options_;
   ModelFit fit_;
   std::vector<Columns> columns_;  // Per scene, as the next ones.
-  std::vector<ChannelVariances> channel_;
   std::vector<JointProducts> products_;
   std::vector<Blocks> blocks_;
   std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
 };
 
-// What the gradient of the globals scatters by motions of the whole board that have no weight.
-Eigen::MatrixXd board_spread(const SceneProducts& scene, const ColumnSubset& subset,
-                             const ChannelVariances& channel, const ModelVariances& variances) {
-  const Columns at = columns_of(scene, subset, variances, Locals::kPresent);
-  const Blocks b = blocks_of(gather(scene, at), at, channel, variances);
+// What the gradient of the globals scatters by motions of the whole board that have no weight:
+// `motion` holds their variances, `weights` what the rows weigh by.
+Eigen::MatrixXd board_spread(const Linearization& linear, std::size_t scene,
+                             const ColumnSubset& subset, const ModelVariances& motion,
+                             const ModelVariances& weights) {
+  const Columns at = columns_of(linear.scenes[scene], subset, motion, Locals::kPresent);
+  ModelVariances variances = weights;
+  variances.group = motion.group;
+  const Blocks b = blocks_of(gather(linear.scenes[scene], at), at, variances, scene);
   std::vector<Eigen::Index> kept;
   std::vector<std::pair<Eigen::Index, double>> boards;  // Column and variance.
   for (Eigen::Index i = 0; i < LocalLayout::kFixed; ++i) kept.push_back(i);
@@ -364,8 +358,12 @@ bool moves_boards(const ModelVariances& variances) {
   });
 }
 
-ModelVariances without_board_motion(const ModelVariances& variances) {
+ModelVariances stated_weights(const Linearization& linear, const ColumnSubset& subset,
+                              const ModelVariances& variances) {
   ModelVariances out = variances;
+  if (!moves_boards(variances)) return out;
+  const MixedModelOptions as_given{.rounds = 0};
+  out.scene_channel = Fitter(linear, subset, variances, as_given).scene_variances();
   for (const VarianceGroup group : kBoardMotions) {
     const auto k = static_cast<std::size_t>(group);
     out.group[k] = kAbsentVariance[k];
@@ -375,19 +373,15 @@ ModelVariances without_board_motion(const ModelVariances& variances) {
 
 ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
                     const ModelVariances& variances) {
-  const MixedModelOptions as_given{.rounds = 0};
-  if (!moves_boards(variances)) return fit_model(linear, subset, variances, as_given);
-  const std::vector<ChannelVariances> channel =
-      Fitter(linear, subset, variances, as_given).scene_variances();
-  ModelFit fit =
-      Fitter(linear, subset, without_board_motion(variances), as_given).run_with(channel);
+  const ModelVariances weights = stated_weights(linear, subset, variances);
+  ModelFit fit = fit_model(linear, subset, weights, {.rounds = 0});
+  if (!moves_boards(variances)) return fit;
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(fit.covariance.rows(), fit.covariance.cols());
   for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
-    fit.scenes[s].spread = board_spread(linear.scenes[s], subset, channel[s], variances);
+    fit.scenes[s].spread = board_spread(linear, s, subset, variances, weights);
     spread += fit.scenes[s].spread;
   }
   fit.covariance += (fit.covariance * spread * fit.covariance).eval();
-  fit.variances = variances;
   return fit;
 }
 
@@ -396,9 +390,9 @@ double misfit(const Linearization& linear, const ColumnSubset& subset,
   double out = 0.0;
   for (std::size_t k = 0; k < subset.columns.size(); ++k)
     out += std::pow(subset.prior_mean[k] / subset.prior_sigma[k], 2);
-  for (const SceneProducts& scene : linear.scenes) {
-    const Blocks b =
-        blocks_of(scene, columns_of(scene, subset, variances, Locals::kPresent), variances);
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+    const Columns at = columns_of(linear.scenes[s], subset, variances, Locals::kPresent);
+    const Blocks b = blocks_of(gather(linear.scenes[s], at), at, variances, s);
     const Eigen::Index random = b.local.rows() - LocalLayout::kFixed;
     const Eigen::VectorXd gradient = b.local_gradient.tail(random);
     out +=
@@ -409,8 +403,8 @@ double misfit(const Linearization& linear, const ColumnSubset& subset,
 
 SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
                      const ModelVariances& variances) {
-  const Blocks b =
-      blocks_of(products, columns_of(products, subset, variances, Locals::kPresent), variances);
+  const Columns at = columns_of(products, subset, variances, Locals::kPresent);
+  const Blocks b = blocks_of(gather(products, at), at, variances, kPlanned);
   SceneTerm out;
   const Eigen::LLT<Eigen::MatrixXd> llt(b.local);
   out.information = b.global - b.cross.transpose() * llt.solve(b.cross);
@@ -425,7 +419,7 @@ std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear
   for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
     const SceneProducts& scene = linear.scenes[s];
     const Columns at = columns_of(scene, fit.subset, fit.variances, Locals::kAll);
-    const Blocks b = blocks_of(scene, at, fit.variances);
+    const Blocks b = blocks_of(gather(scene, at), at, fit.variances, s);
     const Eigen::LLT<Eigen::MatrixXd> llt(b.local);
     const Eigen::MatrixXd x = llt.solve(b.cross);
     const Eigen::VectorXd local = llt.solve(b.local_gradient - b.cross * fit.solution);
@@ -482,7 +476,7 @@ std::array<double, kChannels> squares_at(const Linearization& linear, std::size_
   const SceneProducts& products = linear.scenes[scene];
   const Columns at = columns_of(products, subset, variances, Locals::kFixed);
   const JointProducts joint = gather(products, at);
-  const Blocks b = blocks_of(joint, at, variances.channel, variances);
+  const Blocks b = blocks_of(joint, at, variances, scene);
   const Eigen::VectorXd local = b.local.llt().solve(b.local_gradient - b.cross * globals);
   std::array<double, kChannels> out{};
   for (std::size_t c = 0; c < kChannels; ++c) {

@@ -17,9 +17,14 @@ using ChannelVariances = std::array<double, kChannels>;
 /// Variances that the mixed model estimates.
 struct ModelVariances {
   ChannelVariances channel{1.0, 1.0, 1.0, 1.0};
+  /// Where each scene's rows weigh by their own variances instead, those; else empty.
+  std::vector<ChannelVariances> scene_channel = {};
   /// Variance of each group of random effects, in the order of VarianceGroup.
   std::array<double, kVarianceGroups> group{1e-7,  4e-4,  1e-12, 1e-7, 1e-7,
                                             1e-12, 1e-12, 1e-12, 1e-9};
+  [[nodiscard]] const ChannelVariances& channel_of(std::size_t scene) const {
+    return scene < scene_channel.size() ? scene_channel[scene] : channel;
+  }
 };
 
 /// What one scene says about the global unknowns (extrinsic and effect parameters) once its own
@@ -53,7 +58,7 @@ struct ModelFit {
   Eigen::MatrixXd covariance;
   std::vector<SceneTerm> scenes;
   SceneTerm prior;
-  ModelVariances variances;
+  ModelVariances variances;      ///< What it weighs by.
   double log_likelihood = 0.0;  ///< Restricted (REML), up to a constant of the data.
   /// Per scene: pose, levels, and the random effects that are not held absent.
   std::vector<Eigen::VectorXd> local;
@@ -78,13 +83,14 @@ ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
 
 /// Whether the variances hold motions of whole boards between camera and LiDAR.
 bool moves_boards(const ModelVariances& variances);
-/// Those variances without motions of whole boards.
-ModelVariances without_board_motion(const ModelVariances& variances);
-/// The fit with given variances in which motions of whole boards have no weight and widen the
-/// covariance instead, A⁻¹(A + S)A⁻¹ with A the information and S the spread: what is stated of a
-/// model, as it is stated of a calibration (see moves_board(); Liang & Zeger 1986). Rows then weigh
-/// by what their own scene's scatter, correlation of neighbours included: a scene that the model
-/// fits badly would else have the weight of its replicates. The log-likelihood is that without
+/// What a model is stated with, as a calibration is (see moves_board(); Liang & Zeger 1986): without
+/// motions of whole boards, and each scene's rows by what their own scatter is, correlation of
+/// neighbours included: a scene that the model fits badly would else have the weight of its
+/// replicates. Where boards do not move, the given variances.
+ModelVariances stated_weights(const Linearization& linear, const ColumnSubset& subset,
+                              const ModelVariances& variances);
+/// The fit by stated_weights(), in which motions of whole boards widen the covariance instead,
+/// A⁻¹(A + S)A⁻¹ with A the information and S the spread. The log-likelihood is that without
 /// motions. Where boards do not move it is the fit with given variances.
 ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
                     const ModelVariances& variances);

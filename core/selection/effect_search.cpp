@@ -214,12 +214,9 @@ void EffectSearch::settle() {
   constexpr int kSteps = 15;  // As in refit(); two or three are usual.
   settled_ = true;
   joint_covariance_.reset();
-  const ModelVariances all = variances_;
-  // Whether a step fits better is asked without what has no weight.
-  variances_ = without_board_motion(all);
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     reference_.subset = own_subset(linear_.columns);
-    reference_.fit = fit_stated(linear_, reference_.subset, all);
+    reference_.fit = fit_stated(linear_, reference_.subset, variances_);
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
     const double size = (reference_.fit.solution.cwiseAbs().array() / sigma.array()).maxCoeff();
     if (size <= kStands) {
@@ -228,7 +225,6 @@ void EffectSearch::settle() {
     }
     if (descend(size) == Descent::kNone) break;
   }
-  variances_ = all;
   if (!shape_sigmas_.empty()) estimate_joint_covariance();
 }
 
@@ -240,13 +236,14 @@ EffectSearch::Descent EffectSearch::descend(double size) {
   constexpr double kLittle = 0.1;  // A third of a standard deviation, squared.
   const ModelState state = state_;
   const std::vector<EffectInUse> in_use = in_use_;
-  const double before = misfit(linear_, reference_.subset, variances_);
+  const ModelVariances& weights = reference_.fit.variances;
+  const double before = misfit(linear_, reference_.subset, weights);
   for (double share = 1.0; share * size > kStands; share *= 0.5) {
     move(reference_.fit, share);
     Linearization next =
         linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
     if (context_.stopped()) return Descent::kNone;
-    const double after = misfit(next, own_subset(next.columns), variances_);
+    const double after = misfit(next, own_subset(next.columns), weights);
     if (after < before) {
       linear_ = std::move(next);
       return size < kSmall && before - after < kLittle ? Descent::kLittle : Descent::kOn;

@@ -41,6 +41,45 @@ TEST_F(SearchState, RefitFindsTheTruthFromAWrongStart) {
             22.5);
 }
 
+// Boards that moved between camera and LiDAR, one of which reads ranges with three times the noise
+// that it states: what is stated stands where its own weights have it.
+TEST_F(SearchState, WhatIsStatedStandsAtItsOwnEstimate) {
+  constexpr double kMoved_m = 0.01;
+  test::TableRecipe recipe;
+  recipe.scenes = 8;
+  recipe.range_rows = 400;
+  auto made = test::synthetic_table(recipe);
+  Random random(31);
+  std::vector<double> moved(8);
+  for (double& u : moved) u = kMoved_m * random.normal();
+  for (RangeRow& row : made.table.range) {
+    const auto s = static_cast<std::size_t>(row.beam.scene);
+    row.measured_m += moved[s] / std::cos(row.beam.incidence_rad);
+    if (s == 2) row.sigma_m /= 3.0;
+  }
+  made.table.structure_variances.assign(kAbsentVariance.begin(), kAbsentVariance.end());
+  made.table.structure_variances[static_cast<std::size_t>(VarianceGroup::kBoardNormal)] =
+      kMoved_m * kMoved_m;
+  const EffectSearch search(made.table, made.truth, options_, context_);
+  const auto stated = search.as_stated();
+  ASSERT_TRUE(stated.has_value());
+  const Vector6d apart =
+      se3_log(stated->state().camera_from_lidar * search.state().camera_from_lidar.inverse());
+  const Eigen::VectorXd sigma = stated->reference().fit.covariance.diagonal().cwiseSqrt();
+  EXPECT_GT((apart.array().abs() / sigma.head<6>().array()).maxCoeff(), 0.3);
+  EffectColumnsList columns;
+  ColumnSubset subset;
+  for (const EffectInUse& use : stated->model()) {
+    columns.add(use.effect, use.shape, made.table);
+    append_columns(columns.list().back(), &use.values, subset);
+  }
+  const Linearization linear =
+      linearize(made.table, stated->state(), stated->model(), columns, context_);
+  const ModelFit left =
+      fit_model(linear, subset, stated->reference().fit.variances, {.rounds = 0});
+  EXPECT_LT((left.solution.cwiseAbs().array() / sigma.array()).maxCoeff(), 0.1);
+}
+
 TEST_F(SearchState, AddedEffectsTakeTheirValueAndLeaveTheCandidates) {
   const auto made = with_walk(0.008);
   EffectSearch search(made.table, made.truth, options_, context_);
