@@ -164,6 +164,8 @@ struct MeasurementTable {
   /// Variances of structure that nothing explains, as the joint solve found them, in the order of
   /// VarianceGroup; empty: the fit starts from usual ones.
   std::vector<double> structure_variances;
+  /// And of errors of the sensor's ranges (m², see sensor_errors.h); empty: there are none.
+  std::vector<double> sensor_variances;
 
   [[nodiscard]] std::size_t size(Channel channel) const;
 };

@@ -12,6 +12,11 @@ namespace {
 // A scene that was not taken: its channels weigh by what all have.
 constexpr auto kPlanned = static_cast<std::size_t>(-1);
 
+bool moves_board(std::size_t group) {
+  return std::find(kBoardMotions.begin(), kBoardMotions.end(), static_cast<VarianceGroup>(group)) !=
+         kBoardMotions.end();
+}
+
 // Which of a scene's own unknowns take part.
 enum class Locals {
   kFixed,    // Pose and levels,
@@ -238,12 +243,15 @@ class Fitter {
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
       double& value = fit_.variances.group[k];
       if (value <= kAbsentVariance[k]) continue;
+      if (options_.estimated == Estimated::kBoards && !moves_board(k)) continue;
       // At most a hundredfold at a time, either way.
       const double next = squares[k] / std::max(determined[k], 1e-3);
       move(value, std::max(kAbsentVariance[k], std::clamp(next, 0.01 * value, 100.0 * value)));
     }
+    const bool channels =
+        options_.estimated == Estimated::kAll && fit_.variances.scene_channel.empty();
     for (std::size_t c = 0; c < kChannels; ++c) {
-      if (freedom[c] < 2.0) continue;
+      if (!channels || freedom[c] < 2.0) continue;
       move(fit_.variances.channel[c], std::clamp(residual[c] / freedom[c], 0.05, 1e4));
     }
     return change;
@@ -288,21 +296,16 @@ class Fitter {
   std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
 };
 
-// What the gradient of the globals scatters by motions of the whole board that have no weight:
-// `motion` holds their variances, `weights` what the rows weigh by.
+// What the gradient of the globals scatters by motions of the whole board that have no weight.
 Eigen::MatrixXd board_spread(const Linearization& linear, std::size_t scene,
-                             const ColumnSubset& subset, const ModelVariances& motion,
-                             const ModelVariances& weights) {
-  const Columns at = columns_of(linear.scenes[scene], subset, motion, Locals::kPresent);
-  ModelVariances variances = weights;
-  variances.group = motion.group;
+                             const ColumnSubset& subset, const ModelVariances& variances) {
+  const Columns at = columns_of(linear.scenes[scene], subset, variances, Locals::kPresent);
   const Blocks b = blocks_of(gather(linear.scenes[scene], at), at, variances, scene);
   std::vector<Eigen::Index> kept;
   std::vector<std::pair<Eigen::Index, double>> boards;  // Column and variance.
   for (Eigen::Index i = 0; i < LocalLayout::kFixed; ++i) kept.push_back(i);
   for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-    const bool moves = std::find(kBoardMotions.begin(), kBoardMotions.end(),
-                                 static_cast<VarianceGroup>(k)) != kBoardMotions.end();
+    const bool moves = moves_board(k);
     const auto [first, count] = at.groups[k];
     for (Eigen::Index i = first; i < first + count; ++i) {
       if (moves) {
@@ -358,27 +361,33 @@ bool moves_boards(const ModelVariances& variances) {
   });
 }
 
-ModelVariances stated_weights(const Linearization& linear, const ColumnSubset& subset,
-                              const ModelVariances& variances) {
-  ModelVariances out = variances;
-  if (!moves_boards(variances)) return out;
-  const MixedModelOptions as_given{.rounds = 0};
-  out.scene_channel = Fitter(linear, subset, variances, as_given).scene_variances();
+StatedVariances stated_variances(const Linearization& linear, const ColumnSubset& subset,
+                                 const ModelVariances& variances) {
+  StatedVariances out{variances, variances};
+  out.weights.scene_channel = Fitter(linear, subset, variances, {.rounds = 0}).scene_variances();
   for (const VarianceGroup group : kBoardMotions) {
     const auto k = static_cast<std::size_t>(group);
-    out.group[k] = kAbsentVariance[k];
+    out.weights.group[k] = kAbsentVariance[k];
+  }
+  out.weights = fit_model(linear, subset, out.weights, {}).variances;
+  out.motion = out.weights;
+  for (const VarianceGroup group : kBoardMotions) {
+    const auto k = static_cast<std::size_t>(group);
+    out.motion.group[k] = variances.group[k];
+  }
+  if (moves_boards(variances)) {
+    out.motion = fit_model(linear, subset, out.motion, {.estimated = Estimated::kBoards}).variances;
   }
   return out;
 }
 
 ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
-                    const ModelVariances& variances) {
-  const ModelVariances weights = stated_weights(linear, subset, variances);
-  ModelFit fit = fit_model(linear, subset, weights, {.rounds = 0});
-  if (!moves_boards(variances)) return fit;
+                    const StatedVariances& variances) {
+  ModelFit fit = fit_model(linear, subset, variances.weights, {.rounds = 0});
+  if (!moves_boards(variances.motion)) return fit;
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(fit.covariance.rows(), fit.covariance.cols());
   for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
-    fit.scenes[s].spread = board_spread(linear, s, subset, variances, weights);
+    fit.scenes[s].spread = board_spread(linear, s, subset, variances.motion);
     spread += fit.scenes[s].spread;
   }
   fit.covariance += (fit.covariance * spread * fit.covariance).eval();

@@ -58,7 +58,7 @@ struct ModelFit {
   Eigen::MatrixXd covariance;
   std::vector<SceneTerm> scenes;
   SceneTerm prior;
-  ModelVariances variances;      ///< What it weighs by.
+  ModelVariances variances;     ///< What it weighs by.
   double log_likelihood = 0.0;  ///< Restricted (REML), up to a constant of the data.
   /// Per scene: pose, levels, and the random effects that are not held absent.
   std::vector<Eigen::VectorXd> local;
@@ -69,9 +69,16 @@ struct ModelFit {
   }
 };
 
+/// Which variances a fit estimates.
+enum class Estimated {
+  kAll,     ///< Of channels and groups; those of single scenes' channels stay as given.
+  kBoards,  ///< Of motions of whole boards alone.
+};
+
 struct MixedModelOptions {
   int rounds = 12;          ///< Re-estimations of the variances.
   double tolerance = 0.02;  ///< Done when no log-variance moves by more.
+  Estimated estimated = Estimated::kAll;
 };
 
 /// Fits extrinsic, poses, levels, effect columns and random effects, and re-estimates all variances
@@ -83,17 +90,23 @@ ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
 
 /// Whether the variances hold motions of whole boards between camera and LiDAR.
 bool moves_boards(const ModelVariances& variances);
-/// What a model is stated with, as a calibration is (see moves_board(); Liang & Zeger 1986): without
-/// motions of whole boards, and each scene's rows by what their own scatter is, correlation of
-/// neighbours included: a scene that the model fits badly would else have the weight of its
-/// replicates. Where boards do not move, the given variances.
-ModelVariances stated_weights(const Linearization& linear, const ColumnSubset& subset,
-                              const ModelVariances& variances);
-/// The fit by stated_weights(), in which motions of whole boards widen the covariance instead,
+/// What a model is stated with, as a calibration is (see moves_board(); Liang & Zeger 1986).
+struct StatedVariances {
+  /// Without motions of whole boards, and each scene's rows by what their own scatter is,
+  /// correlation of neighbours included: a scene that the model fits badly would else have the
+  /// weight of its replicates.
+  ModelVariances weights;
+  ModelVariances motion;  ///< The same, with motions of whole boards.
+};
+/// From the variances of a search; groups that are not held absent are estimated again under the
+/// weights, then motions of boards with all else as it is.
+StatedVariances stated_variances(const Linearization& linear, const ColumnSubset& subset,
+                                 const ModelVariances& variances);
+/// The fit by the weights, in which motions of whole boards widen the covariance instead,
 /// A⁻¹(A + S)A⁻¹ with A the information and S the spread. The log-likelihood is that without
-/// motions. Where boards do not move it is the fit with given variances.
+/// motions.
 ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
-                    const ModelVariances& variances);
+                    const StatedVariances& variances);
 
 /// How badly the state itself fits, all increments of extrinsic, poses, levels and columns zero and
 /// the random effects fitted: minus twice the log-posterior up to a constant of the variances. What

@@ -10,6 +10,7 @@
 #include "base/statistics.h"
 #include "model/beam_blur.h"
 #include "model/residuals.h"
+#include "model/sensor_errors.h"
 #include "selection/print_contrast.h"
 
 namespace lvcalib {
@@ -79,6 +80,7 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
 std::vector<EffectInUse> EffectSearch::model() const {
   std::vector<EffectInUse> out = in_use_;
   if (sees_print()) out.push_back(blur_);
+  for (const SensorError& error : sensor_) out.push_back(error.use);
   return out;
 }
 
@@ -109,7 +111,13 @@ ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns,
     append_columns(columns.list()[k], &in_use_[k].values, subset);
     if (in_use_[k].held) hold_last(columns.list()[k], subset);
   }
-  if (sees_print()) append_columns(columns.list()[in_use_.size()], &blur_.values, subset);
+  std::size_t next = in_use_.size();
+  if (sees_print()) append_columns(columns.list()[next++], &blur_.values, subset);
+  for (const SensorError& error : sensor_) {
+    const EffectColumns& own = columns.list()[next++];
+    append_columns(own, &error.use.values, subset);
+    std::fill_n(subset.prior_sigma.rbegin(), own.count(), std::sqrt(error.variance));
+  }
   return subset;
 }
 
@@ -199,24 +207,39 @@ void EffectSearch::refit() {
 
 ModelFit EffectSearch::fit_as_it_stands(const Linearization& linear,
                                         const ColumnSubset& subset) const {
-  return settled_ ? fit_stated(linear, subset, variances_)
-                  : fit_model(linear, subset, variances_, {.rounds = 0});
+  return stated_ ? fit_stated(linear, subset, *stated_)
+                 : fit_model(linear, subset, variances_, {.rounds = 0});
 }
 
 std::optional<EffectSearch> EffectSearch::as_stated() const {
-  if (!moves_boards(variances_)) return std::nullopt;
   EffectSearch out(*this);
+  for (std::size_t k = 0; k < table().sensor_variances.size(); ++k) {
+    if (!(table().sensor_variances[k] > kAbsentSensorError)) continue;
+    const EffectPtr error = sensor_error(k);
+    const auto count = static_cast<Eigen::Index>(error->parameters(table()).size());
+    out.sensor_.push_back(
+        {{error, 0.0, Eigen::VectorXd::Zero(count)}, table().sensor_variances[k]});
+  }
+  if (out.sensor_.empty() && !moves_boards(variances_)) return std::nullopt;
   out.settle();
   return out;
 }
 
 void EffectSearch::settle() {
-  constexpr int kSteps = 15;  // As in refit(); two or three are usual.
-  settled_ = true;
+  constexpr int kSteps = 15;           // As in refit(); two or three are usual.
+  constexpr int kVarianceRounds = 12;  // Per step, as in the joint solve; they go on in the next.
+  stated_.reset();
   joint_covariance_.reset();
+  // The last step of refit() is not in it.
+  linear_ = linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
-    reference_.subset = own_subset(linear_.columns);
-    reference_.fit = fit_stated(linear_, reference_.subset, variances_);
+    for (int round = 0; round < kVarianceRounds; ++round) {
+      reference_.subset = own_subset(linear_.columns);
+      stated_ =
+          stated_variances(linear_, reference_.subset, stated_ ? stated_->motion : variances_);
+      reference_.fit = fit_stated(linear_, reference_.subset, *stated_);
+      if (!update_sensor_variances()) break;
+    }
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
     const double size = (reference_.fit.solution.cwiseAbs().array() / sigma.array()).maxCoeff();
     if (size <= kStands) {
@@ -228,6 +251,37 @@ void EffectSearch::settle() {
   if (!shape_sigmas_.empty()) estimate_joint_covariance();
 }
 
+// An effect in the model may explain what the joint solve put down to the sensor: its variances are
+// then estimated again, by MacKay's fixed point as all others. Without effects they are the joint
+// solve's. Whether one has moved.
+bool EffectSearch::update_sensor_variances() {
+  constexpr double kMoved = 0.03;  // Of a logarithm, as in the joint solve.
+  constexpr double kMost = 100.0;  // In one round, either way.
+  if (in_use_.empty() || sensor_.empty()) return false;
+  const ModelFit& fit = reference_.fit;
+  Eigen::MatrixXd information = fit.prior.information;
+  for (const SceneTerm& scene : fit.scenes) information += scene.information;
+  const Eigen::VectorXd known =
+      information.ldlt()
+          .solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()))
+          .diagonal();
+  bool moved = false;
+  Eigen::Index at = fit.solution.size();
+  for (auto error = sensor_.rbegin(); error != sensor_.rend(); ++error) {
+    const Eigen::Index n = error->use.values.size();
+    at -= n;
+    const double squares = (error->use.values + fit.solution.segment(at, n)).squaredNorm();
+    const double determined = static_cast<double>(n) - known.segment(at, n).sum() / error->variance;
+    if (!(determined > 0.0)) continue;
+    const double next = std::max(
+        kAbsentSensorError,
+        std::clamp(squares / determined, error->variance / kMost, error->variance * kMost));
+    moved = moved || std::abs(std::log(next / error->variance)) > kMoved;
+    error->variance = next;
+  }
+  return moved;
+}
+
 // A print is seen through a blur of millimetres: far from linear in what moves it. Steps that do
 // not lower what is fitted are halved, down to the size that counts as none. What effects do is
 // known to first order, so that steps of some tenths of a standard deviation may lead nowhere.
@@ -236,6 +290,7 @@ EffectSearch::Descent EffectSearch::descend(double size) {
   constexpr double kLittle = 0.1;  // A third of a standard deviation, squared.
   const ModelState state = state_;
   const std::vector<EffectInUse> in_use = in_use_;
+  const std::vector<SensorError> sensor = sensor_;
   const ModelVariances& weights = reference_.fit.variances;
   const double before = misfit(linear_, reference_.subset, weights);
   for (double share = 1.0; share * size > kStands; share *= 0.5) {
@@ -250,6 +305,7 @@ EffectSearch::Descent EffectSearch::descend(double size) {
     }
     state_ = state;
     in_use_ = in_use;
+    sensor_ = sensor;
     if (size < kSmall) break;
   }
   return Descent::kNone;
@@ -267,7 +323,14 @@ void EffectSearch::move(const ModelFit& fit, double share) {
     use.values += x.segment(at, use.values.size());
     at += use.values.size();
   }
-  if (sees_print()) move_blur(x.segment<3>(at));
+  if (sees_print()) {
+    move_blur(x.segment<3>(at));
+    at += 3;
+  }
+  for (SensorError& error : sensor_) {
+    error.use.values += x.segment(at, error.use.values.size());
+    at += error.use.values.size();
+  }
 }
 
 void EffectSearch::move_levels(const ModelFit& fit, double share) {

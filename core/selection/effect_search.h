@@ -69,7 +69,8 @@ class EffectSearch {
   /// called when effects have come or gone.
   void remake();
   /// The search at what is stated of its model (see fit_stated()): what it compares has motions of
-  /// whole boards as random effects. Nothing where boards do not move: then it stands there.
+  /// whole boards as random effects, and no errors of the sensor's ranges that are not explained:
+  /// these are what it looks for. Nothing where neither is there: then it stands there.
   [[nodiscard]] std::optional<EffectSearch> as_stated() const;
   /// The table that remake() made; null if there was nothing to do.
   [[nodiscard]] std::shared_ptr<const MeasurementTable> remade() const { return remade_; }
@@ -103,7 +104,7 @@ class EffectSearch {
   [[nodiscard]] std::optional<MeasuredBlur> measured_blur() const;
   /// Effects found or asked for, in the order added.
   [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
-  /// Those and the beam's blur: what the model predicts with.
+  /// Those, the beam's blur and the sensor's errors: what the model predicts with.
   [[nodiscard]] std::vector<EffectInUse> model() const;
   [[nodiscard]] const Linearization& linear() const { return linear_; }
   [[nodiscard]] const Reference& reference() const { return reference_; }
@@ -137,6 +138,7 @@ class EffectSearch {
                                         const std::optional<OtherColumns>& other = {}) const;
   void append_candidates(EffectColumnsList& columns) const;
   void settle();
+  bool update_sensor_variances();
   bool move_shape(std::size_t k);
   // Restricted log-likelihood at shape numbers of effect k, all other values as they are, to first
   // order in what the effect moves. Only the channels on which it acts change with the shape: the
@@ -148,8 +150,10 @@ class EffectSearch {
   // Of own columns and others, with the variances of the search or as it is stated.
   [[nodiscard]] ModelFit fit_as_it_stands(const Linearization& linear,
                                           const ColumnSubset& subset) const;
-  // Effects in use and the beam's blur, which only intensities tell.
-  [[nodiscard]] std::size_t own_count() const { return in_use_.size() + (sees_print() ? 1 : 0); }
+  // Effects in use, the beam's blur, which only intensities tell, and the sensor's errors.
+  [[nodiscard]] std::size_t own_count() const {
+    return in_use_.size() + (sees_print() ? 1 : 0) + sensor_.size();
+  }
   [[nodiscard]] bool sees_print() const { return table().has_intensity; }
 
   const MeasurementTable* base_;   // what was given
@@ -161,8 +165,14 @@ class EffectSearch {
   RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it
   std::vector<EffectInUse> in_use_;
   EffectInUse blur_;
+  // In what is stated, errors of the sensor that nothing explains, each kind with its variance.
+  struct SensorError {
+    EffectInUse use;
+    double variance = 0.0;
+  };
+  std::vector<SensorError> sensor_;
   ModelVariances variances_;
-  bool settled_ = false;
+  std::optional<StatedVariances> stated_;  ///< Of what is stated, else not there.
   Linearization linear_;
   Reference reference_;
   std::vector<Candidate> candidates_;

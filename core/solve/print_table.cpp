@@ -17,6 +17,7 @@
 #include "model/noise_floor.h"
 #include "model/scan_velocity.h"
 #include "model/scene_geometry.h"
+#include "model/sensor_errors.h"
 #include "solve/board_returns.h"
 #include "solve/surface_noise.h"
 
@@ -421,6 +422,17 @@ std::vector<double> structure_variances(const ForwardNoise& noise) {
   return out;
 }
 
+// The same of the sensor's errors.
+std::vector<double> sensor_variances(const ForwardNoise& noise) {
+  std::vector<double> out;
+  for (const SharedError kind :
+       {SharedError::kSensorRange, SharedError::kSensorDark, SharedError::kSensorLine}) {
+    const auto k = static_cast<std::size_t>(kind);
+    out.push_back(noise.admitted[k] ? noise.shared[k] : kAbsentSensorError);
+  }
+  return out;
+}
+
 // The first table, to whose usual levels and lines effects in use refer, and what each scene's
 // points saw then.
 struct FirstTable {
@@ -446,6 +458,7 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
   table.camera = camera;
   table.placed_by = state;
   table.structure_variances = structure_variances(noise);
+  table.sensor_variances = sensor_variances(noise);
   table.has_time = !scenes.empty();
   bool has_line = !scenes.empty();
   for (std::size_t s = 0; s < scenes.size(); ++s) {

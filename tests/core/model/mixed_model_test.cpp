@@ -102,9 +102,9 @@ TEST(MixedModel, StatedCovarianceHoldsMotionsOfBoards) {
       const Matrix6d c = f.covariance.topLeftCorner<6, 6>();
       return x.dot(c.ldlt().solve(x)) < chi_square_gate(6, 0.05) ? 1 : 0;
     };
-    stated += covers(fit_stated(linear, {}, variances));
-    const ModelVariances weights = stated_weights(linear, {}, variances);
-    without += covers(fit_model(linear, {}, weights, {.rounds = 0}));
+    const StatedVariances stated_with = stated_variances(linear, {}, variances);
+    stated += covers(fit_stated(linear, {}, stated_with));
+    without += covers(fit_model(linear, {}, stated_with.weights, {.rounds = 0}));
   }
   EXPECT_GE(stated, 38 - 6);
   EXPECT_LT(without, 38 - 6);
@@ -116,7 +116,7 @@ TEST(MixedModel, StatedFitIsThePlainOneWhereBoardsStandStill) {
   const ModelVariances still = of_moved_boards(1e-6);
   ASSERT_FALSE(moves_boards(still));
   const ModelFit plain = fit_model(linear, {}, still, {.rounds = 0});
-  const ModelFit stated = fit_stated(linear, {}, still);
+  const ModelFit stated = fit_stated(linear, {}, {still, still});
   EXPECT_EQ(stated.solution, plain.solution);
   EXPECT_EQ(stated.covariance, plain.covariance);
 }
@@ -128,7 +128,7 @@ TEST(MixedModel, StatedFitWeighsEachSceneByItsOwnScatter) {
   constexpr auto kRange = static_cast<std::size_t>(Channel::kRange);
   const auto weights = [&] {
     const Linearization linear = linearize(made.table, made.truth, {}, {}, {});
-    return stated_weights(linear, {}, of_moved_boards(1e-3));
+    return stated_variances(linear, {}, of_moved_boards(1e-3)).weights;
   };
   const ModelVariances usual = weights();
   EXPECT_FALSE(moves_boards(usual));
@@ -141,7 +141,7 @@ TEST(MixedModel, StatedFitWeighsEachSceneByItsOwnScatter) {
   EXPECT_NEAR(rough.channel_of(6)[kRange] / usual.channel_of(6)[kRange], 1.0, 0.05);
   // And the fit weighs by them.
   const Linearization linear = linearize(made.table, made.truth, {}, {}, {});
-  const ModelFit stated = fit_stated(linear, {}, of_moved_boards(1e-3));
+  const ModelFit stated = fit_stated(linear, {}, {rough, of_moved_boards(1e-3)});
   EXPECT_EQ(stated.solution, fit_model(linear, {}, rough, {.rounds = 0}).solution);
   ModelVariances shared = rough;
   shared.scene_channel.clear();

@@ -75,9 +75,9 @@ TEST_F(SearchState, WhatIsStatedStandsAtItsOwnEstimate) {
   }
   const Linearization linear =
       linearize(made.table, stated->state(), stated->model(), columns, context_);
-  const ModelFit left =
-      fit_model(linear, subset, stated->reference().fit.variances, {.rounds = 0});
-  EXPECT_LT((left.solution.cwiseAbs().array() / sigma.array()).maxCoeff(), 0.1);
+  const ModelFit left = fit_model(linear, subset, stated->reference().fit.variances, {.rounds = 0});
+  // Steps below half a standard deviation are not forced where they lower nothing.
+  EXPECT_LT((left.solution.cwiseAbs().array() / sigma.array()).maxCoeff(), 0.5);
 }
 
 TEST_F(SearchState, AddedEffectsTakeTheirValueAndLeaveTheCandidates) {
