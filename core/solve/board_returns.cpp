@@ -93,7 +93,7 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
       continue;
     }
     if (at.off_m < -std::max(kCover_m, kTooNear * at.sigma_m)) near.push_back(at);
-    if (inside < selection.inside_sigmas * beam_rad * range) continue;
+    if (inside < selection.inside_sigmas * beam_rad * range + selection.place_m) continue;
     ++out.on_board;
     if (std::abs(at.off_m) > gate) {
       ++out.refused;

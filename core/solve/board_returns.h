@@ -47,6 +47,8 @@ struct BoardReturns {
 struct ReturnSelection {
   /// The spot must lie inside the outline by so many of its widths (one σ).
   double inside_sigmas = 3.0;
+  /// And by so much more: the board's place in its plane is known no better.
+  double place_m = 0.0;
   /// A return farther than this many standard deviations of its range from the plane is not on it.
   double range_gate = 5.0;
   /// Look for what stands close before the board or lies on it (see cover_crowds() and

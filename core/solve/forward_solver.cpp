@@ -94,13 +94,15 @@ class ForwardSolver {
 
   // `settled`: the boards lie where they are, so that what stands out is something else.
   bool select(bool settled = false) {
-    returns_.assign(scenes_.size(), {});
+    returns_.resize(scenes_.size());
     ReturnSelection how = options_.selection;
     how.covers = how.covers && settled;
     parallel_for(scenes_.size(), context_.thread_count(), [&](std::size_t s) {
       const SceneNoise& n = noise().scenes[s];
+      ReturnSelection here = how;
+      if (settled && !returns_[s].has_intensity) here.place_m = place_margin_m(s);
       returns_[s] = select_returns(*scenes_[s].board_points, print_, state().lidar_from_board(s),
-                                   state().beam, {n.range_white_m, n.range_black_m}, how);
+                                   state().beam, {n.range_white_m, n.range_black_m}, here);
     });
     seen_.clear();
     for (const BoardReturns& r : returns_) seen_.emplace_back(r.size());
@@ -112,6 +114,26 @@ class ForwardSolver {
                                            [](const auto& r) { return r.has_intensity; });
     return std::any_of(returns_.begin(), returns_.end(),
                        [](const BoardReturns& r) { return r.size() > 0; });
+  }
+
+  // Planes alone leave a board's place in its plane to what all of them say together: what may lie
+  // beyond its edge there is left out. Its outline was found, so that most of it is on the board.
+  [[nodiscard]] double place_margin_m(std::size_t s) const {
+    constexpr double kSigmas = 3.0;
+    constexpr double kMost = 0.25;  // Of the shorter side.
+    const BoardOutline& outline = print_.outline();
+    const double most = kMost * outline.size_m().minCoeff();
+    if (last_.covariance.rows() < 6) return most;
+    const Rigid3& board = solution_.state.camera_from_board[s];
+    const Eigen::Vector2d c = outline.center_m();
+    const Eigen::Vector3d middle = board * Eigen::Vector3d(c.x(), c.y(), 0.0);
+    Eigen::Matrix<double, 3, 6> moved;
+    moved << Eigen::Matrix3d::Identity(), -skew(middle);
+    const Eigen::Matrix<double, 2, 6> in_plane =
+        board.rotation.toRotationMatrix().leftCols<2>().transpose() * moved;
+    const Eigen::Matrix2d covariance =
+        in_plane * last_.covariance.topLeftCorner<6, 6>() * in_plane.transpose();
+    return std::min(most, kSigmas * std::sqrt(std::max(0.0, covariance.trace())));
   }
 
   // The blurs that most spots will ask for, made on all cores; others are made when they are asked
@@ -227,10 +249,13 @@ class ForwardSolver {
 
   // Levels by regression of the intensities on the coarse print.
   void first_levels() {
-    if (!solution_.uses_intensity) return;
     const BlurredPrint::Coarse print = print_.coarse(kCoarseBlur_m);
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (!returns_[s].has_intensity) continue;
+      // Of a print that is not seen nobody knows what it does to ranges: it is plain.
+      if (!returns_[s].has_intensity) {
+        state().levels[s] = {.white = 1.0, .black = 1.0};
+        continue;
+      }
       const BoardPredictor predictor(print_, state().lidar_from_board(s), {}, {});
       double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
       const std::size_t stride = std::max<std::size_t>(1, returns_[s].size() / kEarlyRows);
@@ -266,7 +291,9 @@ class ForwardSolver {
 
   bool coarse() {
     const Eigen::Matrix2d natural = state().beam.blur_rad2;
-    const double wide = std::pow(kCoarseBlur_m / mean_range_m(), 2);
+    // Without intensities nobody would bring it back.
+    const double wide =
+        solution_.uses_intensity ? std::pow(kCoarseBlur_m / mean_range_m(), 2) : 0.0;
     state().beam.blur_rad2 =
         natural + std::max(0.0, wide - natural(0, 0)) * Eigen::Matrix2d::Identity();
     for (int i = 0; i < kCoarseIterations; ++i) {

@@ -222,6 +222,7 @@ int main(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     if (std::strcmp(argv[i], "--crops") == 0) request.use_crops = true;
     if (std::strcmp(argv[i], "--truth") == 0) truth = argv[++i];
+    if (std::strcmp(argv[i], "--no-intensity") == 0) request.options.clouds.use_intensity = false;
     if (std::strcmp(argv[i], "--free") == 0)
       how.intrinsics_sigma << 12, 12, 10, 10, 0.05, 0.05, 0.05, 0.05, 0, 0, 0, 0;
     if (std::strcmp(argv[i], "--discover") == 0) find = true;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "forward_rig.h"
@@ -107,6 +108,28 @@ TEST(ForwardSolver, WithoutIntensityRestsOnRangesAndSaysHowLittleTheyTell) {
   EXPECT_GT(without->camera_from_lidar.covariance.trace(),
             9.0 * with->camera_from_lidar.covariance.trace());
   EXPECT_LT(size_in_sigmas(without->camera_from_lidar, rig.camera_from_lidar), 2.5);
+  // A plane tells three numbers. What its print would do to ranges, were its levels known, tells
+  // nothing of its place.
+  for (const GlobalTerm& term : without->terms) {
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> told(
+        Matrix6d(term.information.topLeftCorner<6, 6>()));
+    EXPECT_LT(told.eigenvalues()(2), 1e-6 * told.eigenvalues()(3));
+  }
+}
+
+// Three boards that face nearly the same way hardly hold the extrinsic: it is stated so.
+TEST(ForwardSolver, PlanesAloneStateWhatTheyKnow) {
+  double squares = 0.0;
+  constexpr int kRigs = 10;
+  for (std::uint64_t seed = 0; seed < kRigs; ++seed) {
+    ForwardRig rig = forward_rig(options(400 + seed, LidarKind::kAvia, 3));
+    for (Cloud& cloud : rig.clouds) cloud.intensity.clear();
+    const auto solution = solve(rig, Vector6d::Zero());
+    ASSERT_TRUE(solution) << solution.error().text();
+    squares += std::pow(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2);
+  }
+  // The mean of ten χ²₆/6 exceeds this once in ten thousand times.
+  EXPECT_LT(squares / kRigs, 1.83);
 }
 
 TEST(ForwardSolver, APostBeforeTheBoardIsRefused) {
