@@ -2889,6 +2889,18 @@ were saved. Take them up again?</source>
         <source>the clouds&apos; coordinates are rounded to steps of %1 mm, which may displace edges of the print by %2 mm: scene %3; write them to the millimetre</source>
         <translation>点云坐标被取整为 %1 mm 的步长，可能使图案边缘偏移 %2 mm：场景 %3；请以毫米或更细的精度写出</translation>
     </message>
+    <message>
+        <source>scene %1 contradicts the others, which agree: it puts the LiDAR %2 mm and %3 mrad elsewhere; did the board or a sensor move while it was taken?</source>
+        <translation>场景 %1 与其余彼此一致的场景矛盾：它把激光雷达放在相差 %2 mm 和 %3 mrad 的位置；采集它时标定板或传感器是否移动过？</translation>
+    </message>
+    <message>
+        <source>the extrinsic moves steadily from scene to scene, by %1 mm and %2 mrad from the first to the last: does a mount give way?</source>
+        <translation>外参随场景持续移动，从第一个场景到最后一个场景共 %1 mm 和 %2 mrad：是否有支架松动？</translation>
+    </message>
+    <message>
+        <source>the clouds or the images of scenes %1 and %2 seem to be exchanged: all scenes agree if they are</source>
+        <translation>场景 %1 与 %2 的点云或图像似乎互换了：换回来后所有场景一致</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

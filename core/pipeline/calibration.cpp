@@ -167,7 +167,11 @@ class Calibration {
     context_.report("localize", 0.7, "comparing scenes");
     auto consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
     if (!consensus) {
-      // Another size costs less to look for than walls do, and gets clearer evidence.
+      // What would mend it costs less to look for than walls do, and gets clearer evidence: first
+      // what two scenes must agree on.
+      if (several_views()) {
+        if (const auto error = wrong_clouds()) return *error;
+      }
       if (const auto error = wrong_size()) return *error;
       // Perhaps the board hangs flush on a wall: look on larger planes, everywhere.
       if (Status s = search_again(std::nullopt); !s) return s;
@@ -221,9 +225,13 @@ class Calibration {
       }
       return Done{};
     }
-    if (agreeing >= 2) return Done{};
-    if (const auto error = shared_files()) return *error;
-    if (const auto error = diagnose_mirrored(dataset_, request_, result_, scenes, context_))
+    // Two may agree by chance: a grid of circles looks alike from several sides.
+    if (agreeing > 2) return Done{};
+    if (agreeing < 2) {
+      if (const auto error = shared_files()) return *error;
+    }
+    if (const auto error =
+            diagnose_mirrored(dataset_, request_, result_, scenes, agreeing, context_))
       return *error;
     return context_.stopped() ? Status(Error::cancelled()) : Status(Done{});
   }
@@ -341,6 +349,22 @@ class Calibration {
     return text;
   }
 
+  [[nodiscard]] bool several_views() const {
+    return std::count_if(result_.scenes.begin(), result_.scenes.end(),
+                         [](const SceneResult& s) { return s.view && !s.unreadable; }) > 1;
+  }
+
+  // The error to give if the board is there in clouds read or given to scenes another way.
+  std::optional<Error> wrong_clouds() {
+    if (looked_for_readings_) return std::nullopt;
+    looked_for_readings_ = true;
+    if (const auto error = shared_files()) return error;
+    if (auto error = diagnose_exchanged_clouds(dataset_, request_, result_, context_)) return error;
+    auto error = diagnose_clouds(dataset_, request_, result_, context_);
+    if (context_.stopped()) return Error::cancelled();
+    return error;
+  }
+
   // The error to give if the board is there, but in another size.
   std::optional<Error> wrong_size() {
     if (looked_for_sizes_) return std::nullopt;
@@ -395,8 +419,7 @@ class Calibration {
     if (const std::string what = contradicted_by_corners(result_); !what.empty())
       return wrong_camera(what);
     if (const auto error = wrong_size()) return *error;
-    if (const auto error = diagnose_clouds(dataset_, request_, result_, context_)) return *error;
-    if (context_.stopped()) return Error::cancelled();
+    if (const auto error = wrong_clouds()) return *error;
     std::string detail;
     for (const SceneResult& scene : result_.scenes) {
       if (!scene.view) {
@@ -582,6 +605,7 @@ class Calibration {
   std::vector<std::optional<BoardPlane>> planes_;  ///< Per scene, where it was fitted in this run.
   std::vector<char> looked_twice_;                 ///< Per scene; not bool, scenes run in parallel.
   bool looked_for_sizes_ = false;
+  bool looked_for_readings_ = false;
 };
 
 // After a run with a rough extrinsic has found no board: perhaps that is what is wrong. If the

@@ -25,6 +25,20 @@ Cloud read_as(const Cloud& cloud, const CloudReading& reading) {
   return out;
 }
 
+double middle_distance_m(const BoardView& view, const Target& target) {
+  const Eigen::Vector2d c = target.outline().center_m();
+  return (view.camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0)).norm();
+}
+
+// A scene as the camera sees it, its board still to be looked for.
+SceneHypotheses seen_by_camera(const BoardView& view, const Target& target) {
+  SceneHypotheses h;
+  h.camera_from_board = view.camera_from_board;
+  h.alternative_camera_from_board = view.alternative_pose;
+  h.board_middle_m = target.outline().center_m();
+  return h;
+}
+
 }  // namespace
 
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
@@ -36,36 +50,59 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
       {"in feet", Eigen::Vector3f::Constant(0.3048F)},
       {"in inches", Eigen::Vector3f::Constant(0.0254F)},
       {"mirrored (its axes make a left-handed frame)", Eigen::Vector3f(1.0F, -1.0F, 1.0F)}};
-  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+  // Something may look like the board by chance, but hardly twice in the same place of the rig.
+  constexpr std::size_t kMostScenes = 3;
+  std::vector<std::size_t> seen;
+  std::vector<Cloud> clouds;
+  for (std::size_t s = 0; s < result.scenes.size() && seen.size() < kMostScenes; ++s) {
     if (!result.scenes[s].view || result.scenes[s].unreadable) continue;
-    const auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
+    auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
     if (!cloud) return std::nullopt;
-    const Eigen::Vector2d c = dataset.target.outline().center_m();
-    const double distance_m =
-        (result.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0))
-            .norm();
-    const PatternPyramid pyramid(dataset.target);
-    std::vector<double> gain(kReadings.size(), 0.0);
-    parallel_for(kReadings.size(), context.thread_count(), [&](std::size_t k) {
-      if (context.stopped()) return;
-      RunContext quiet = context;
-      quiet.progress = {};
-      quiet.threads = 1;
-      const auto search =
-          search_board(read_as(*cloud, kReadings[k]), dataset.target, pyramid, distance_m,
-                       std::nullopt, request.options.localization, quiet);
-      for (const BoardCandidate& candidate : search.candidates)
-        gain[k] = std::max(gain[k], candidate.gain);
-    });
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < gain.size(); ++k) best = gain[k] > gain[best] ? k : best;
-    if (context.stopped() || !(gain[best] > 0.0)) return std::nullopt;
-    return Error::untrusted("the board is not found in any cloud, but it is if the clouds are " +
-                                std::string(kReadings[best].what),
-                            dataset.scenes[s].cloud.string(),
-                            "write the clouds in metres, in a right-handed frame");
+    seen.push_back(s);
+    clouds.push_back(std::move(*cloud));
   }
-  return std::nullopt;
+  const PatternPyramid pyramid(dataset.target);
+  RunContext quiet = context;
+  quiet.progress = {};
+  quiet.threads = 1;
+  std::vector<std::vector<BoardCandidate>> found(kReadings.size() * seen.size());
+  const auto look = [&](std::size_t reading, std::size_t k) {
+    if (context.stopped()) return;
+    const BoardView& view = *result.scenes[seen[k]].view;
+    found[reading * seen.size() + k] =
+        search_board(read_as(clouds[k], kReadings[reading]), dataset.target, pyramid,
+                     middle_distance_m(view, dataset.target), std::nullopt,
+                     request.options.localization, quiet)
+            .candidates;
+  };
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    // The other scenes are asked about what the first one speaks for.
+    std::vector<std::size_t> readings;
+    for (std::size_t r = 0; r < kReadings.size(); ++r) {
+      if (k == 0 || !found[r * seen.size()].empty()) readings.push_back(r);
+    }
+    parallel_for(readings.size(), context.thread_count(),
+                 [&](std::size_t i) { look(readings[i], k); });
+  }
+  std::size_t best = 0;
+  int most = 0;
+  for (std::size_t r = 0; r < kReadings.size() && !context.stopped(); ++r) {
+    std::vector<SceneHypotheses> scenes;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      scenes.push_back(seen_by_camera(*result.scenes[seen[k]].view, dataset.target));
+      scenes.back().candidates = found[r * seen.size() + k];
+    }
+    const auto consensus = decide_scenes(scenes, std::nullopt, request.options.consensus);
+    if (!consensus || consensus->agreeing <= most) continue;
+    most = consensus->agreeing;
+    best = r;
+  }
+  if (context.stopped() || most < std::min<int>(2, static_cast<int>(seen.size())) || most == 0)
+    return std::nullopt;
+  return Error::untrusted("the board is not found in any cloud, but it is if the clouds are " +
+                              std::string(kReadings[best].what),
+                          dataset.scenes[seen.front()].cloud.string(),
+                          "write the clouds in metres, in a right-handed frame");
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
@@ -94,12 +131,63 @@ std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
   return std::nullopt;
 }
 
+std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
+                                               const CalibrationRequest& request,
+                                               const CalibrationResult& result,
+                                               const RunContext& context) {
+  // Every pair is two searches, after a failure: of six scenes fifteen pairs.
+  constexpr std::size_t kMostScenes = 6;
+  std::vector<std::size_t> seen;
+  std::vector<SceneHypotheses> scenes;
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    if (!result.scenes[s].view || result.scenes[s].unreadable) continue;
+    seen.push_back(s);
+    scenes.push_back(hypotheses_of(result.scenes[s], dataset.target));
+    if (scenes.back().candidates.empty())
+      scenes.back() = seen_by_camera(*result.scenes[s].view, dataset.target);
+  }
+  // Two scenes agree with anything.
+  if (seen.size() < 3 || seen.size() > kMostScenes) return std::nullopt;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t b = 0; b < seen.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) pairs.emplace_back(a, b);
+  }
+  const PatternPyramid pyramid(dataset.target);
+  RunContext quiet = context;
+  quiet.progress = {};
+  quiet.threads = 1;
+  std::vector<int> agreeing(pairs.size(), 0);
+  parallel_for(pairs.size(), context.thread_count(), [&](std::size_t p) {
+    const auto [a, b] = pairs[p];
+    std::vector<SceneHypotheses> tried = scenes;
+    for (const auto& [image, cloud] : {std::pair(a, b), std::pair(b, a)}) {
+      const auto points = read_scene_cloud(dataset.scenes[seen[cloud]], request, context.stop);
+      if (!points || context.stopped()) return;
+      const BoardView& view = *result.scenes[seen[image]].view;
+      tried[image] = seen_by_camera(view, dataset.target);
+      tried[image].candidates =
+          search_board(*points, dataset.target, pyramid, middle_distance_m(view, dataset.target),
+                       std::nullopt, request.options.localization, quiet)
+              .candidates;
+    }
+    const auto consensus = decide_scenes(tried, std::nullopt, request.options.consensus);
+    agreeing[p] = consensus ? consensus->agreeing : 0;
+  });
+  const auto best = static_cast<std::size_t>(std::max_element(agreeing.begin(), agreeing.end()) -
+                                             agreeing.begin());
+  if (context.stopped() || agreeing[best] < static_cast<int>(seen.size())) return std::nullopt;
+  return Error::untrusted("the clouds or the images of scenes " +
+                              result.scenes[seen[pairs[best].first]].name + " and " +
+                              result.scenes[seen[pairs[best].second]].name +
+                              " seem to be exchanged: all scenes agree if they are",
+                          dataset.path.string(), "give each scene its own image and cloud");
+}
+
 std::optional<Error> diagnose_mirrored(const Dataset& dataset, const CalibrationRequest& request,
                                        const CalibrationResult& result,
-                                       std::vector<SceneHypotheses> scenes,
+                                       std::vector<SceneHypotheses> scenes, int agreeing,
                                        const RunContext& context) {
   const PatternPyramid pyramid(dataset.target);
-  const Eigen::Vector2d c = dataset.target.outline().center_m();
   parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
     scenes[s].candidates.clear();
     if (!result.scenes[s].view || context.stopped()) return;
@@ -108,16 +196,15 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
     RunContext quiet = context;
     quiet.progress = {};
     quiet.threads = 1;
-    const double distance_m =
-        (result.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0))
-            .norm();
     scenes[s].candidates =
         search_board(read_as(*cloud, {"mirrored", {1.0F, -1.0F, 1.0F}}), dataset.target, pyramid,
-                     distance_m, std::nullopt, request.options.localization, quiet)
+                     middle_distance_m(*result.scenes[s].view, dataset.target), std::nullopt,
+                     request.options.localization, quiet)
             .candidates;
   });
   const auto consensus = decide_scenes(scenes, std::nullopt, request.options.consensus);
-  if (context.stopped() || !consensus || consensus->agreeing < 2) return std::nullopt;
+  if (context.stopped() || !consensus || consensus->agreeing < std::max(2, agreeing + 1))
+    return std::nullopt;
   return Error::untrusted(
       "the scenes do not agree, but " + std::to_string(consensus->agreeing) +
           " of them do if the clouds are mirrored (their axes make a left-handed frame)",
@@ -199,12 +286,9 @@ std::string diagnose_unseen_tags(const CalibrationResult& result) {
 }
 
 SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target) {
-  SceneHypotheses h;
-  if (!scene.view || !scene.search) return h;
-  h.camera_from_board = scene.view->camera_from_board;
-  h.alternative_camera_from_board = scene.view->alternative_pose;
+  if (!scene.view || !scene.search) return {};
+  SceneHypotheses h = seen_by_camera(*scene.view, target);
   h.candidates = scene.search->candidates;
-  h.board_middle_m = target.outline().center_m();
   return h;
 }
 

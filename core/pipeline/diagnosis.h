@@ -10,8 +10,9 @@
 
 namespace lvcalib {
 
-/// After the board was not found in any cloud: whether it is found once the cloud is taken for one
-/// in millimetres, centimetres, feet or inches, or for a mirrored one. The error that says so.
+/// After the board was not found in any cloud: whether it is found, at places of two scenes that
+/// agree if there are two, once the clouds are taken for ones in millimetres, centimetres, feet or
+/// inches, or for mirrored ones. The error that says so.
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
                                      const CalibrationResult& result, const RunContext& context);
 
@@ -24,11 +25,18 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
 std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
     std::vector<SceneHypotheses> scenes, int agreeing, const ConsensusOptions& options);
 
-/// After scenes have found boards that do not agree: whether two or more agree once the clouds are
-/// taken for mirrored ones. The error that says so.
+/// After the board was not found where images expect it: whether all of three scenes or more agree
+/// once two of them exchange their clouds. The error that says so.
+std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
+                                               const CalibrationRequest& request,
+                                               const CalibrationResult& result,
+                                               const RunContext& context);
+
+/// After scenes have found boards that do not agree: whether more of them than did, and two at
+/// least, agree once the clouds are taken for mirrored ones. The error that says so.
 std::optional<Error> diagnose_mirrored(const Dataset& dataset, const CalibrationRequest& request,
                                        const CalibrationResult& result,
-                                       std::vector<SceneHypotheses> scenes,
+                                       std::vector<SceneHypotheses> scenes, int agreeing,
                                        const RunContext& context);
 
 /// How a rough extrinsic went wrong, seen from the one that the scenes give: "it is the inverse",

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <boost/math/distributions/fisher_f.hpp>
 
 #include "base/statistics.h"
 #include "base/text.h"
@@ -66,44 +70,205 @@ void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
   }
 }
 
+namespace {
+
+// What one scene says of the extrinsic at the solution of all, the other globals held there: twice
+// the log-likelihood changes by 2 gᵀξ − ξᵀHξ.
+struct SceneSays {
+  Matrix6d information;
+  Vector6d gradient;
+};
+
+std::vector<SceneSays> scenes_say(const CalibrationResult& result) {
+  std::vector<SceneSays> out;
+  if (!result.model_fit) {
+    for (const GlobalTerm& term : result.forward->terms) {
+      if (!term.usable) return {};
+      out.push_back({term.information.topLeftCorner<6, 6>(), term.gradient.head<6>()});
+    }
+    return out;
+  }
+  const ModelFit& fit = *result.model_fit;
+  for (const SceneTerm& term : fit.scenes) {
+    out.push_back({term.information.topLeftCorner<6, 6>(),
+                   (term.gradient - term.information * fit.solution).head<6>()});
+  }
+  return out;
+}
+
+// By how much χ² falls if scenes choose freely, and in how many directions they can.
+struct Fall {
+  double chi = 0.0;
+  int freedom = 0;
+};
+
+template <class Matrix, class Vector>
+Fall fall(const Matrix& information, const Vector& gradient) {
+  constexpr double kRank = 1e-9;  // What rounding leaves of directions that nothing tells.
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
+  Fall out;
+  for (Eigen::Index k = 0; k < gradient.size(); ++k) {
+    const double told = eigen.eigenvalues()(k);
+    if (!(told > kRank * eigen.eigenvalues().maxCoeff())) continue;
+    out.chi += std::pow(eigen.eigenvectors().col(k).dot(gradient), 2) / told;
+    ++out.freedom;
+  }
+  return out;
+}
+
+// Ways in which an extrinsic may differ from scene to scene, tried one by one.
+class Motions {
+ public:
+  explicit Motions(std::vector<SceneSays> scenes) : scenes_(std::move(scenes)) {
+    for (const SceneSays& scene : scenes_) {
+      const Fall one = fall(scene.information, scene.gradient);
+      free_.chi += one.chi;
+      free_.freedom += one.freedom;
+    }
+    common_ = of([](std::size_t) { return true; });
+  }
+
+  // Scenes from `first` to before `last` have an extrinsic of their own.
+  [[nodiscard]] double apart(std::size_t first, std::size_t last) const {
+    const auto inside = [&](std::size_t s) { return s >= first && s < last; };
+    const Fall in = of(inside);
+    const Fall out = of([&](std::size_t s) { return !inside(s); });
+    // Both sides must determine the extrinsic, else it is not the whole of it that differs.
+    if (in.freedom < 6 || out.freedom < 6) return 1.0;
+    return chance(in.chi + out.chi);
+  }
+
+  // It changes in proportion to something that is known of each scene.
+  [[nodiscard]] double along(const std::vector<double>& known) const {
+    const auto [information, gradient] = with_rate(known);
+    const Fall both = fall(information, gradient);
+    return both.freedom < 12 ? 1.0 : chance(both.chi);
+  }
+
+  // By so much per unit of it.
+  [[nodiscard]] Vector6d rate(const std::vector<double>& known) const {
+    const auto [information, gradient] = with_rate(known);
+    return information.ldlt().solve(gradient).tail<6>();
+  }
+
+ private:
+  // Of the extrinsic at zero and its rate.
+  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::VectorXd> with_rate(
+      const std::vector<double>& known) const {
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(12, 12);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(12);
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      Eigen::Matrix<double, 6, 12> by;
+      by << Matrix6d::Identity(), known[s] * Matrix6d::Identity();
+      information += by.transpose() * scenes_[s].information * by;
+      gradient += by.transpose() * scenes_[s].gradient;
+    }
+    return {information, gradient};
+  }
+
+  template <class Which>
+  [[nodiscard]] Fall of(const Which& which) const {
+    SceneSays sum{Matrix6d::Zero(), Vector6d::Zero()};
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (!which(s)) continue;
+      sum.information += scenes_[s].information;
+      sum.gradient += scenes_[s].gradient;
+    }
+    return fall(sum.information, sum.gradient);
+  }
+
+  // F-test of six more numbers against what scenes differ by beyond them: an effect that is missing
+  // makes all differ, a motion makes two groups of scenes that agree.
+  [[nodiscard]] double chance(double chi) const {
+    const int freedom = free_.freedom - 12;
+    if (freedom < 6) return 1.0;
+    const double explained = std::max(0.0, chi - common_.chi) / 6.0;
+    // Not less than noise: that of few scenes may be small by chance.
+    const double left = std::max(1.0, (free_.chi - chi) / freedom);
+    const boost::math::fisher_f f(6.0, freedom);
+    return boost::math::cdf(boost::math::complement(f, explained / left));
+  }
+
+  std::vector<SceneSays> scenes_;
+  Fall free_, common_;
+};
+
+}  // namespace
+
 void judge_bump(const CalibrationResult& result, Verdict& verdict) {
   if (!result.forward) return;
-  const SubsetSolver subset = subsets_of(result);
-  std::vector<std::size_t> order = scenes_in_use(result.extrinsic);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return result.extrinsic.scenes[a].name < result.extrinsic.scenes[b].name;
-  });
-  if (order.size() < 4) return;
-  // As many tests as moments, one in a thousand together.
-  const double gate = chi_square_gate(6, 0.001 / static_cast<double>(order.size() - 3));
-  const QualityOptions& q = result.options.quality;
-  double most = gate;
-  std::string text;
-  for (std::size_t k = 2; k + 2 <= order.size(); ++k) {
-    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(k);
-    const auto before = subset({order.begin(), middle});
-    const auto after = subset({middle, order.end()});
-    if (!before || !after) continue;
-    const Vector6d move = se3_log(after->transform * before->transform.inverse());
-    const Matrix6d spread = before->covariance + after->covariance;
-    const double chi = move.dot(spread.ldlt().solve(move));
-    const double move_m =
-        translation_distance_m(before->transform.inverse(), after->transform.inverse());
-    const double move_rad = rotation_distance_rad(before->transform, after->transform);
-    if (!(chi > most) || (move_m < q.tolerance_m && move_rad < q.tolerance_rad)) continue;
-    most = chi;
-    const auto names = [&](auto first, auto last) {
-      std::string list;
-      for (auto at = first; at != last; ++at)
-        list += (list.empty() ? "" : ", ") + result.extrinsic.scenes[*at].name;
-      return list;
-    };
-    text = describe_bump({names(order.begin(), middle), before->transform},
-                         {names(middle, order.end()), after->transform},
-                         result.extrinsic.scenes[*(middle - 1)].name,
-                         result.extrinsic.scenes[*middle].name);
+  const std::vector<std::size_t> in_use = scenes_in_use(result.extrinsic);
+  const std::vector<SceneSays> says = scenes_say(result);
+  const std::size_t n = in_use.size();
+  if (n < 3 || says.size() != n) return;
+  const auto name_of = [&](std::size_t k) { return result.extrinsic.scenes[in_use[k]].name; };
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return name_of(a) < name_of(b); });
+  std::vector<SceneSays> in_order;
+  std::vector<double> clock;  // From 0 to 1.
+  std::vector<double> distance_m;
+  for (const std::size_t k : order) {
+    in_order.push_back(says[k]);
+    clock.push_back(static_cast<double>(clock.size()) / static_cast<double>(n - 1));
+    distance_m.push_back(result.extrinsic.scenes[in_use[k]].camera_from_board.translation.norm());
   }
-  if (!text.empty()) verdict.doubtful(text);
+  const Motions motions(std::move(in_order));
+  // Between any two scenes, in any one scene, or steadily; one in a thousand together. Scenes are
+  // often taken from near to far: what goes by the distance as well is an effect, and no motion.
+  double least =
+      std::min(0.001 / static_cast<double>((n - 1) + (n - 2) + 1), motions.along(distance_m));
+  std::size_t first = 0;
+  std::size_t last = 0;
+  const auto ask = [&](std::size_t from, std::size_t to) {
+    const double p = motions.apart(from, to);
+    if (p >= least) return;
+    least = p;
+    first = from;
+    last = to;
+  };
+  for (std::size_t k = 1; k < n; ++k) ask(k, n);
+  for (std::size_t k = 1; k + 1 < n; ++k) ask(k, k + 1);
+  const QualityOptions& q = result.options.quality;
+  if (motions.along(clock) < least) {
+    const Vector6d way = motions.rate(clock);
+    const Rigid3& mean = result.extrinsic.camera_from_lidar.transform;
+    const Rigid3 end = se3_exp(way) * mean;
+    const double move_m = translation_distance_m(mean.inverse(), end.inverse());
+    const double move_rad = rotation_distance_rad(mean, end);
+    if (move_m < q.tolerance_m && move_rad < q.tolerance_rad) return;
+    verdict.doubtful(
+        formatted("the extrinsic moves steadily from scene to scene, by %.1f mm and "
+                  "%.2f mrad from the first to the last: does a mount give way?",
+                  1e3 * move_m, 1e3 * move_rad));
+    return;
+  }
+  if (last == 0) return;
+  const SubsetSolver subset = subsets_of(result);
+  const bool one = last < n;  // A scene between others.
+  std::vector<std::size_t> apart;
+  std::vector<std::size_t> others;
+  std::string names[2];
+  for (std::size_t k = 0; k < n; ++k) {
+    const bool inside = k >= first && k < last;
+    (inside ? apart : others).push_back(in_use[order[k]]);
+    std::string& list = names[inside ? 1 : 0];
+    list += (list.empty() ? "" : ", ") + name_of(order[k]);
+  }
+  const auto before = subset(others);
+  const auto after = subset(apart);
+  if (!before || !after) return;
+  const double move_m =
+      translation_distance_m(before->transform.inverse(), after->transform.inverse());
+  const double move_rad = rotation_distance_rad(before->transform, after->transform);
+  if (move_m < q.tolerance_m && move_rad < q.tolerance_rad) return;
+  verdict.doubtful(one ? "scene " + names[1] +
+                             " contradicts the others, which agree: it puts the LiDAR " +
+                             formatted("%.1f mm and %.2f mrad", 1e3 * move_m, 1e3 * move_rad) +
+                             " elsewhere; did the board or a sensor move while it was taken?"
+                       : describe_bump({names[0], before->transform}, {names[1], after->transform},
+                                       name_of(order[first - 1]), name_of(order[first])));
 }
 
 void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdict& verdict) {

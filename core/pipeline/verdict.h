@@ -44,8 +44,10 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
 /// Scenes on which the result rests alone: without one the extrinsic moves by more than three of
 /// its standard deviations, and by more than the scene's weight explains.
 void judge_leverage(const CalibrationResult& result, Verdict& verdict);
-/// Scenes before and after some moment that contradict each other, two at least on either side: one
-/// alone is what judge_leverage() asks about.
+/// Whether what scenes contradict each other in is a motion: scenes before some moment agree among
+/// themselves and those after it too, or all but one agree, or the extrinsic moves steadily.
+/// F-tests against what scenes differ by otherwise, so that an effect that is missing is not taken
+/// for one.
 void judge_bump(const CalibrationResult& result, Verdict& verdict);
 /// What moved while the scans were taken, or trails along them, where the clouds' times tell.
 void judge_scans(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict);

@@ -88,6 +88,16 @@ inline constexpr const char* kCorePatterns[] = {
     QT_TRANSLATE_NOOP("Core",
                       "%1 t = [%2] m, %3 t = [%4] m, %5 mm and %6 mrad apart: did a sensor move "
                       "between scenes %7 and %8?"),
+    QT_TRANSLATE_NOOP(
+        "Core",
+        "scene %1 contradicts the others, which agree: it puts the LiDAR %2 mm and %3 "
+        "mrad elsewhere; did the board or a sensor move while it was taken?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the extrinsic moves steadily from scene to scene, by %1 mm and %2 mrad from "
+                      "the first to the last: does a mount give way?"),
+    QT_TRANSLATE_NOOP("Core",
+                      "the clouds or the images of scenes %1 and %2 seem to be exchanged: all "
+                      "scenes agree if they are"),
     QT_TRANSLATE_NOOP("Core", "scenes %1 give"),
     QT_TRANSLATE_NOOP("Core", "scene %1 gives"),
     QT_TRANSLATE_NOOP(
