@@ -252,6 +252,8 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
   // Small dictionaries read a few markers into a mirrored image as well.
   const auto misplaced = [&]() -> Error {
     if (tags_in_mirror(image, target, options, context) > seen.size()) return explain_mirrored();
+    if (const auto error = other_tag_family(image, target, seen.size(), options, context))
+      return *error;
     return misplaced_tags(tags.size(), seen, target, camera, options);
   };
   auto pose = estimate_board_pose(

@@ -76,6 +76,9 @@ std::string described(const Arrangement& how) {
     text += std::string(text.empty() ? "" : " and ") + "whose tags are each turned by " +
             std::to_string(90 * how.turn) + "°";
   }
+  // The same board seen from its other end.
+  if (how.from_top && how.from_right && how.turn == 0)
+    text += ", or upside down and whose tags are each turned by 180°";
   return text;
 }
 

@@ -152,6 +152,17 @@ std::vector<BoardTag> all_tags_of_family(const GrayImage& image, const Target& t
   return tags;
 }
 
+std::optional<Error> other_tag_family(const GrayImage& image, const Target& target,
+                                      std::size_t found, const DetectionOptions& options,
+                                      const RunContext& context) {
+  // Of the families of 36 bits none was ever read into another's tags.
+  constexpr int kSafeWidth = 6;
+  const TagPattern* tag = tag_pattern(target.tag_family, 0);
+  if (target.type == TargetType::kCharuco || tag == nullptr || tag->width >= kSafeWidth)
+    return std::nullopt;
+  return other_family(image, target, options, context, found + 1);
+}
+
 Error explain_mirrored() {
   return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror", {},
                       "turn off flipping in the camera driver, or print the board again");
@@ -171,6 +182,9 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
     return Error::input(ids_against_target(same, target), {}, checked_fields(target));
   }
   if (found > 0) {
+    if (const auto other =
+            other_tag_family(image, target, static_cast<std::size_t>(found), options, context))
+      return *other;
     return Error::input("only " + std::to_string(found) + " of the board's " +
                             std::to_string(target.tag_count()) + " tags found, expected at least " +
                             std::to_string(fewest_tags(target, options)),

@@ -131,13 +131,9 @@ bool scenes_agree(const StructureScore& score, std::size_t tried, const Discover
 
 class Judge {
  public:
-  Judge(const EffectSearch& search, const std::vector<Selection>& selected,
-        const DiscoveryOptions& options)
-      : search_(search),
-        settled_(search.as_stated()),
-        stated_(settled_ ? *settled_ : search),
-        selected_(selected),
-        options_(options) {}
+  Judge(const EffectSearch& search, const EffectSearch& stated,
+        const std::vector<Selection>& selected, const DiscoveryOptions& options)
+      : search_(search), stated_(stated), selected_(selected), options_(options) {}
 
   std::vector<EffectFinding> run() {
     for (const Selection& s : selected_) add_selected(s);
@@ -346,7 +342,6 @@ class Judge {
   }
 
   const EffectSearch& search_;
-  const std::optional<EffectSearch> settled_;
   const EffectSearch& stated_;  // Where values and their standard deviations are read.
   const std::vector<Selection>& selected_;
   const DiscoveryOptions& options_;
@@ -477,8 +472,9 @@ OpenQuestions open_questions(const EffectSearch& search,
 
 std::vector<EffectFinding> judge_effects(const EffectSearch& search,
                                          const std::vector<Selection>& selected,
-                                         const DiscoveryOptions& options) {
-  return Judge(search, selected, options).run();
+                                         const DiscoveryOptions& options,
+                                         const EffectSearch* stated) {
+  return Judge(search, stated != nullptr ? *stated : search, selected, options).run();
 }
 
 }  // namespace lvcalib

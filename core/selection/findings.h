@@ -38,9 +38,11 @@ OpenQuestions open_questions(const EffectSearch& search,
                              const std::vector<EffectFinding>& findings);
 
 /// Verdicts on the whole catalogue from the finished search (rank() must have run on the final
-/// model). Selected effects first, then the rest by their gain.
+/// model). Selected effects first, with the values of `stated` (see EffectSearch::as_stated();
+/// null: those of the search), then the rest by their gain.
 std::vector<EffectFinding> judge_effects(const EffectSearch& search,
                                          const std::vector<Selection>& selected,
-                                         const DiscoveryOptions& options);
+                                         const DiscoveryOptions& options,
+                                         const EffectSearch* stated = nullptr);
 
 }  // namespace lvcalib

@@ -63,8 +63,11 @@ Status enough_scenes(std::size_t scenes) {
 // The step at which a search stands whose shape numbers are refined.
 Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunContext& context) {
   if (context.stopped()) return Error::cancelled();
-  const auto stated = found.as_stated();
-  const EffectSearch& search = stated ? *stated : found;
+  if (auto stated = found.as_stated()) {
+    stated->set_context({});
+    step.stated = std::make_shared<const EffectSearch>(std::move(*stated));
+  }
+  const EffectSearch& search = step.stated ? *step.stated : found;
   if (context.stopped()) return Error::cancelled();
   step.state = search.state();
   step.remade = search.remade();

@@ -76,6 +76,8 @@ struct ModelStep {
   std::vector<StructureScore> places;     ///< Of surfaces, best first (see StructureScan).
   /// The search that stands at this model: where the next step takes it up.
   std::shared_ptr<const EffectSearch> search;
+  /// What is stated of the model (see EffectSearch::as_stated()); null: the search stands there.
+  std::shared_ptr<const EffectSearch> stated;
   /// The measurements made again for this model (see MeasurementTable::again); null where that
   /// changes nothing.
   std::shared_ptr<const MeasurementTable> remade;

@@ -153,7 +153,8 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
     if (term.on) selected.push_back(term.selection);
   }
   ModelRanking out;
-  const std::vector<EffectFinding> findings = judge_effects(search, selected, options);
+  const std::vector<EffectFinding> findings =
+      judge_effects(search, selected, options, step.stated.get());
   // Those in use come first.
   const auto others = findings.begin() + static_cast<std::ptrdiff_t>(selected.size());
   out.in_use.assign(findings.begin(), others);

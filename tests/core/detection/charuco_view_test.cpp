@@ -174,6 +174,8 @@ TEST(TagArrangement, SaysHowTheTagsLie) {
   // Each tag upside down is the board upside down with ids from the other corner.
   const std::string turned = complaint_about(true, false, false);
   EXPECT_NE(turned.find("ids grow from the top right"), std::string::npos) << turned;
+  EXPECT_NE(turned.find("upside down and whose tags are each turned by 180°"), std::string::npos)
+      << turned;
   EXPECT_NE(complaint_about(false, true, false).find("from the bottom right"), std::string::npos);
   EXPECT_NE(complaint_about(false, false, true).find("from the top left"), std::string::npos);
 }

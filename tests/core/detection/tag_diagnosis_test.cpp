@@ -60,6 +60,19 @@ TEST(TagDiagnosis, NamesTheOtherFamily) {
             std::string::npos);
 }
 
+// Families of few bits are read into other tags: that some are seen is no reason to believe them.
+TEST(TagDiagnosis, NamesTheOtherFamilyOverMisreadTags) {
+  Target small = small_target();
+  small.tag_family = "tag16h5";
+  const GrayImage image = picture(small_target());
+  const auto other = other_tag_family(image, small, 2, {}, {});
+  ASSERT_TRUE(other.has_value());
+  EXPECT_NE(other->text().find("tagFamily: tag36h11"), std::string::npos) << other->text();
+  // As many as there are of the other family are not fewer than it.
+  EXPECT_FALSE(other_tag_family(image, small, 4, {}, {}).has_value());
+  EXPECT_FALSE(other_tag_family(image, small_target(), 0, {}, {}).has_value());
+}
+
 TEST(TagDiagnosis, RecognisesAMirroredImage) {
   GrayImage image = picture(small_target());
   for (int y = 0; y < image.height_px; ++y) {
