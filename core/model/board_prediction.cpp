@@ -133,16 +133,18 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   out.intensity_by_blur << by_blur(0, 0), 2.0 * by_blur(0, 1), by_blur(1, 1);
 
   // The darker part of the footprint weighs less.
-  const double floor = kSmallestPowerShare * std::max(std::abs(levels_.white), 1e-12);
+  // Numbers whose white is not above zero are no power: what they would do to ranges is not known.
+  const double floor = kSmallestPowerShare * std::max(levels_.white, 1e-12);
   const double power = std::max(plain, floor);
-  const Eigen::Vector2d log_power = contrast / power * print.gradient_per_m;
+  const double share = levels_.white > 0.0 ? contrast / power : 0.0;
+  const Eigen::Vector2d log_power = share * print.gradient_per_m;
   const Eigen::RowVector2d pull = range_by_angle * footprint_rad2_ * hit_by_angle.transpose();
   // A plane's range is curved over the angles: r·(δᵢⱼ + 2 ∂ᵢr ∂ⱼr/r²).
   const double curved = 0.5 * (r * footprint_rad2_.trace() +
                                2.0 / r * range_by_angle.dot(range_by_angle * footprint_rad2_));
   out.range_m = r + pull.dot(log_power) + curved;
   const Eigen::Matrix2d log_power_slope =
-      contrast / power * print.hessian_per_m2 - log_power * log_power.transpose();
+      share * print.hessian_per_m2 - log_power * log_power.transpose();
   out.range_by_shift = -pull * log_power_slope;
   const double steepness = print.gradient_per_m.norm();
   if (by_growth > 0.0 && steepness > 0.0)
