@@ -80,6 +80,11 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
 std::vector<EffectInUse> EffectSearch::model() const {
   std::vector<EffectInUse> out = in_use_;
   if (sees_print()) out.push_back(blur_);
+  return out;
+}
+
+std::vector<EffectInUse> EffectSearch::fitted() const {
+  std::vector<EffectInUse> out = model();
   for (const SensorError& error : sensor_) out.push_back(error.use);
   return out;
 }
@@ -96,7 +101,7 @@ std::optional<MeasuredBlur> EffectSearch::measured_blur() const {
 
 EffectColumnsList EffectSearch::own_columns() const {
   EffectColumnsList columns;
-  for (const EffectInUse& use : model()) columns.add(use.effect, use.shape, table());
+  for (const EffectInUse& use : fitted()) columns.add(use.effect, use.shape, table());
   return columns;
 }
 
@@ -231,7 +236,7 @@ void EffectSearch::settle() {
   stated_.reset();
   joint_covariance_.reset();
   // The last step of refit() is not in it.
-  linear_ = linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
+  linear_ = linearize(table(), state_, fitted(), own_columns(), context_, kEveryChannel, &memory_);
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     for (int round = 0; round < kVarianceRounds; ++round) {
       reference_.subset = own_subset(linear_.columns);
@@ -296,7 +301,7 @@ EffectSearch::Descent EffectSearch::descend(double size) {
   for (double share = 1.0; share * size > kStands; share *= 0.5) {
     move(reference_.fit, share);
     Linearization next =
-        linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
+        linearize(table(), state_, fitted(), own_columns(), context_, kEveryChannel, &memory_);
     if (context_.stopped()) return Descent::kNone;
     const double after = misfit(next, own_subset(next.columns), weights);
     if (after < before) {

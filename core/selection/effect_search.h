@@ -104,7 +104,8 @@ class EffectSearch {
   [[nodiscard]] std::optional<MeasuredBlur> measured_blur() const;
   /// Effects found or asked for, in the order added.
   [[nodiscard]] const std::vector<EffectInUse>& in_use() const { return in_use_; }
-  /// Those, the beam's blur and the sensor's errors: what the model predicts with.
+  /// Those and the beam's blur: what the model predicts with. What is stated does not predict the
+  /// sensor's errors: nothing explains them, and that must show.
   [[nodiscard]] std::vector<EffectInUse> model() const;
   [[nodiscard]] const Linearization& linear() const { return linear_; }
   [[nodiscard]] const Reference& reference() const { return reference_; }
@@ -129,6 +130,8 @@ class EffectSearch {
   void ask_both_prints();
   void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
   void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
+  // The model and the sensor's errors: what the rows are fitted with.
+  [[nodiscard]] std::vector<EffectInUse> fitted() const;
   [[nodiscard]] EffectColumnsList own_columns() const;
   // Columns that stand for effect number `of`, its value in use taken for zero.
   struct OtherColumns {

@@ -161,7 +161,7 @@ void EffectSearch::estimate_joint_covariance() {
   }
   if (shaped.empty() || context_.stopped()) return;
   const Linearization linear =
-      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+      linearize(table(), state_, fitted(), columns, context_, kEveryChannel, &memory_);
   if (context_.stopped()) return;
   const ModelFit fit = fit_as_it_stands(linear, subset);
   const auto own = fit.covariance.rows() - static_cast<Eigen::Index>(shaped.size());
