@@ -418,6 +418,10 @@ class Calibration {
       return wrong_target(spacing);
     if (const std::string what = contradicted_by_corners(result_); !what.empty())
       return wrong_camera(what);
+    // What two scenes agree on comes before what looks like the board in one of another size.
+    if (several_views()) {
+      if (const auto error = wrong_clouds()) return *error;
+    }
     if (const auto error = wrong_size()) return *error;
     if (const auto error = wrong_clouds()) return *error;
     std::string detail;
