@@ -156,7 +156,7 @@ std::optional<Error> other_tag_family(const GrayImage& image, const Target& targ
                                       std::size_t found, const DetectionOptions& options,
                                       const RunContext& context) {
   // Of the families of 36 bits none was ever read into another's tags.
-  constexpr int kSafeWidth = 6;
+  constexpr int kSafeWidth = 6;  // 36 bits, ten or more of which tell two tags apart.
   const TagPattern* tag = tag_pattern(target.tag_family, 0);
   if (target.type == TargetType::kCharuco || tag == nullptr || tag->width >= kSafeWidth)
     return std::nullopt;

@@ -51,7 +51,7 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
       {"in inches", Eigen::Vector3f::Constant(0.0254F)},
       {"mirrored (its axes make a left-handed frame)", Eigen::Vector3f(1.0F, -1.0F, 1.0F)}};
   // Something may look like the board by chance, but hardly twice in the same place of the rig.
-  constexpr std::size_t kMostScenes = 3;
+  constexpr std::size_t kMostScenes = 3;  // Two that agree, and one that may show nothing.
   std::vector<std::size_t> seen;
   std::vector<Cloud> clouds;
   for (std::size_t s = 0; s < result.scenes.size() && seen.size() < kMostScenes; ++s) {

@@ -119,7 +119,7 @@ class ForwardSolver {
   // Planes alone leave a board's place in its plane to what all of them say together: what may lie
   // beyond its edge there is left out. Its outline was found, so that most of it is on the board.
   [[nodiscard]] double place_margin_m(std::size_t s) const {
-    constexpr double kSigmas = 3.0;
+    constexpr double kSigmas = 3.0;  // As for the spot: one in four hundred lies beyond.
     constexpr double kMost = 0.25;  // Of the shorter side.
     const BoardOutline& outline = print_.outline();
     const double most = kMost * outline.size_m().minCoeff();

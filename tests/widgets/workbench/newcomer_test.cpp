@@ -37,9 +37,8 @@ class NewcomerTest : public ::testing::Test {
     window_.resize(1500, 940);
     window_.show();
     // A short stage may come and go between two looks: the status line is read whenever it changes.
-    QObject::connect(&window_.workspace(), &Workspace::progressed, &window_, [this] {
-      seen_.insert(test::find<QLabel>(window_, "stage")->text());
-    });
+    QObject::connect(&window_.workspace(), &Workspace::progressed, &window_,
+                     [this] { seen_.insert(test::find<QLabel>(window_, "stage")->text()); });
     look_around();
   }
   ~NewcomerTest() override {
