@@ -120,7 +120,7 @@ class ForwardSolver {
   // beyond its edge there is left out. Its outline was found, so that most of it is on the board.
   [[nodiscard]] double place_margin_m(std::size_t s) const {
     constexpr double kSigmas = 3.0;  // As for the spot: one in four hundred lies beyond.
-    constexpr double kMost = 0.25;  // Of the shorter side.
+    constexpr double kMost = 0.25;   // Of the shorter side.
     const BoardOutline& outline = print_.outline();
     const double most = kMost * outline.size_m().minCoeff();
     if (last_.covariance.rows() < 6) return most;
