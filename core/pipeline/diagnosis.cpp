@@ -135,8 +135,8 @@ std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
                                                const CalibrationRequest& request,
                                                const CalibrationResult& result,
                                                const RunContext& context) {
-  // Every pair is two searches, after a failure: of six scenes fifteen pairs.
-  constexpr std::size_t kMostScenes = 6;
+  // Every pair is two searches, after a failure.
+  constexpr std::size_t kMostScenes = 6;  // Fifteen pairs, thirty searches.
   std::vector<std::size_t> seen;
   std::vector<SceneHypotheses> scenes;
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {

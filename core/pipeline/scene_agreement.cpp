@@ -74,13 +74,13 @@ namespace {
 
 // What one scene says of the extrinsic at the solution of all, the other globals held there: twice
 // the log-likelihood changes by 2 gᵀξ − ξᵀHξ.
-struct SceneSays {
+struct SceneInformation {
   Matrix6d information;
   Vector6d gradient;
 };
 
-std::vector<SceneSays> scenes_say(const CalibrationResult& result) {
-  std::vector<SceneSays> out;
+std::vector<SceneInformation> scene_information(const CalibrationResult& result) {
+  std::vector<SceneInformation> out;
   if (!result.model_fit) {
     for (const GlobalTerm& term : result.forward->terms) {
       if (!term.usable) return {};
@@ -97,16 +97,16 @@ std::vector<SceneSays> scenes_say(const CalibrationResult& result) {
 }
 
 // By how much χ² falls if scenes choose freely, and in how many directions they can.
-struct Fall {
+struct ChiSquareDrop {
   double chi = 0.0;
   int freedom = 0;
 };
 
 template <class Matrix, class Vector>
-Fall fall(const Matrix& information, const Vector& gradient) {
+ChiSquareDrop chi_square_drop(const Matrix& information, const Vector& gradient) {
   constexpr double kRank = 1e-9;  // What rounding leaves of directions that nothing tells.
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
-  Fall out;
+  ChiSquareDrop out;
   for (Eigen::Index k = 0; k < gradient.size(); ++k) {
     const double told = eigen.eigenvalues()(k);
     if (!(told > kRank * eigen.eigenvalues().maxCoeff())) continue;
@@ -119,9 +119,9 @@ Fall fall(const Matrix& information, const Vector& gradient) {
 // Ways in which an extrinsic may differ from scene to scene, tried one by one.
 class Motions {
  public:
-  explicit Motions(std::vector<SceneSays> scenes) : scenes_(std::move(scenes)) {
-    for (const SceneSays& scene : scenes_) {
-      const Fall one = fall(scene.information, scene.gradient);
+  explicit Motions(std::vector<SceneInformation> scenes) : scenes_(std::move(scenes)) {
+    for (const SceneInformation& scene : scenes_) {
+      const ChiSquareDrop one = chi_square_drop(scene.information, scene.gradient);
       free_.chi += one.chi;
       free_.freedom += one.freedom;
     }
@@ -131,8 +131,8 @@ class Motions {
   // Scenes from `first` to before `last` have an extrinsic of their own.
   [[nodiscard]] double apart(std::size_t first, std::size_t last) const {
     const auto inside = [&](std::size_t s) { return s >= first && s < last; };
-    const Fall in = of(inside);
-    const Fall out = of([&](std::size_t s) { return !inside(s); });
+    const ChiSquareDrop in = of(inside);
+    const ChiSquareDrop out = of([&](std::size_t s) { return !inside(s); });
     // Both sides must determine the extrinsic, else it is not the whole of it that differs.
     if (in.freedom < 6 || out.freedom < 6) return 1.0;
     return chance(in.chi + out.chi);
@@ -141,7 +141,7 @@ class Motions {
   // It changes in proportion to something that is known of each scene.
   [[nodiscard]] double along(const std::vector<double>& known) const {
     const auto [information, gradient] = with_rate(known);
-    const Fall both = fall(information, gradient);
+    const ChiSquareDrop both = chi_square_drop(information, gradient);
     return both.freedom < 12 ? 1.0 : chance(both.chi);
   }
 
@@ -167,14 +167,14 @@ class Motions {
   }
 
   template <class Which>
-  [[nodiscard]] Fall of(const Which& which) const {
-    SceneSays sum{Matrix6d::Zero(), Vector6d::Zero()};
+  [[nodiscard]] ChiSquareDrop of(const Which& which) const {
+    SceneInformation sum{Matrix6d::Zero(), Vector6d::Zero()};
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (!which(s)) continue;
       sum.information += scenes_[s].information;
       sum.gradient += scenes_[s].gradient;
     }
-    return fall(sum.information, sum.gradient);
+    return chi_square_drop(sum.information, sum.gradient);
   }
 
   // F-test of six more numbers against what scenes differ by beyond them: an effect that is missing
@@ -189,8 +189,8 @@ class Motions {
     return boost::math::cdf(boost::math::complement(f, explained / left));
   }
 
-  std::vector<SceneSays> scenes_;
-  Fall free_, common_;
+  std::vector<SceneInformation> scenes_;
+  ChiSquareDrop free_, common_;
 };
 
 }  // namespace
@@ -198,19 +198,19 @@ class Motions {
 void judge_bump(const CalibrationResult& result, Verdict& verdict) {
   if (!result.forward) return;
   const std::vector<std::size_t> in_use = scenes_in_use(result.extrinsic);
-  const std::vector<SceneSays> says = scenes_say(result);
+  const std::vector<SceneInformation> told = scene_information(result);
   const std::size_t n = in_use.size();
-  if (n < 3 || says.size() != n) return;
+  if (n < 3 || told.size() != n) return;
   const auto name_of = [&](std::size_t k) { return result.extrinsic.scenes[in_use[k]].name; };
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return name_of(a) < name_of(b); });
-  std::vector<SceneSays> in_order;
+  std::vector<SceneInformation> in_order;
   std::vector<double> clock;  // From 0 to 1.
   std::vector<double> distance_m;
   for (const std::size_t k : order) {
-    in_order.push_back(says[k]);
+    in_order.push_back(told[k]);
     clock.push_back(static_cast<double>(clock.size()) / static_cast<double>(n - 1));
     distance_m.push_back(result.extrinsic.scenes[in_use[k]].camera_from_board.translation.norm());
   }
