@@ -43,17 +43,18 @@ DOORS["report"] = sorted(set(DOORS) - {"simulation"})
 
 # Which folders of widgets/ a folder may include, besides itself.
 WIDGET_DOORS = {
+    "words": [],
     "style": [],
-    "runner": [],
-    "models": ["style", "runner"],
-    "views": ["style"],
-    "pages": ["style", "views"],
-    "modelling": ["style", "views", "runner"],
-    "dialogs": ["style", "runner"],
-    "tools": ["style", "views", "runner", "modelling", "dialogs"],
-    "importing": ["style", "runner", "dialogs", "tools"],
-    "docks": ["style", "models"],
-    "start": ["style"],
+    "runner": ["words"],
+    "models": ["words", "style", "runner"],
+    "views": ["words", "style"],
+    "pages": ["words", "style", "views"],
+    "modelling": ["words", "style", "views", "runner"],
+    "dialogs": ["words", "style", "runner"],
+    "tools": ["words", "style", "views", "runner", "modelling", "dialogs"],
+    "importing": ["words", "style", "runner", "dialogs", "tools"],
+    "docks": ["words", "style", "models"],
+    "start": ["words", "style"],
 }
 
 # Headers of cloud/ that the simulator may use: it writes clouds and shares no estimation code.

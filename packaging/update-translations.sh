@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Reads all texts of the window into the catalogues: from widgets/ and app/workbench/, and from the
-# lists that the core declares (translations/core_texts.cpp). New texts come in as unfinished, texts
+# Reads all texts of the window into the catalogues: from widgets/ and app/workbench/, from the
+# sentences of the core (packaging/core-messages.py) and from the lists that it declares
+# (translations/core_texts.cpp). New texts come in as unfinished, texts
 # that are gone are dropped; then translate with Qt Linguist, or in an editor.
 #   packaging/update-translations.sh [FOLDER]   catalogues in FOLDER (default translations)
 # CORE_TEXTS: the program built from translations/core_texts.cpp; without it, it is built first.
@@ -19,5 +20,6 @@ lupdate=${LUPDATE:-/usr/lib/qt6/bin/lupdate}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$CORE_TEXTS" >"$work/core_texts.cpp"
+python3 "$root/packaging/core-messages.py" "$root" >"$work/core_messages.cpp"
 "$lupdate" -no-obsolete -locations none -I "$root/widgets" -I "$root/app" "$root/widgets" "$root/app/workbench" \
-  "$work/core_texts.cpp" -ts "$folder"/*.ts
+  "$work/core_texts.cpp" "$work/core_messages.cpp" -ts "$folder"/*.ts

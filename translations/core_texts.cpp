@@ -33,7 +33,8 @@ int main() {
     texts.insert(format.description);
   for (const lvcalib::EffectPtr& effect : lvcalib::effect_catalogue()) {
     const lvcalib::EffectInfo& info = effect->info();
-    for (const std::string& text : {info.title, info.physics, info.discriminating_pose}) {
+    for (const std::string& text :
+         {info.title, info.physics, info.discriminating_pose, effect->shape_name()}) {
       if (!text.empty()) texts.insert(text);
     }
   }

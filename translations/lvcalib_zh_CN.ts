@@ -254,14 +254,6 @@ were saved. Take them up again?</source>
         <translation>没有图像显示 target.yaml 中上方各行的标签：%1 则相符</translation>
     </message>
     <message>
-        <source>the images contradict target.yaml: %1 would fit (corners then scatter by %2 px, now by %3 px); measure the print</source>
-        <translation>图像与 target.yaml 矛盾：%1 则相符（角点离散将为 %2 px，现为 %3 px）；请测量印刷图案</translation>
-    </message>
-    <message>
-        <source>the images contradict target.yaml: %1 would fit (corners then scatter by %2 px, now by %3 px)</source>
-        <translation>图像与 target.yaml 矛盾：%1 则相符（角点离散将为 %2 px，现为 %3 px）</translation>
-    </message>
-    <message>
         <source>the tags do not lie where the target has them; they do with %1</source>
         <translation>标签不在标定板描述的位置上；若 %1 则相符</translation>
     </message>
@@ -442,10 +434,6 @@ were saved. Take them up again?</source>
         <translation>%2 个圆中仅 %1 个可用</translation>
     </message>
     <message>
-        <source>no tags in the image (the board must be in view, sharp, and neither dark nor overexposed)</source>
-        <translation>图像中没有标签（标定板须在视野内、清晰，且既不过暗也不过曝）</translation>
-    </message>
-    <message>
         <source>used</source>
         <translation>已使用</translation>
     </message>
@@ -548,14 +536,6 @@ were saved. Take them up again?</source>
     <message>
         <source>no circle gives boundary samples: %1 (the first: %2)</source>
         <translation>没有圆给出边界样本：%1（第一个：%2）</translation>
-    </message>
-    <message>
-        <source>no circle gives boundary samples: %1</source>
-        <translation>没有圆给出边界样本：%1</translation>
-    </message>
-    <message>
-        <source>%1 × %2, %3</source>
-        <translation>%1 × %2，%3</translation>
     </message>
     <message>
         <source>%1 × %2</source>
@@ -1470,10 +1450,6 @@ were saved. Take them up again?</source>
         <translation>光束被边缘切断时，能量只来自光斑的一侧，在倾斜的标定板上这一侧或近或远；1 是每次扫描中单由功率造成的大小。</translation>
     </message>
     <message>
-        <source>%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and the extrinsic moves by %5 mm and %6 mrad. These scenes cannot tell it from %7; to tell: %8.</source>
-        <translation>%1 结果：%2。加入后，留出场景在%4通道的平方误差减少 %3 %，外参移动 %5 mm 和 %6 mrad。这些场景无法将它与 %7 区分；要区分需要：%8。</translation>
-    </message>
-    <message>
         <source>%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and the extrinsic moves by %5 mm and %6 mrad.</source>
         <translation>%1 结果：%2。加入后，留出场景在%4通道的平方误差减少 %3 %，外参移动 %5 mm 和 %6 mrad。</translation>
     </message>
@@ -1762,14 +1738,6 @@ were saved. Take them up again?</source>
         <translation>其棋盘格的黑白方格与大多数场景相反：是另一块标定板，还是图像被镜像了？</translation>
     </message>
     <message>
-        <source>the board, or one with the same tags, is in the image twice (cover one of them, or leave this scene out)</source>
-        <translation>图像中出现了两块标定板（或标签相同的标定板）（请遮住其中一块，或弃用该场景）</translation>
-    </message>
-    <message>
-        <source>two checkerboards of this size are in the image (cover one of them, or leave this scene out)</source>
-        <translation>图像中有两块该尺寸的棋盘格（请遮住其中一块，或弃用该场景）</translation>
-    </message>
-    <message>
         <source>Done when the extrinsic moves by less of its σ.</source>
         <translation>外参的移动小于其 σ 的这一比例时结束。</translation>
     </message>
@@ -1922,16 +1890,8 @@ were saved. Take them up again?</source>
         <translation>%1通道随%2呈现出模型中任何效应都无法解释的结构；它可能使外参移动 %3 mm 和 %4 mrad</translation>
     </message>
     <message>
-        <source>%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and %6 mrad. These scenes cannot tell it from %7; to tell: %8.</source>
-        <translation>%1 结果：%2；%3 = %4；不计入它会使外参移动 %5 mm 和 %6 mrad。这些场景无法将其与 %7 区分；区分方法：%8。</translation>
-    </message>
-    <message>
         <source>%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and %6 mrad.</source>
         <translation>%1 结果：%2；%3 = %4；不计入它会使外参移动 %5 mm 和 %6 mrad。</translation>
-    </message>
-    <message>
-        <source>%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad. These scenes cannot tell it from %5; to tell: %6.</source>
-        <translation>%1 结果：%2；不计入它会使外参移动 %3 mm 和 %4 mrad。这些场景无法将其与 %5 区分；区分方法：%6。</translation>
     </message>
     <message>
         <source>%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad.</source>
@@ -1982,22 +1942,6 @@ were saved. Take them up again?</source>
         <translation>偏离标定板位姿，超出门限</translation>
     </message>
     <message>
-        <source>%1: the image file is empty</source>
-        <translation>%1：图像文件为空</translation>
-    </message>
-    <message>
-        <source>%1: the image cannot be decoded: its data are damaged (%2)</source>
-        <translation>%1：图像无法解码：数据已损坏（%2）</translation>
-    </message>
-    <message>
-        <source>%1: is truncated: its header says %2 points, found %3 (copy or export the file again)</source>
-        <translation>%1：文件被截断：文件头声明 %2 个点，实际 %3 个（请重新复制或导出该文件）</translation>
-    </message>
-    <message>
-        <source>%1: file not found</source>
-        <translation>%1：找不到文件</translation>
-    </message>
-    <message>
         <source>no scene can be used; scene %1: %2</source>
         <translation>没有可用的场景；场景 %1：%2</translation>
     </message>
@@ -2008,14 +1952,6 @@ were saved. Take them up again?</source>
     <message>
         <source>choose the folder that holds these, or make one from a recording</source>
         <translation>请选择包含这些内容的文件夹，或由录制数据生成一个</translation>
-    </message>
-    <message>
-        <source>%1: no image in this scene; expected image.png, .jpg, .bmp or .tiff</source>
-        <translation>%1：此场景没有图像；应有 image.png、.jpg、.bmp 或 .tiff</translation>
-    </message>
-    <message>
-        <source>%1: no cloud in this scene; expected cloud.pcd or cloud.ply</source>
-        <translation>%1：此场景没有点云；应有 cloud.pcd 或 cloud.ply</translation>
     </message>
     <message>
         <source>&apos;%1&apos; is no name of a frame; expected letters, digits and _ - . /, not beginning with - and without --</source>
@@ -2104,10 +2040,6 @@ were saved. Take them up again?</source>
     <message>
         <source>%1: its images change their size; calibrate takes those of the camera&apos;s size</source>
         <translation>%1：图像尺寸有变化；标定只采用与相机尺寸相同的图像</translation>
-    </message>
-    <message>
-        <source>%1: is of images of %2 px, but they have %3</source>
-        <translation>%1：对应 %2 px 的图像，而实际图像为 %3</translation>
     </message>
     <message>
         <source>%1: is taken for rectified; camera.yaml holds the intrinsics of rectified images, without distortion</source>
@@ -2246,14 +2178,6 @@ were saved. Take them up again?</source>
         <translation>不含消息</translation>
     </message>
     <message>
-        <source>%1: holds no images (sensor_msgs/Image or CompressedImage)</source>
-        <translation>%1：不含图像（sensor_msgs/Image 或 CompressedImage）</translation>
-    </message>
-    <message>
-        <source>%1: holds no clouds (sensor_msgs/PointCloud2 or Livox CustomMsg)</source>
-        <translation>%1：不含点云（sensor_msgs/PointCloud2 或 Livox CustomMsg）</translation>
-    </message>
-    <message>
         <source>holds no images (sensor_msgs/Image or CompressedImage)</source>
         <translation>不含图像（sensor_msgs/Image 或 CompressedImage）</translation>
     </message>
@@ -2316,10 +2240,6 @@ were saved. Take them up again?</source>
     <message>
         <source>%1: has no metadata.yaml; its %2 file is read</source>
         <translation>%1：没有 metadata.yaml；读取其中的 %2 个文件</translation>
-    </message>
-    <message>
-        <source>%1: holds no %2 but raw packets: %3 (play it through %4 and record what comes out)</source>
-        <translation>%1：不含%2，只有原始数据包：%3（请经 %4 回放并记录其输出）</translation>
     </message>
     <message>
         <source>holds no %1 but raw packets: %2</source>
@@ -2558,10 +2478,6 @@ were saved. Take them up again?</source>
         <translation>measuredLength 与 drawnLength 须同时给出，均以米为单位，且任何打印的误差都不会超过十分之一；实际为 %1 和 %2</translation>
     </message>
     <message>
-        <source>the image size must be positive, found %1</source>
-        <translation>图像尺寸必须为正，实际为 %1</translation>
-    </message>
-    <message>
         <source>the intrinsics must be finite numbers</source>
         <translation>内参必须是有限的数</translation>
     </message>
@@ -2572,10 +2488,6 @@ were saved. Take them up again?</source>
     <message>
         <source>focal lengths are given in pixels</source>
         <translation>焦距以像素为单位</translation>
-    </message>
-    <message>
-        <source>the principal point (%1) px lies far outside the image of %2 px</source>
-        <translation>主点 (%1) px 远在 %2 px 的图像之外</translation>
     </message>
     <message>
         <source>%1: the distortion folds back inside the image: %2 of its 4 corners have no ray; are the coefficients right?</source>
@@ -2626,20 +2538,8 @@ were saved. Take them up again?</source>
         <translation>请给两者相同的名称、相同的编号，或以时间为名</translation>
     </message>
     <message>
-        <source>%1: no cloud belongs to it</source>
-        <translation>%1：没有与之相配的点云</translation>
-    </message>
-    <message>
-        <source>%1: no image belongs to it</source>
-        <translation>%1：没有与之相配的图像</translation>
-    </message>
-    <message>
         <source>%1 more files without a partner</source>
         <translation>另有 %1 个文件没有配对</translation>
-    </message>
-    <message>
-        <source>its image has %1 px, the camera&apos;s have %2</source>
-        <translation>其图像为 %1 px，而相机的图像为 %2</translation>
     </message>
     <message>
         <source>no intrinsics lie with the files; put a camera.yaml into the dataset before it is calibrated</source>
@@ -2900,6 +2800,1818 @@ were saved. Take them up again?</source>
     <message>
         <source>the clouds or the images of scenes %1 and %2 seem to be exchanged: all scenes agree if they are</source>
         <translation>场景 %1 与 %2 的点云或图像似乎互换了：换回来后所有场景一致</translation>
+    </message>
+    <message>
+        <source> These scenes cannot tell it from %1; to tell: %2.</source>
+        <translation>这些场景无法将它与 %1 区分；要区分需要：%2。</translation>
+    </message>
+    <message>
+        <source>%1 %2</source>
+        <translation>%1 %2</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1（%2）</translation>
+    </message>
+    <message>
+        <source>%1 (it could move the extrinsic by %2 mm and %3 mrad)</source>
+        <translation>%1（它可能使外参移动 %2 mm 和 %3 mrad）</translation>
+    </message>
+    <message>
+        <source>%1 and %2</source>
+        <translation>%1 和 %2</translation>
+    </message>
+    <message>
+        <source>%1 and whose tags are each turned by %2°</source>
+        <translation>%1，且每个标签各旋转 %2°</translation>
+    </message>
+    <message>
+        <source>%1 has %2 different labels, expected at most %3</source>
+        <translation>%1 有 %2 个不同的类别，至多应为 %3 个</translation>
+    </message>
+    <message>
+        <source>%1 is not a finite number on some rows</source>
+        <translation>%1 在某些行上不是有限的数</translation>
+    </message>
+    <message>
+        <source>%1 is the same on all rows</source>
+        <translation>%1 在所有行上都相同</translation>
+    </message>
+    <message>
+        <source>%1 scenes</source>
+        <translation>%1 个场景</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 至 %2</translation>
+    </message>
+    <message>
+        <source>%1 topics hold clouds: %2</source>
+        <translation>有 %1 个话题含有点云：%2</translation>
+    </message>
+    <message>
+        <source>%1 topics hold images: %2</source>
+        <translation>有 %1 个话题含有图像：%2</translation>
+    </message>
+    <message>
+        <source>%1 usable scenes; a target without circles needs three or more, differently turned</source>
+        <translation>可用场景 %1 个；没有圆的标定板需要三个或更多朝向不同的场景</translation>
+    </message>
+    <message>
+        <source>%1 would fit (corners then scatter by %2 px, now by %3 px)</source>
+        <translation>%1 则相符（角点离散将为 %2 px，现为 %3 px）</translation>
+    </message>
+    <message>
+        <source>%1%2</source>
+        <translation>%1%2</translation>
+    </message>
+    <message>
+        <source>%1, or upside down and whose tags are each turned by 180°</source>
+        <translation>%1，或上下颠倒且每个标签各旋转 180°</translation>
+    </message>
+    <message>
+        <source>%1-bit border</source>
+        <translation>%1 位宽黑边</translation>
+    </message>
+    <message>
+        <source>%1.id is &apos;%2&apos;, which is no effect that this version knows</source>
+        <translation>%1.id 为“%2”，此版本不认识这个效应</translation>
+    </message>
+    <message>
+        <source>%1.id is &apos;%2&apos;, which is no effect that this version knows; did you mean &apos;%3&apos;?</source>
+        <translation>%1.id 为“%2”，此版本不认识这个效应；您是指“%3”吗？</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>%1: %2; left out</source>
+        <translation>%1：%2；已略去</translation>
+    </message>
+    <message>
+        <source>%1: 4 distortion coefficients and no distortion_model: taken as k1 k2 p1 p2; add &apos;distortion_model: equidistant&apos; if this is a fisheye lens</source>
+        <translation>%1：有 4 个畸变系数而没有 distortion_model：按 k1 k2 p1 p2 处理；若为鱼眼镜头，请添加“distortion_model: equidistant”</translation>
+    </message>
+    <message>
+        <source>%1: a chunk is packed as &apos;%2&apos;, which is not known; expected none, bz2 or lz4</source>
+        <translation>%1：某个数据块的压缩方式为“%2”，无法识别；应为 none、bz2 或 lz4</translation>
+    </message>
+    <message>
+        <source>%1: cannot be read, and stays as it is</source>
+        <translation>%1：无法读取，保持原样</translation>
+    </message>
+    <message>
+        <source>%1: expected 3 or 4 rows of 4 numbers, found %2 numbers</source>
+        <translation>%1：应为 3 或 4 行、每行 4 个数，实际有 %2 个数</translation>
+    </message>
+    <message>
+        <source>%1: expected true or false, found &apos;%2&apos;</source>
+        <translation>%1：应为 true 或 false，实际为“%2”</translation>
+    </message>
+    <message>
+        <source>%1: holds %2 cameras; &apos;%3&apos; is used</source>
+        <translation>%1：含有 %2 个相机；使用“%3”</translation>
+    </message>
+    <message>
+        <source>%1: is of images of %2 × %3 px, but they have %4 × %5</source>
+        <translation>%1：对应 %2 × %3 px 的图像，而实际图像为 %4 × %5</translation>
+    </message>
+    <message>
+        <source>%1: the chunk at byte %2 is damaged</source>
+        <translation>%1：第 %2 字节处的数据块已损坏</translation>
+    </message>
+    <message>
+        <source>%1: the chunk at byte %2 is packed as &apos;%3&apos;, which is not known; expected lz4 or zstd</source>
+        <translation>%1：第 %2 字节处的数据块压缩方式为“%3”，无法识别；应为 lz4 或 zstd</translation>
+    </message>
+    <message>
+        <source>%1:%2: %3</source>
+        <translation>%1:%2：%3</translation>
+    </message>
+    <message>
+        <source>%1; it is left out</source>
+        <translation>%1；已将其略去</translation>
+    </message>
+    <message>
+        <source>%1; left out</source>
+        <translation>%1；已略去</translation>
+    </message>
+    <message>
+        <source>%1° above</source>
+        <translation>上方 %1°</translation>
+    </message>
+    <message>
+        <source>%1° below</source>
+        <translation>下方 %1°</translation>
+    </message>
+    <message>
+        <source>%1° left</source>
+        <translation>左侧 %1°</translation>
+    </message>
+    <message>
+        <source>%1° right</source>
+        <translation>右侧 %1°</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos;</source>
+        <translation>“%1”</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; holds %2 numbers, but this distortion model has %3; thin-prism and tilt terms are not supported</source>
+        <translation>“%1”包含 %2 个数，但此畸变模型有 %3 个；不支持薄棱镜项和倾斜项</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be [fx, 0, cx, 0, fy, cy, 0, 0, 1] row by row%2</source>
+        <translation>“%1”必须逐行为 [fx, 0, cx, 0, fy, cy, 0, 0, 1]%2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a list of folders</source>
+        <translation>“%1”必须是文件夹列表</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a list of scenes</source>
+        <translation>“%1”必须是场景列表</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a matrix, or have translation_m and quaternion_xyzw</source>
+        <translation>“%1”必须是矩阵，或包含 translation_m 和 quaternion_xyzw</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be a number</source>
+        <translation>“%1”必须是数字</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must be true or false</source>
+        <translation>“%1”必须为 true 或 false</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold %2 numbers for each place</source>
+        <translation>“%1”中每个位置必须有 %2 个数</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold %2 numbers for this distortion model, found %3</source>
+        <translation>对于此畸变模型，“%1”必须包含 %2 个数，实际有 %3 个</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold 12 or 16 numbers, found %2</source>
+        <translation>“%1”必须包含 12 或 16 个数，实际有 %2 个</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold 9 numbers, found %2</source>
+        <translation>“%1”必须包含 9 个数，实际有 %2 个</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold ids</source>
+        <translation>“%1”只能包含编号</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; must hold width and height in whole pixels</source>
+        <translation>“%1”必须包含宽度和高度，以整像素为单位</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; says %2 × %3 but holds %4 numbers</source>
+        <translation>“%1”标明为 %2 × %3，但包含 %4 个数</translation>
+    </message>
+    <message>
+        <source>&apos;dataset&apos; is empty</source>
+        <translation>“dataset”为空</translation>
+    </message>
+    <message>
+        <source>&apos;model&apos; must be a list of changes</source>
+        <translation>“model”必须是更改的列表</translation>
+    </message>
+    <message>
+        <source>&apos;options&apos; must hold &apos;name: value&apos; entries</source>
+        <translation>“options”必须由“名称: 值”条目组成</translation>
+    </message>
+    <message>
+        <source>&apos;patches_m&apos; must be a list of polygons</source>
+        <translation>“patches_m”必须是多边形列表</translation>
+    </message>
+    <message>
+        <source>, %1 and %2 of the optical axis</source>
+        <translation>，在光轴%1、%2 处</translation>
+    </message>
+    <message>
+        <source>, %1 of the optical axis</source>
+        <translation>，在光轴%1 处</translation>
+    </message>
+    <message>
+        <source>, facing the camera</source>
+        <translation>，正对相机</translation>
+    </message>
+    <message>
+        <source>, first where %1</source>
+        <translation>，首次出现于 %1</translation>
+    </message>
+    <message>
+        <source>, in the middle of the image</source>
+        <translation>，在图像正中</translation>
+    </message>
+    <message>
+        <source>, or as a closed form: --with &apos;%1&apos;</source>
+        <translation>，或以闭式公式去除：--with “%1”</translation>
+    </message>
+    <message>
+        <source>, rolled by %1°</source>
+        <translation>，面内旋转 %1°</translation>
+    </message>
+    <message>
+        <source>, the left side turned away by %1°</source>
+        <translation>，左边后转 %1°</translation>
+    </message>
+    <message>
+        <source>, the right side turned away by %1°</source>
+        <translation>，右边后转 %1°</translation>
+    </message>
+    <message>
+        <source>, the top leaning away by %1°</source>
+        <translation>，上边后仰 %1°</translation>
+    </message>
+    <message>
+        <source>, the top leaning towards the camera by %1°</source>
+        <translation>，上边向相机前倾 %1°</translation>
+    </message>
+    <message>
+        <source>1 scene</source>
+        <translation>1 个场景</translation>
+    </message>
+    <message>
+        <source>4 or 5</source>
+        <translation>4 或 5</translation>
+    </message>
+    <message>
+        <source>; did you mean &apos;%1&apos;?</source>
+        <translation>；您是指“%1”吗？</translation>
+    </message>
+    <message>
+        <source>; skew is not supported</source>
+        <translation>；不支持倾斜（轴不垂直）参数</translation>
+    </message>
+    <message>
+        <source>; there is %1</source>
+        <translation>；可用的有 %1</translation>
+    </message>
+    <message>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR sees it about %1 % larger than target.yaml says</source>
+        <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 约大 %1 %</translation>
+    </message>
+    <message>
+        <source>LiDAR and camera disagree on the board&apos;s size: the LiDAR sees it about %1 % smaller than target.yaml says</source>
+        <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 约小 %1 %</translation>
+    </message>
+    <message>
+        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model; scene %3 misses most</source>
+        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应；场景 %3 偏差最大</translation>
+    </message>
+    <message>
+        <source>No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out variance, %4 %5); to take it out anyway: --with %6</source>
+        <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4 %5）；仍要去除它：--with %6</translation>
+    </message>
+    <message>
+        <source>No further scene of this board will show %1; measure instead: %2</source>
+        <translation>用此标定板再拍摄任何场景都看不到 %1；请改为测量：%2</translation>
+    </message>
+    <message>
+        <source>No further scene of this board will tell %1 from %2 (at best %3 σ); measure instead: %4</source>
+        <translation>用此标定板再拍摄任何场景都无法区分 %1 与 %2（至多 %3 σ）；请改为测量：%4</translation>
+    </message>
+    <message>
+        <source>T_CL is missing or not 3 rows of 4 numbers</source>
+        <translation>缺少 T_CL，或它不是 3 行、每行 4 个数</translation>
+    </message>
+    <message>
+        <source>T_camera_lidar.matrix is missing or not 4 rows of 4 numbers</source>
+        <translation>缺少 T_camera_lidar.matrix，或它不是 4 行、每行 4 个数</translation>
+    </message>
+    <message>
+        <source>The extrinsic&apos;s weakest direction gains most from a scene with the board %1: its standard deviation falls from %2 to %3 mm (or mrad)</source>
+        <translation>对外参最弱的方向改善最大的场景是：标定板%1；其标准差由 %2 降至 %3 mm（或 mrad）</translation>
+    </message>
+    <message>
+        <source>To see whether %1 is there (it could move the extrinsic by %2 mm and %3 mrad), take: %4</source>
+        <translation>要看 %1 是否存在（它可能使外参移动 %2 mm 和 %3 mrad），请拍摄：%4</translation>
+    </message>
+    <message>
+        <source>To see whether there is %1, take a scene with the board %2; what matters of it would stand %3 σ (now %4 σ)</source>
+        <translation>要看是否存在 %1，请拍摄一个场景，标定板%2；其有意义的大小将达 %3 σ（现为 %4 σ）</translation>
+    </message>
+    <message>
+        <source>To tell %1 from %2, take a scene with the board %3; the difference would stand %4 σ (now %5 σ)</source>
+        <translation>要区分 %1 与 %2，请拍摄一个场景，标定板%3；两者之差将达 %4 σ（现为 %5 σ）</translation>
+    </message>
+    <message>
+        <source>To tell %1 from %2, take: %3</source>
+        <translation>要区分 %1 与 %2，请拍摄：%3</translation>
+    </message>
+    <message>
+        <source>XML intrinsics are not read</source>
+        <translation>不读取 XML 格式的内参</translation>
+    </message>
+    <message>
+        <source>YAML is nested too deeply or far too large</source>
+        <translation>YAML 嵌套过深或过大</translation>
+    </message>
+    <message>
+        <source>&quot;distortion_coeffs&quot; holds more numbers than its model has</source>
+        <translation>“distortion_coeffs”包含的数多于其模型的系数</translation>
+    </message>
+    <message>
+        <source>&quot;intrinsics&quot; must hold fx, fy, cx, cy</source>
+        <translation>“intrinsics”必须包含 fx、fy、cx、cy</translation>
+    </message>
+    <message>
+        <source>a board&apos;s pose needs four corners, found %1</source>
+        <translation>求标定板位姿需要四个角点，实际有 %1 个</translation>
+    </message>
+    <message>
+        <source>a change of the model needs &apos;change&apos; and &apos;effect&apos;</source>
+        <translation>模型的更改需要“change”和“effect”</translation>
+    </message>
+    <message>
+        <source>a cloud claims %1 × %2 points of %3 bytes and holds %4 bytes</source>
+        <translation>点云标明有 %1 × %2 个点、每点 %3 字节，实际包含 %4 字节</translation>
+    </message>
+    <message>
+        <source>a cloud is written of one scene</source>
+        <translation>点云只能按单个场景写出</translation>
+    </message>
+    <message>
+        <source>a compressed bmp file, which cannot be read</source>
+        <translation>压缩的 bmp 文件，无法读取</translation>
+    </message>
+    <message>
+        <source>a compressed image (format &apos;%1&apos;) is damaged: %2</source>
+        <translation>压缩图像（格式“%1”）已损坏：%2</translation>
+    </message>
+    <message>
+        <source>a compressed image (format &apos;%1&apos;) is neither jpeg nor png</source>
+        <translation>压缩图像（格式“%1”）既不是 jpeg 也不是 png</translation>
+    </message>
+    <message>
+        <source>a compressed image claims %1 × %2 pixels</source>
+        <translation>压缩图像标明为 %1 × %2 像素</translation>
+    </message>
+    <message>
+        <source>a file is in the way</source>
+        <translation>该位置已有同名文件</translation>
+    </message>
+    <message>
+        <source>a list of property &apos;%1&apos; has an impossible length</source>
+        <translation>属性“%1”的某个列表长度不可能成立</translation>
+    </message>
+    <message>
+        <source>a message is empty</source>
+        <translation>有一条消息为空</translation>
+    </message>
+    <message>
+        <source>a message is not CDR: it begins with %1 %2, expected 0 and 0 or 1</source>
+        <translation>有一条消息不是 CDR：它以 %1 %2 开头，应为 0 和 0 或 1</translation>
+    </message>
+    <message>
+        <source>a message of type %1 ends before its data do</source>
+        <translation>一条类型为 %1 的消息在其数据结束之前中断</translation>
+    </message>
+    <message>
+        <source>a number of the crop box is not finite</source>
+        <translation>裁剪框中有一个数不是有限的数</translation>
+    </message>
+    <message>
+        <source>ablation is not a list</source>
+        <translation>ablation 不是列表</translation>
+    </message>
+    <message>
+        <source>ablation[%1] must hold name, rms_px, rms_mm and T_camera_lidar (4 rows of 4 numbers)</source>
+        <translation>ablation[%1] 必须包含 name、rms_px、rms_mm 和 T_camera_lidar（4 行、每行 4 个数）</translation>
+    </message>
+    <message>
+        <source>all of it must be visible; check targetCols and targetRows</source>
+        <translation>它必须全部可见；请检查 targetCols 和 targetRows</translation>
+    </message>
+    <message>
+        <source>an image cannot be decoded: its data are damaged</source>
+        <translation>有一幅图像无法解码：数据已损坏</translation>
+    </message>
+    <message>
+        <source>an image claims %1 × %2 pixels (%3, step %4) and holds %5 bytes</source>
+        <translation>图像标明为 %1 × %2 像素（%3，step %4），实际包含 %5 字节</translation>
+    </message>
+    <message>
+        <source>and more</source>
+        <translation>以及其他场景</translation>
+    </message>
+    <message>
+        <source>at %1 m</source>
+        <translation>位于 %1 m 处</translation>
+    </message>
+    <message>
+        <source>bottom</source>
+        <translation>下方</translation>
+    </message>
+    <message>
+        <source>bottom left</source>
+        <translation>左下</translation>
+    </message>
+    <message>
+        <source>bottom right</source>
+        <translation>右下</translation>
+    </message>
+    <message>
+        <source>bundle adjustment</source>
+        <translation>光束法平差</translation>
+    </message>
+    <message>
+        <source>calibrate again (%1 is of the file as it was before)</source>
+        <translation>请重新标定（%1 对应的是更改之前的文件）</translation>
+    </message>
+    <message>
+        <source>calibrate again with this version, which stores the intrinsics</source>
+        <translation>请用此版本重新标定，它会保存内参</translation>
+    </message>
+    <message>
+        <source>calibrate the camera again, or use --intrinsics free</source>
+        <translation>请重新标定相机，或使用 --intrinsics free</translation>
+    </message>
+    <message>
+        <source>camera.%1 is missing or not a number</source>
+        <translation>缺少 camera.%1，或它不是数字</translation>
+    </message>
+    <message>
+        <source>camera.distortion holds something that is no number</source>
+        <translation>camera.distortion 含有不是数字的内容</translation>
+    </message>
+    <message>
+        <source>camera.distortion is missing or of another length than its model&apos;s</source>
+        <translation>缺少 camera.distortion，或其长度与其模型不符</translation>
+    </message>
+    <message>
+        <source>camera.distortion_model is none of plumb_bob, rational_polynomial, equidistant</source>
+        <translation>camera.distortion_model 不是 plumb_bob、rational_polynomial、equidistant 之一</translation>
+    </message>
+    <message>
+        <source>camera.width and camera.height are no image size</source>
+        <translation>camera.width 和 camera.height 不是有效的图像尺寸</translation>
+    </message>
+    <message>
+        <source>camera_model &apos;%1&apos; is not supported; expected pinhole</source>
+        <translation>不支持 camera_model“%1”；应为 pinhole</translation>
+    </message>
+    <message>
+        <source>cannot be made: %1</source>
+        <translation>无法创建：%1</translation>
+    </message>
+    <message>
+        <source>cannot be opened</source>
+        <translation>无法打开</translation>
+    </message>
+    <message>
+        <source>cannot be put in place: %1</source>
+        <translation>无法放置到目标位置：%1</translation>
+    </message>
+    <message>
+        <source>cannot be read to its end</source>
+        <translation>无法读取到末尾</translation>
+    </message>
+    <message>
+        <source>cannot be read: %1</source>
+        <translation>无法读取：%1</translation>
+    </message>
+    <message>
+        <source>cannot be written</source>
+        <translation>无法写入</translation>
+    </message>
+    <message>
+        <source>cannot be written: %1</source>
+        <translation>无法写入：%1</translation>
+    </message>
+    <message>
+        <source>check firstMarkerId, targetCols and targetRows, or use the right board</source>
+        <translation>请检查 firstMarkerId、targetCols 和 targetRows，或使用正确的标定板</translation>
+    </message>
+    <message>
+        <source>check firstTagId, tagCols and tagRows, or use the right board</source>
+        <translation>请检查 firstTagId、tagCols 和 tagRows，或使用正确的标定板</translation>
+    </message>
+    <message>
+        <source>check tagCols, tagRows, tagSpacing and the intrinsics</source>
+        <translation>请检查 tagCols、tagRows、tagSpacing 和内参</translation>
+    </message>
+    <message>
+        <source>check tagId, or use the right board</source>
+        <translation>请检查 tagId，或使用正确的标定板</translation>
+    </message>
+    <message>
+        <source>check target.yaml, and take more images of the board, turned by 20° to 45°</source>
+        <translation>请检查 target.yaml，并多拍摄一些标定板转动 20° 至 45° 的图像</translation>
+    </message>
+    <message>
+        <source>check targetCols, targetRows, firstMarkerId, legacyPattern and the intrinsics</source>
+        <translation>请检查 targetCols、targetRows、firstMarkerId、legacyPattern 和内参</translation>
+    </message>
+    <message>
+        <source>check that target.yaml describes this board</source>
+        <translation>请检查 target.yaml 描述的是否为此标定板</translation>
+    </message>
+    <message>
+        <source>check that the LiDAR sees the whole board and that target.yaml describes it</source>
+        <translation>请检查激光雷达是否看到整块标定板，以及 target.yaml 描述的是否为它</translation>
+    </message>
+    <message>
+        <source>check the driver or the export that wrote the file</source>
+        <translation>请检查写出此文件的驱动或导出程序</translation>
+    </message>
+    <message>
+        <source>check the intrinsics and the target&apos;s description</source>
+        <translation>请检查内参和标定板的描述</translation>
+    </message>
+    <message>
+        <source>choose a larger paper; is the board&apos;s size in metres?</source>
+        <translation>请选择更大的纸张；标定板的尺寸是否以米为单位？</translation>
+    </message>
+    <message>
+        <source>choose one with %1</source>
+        <translation>请用 %1 选择一个</translation>
+    </message>
+    <message>
+        <source>cloud has columns of different length</source>
+        <translation>点云各列的长度不同</translation>
+    </message>
+    <message>
+        <source>convert it to PCD with x y z intensity</source>
+        <translation>请将其转换为含 x y z intensity 的 PCD</translation>
+    </message>
+    <message>
+        <source>copy or export the file again</source>
+        <translation>请重新复制或导出该文件</translation>
+    </message>
+    <message>
+        <source>copy or save the image again</source>
+        <translation>请重新复制或保存该图像</translation>
+    </message>
+    <message>
+        <source>corners miss the board by %1 px RMS: check the intrinsics and the target&apos;s measures</source>
+        <translation>角点偏离标定板 %1 px（均方根）：请检查内参和标定板的尺寸</translation>
+    </message>
+    <message>
+        <source>corners miss the camera by %1 px where their noise is %2 px: the board is not flat, or the lens is not of this distortion model</source>
+        <translation>角点偏离相机模型 %1 px，而其噪声为 %2 px：标定板不平整，或镜头不符合此畸变模型</translation>
+    </message>
+    <message>
+        <source>correct target.yaml, or use the right board</source>
+        <translation>请更正 target.yaml，或使用正确的标定板</translation>
+    </message>
+    <message>
+        <source>corrected bits must be 0, 1 or 2</source>
+        <translation>纠正的位数必须为 0、1 或 2</translation>
+    </message>
+    <message>
+        <source>counting messages</source>
+        <translation>正在统计消息</translation>
+    </message>
+    <message>
+        <source>cover one of them, or leave this scene out</source>
+        <translation>请遮住其中一块，或弃用该场景</translation>
+    </message>
+    <message>
+        <source>dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it</source>
+        <translation>找不到数据集文件夹；其中应有 target.yaml、camera.yaml 和 scenes/</translation>
+    </message>
+    <message>
+        <source>describe the board with target_type: aprilgrid or apriltag</source>
+        <translation>请用 target_type: aprilgrid 或 apriltag 描述标定板</translation>
+    </message>
+    <message>
+        <source>describe the board with target_type: charuco</source>
+        <translation>请用 target_type: charuco 描述标定板</translation>
+    </message>
+    <message>
+        <source>distortion model &apos;%1&apos; has %2 coefficients, found %3</source>
+        <translation>畸变模型“%1”有 %2 个系数，实际为 %3 个</translation>
+    </message>
+    <message>
+        <source>distortion model &apos;%1&apos; is not known; expected plumb_bob, rational_polynomial or equidistant%2</source>
+        <translation>未知的畸变模型“%1”；应为 plumb_bob、rational_polynomial 或 equidistant%2</translation>
+    </message>
+    <message>
+        <source>distortion model &apos;%1&apos; is not known; read are plumb_bob, rational_polynomial and equidistant</source>
+        <translation>未知的畸变模型“%1”；可读取的是 plumb_bob、rational_polynomial 和 equidistant</translation>
+    </message>
+    <message>
+        <source>divisions by zero, roots and logarithms of negative numbers do that</source>
+        <translation>除以零、负数开方或取对数会导致这种情况</translation>
+    </message>
+    <message>
+        <source>does not fit into memory</source>
+        <translation>内存中放不下</translation>
+    </message>
+    <message>
+        <source>drawing</source>
+        <translation>正在绘制</translation>
+    </message>
+    <message>
+        <source>edges agree better after a turn by %1 mrad and a shift by %2 mm: they are %3 px off</source>
+        <translation>旋转 %1 mrad 并平移 %2 mm 后边缘更吻合：目前相差 %3 px</translation>
+    </message>
+    <message>
+        <source>edges agree to %1 ± %2 px</source>
+        <translation>边缘吻合，相差 %1 ± %2 px</translation>
+    </message>
+    <message>
+        <source>encoding</source>
+        <translation>正在编码</translation>
+    </message>
+    <message>
+        <source>estimating surfaces</source>
+        <translation>正在估计表面</translation>
+    </message>
+    <message>
+        <source>every scene is rejected</source>
+        <translation>所有场景均被剔除</translation>
+    </message>
+    <message>
+        <source>exchange two axes, or the sign of one, in what writes the clouds</source>
+        <translation>请在写出点云的程序中交换两个轴，或将其中一个轴反号</translation>
+    </message>
+    <message>
+        <source>expected %1 numbers after &apos;%2:&apos;</source>
+        <translation>“%2:”之后应为 %1 个数</translation>
+    </message>
+    <message>
+        <source>expected 3 numbers in translation_m and 4 in quaternion_xyzw</source>
+        <translation>translation_m 应有 3 个数，quaternion_xyzw 应有 4 个数</translation>
+    </message>
+    <message>
+        <source>expected JSON with an object &quot;camera&quot;</source>
+        <translation>应为含有对象“camera”的 JSON</translation>
+    </message>
+    <message>
+        <source>expected PointCloud2 or CustomMsg</source>
+        <translation>应为 PointCloud2 或 CustomMsg</translation>
+    </message>
+    <message>
+        <source>field &apos;%1&apos; has TYPE %2 and SIZE %3, expected F with 4 or 8 or I or U with 1, 2, 4 or 8</source>
+        <translation>字段“%1”的 TYPE 为 %2、SIZE 为 %3，应为 F 配 4 或 8，或者 I 或 U 配 1、2、4 或 8</translation>
+    </message>
+    <message>
+        <source>field &apos;%1&apos; has the unknown type %2; expected 1 to 8</source>
+        <translation>字段“%1”的类型 %2 未知；应为 1 到 8</translation>
+    </message>
+    <message>
+        <source>field &apos;%1&apos; lies outside of a point: offset %2 in %3 bytes</source>
+        <translation>字段“%1”超出了点的范围：偏移 %2，而每个点只有 %3 字节</translation>
+    </message>
+    <message>
+        <source>file is too large: %1 bytes, expected at most %2</source>
+        <translation>文件过大：%1 字节，最多应为 %2 字节</translation>
+    </message>
+    <message>
+        <source>file not found</source>
+        <translation>找不到文件</translation>
+    </message>
+    <message>
+        <source>folder cannot be created: %1</source>
+        <translation>无法创建文件夹：%1</translation>
+    </message>
+    <message>
+        <source>folder cannot be created: a file is in the way</source>
+        <translation>无法创建文件夹：有文件挡在该路径上</translation>
+    </message>
+    <message>
+        <source>folder cannot be created: a file is in the way (%1)</source>
+        <translation>无法创建文件夹：有文件挡在该路径上（%1）</translation>
+    </message>
+    <message>
+        <source>folder cannot be created: no right to write to %1</source>
+        <translation>无法创建文件夹：没有写入 %1 的权限</translation>
+    </message>
+    <message>
+        <source>folder cannot be written: no right to do so</source>
+        <translation>无法写入文件夹：没有权限</translation>
+    </message>
+    <message>
+        <source>folder not found; expected images of the board, or a dataset</source>
+        <translation>找不到文件夹；应为标定板的图像，或一个数据集</translation>
+    </message>
+    <message>
+        <source>folder not found; expected one folder per scene in it</source>
+        <translation>找不到文件夹；其中每个场景应有一个文件夹</translation>
+    </message>
+    <message>
+        <source>give a YAML file with T_imu_lidar (takes a LiDAR point to the IMU frame) by --imu</source>
+        <translation>请用 --imu 给出含有 T_imu_lidar（将激光雷达的点变换到 IMU 坐标系）的 YAML 文件</translation>
+    </message>
+    <message>
+        <source>give a rough extrinsic with --init</source>
+        <translation>请用 --init 给出粗略外参</translation>
+    </message>
+    <message>
+        <source>give another folder</source>
+        <translation>请指定另一个文件夹</translation>
+    </message>
+    <message>
+        <source>give each scene its own image and cloud</source>
+        <translation>请为每个场景提供各自的图像和点云</translation>
+    </message>
+    <message>
+        <source>give every side a length above zero</source>
+        <translation>请为每条边给出大于零的长度</translation>
+    </message>
+    <message>
+        <source>give intrinsics with --camera FILE</source>
+        <translation>请用 --camera FILE 给出内参</translation>
+    </message>
+    <message>
+        <source>give the .db3 or .mcap file itself</source>
+        <translation>请直接指定 .db3 或 .mcap 文件</translation>
+    </message>
+    <message>
+        <source>give the result.json or result.yaml of a calibration</source>
+        <translation>请指定一次标定的 result.json 或 result.yaml</translation>
+    </message>
+    <message>
+        <source>give the result.json that lvcalib discover wrote</source>
+        <translation>请指定 lvcalib discover 写出的 result.json</translation>
+    </message>
+    <message>
+        <source>grid of board poses: expected distances above zero, tilts up to 80 degrees, at least one of each, and 1 to 20 cells</source>
+        <translation>标定板位姿网格：距离应大于零，倾斜不超过 80 度，两者各至少一个，并应有 1 到 20 个单元格</translation>
+    </message>
+    <message>
+        <source>has no field &apos;%1&apos;; expected x y z, found: %2</source>
+        <translation>没有字段“%1”；应为 x y z，实际为：%2</translation>
+    </message>
+    <message>
+        <source>holds no model</source>
+        <translation>不含模型</translation>
+    </message>
+    <message>
+        <source>holds no points (its header says 0)</source>
+        <translation>不含点（文件头声明 0 个点）</translation>
+    </message>
+    <message>
+        <source>image reduction must be at least 1</source>
+        <translation>图像缩小倍数必须至少为 1</translation>
+    </message>
+    <message>
+        <source>images have the encoding &apos;%1&apos;; read are mono, rgb, bgr (8 and 16 bit), rgba8, bgra8, bayer and yuv422</source>
+        <translation>图像的编码为“%1”；可读取的是 mono、rgb、bgr（8 位和 16 位）、rgba8、bgra8、bayer 和 yuv422</translation>
+    </message>
+    <message>
+        <source>in &apos;%1&apos;: %2</source>
+        <translation>“%1”中：%2</translation>
+    </message>
+    <message>
+        <source>in centimetres</source>
+        <translation>以厘米为单位</translation>
+    </message>
+    <message>
+        <source>in feet</source>
+        <translation>以英尺为单位</translation>
+    </message>
+    <message>
+        <source>in inches</source>
+        <translation>以英寸为单位</translation>
+    </message>
+    <message>
+        <source>in millimetres</source>
+        <translation>以毫米为单位</translation>
+    </message>
+    <message>
+        <source>is a folder, expected a PCD or PLY file</source>
+        <translation>是文件夹，应为 PCD 或 PLY 文件</translation>
+    </message>
+    <message>
+        <source>is empty</source>
+        <translation>为空</translation>
+    </message>
+    <message>
+        <source>is empty, expected a PCD or PLY file</source>
+        <translation>为空，应为 PCD 或 PLY 文件</translation>
+    </message>
+    <message>
+        <source>is missing</source>
+        <translation>缺失</translation>
+    </message>
+    <message>
+        <source>is missing or not a list</source>
+        <translation>缺失或不是列表</translation>
+    </message>
+    <message>
+        <source>is missing: the file tells values but not what they refer to</source>
+        <translation>缺失：文件给出了数值，但没有说明它们的参照</translation>
+    </message>
+    <message>
+        <source>is neither a PCD nor a PLY file</source>
+        <translation>既不是 PCD 文件也不是 PLY 文件</translation>
+    </message>
+    <message>
+        <source>is neither an lz4 nor a zstd file</source>
+        <translation>既不是 lz4 文件也不是 zstd 文件</translation>
+    </message>
+    <message>
+        <source>is no formula or curve: %1</source>
+        <translation>不是公式或曲线：%1</translation>
+    </message>
+    <message>
+        <source>is no list of numbers</source>
+        <translation>不是数的列表</translation>
+    </message>
+    <message>
+        <source>is no number</source>
+        <translation>不是数</translation>
+    </message>
+    <message>
+        <source>is not a project; expected &apos;format: lvcalib-project&apos;</source>
+        <translation>不是项目文件；应有“format: lvcalib-project”</translation>
+    </message>
+    <message>
+        <source>is not a value of &apos;%1&apos; in %2</source>
+        <translation>不是“%1”以 %2 为单位的值</translation>
+    </message>
+    <message>
+        <source>is not in ascending order</source>
+        <translation>未按升序排列</translation>
+    </message>
+    <message>
+        <source>is not rosbag2&apos;s: expected rosbag2_bagfile_information with relative_file_paths</source>
+        <translation>不是 rosbag2 的文件：应为含有 relative_file_paths 的 rosbag2_bagfile_information</translation>
+    </message>
+    <message>
+        <source>is not the list of %1 parameters that &apos;%2&apos; has</source>
+        <translation>不是“%2”所具有的 %1 个参数的列表</translation>
+    </message>
+    <message>
+        <source>is not two numbers</source>
+        <translation>不是两个数</translation>
+    </message>
+    <message>
+        <source>is truncated: it ends in element &apos;%1&apos; before any of its points</source>
+        <translation>文件被截断：在元素“%1”中结束，尚未到达任何点</translation>
+    </message>
+    <message>
+        <source>is truncated: its compressed data take %1 bytes, found %2, so none of %3 points can be read</source>
+        <translation>文件被截断：压缩数据应占 %1 字节，实际为 %2 字节，因此 %3 个点均无法读取</translation>
+    </message>
+    <message>
+        <source>is truncated: its header says %1 points, found %2</source>
+        <translation>文件被截断：文件头声明 %1 个点，实际 %2 个</translation>
+    </message>
+    <message>
+        <source>it is not a finite number on %1 of %2 rows of the channel %3</source>
+        <translation>在通道 %3 的 %2 行中有 %1 行不是有限数</translation>
+    </message>
+    <message>
+        <source>it is not linear in the coefficient %1</source>
+        <translation>对系数 %1 不是线性的</translation>
+    </message>
+    <message>
+        <source>it is not zero when its coefficients are</source>
+        <translation>系数为零时其值不为零</translation>
+    </message>
+    <message>
+        <source>it is off by %1 m and %2°</source>
+        <translation>偏差为 %1 m 和 %2°</translation>
+    </message>
+    <message>
+        <source>it is the inverse, with its translation in millimetres</source>
+        <translation>它是逆变换，且平移以毫米为单位</translation>
+    </message>
+    <message>
+        <source>it is the inverse: T_lidar_camera instead of T_camera_lidar</source>
+        <translation>它是逆变换：是 T_lidar_camera 而不是 T_camera_lidar</translation>
+    </message>
+    <message>
+        <source>it is there already, and counts once</source>
+        <translation>已有相同的图像，只计一次</translation>
+    </message>
+    <message>
+        <source>its PCD header claims more than 2^40 points</source>
+        <translation>PCD 文件头声明的点数超过 2^40</translation>
+    </message>
+    <message>
+        <source>its PCD header claims points of %1 bytes, expected at most %2</source>
+        <translation>PCD 文件头声明每个点 %1 字节，最多应为 %2 字节</translation>
+    </message>
+    <message>
+        <source>its PCD header does not agree with itself: %1 FIELDS, %2 SIZE, %3 TYPE, %4 COUNT entries</source>
+        <translation>PCD 文件头自相矛盾：FIELDS 有 %1 项，SIZE %2 项，TYPE %3 项，COUNT %4 项</translation>
+    </message>
+    <message>
+        <source>its PCD header does not agree with itself: POINTS is %1, WIDTH x HEIGHT is %2</source>
+        <translation>PCD 文件头自相矛盾：POINTS 为 %1，WIDTH x HEIGHT 为 %2</translation>
+    </message>
+    <message>
+        <source>its PCD header ends without a DATA line</source>
+        <translation>PCD 文件头结束时没有 DATA 行</translation>
+    </message>
+    <message>
+        <source>its PCD header lacks the number of points (POINTS, or WIDTH and HEIGHT)</source>
+        <translation>PCD 文件头缺少点数（POINTS，或 WIDTH 和 HEIGHT）</translation>
+    </message>
+    <message>
+        <source>its PLY header ends without an end_header line</source>
+        <translation>PLY 文件头结束时没有 end_header 行</translation>
+    </message>
+    <message>
+        <source>its PLY header has no element &apos;vertex&apos;</source>
+        <translation>PLY 文件头没有元素“vertex”</translation>
+    </message>
+    <message>
+        <source>its PLY header has no format line</source>
+        <translation>PLY 文件头没有 format 行</translation>
+    </message>
+    <message>
+        <source>its camera model &apos;%1&apos; has no counterpart here; expected plumb_bob or fisheye</source>
+        <translation>其相机模型“%1”在此没有对应的模型；应为 plumb_bob 或 fisheye</translation>
+    </message>
+    <message>
+        <source>its circles cannot be measured: %1</source>
+        <translation>其圆无法测量：%1</translation>
+    </message>
+    <message>
+        <source>its coefficient %1 changes nothing on any row</source>
+        <translation>其系数 %1 在任何一行上都不起作用</translation>
+    </message>
+    <message>
+        <source>its coefficients %1 cannot be told apart on these data</source>
+        <translation>其系数 %1 在这些数据上无法区分</translation>
+    </message>
+    <message>
+        <source>its coefficients do not act one by one: it is not linear in them</source>
+        <translation>其各系数并非独立起作用：对它们不是线性的</translation>
+    </message>
+    <message>
+        <source>its compressed data are damaged</source>
+        <translation>其压缩数据已损坏</translation>
+    </message>
+    <message>
+        <source>its compressed data cannot hold %1 points: %2 bytes are too few</source>
+        <translation>其压缩数据不可能包含 %1 个点：%2 字节太少</translation>
+    </message>
+    <message>
+        <source>its compressed data hold %1 bytes, expected %2 for %3 points</source>
+        <translation>其压缩数据包含 %1 字节，应为 %2 字节，对应 %3 个点</translation>
+    </message>
+    <message>
+        <source>its corners miss the camera of the other images by %1 px RMS; was it taken in motion, or is it of another board?</source>
+        <translation>其角点与由其他图像得到的相机相差 %1 px RMS；是在运动中拍摄的，还是另一块标定板的图像？</translation>
+    </message>
+    <message>
+        <source>its image has %1 × %2 px, the camera&apos;s have %3 × %4</source>
+        <translation>其图像为 %1 × %2 px，而相机的图像为 %3 × %4</translation>
+    </message>
+    <message>
+        <source>its rotation is the identity, but the sensors&apos; axes point in other directions</source>
+        <translation>其旋转为单位旋转，但两个传感器的坐标轴指向不同</translation>
+    </message>
+    <message>
+        <source>its translation is in millimetres</source>
+        <translation>其平移以毫米为单位</translation>
+    </message>
+    <message>
+        <source>key &apos;%1&apos; is missing</source>
+        <translation>缺少键“%1”</translation>
+    </message>
+    <message>
+        <source>labels of a curve: expected 2 or more</source>
+        <translation>曲线的标签：应为 2 个或更多</translation>
+    </message>
+    <message>
+        <source>leave one of them out</source>
+        <translation>请去掉其中一个</translation>
+    </message>
+    <message>
+        <source>leave this scene out</source>
+        <translation>请弃用该场景</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>左侧</translation>
+    </message>
+    <message>
+        <source>let the scanner dwell longer or bring the board nearer</source>
+        <translation>请让扫描仪停留更久，或将标定板移近</translation>
+    </message>
+    <message>
+        <source>line %1 is longer than a mebibyte; expected text</source>
+        <translation>第 %1 行长度超过 1 MiB；应为文本</translation>
+    </message>
+    <message>
+        <source>line %1: %2</source>
+        <translation>第 %1 行：%2</translation>
+    </message>
+    <message>
+        <source>lvcalib import --list shows all topics</source>
+        <translation>lvcalib import --list 可显示所有话题</translation>
+    </message>
+    <message>
+        <source>marker dictionary &apos;%1&apos; is not known</source>
+        <translation>未知的标记字典“%1”</translation>
+    </message>
+    <message>
+        <source>markers of %1 found; the target says %2</source>
+        <translation>发现了 %1 的标记；而标定板描述为 %2</translation>
+    </message>
+    <message>
+        <source>measure the print and correct target.yaml</source>
+        <translation>请测量印刷图案并修正 target.yaml</translation>
+    </message>
+    <message>
+        <source>measure the printed tags and correct tagSize</source>
+        <translation>请测量打印的标签并修正 tagSize</translation>
+    </message>
+    <message>
+        <source>messages are serialized as &apos;%1&apos;; ROS 1 and CDR are read</source>
+        <translation>消息的序列化方式为“%1”；可读取的是 ROS 1 和 CDR</translation>
+    </message>
+    <message>
+        <source>middle</source>
+        <translation>中间</translation>
+    </message>
+    <message>
+        <source>mirrored (its axes make a left-handed frame)</source>
+        <translation>镜像的（其坐标轴构成左手坐标系）</translation>
+    </message>
+    <message>
+        <source>multiply every term with a coefficient</source>
+        <translation>请将每一项乘以一个系数</translation>
+    </message>
+    <message>
+        <source>no %1 in these clouds</source>
+        <translation>这些点云中没有 %1</translation>
+    </message>
+    <message>
+        <source>no LiDAR return lies on the board</source>
+        <translation>没有激光雷达回波落在标定板上</translation>
+    </message>
+    <message>
+        <source>no LiDAR return lies on the board where the start puts it</source>
+        <translation>在初始外参给出的标定板位置上没有激光雷达回波</translation>
+    </message>
+    <message>
+        <source>no board reached these parts of the image: %1; the distortion there is extrapolated</source>
+        <translation>标定板未到达图像的这些部分：%1；那里的畸变是外推的</translation>
+    </message>
+    <message>
+        <source>no camera fits the corners of the images</source>
+        <translation>没有相机与这些图像的角点相符</translation>
+    </message>
+    <message>
+        <source>no camera intrinsics found; expected the keys of ROS camera_info (camera_matrix, distortion_model), a Kalibr camchain (cam0) or OpenCV (camera_matrix)</source>
+        <translation>找不到相机内参；应为 ROS camera_info 的键（camera_matrix、distortion_model）、Kalibr camchain（cam0）或 OpenCV（camera_matrix）</translation>
+    </message>
+    <message>
+        <source>no checkerboard with %1 × %2 inner corners in the image</source>
+        <translation>图像中没有具有 %1 × %2 个内角点的棋盘格</translation>
+    </message>
+    <message>
+        <source>no circle gives boundary samples</source>
+        <translation>没有圆给出边界样本</translation>
+    </message>
+    <message>
+        <source>no data can tell it from a turn of the LiDAR frame</source>
+        <translation>任何数据都无法将它与激光雷达坐标系的旋转区分开</translation>
+    </message>
+    <message>
+        <source>no images; expected png, jpg, bmp or tiff files that show the board</source>
+        <translation>没有图像；应为显示标定板的 png、jpg、bmp 或 tiff 文件</translation>
+    </message>
+    <message>
+        <source>no plane fits the board&apos;s %1 LiDAR points; at least ten, not all on one scan line, are needed</source>
+        <translation>没有平面与标定板的 %1 个激光雷达点相符；至少需要十个点，且不能都在同一条扫描线上</translation>
+    </message>
+    <message>
+        <source>no scenes; expected folders with image.png and cloud.pcd</source>
+        <translation>没有场景；应为含有 image.png 和 cloud.pcd 的文件夹</translation>
+    </message>
+    <message>
+        <source>no tags in the image</source>
+        <translation>图像中没有标签</translation>
+    </message>
+    <message>
+        <source>no temporary file can be made</source>
+        <translation>无法创建临时文件</translation>
+    </message>
+    <message>
+        <source>no usable scene is left</source>
+        <translation>没有剩下可用的场景</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
+    </message>
+    <message>
+        <source>none of its %1 pairs can be used</source>
+        <translation>其 %1 对文件均不可用</translation>
+    </message>
+    <message>
+        <source>none of its %1 points is usable: all are NaN, infinite or at the origin</source>
+        <translation>其 %1 个点均不可用：都是 NaN、无穷大或位于原点</translation>
+    </message>
+    <message>
+        <source>none of the files that it names is there</source>
+        <translation>它列出的文件都不存在</translation>
+    </message>
+    <message>
+        <source>not a JSON object</source>
+        <translation>不是 JSON 对象</translation>
+    </message>
+    <message>
+        <source>not a regular file</source>
+        <translation>不是普通文件</translation>
+    </message>
+    <message>
+        <source>not an image that can be read; expected png, jpg, bmp or tiff</source>
+        <translation>不是可读取的图像；应为 png、jpg、bmp 或 tiff</translation>
+    </message>
+    <message>
+        <source>nothing stands still at %1 s</source>
+        <translation>在 %1 s 处没有静止时段</translation>
+    </message>
+    <message>
+        <source>one image only: nothing checks it; take ten or more, the board turned differently in each</source>
+        <translation>只有一张图像：无法对其进行检验；请拍摄十张或更多，每张中标定板的朝向各不相同</translation>
+    </message>
+    <message>
+        <source>only %1 images: take ten or more, the board turned differently in each</source>
+        <translation>只有 %1 张图像：请拍摄十张或更多，每张中标定板的朝向各不相同</translation>
+    </message>
+    <message>
+        <source>only %1 of the %2 tags seen lie where the target has them</source>
+        <translation>所见的 %2 个标签中只有 %1 个位于标定板描述的位置</translation>
+    </message>
+    <message>
+        <source>only %1 of the board&apos;s %2 tags found, expected at least %3</source>
+        <translation>标定板的 %2 个标签中只找到 %1 个，应至少为 %3 个</translation>
+    </message>
+    <message>
+        <source>open it with a newer release; it was not changed</source>
+        <translation>请用更新的版本打开；文件未被改动</translation>
+    </message>
+    <message>
+        <source>open the project and say where the dataset is now, then save it</source>
+        <translation>请打开项目并指明数据集现在的位置，然后保存</translation>
+    </message>
+    <message>
+        <source>overlap and page border must not be negative</source>
+        <translation>重叠和页边距不得为负</translation>
+    </message>
+    <message>
+        <source>page %1 of %2</source>
+        <translation>第 %1 页，共 %2 页</translation>
+    </message>
+    <message>
+        <source>paper &apos;%1&apos; has no room; expected sides of %2 to %3 mm</source>
+        <translation>纸张“%1”放不下；边长应为 %2 到 %3 mm</translation>
+    </message>
+    <message>
+        <source>paper &apos;%1&apos; is not known; expected board, A0, A1, A2, A3, A4, Letter or WxH in mm</source>
+        <translation>未知的纸张“%1”；应为 board、A0、A1、A2、A3、A4、Letter 或以 mm 为单位的 WxH</translation>
+    </message>
+    <message>
+        <source>planning: expected a corner noise and a threshold above zero</source>
+        <translation>规划：角点噪声与阈值应大于零</translation>
+    </message>
+    <message>
+        <source>plumb_bob, rational_polynomial or equidistant</source>
+        <translation>plumb_bob、rational_polynomial 或 equidistant</translation>
+    </message>
+    <message>
+        <source>quaternion_xyzw must have length 1</source>
+        <translation>quaternion_xyzw 的长度必须为 1</translation>
+    </message>
+    <message>
+        <source>reading the index</source>
+        <translation>正在读取索引</translation>
+    </message>
+    <message>
+        <source>reading through the bag</source>
+        <translation>正在从头读取 bag</translation>
+    </message>
+    <message>
+        <source>reading through the file</source>
+        <translation>正在从头读取文件</translation>
+    </message>
+    <message>
+        <source>record the cloud with %1, or leave the effect in with --skip %2</source>
+        <translation>请录制带有 %1 的点云，或用 --skip %2 保留该效应</translation>
+    </message>
+    <message>
+        <source>rename the folder</source>
+        <translation>请重命名文件夹</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>右</translation>
+    </message>
+    <message>
+        <source>run lvcalib discover again</source>
+        <translation>请重新运行 lvcalib discover</translation>
+    </message>
+    <message>
+        <source>run lvcalib discover again, or remove the file</source>
+        <translation>请重新运行 lvcalib discover，或删除该文件</translation>
+    </message>
+    <message>
+        <source>save it as 8 or 16 bit png</source>
+        <translation>请将其另存为 8 位或 16 位 png</translation>
+    </message>
+    <message>
+        <source>save the image as png</source>
+        <translation>请将图像另存为 png</translation>
+    </message>
+    <message>
+        <source>save them as YAML: OpenCV&apos;s FileStorage does for a name ending in .yaml</source>
+        <translation>请将其另存为 YAML：文件名以 .yaml 结尾时，OpenCV 的 FileStorage 即保存为 YAML</translation>
+    </message>
+    <message>
+        <source>scene %1: its image cannot be read</source>
+        <translation>场景 %1：其图像无法读取</translation>
+    </message>
+    <message>
+        <source>scene %1: its image is no longer at the dataset&apos;s place; the report goes without it</source>
+        <translation>场景 %1：其图像已不在数据集所在位置；报告中不含该图像</translation>
+    </message>
+    <message>
+        <source>scenes to plan: expected 1 to 100, found %1</source>
+        <translation>要规划的场景数：应为 1 到 100，实际为 %1</translation>
+    </message>
+    <message>
+        <source>set dictionary: %1</source>
+        <translation>请设置 dictionary: %1</translation>
+    </message>
+    <message>
+        <source>set legacyPattern: %1</source>
+        <translation>请设置 legacyPattern: %1</translation>
+    </message>
+    <message>
+        <source>set tagBorder: %1</source>
+        <translation>请设置 tagBorder: %1</translation>
+    </message>
+    <message>
+        <source>set tagFamily: %1 and tagBorder: %2</source>
+        <translation>请设置 tagFamily: %1 和 tagBorder: %2</translation>
+    </message>
+    <message>
+        <source>show it nearer or sharper</source>
+        <translation>请将其放得更近或拍得更清晰</translation>
+    </message>
+    <message>
+        <source>show more of the board, nearer, sharper or better lit</source>
+        <translation>请让标定板露出更多、更近、更清晰或光照更好</translation>
+    </message>
+    <message>
+        <source>sizes of users&apos; effects: expected 0 &lt; material &lt; believable</source>
+        <translation>用户效应的大小：应为 0 &lt; 显著值 &lt; 可信值</translation>
+    </message>
+    <message>
+        <source>splines of users&apos; curves: expected 5 to 100, or 5 to 20 along each of two</source>
+        <translation>用户曲线的样条数：应为 5 到 100，或在两个方向上各为 5 到 20</translation>
+    </message>
+    <message>
+        <source>stopped by the user</source>
+        <translation>已被用户停止</translation>
+    </message>
+    <message>
+        <source>tag border must be 1 or 2 bits</source>
+        <translation>标签边框必须为 1 位或 2 位</translation>
+    </message>
+    <message>
+        <source>tag family &apos;%1&apos; is not known</source>
+        <translation>未知的标签族“%1”</translation>
+    </message>
+    <message>
+        <source>tag ids beyond the %1 of %2</source>
+        <translation>标签编号超出 %2 的 %1 个标签</translation>
+    </message>
+    <message>
+        <source>tagSpacing: about %1</source>
+        <translation>tagSpacing: 约 %1</translation>
+    </message>
+    <message>
+        <source>tags of family %1 with a %2 found; the target says %3</source>
+        <translation>找到的是标签族 %1、%2的标签；标定板描述的是 %3</translation>
+    </message>
+    <message>
+        <source>tags that miss the board&apos;s pose were dropped: %1</source>
+        <translation>偏离标定板位姿的标签已丢弃：%1</translation>
+    </message>
+    <message>
+        <source>take images of the board turned by 20° to 45°, another way each time</source>
+        <translation>请拍摄标定板转动 20° 到 45° 的图像，每次转向不同方向</translation>
+    </message>
+    <message>
+        <source>take scenes with the board tilted left, right, up and down</source>
+        <translation>请拍摄标定板向左、右、上、下倾斜的场景</translation>
+    </message>
+    <message>
+        <source>taking effects out</source>
+        <translation>正在去除效应</translation>
+    </message>
+    <message>
+        <source>the %1 file ends early or is damaged</source>
+        <translation>%1 文件提前结束或已损坏</translation>
+    </message>
+    <message>
+        <source>the board is larger than a PDF page can be (%1 mm)</source>
+        <translation>标定板大于 PDF 页面的最大尺寸（%1 mm）</translation>
+    </message>
+    <message>
+        <source>the board is not found in any cloud (%1)</source>
+        <translation>在任何点云中都找不到标定板（%1）</translation>
+    </message>
+    <message>
+        <source>the board is not found in any image; scene %1: %2</source>
+        <translation>在任何图像中都找不到标定板；场景 %1：%2</translation>
+    </message>
+    <message>
+        <source>the board is not found in any image; the first: %1</source>
+        <translation>在任何图像中都找不到标定板；第一幅：%1</translation>
+    </message>
+    <message>
+        <source>the board must be in view, sharp, and neither dark nor overexposed</source>
+        <translation>标定板须在视野内、清晰，且既不过暗也不过曝</translation>
+    </message>
+    <message>
+        <source>the board takes %1 pages of %2, but only a PDF has several pages</source>
+        <translation>标定板需要 %1 页 %2，但只有 PDF 能有多页</translation>
+    </message>
+    <message>
+        <source>the board would take more than %1 pages of %2</source>
+        <translation>标定板将需要超过 %1 页 %2</translation>
+    </message>
+    <message>
+        <source>the board&apos;s start pose puts some of its corners where the camera cannot see them</source>
+        <translation>按标定板的起始位姿，其部分角点位于相机看不到的地方</translation>
+    </message>
+    <message>
+        <source>the board, or one with the same tags, is in the image twice</source>
+        <translation>图像中两次出现该标定板或标签相同的标定板</translation>
+    </message>
+    <message>
+        <source>the boards are turned by no more than %1° against each other: the focal length rests on little; turn the board by 20° to 45°, another way each time</source>
+        <translation>各标定板之间的相对转角不超过 %1°：焦距的依据不足；请将标定板转动 20° 到 45°，每次转向不同方向</translation>
+    </message>
+    <message>
+        <source>the boundary response of this result is malformed: %1</source>
+        <translation>此结果的边界响应格式有误：%1</translation>
+    </message>
+    <message>
+        <source>the camera is not calibrated: fx is 0</source>
+        <translation>相机未标定：fx 为 0</translation>
+    </message>
+    <message>
+        <source>the camera&apos;s size is absurd</source>
+        <translation>相机的图像尺寸不合理</translation>
+    </message>
+    <message>
+        <source>the clock is %1, expected 0 to 1</source>
+        <translation>时序为 %1，应为 0 到 1</translation>
+    </message>
+    <message>
+        <source>the corners do not determine the board&apos;s pose</source>
+        <translation>这些角点不足以确定标定板的位姿</translation>
+    </message>
+    <message>
+        <source>the corners fit no pose of a flat board</source>
+        <translation>这些角点不符合平面标定板的任何位姿</translation>
+    </message>
+    <message>
+        <source>the crop box has no volume</source>
+        <translation>裁剪框没有体积</translation>
+    </message>
+    <message>
+        <source>the distortion folds back inside the image: %1 of its 4 corners have no ray; take images with the board there</source>
+        <translation>畸变在图像内部折返：4 个角中有 %1 个没有对应的射线；请拍摄标定板位于该处的图像</translation>
+    </message>
+    <message>
+        <source>the distortion is off by up to %1 px on the boards</source>
+        <translation>畸变在标定板上的偏差最大达 %1 px</translation>
+    </message>
+    <message>
+        <source>the edges of LiDAR and image meet no better than by chance, here and nearby: the pose is wrong by more than what is searched, or the two do not show the same</source>
+        <translation>激光雷达与图像的边缘在此处及附近的吻合都不优于偶然：位姿误差超出搜索范围，或两者所示并非同一场景</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; cannot be taken out: the model lacks the calibration&apos;s intensities</source>
+        <translation>无法去除效应“%1”：模型中没有标定时的强度</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; cannot be taken out: there is no %2 in this cloud</source>
+        <translation>无法去除效应“%1”：该点云中没有 %2</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; cannot be used: it acts just as %2 do, which makes the solve singular</source>
+        <translation>无法使用效应“%1”：其作用与%2完全相同，使求解奇异</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; is not in the model</source>
+        <translation>效应“%1”不在模型中</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; lacks the interval of %2, expected &apos;%3[low..high]&apos;</source>
+        <translation>效应“%1”缺少%2的区间，应为“%3[low..high]”</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; takes %2 finite values</source>
+        <translation>效应“%1”需要 %2 个有限值</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; to skip is not in the model</source>
+        <translation>要跳过的效应“%1”不在模型中</translation>
+    </message>
+    <message>
+        <source>the effect &apos;%1&apos; was asked for twice; it is taken once</source>
+        <translation>效应“%1”被要求了两次；只采用一次</translation>
+    </message>
+    <message>
+        <source>the extrinsic and the board poses</source>
+        <translation>外参和标定板位姿</translation>
+    </message>
+    <message>
+        <source>the file is not the one that the result was made of: its content changed</source>
+        <translation>该文件不是得出此结果的文件：其内容已改变</translation>
+    </message>
+    <message>
+        <source>the focal length is %1 ± %2 % too long</source>
+        <translation>焦距偏长 %1 ± %2 %</translation>
+    </message>
+    <message>
+        <source>the focal length is %1 ± %2 % too short</source>
+        <translation>焦距偏短 %1 ± %2 %</translation>
+    </message>
+    <message>
+        <source>the format %1 holds the camera&apos;s pose in the IMU frame and needs T_imu_lidar</source>
+        <translation>格式 %1 保存相机在 IMU 坐标系中的位姿，需要 T_imu_lidar</translation>
+    </message>
+    <message>
+        <source>the image (or the print) is mirrored: its tags can be read in a mirror</source>
+        <translation>图像（或印刷图案）被镜像：其标签在镜中才能读出</translation>
+    </message>
+    <message>
+        <source>the image cannot be decoded: its data are damaged</source>
+        <translation>图像无法解码：数据已损坏</translation>
+    </message>
+    <message>
+        <source>the image cannot be searched for a checkerboard</source>
+        <translation>无法在该图像中搜索棋盘格</translation>
+    </message>
+    <message>
+        <source>the image cannot be searched for markers</source>
+        <translation>无法在该图像中搜索标记</translation>
+    </message>
+    <message>
+        <source>the image claims %1 × %2 pixels; expected 1 to %3 in all</source>
+        <translation>图像声称有 %1 × %2 像素；总像素数应为 1 到 %3</translation>
+    </message>
+    <message>
+        <source>the image could not be encoded as JPEG</source>
+        <translation>图像无法编码为 JPEG</translation>
+    </message>
+    <message>
+        <source>the image could not be encoded as PNG</source>
+        <translation>图像无法编码为 PNG</translation>
+    </message>
+    <message>
+        <source>the image file is empty</source>
+        <translation>图像文件为空</translation>
+    </message>
+    <message>
+        <source>the image has %1 pixels, the intrinsics are for %2</source>
+        <translation>图像为 %1 像素，而内参对应 %2</translation>
+    </message>
+    <message>
+        <source>the image has %1 × %2 pixels, %3 has %4 × %5</source>
+        <translation>图像为 %1 × %2 像素，而 %3 为 %4 × %5</translation>
+    </message>
+    <message>
+        <source>the image has %1 × %2 pixels, the given intrinsics are for %3 × %4</source>
+        <translation>图像为 %1 × %2 像素，而给定的内参对应 %3 × %4</translation>
+    </message>
+    <message>
+        <source>the image has neither 8 nor 16 bits per channel</source>
+        <translation>图像每通道既非 8 位也非 16 位</translation>
+    </message>
+    <message>
+        <source>the image has no pixels</source>
+        <translation>图像没有像素</translation>
+    </message>
+    <message>
+        <source>the image has no pixels, so no PNG can be made of it</source>
+        <translation>图像没有像素，因此无法生成 PNG</translation>
+    </message>
+    <message>
+        <source>the image shows tags %1 of %2; the target has %3</source>
+        <translation>图像中有 %2 的标签 %1；标定板描述的是 %3</translation>
+    </message>
+    <message>
+        <source>the image size must be positive, found %1 × %2</source>
+        <translation>图像尺寸必须为正，实际为 %1 × %2</translation>
+    </message>
+    <message>
+        <source>the image would be %1 pixels long, more than 32767</source>
+        <translation>图像将长达 %1 像素，超过 32767</translation>
+    </message>
+    <message>
+        <source>the images contradict target.yaml: %1</source>
+        <translation>图像与 target.yaml 矛盾：%1</translation>
+    </message>
+    <message>
+        <source>the images contradict target.yaml: %1; measure the print</source>
+        <translation>图像与 target.yaml 矛盾：%1；请测量印刷图案</translation>
+    </message>
+    <message>
+        <source>the images do not determine the focal length: %1 ± %2 px, known to %3 % where %4 % is the most that counts as a result</source>
+        <translation>这些图像不足以确定焦距：%1 ± %2 px，精度为 %3 %，而超过 %4 % 便不能算作结果</translation>
+    </message>
+    <message>
+        <source>the joint solve fails on these observations</source>
+        <translation>联合求解在这些观测上失败</translation>
+    </message>
+    <message>
+        <source>the largest reprojection error must be positive and the image reduction at least 1</source>
+        <translation>最大重投影误差必须为正，图像缩小倍数至少为 1</translation>
+    </message>
+    <message>
+        <source>the left 3×3 part of %1 is not a rotation</source>
+        <translation>%1 左侧的 3×3 部分不是旋转矩阵</translation>
+    </message>
+    <message>
+        <source>the left 3×3 part of &apos;%1&apos; is not a rotation</source>
+        <translation>“%1”左侧的 3×3 部分不是旋转矩阵</translation>
+    </message>
+    <message>
+        <source>the markers lie as on a board with legacyPattern: %1</source>
+        <translation>标记的排列与 legacyPattern: %1 的标定板相符</translation>
+    </message>
+    <message>
+        <source>the messages of %1 are serialized as &apos;%2&apos;; ROS 1 and CDR are read</source>
+        <translation>%1 的消息以“%2”序列化；可读取的是 ROS 1 和 CDR</translation>
+    </message>
+    <message>
+        <source>the principal point (%1, %2) px lies far outside the image of %3 × %4 px</source>
+        <translation>主点 (%1, %2) px 远在 %3 × %4 px 的图像之外</translation>
+    </message>
+    <message>
+        <source>the principal point is off by %1 px across and %2 px down</source>
+        <translation>主点横向偏差 %1 px，纵向偏差 %2 px</translation>
+    </message>
+    <message>
+        <source>the project has format version %1, this program knows up to %2</source>
+        <translation>项目的格式版本为 %1，本程序最高支持 %2</translation>
+    </message>
+    <message>
+        <source>the project&apos;s dataset is not there</source>
+        <translation>找不到项目的数据集</translation>
+    </message>
+    <message>
+        <source>the resolution must be between 1 and 10000 dpi</source>
+        <translation>分辨率必须在 1 到 10000 dpi 之间</translation>
+    </message>
+    <message>
+        <source>the rotation of the crop box is not a unit quaternion</source>
+        <translation>裁剪框的旋转不是单位四元数</translation>
+    </message>
+    <message>
+        <source>the same image as %1, which counts once</source>
+        <translation>与 %1 的图像相同，只计一次</translation>
+    </message>
+    <message>
+        <source>the scenes do not agree, but %1 of them do if the clouds are mirrored (their axes make a left-handed frame)</source>
+        <translation>各场景不一致，但若点云为镜像（其坐标轴构成左手坐标系），则其中 %1 个一致</translation>
+    </message>
+    <message>
+        <source>the sheet cannot be drawn: %1</source>
+        <translation>无法绘制标定板图纸：%1</translation>
+    </message>
+    <message>
+        <source>the tag in the image is too small or too blurred</source>
+        <translation>图像中的标签太小或太模糊</translation>
+    </message>
+    <message>
+        <source>the tags in the image have a %1; the target says %2</source>
+        <translation>图像中的标签为%1；标定板描述的是%2</translation>
+    </message>
+    <message>
+        <source>the tags lie as on a board %1</source>
+        <translation>标签的排列与这样的标定板相符：%1</translation>
+    </message>
+    <message>
+        <source>there is already a scene &apos;%1&apos; in this dataset</source>
+        <translation>此数据集中已有场景“%1”</translation>
+    </message>
+    <message>
+        <source>there is no boundary response to export: %1</source>
+        <translation>没有可导出的边界响应：%1</translation>
+    </message>
+    <message>
+        <source>there is no camera in this result</source>
+        <translation>此结果中没有相机</translation>
+    </message>
+    <message>
+        <source>there is no format &apos;%1&apos;, known are %2</source>
+        <translation>没有格式“%1”，已知的有 %2</translation>
+    </message>
+    <message>
+        <source>there is no image</source>
+        <translation>没有图像</translation>
+    </message>
+    <message>
+        <source>there is no image at this time</source>
+        <translation>此时刻没有图像</translation>
+    </message>
+    <message>
+        <source>there is no scene &apos;%1&apos; to reject</source>
+        <translation>没有可剔除的场景“%1”</translation>
+    </message>
+    <message>
+        <source>there is no scene &apos;%1&apos; with image and cloud, known are %2</source>
+        <translation>没有同时含图像和点云的场景“%1”，已知的有 %2</translation>
+    </message>
+    <message>
+        <source>these data have no rows of its channel</source>
+        <translation>这些数据没有其通道的行</translation>
+    </message>
+    <message>
+        <source>this is an image; lvcalib calibrate takes a folder of scenes</source>
+        <translation>这是一幅图像；lvcalib calibrate 需要场景文件夹</translation>
+    </message>
+    <message>
+        <source>this result holds no boundary response</source>
+        <translation>此结果不含边界响应</translation>
+    </message>
+    <message>
+        <source>this result lacks what a report shows: %1</source>
+        <translation>此结果缺少报告所要显示的内容：%1</translation>
+    </message>
+    <message>
+        <source>tile it over several pages with --paper A0</source>
+        <translation>请用 --paper A0 将其分成多页</translation>
+    </message>
+    <message>
+        <source>times count from the first message; without --scenes all still stretches are found</source>
+        <translation>时间从第一条消息算起；不加 --scenes 则查找全部静止时段</translation>
+    </message>
+    <message>
+        <source>too few edges of the LiDAR are in the picture: %1 in %2 parts of it, where %3 in %4 are needed</source>
+        <translation>画面中的激光雷达边缘太少：%2 个部分中有 %1 条，而需要 %4 个部分中有 %3 条</translation>
+    </message>
+    <message>
+        <source>top</source>
+        <translation>上</translation>
+    </message>
+    <message>
+        <source>top left</source>
+        <translation>左上</translation>
+    </message>
+    <message>
+        <source>top right</source>
+        <translation>右上</translation>
+    </message>
+    <message>
+        <source>topic &apos;%1&apos; holds no messages</source>
+        <translation>话题“%1”不含消息</translation>
+    </message>
+    <message>
+        <source>topic &apos;%1&apos; is of another type</source>
+        <translation>话题“%1”是另一种类型</translation>
+    </message>
+    <message>
+        <source>topic &apos;%1&apos; was not recorded</source>
+        <translation>话题“%1”未被录制</translation>
+    </message>
+    <message>
+        <source>turn off flipping in the camera driver, or print the board again</source>
+        <translation>请在相机驱动中关闭翻转，或重新打印标定板</translation>
+    </message>
+    <message>
+        <source>two checkerboards of this size are in the image</source>
+        <translation>图像中有两块该尺寸的棋盘格</translation>
+    </message>
+    <message>
+        <source>unknown change &apos;%1&apos; (add, remove, off, on, hold or release)</source>
+        <translation>未知的更改“%1”（add、remove、off、on、hold 或 release）</translation>
+    </message>
+    <message>
+        <source>unknown option &apos;%1&apos; ignored</source>
+        <translation>已忽略未知选项“%1”</translation>
+    </message>
+    <message>
+        <source>unknown option &apos;%1&apos; ignored; did you mean &apos;%2&apos;?</source>
+        <translation>已忽略未知选项“%1”；您是指“%2”吗？</translation>
+    </message>
+    <message>
+        <source>unpack the file first, or give TMPDIR a place with more room</source>
+        <translation>请先解压该文件，或将 TMPDIR 指向空间更大的位置</translation>
+    </message>
+    <message>
+        <source>unpacking %1</source>
+        <translation>正在解压 %1</translation>
+    </message>
+    <message>
+        <source>use --dpi %1 or a PDF</source>
+        <translation>请使用 --dpi %1 或 PDF</translation>
+    </message>
+    <message>
+        <source>use a board as lvcalib target draws it: tags upright, ids from the bottom left</source>
+        <translation>请使用 lvcalib target 所绘制的标定板：标签正立，编号从左下角开始</translation>
+    </message>
+    <message>
+        <source>use images of one camera at one resolution</source>
+        <translation>请使用同一相机、同一分辨率的图像</translation>
+    </message>
+    <message>
+        <source>use the intrinsics of this camera at this resolution</source>
+        <translation>请使用该相机在此分辨率下的内参</translation>
+    </message>
+    <message>
+        <source>use the version that wrote the file, or run lvcalib discover again</source>
+        <translation>请使用写出该文件的版本，或重新运行 lvcalib discover</translation>
+    </message>
+    <message>
+        <source>where the edges agree is known to %1 px only: take a place with more edges, near and far and all over the picture</source>
+        <translation>边缘吻合的位置只能确定到 %1 px：请选择边缘更多、远近皆有且遍布整个画面的场所</translation>
+    </message>
+    <message>
+        <source>whose ids grow from the bottom right</source>
+        <translation>编号从右下角开始递增</translation>
+    </message>
+    <message>
+        <source>whose ids grow from the top left</source>
+        <translation>编号从左上角开始递增</translation>
+    </message>
+    <message>
+        <source>whose ids grow from the top right</source>
+        <translation>编号从右上角开始递增</translation>
+    </message>
+    <message>
+        <source>whose tags are each turned by %1°</source>
+        <translation>每个标签各转了 %1°</translation>
+    </message>
+    <message>
+        <source>with the camera found</source>
+        <translation>使用求得的相机</translation>
+    </message>
+    <message>
+        <source>write a PDF, or leave the paper at &apos;board&apos;</source>
+        <translation>请输出 PDF，或将纸张保持为“board”</translation>
+    </message>
+    <message>
+        <source>write a number in its place, such as the 3 in &apos;a*sin(3*azimuth)&apos;</source>
+        <translation>请在其位置写一个数，例如“a*sin(3*azimuth)”中的 3</translation>
+    </message>
+    <message>
+        <source>write a sum of terms with one coefficient each</source>
+        <translation>请写成各项之和，每项一个系数</translation>
+    </message>
+    <message>
+        <source>write the clouds in metres, in a right-handed frame</source>
+        <translation>请以米为单位、在右手坐标系中写出点云</translation>
+    </message>
+    <message>
+        <source>your own: formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE</source>
+        <translation>您自己的：formula:CHANNEL:EXPRESSION 或 curve:CHANNEL:COVARIATE</translation>
     </message>
 </context>
 <context>

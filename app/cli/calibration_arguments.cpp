@@ -19,9 +19,9 @@ Status read_tolerance(const std::string& text, QualityOptions& quality) {
   if (comma == std::string::npos || !parse_number(text.substr(0, comma), mm) ||
       !parse_number(text.substr(comma + 1), mrad) || !(mm > 0.0) || !(mrad > 0.0) || mm > 1000.0 ||
       mrad > 1000.0) {
-    return Error::usage("'" + text.substr(0, 100) +
-                            "' is no tolerance; expected millimetres and milliradians above 0 and "
-                            "up to 1000: 2,1",
+    return Error::usage(Message("'%1' is no tolerance; expected millimetres and milliradians above "
+                                "0 and up to 1000: 2,1",
+                                text.substr(0, 100)),
                         "--tolerance");
   }
   quality.tolerance_m = 1e-3 * mm;
@@ -42,7 +42,7 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
   for (const std::string& name : options.insisted) {
     if (std::none_of(dataset.scenes.begin(), dataset.scenes.end(),
                      [&](const SceneFiles& files) { return files.name == name; }))
-      return Error::usage("there is no scene '" + name + "' to insist on", options.dataset);
+      return Error::usage(Message("there is no scene '%1' to insist on", name), options.dataset);
   }
   request.insisted = options.insisted;
   request.unusable = unusable_scenes(options);
@@ -50,7 +50,7 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
   if (!options.config.empty()) {
     auto file = read_options(options.config);
     if (!file) return file.error();
-    for (const std::string& warning : file->warnings) session.warn(warning);
+    for (const Message& warning : file->warnings) session.warn(warning);
     request.options = file->options;
   }
   constexpr std::array kModes = {"fixed", "prior", "free"};
@@ -80,8 +80,8 @@ Status refuse_among_scenes(const CalibrationArguments& options) {
   if (code || std::mismatch(scenes.begin(), scenes.end(), output.begin(), output.end()).first !=
                   scenes.end())
     return Done{};
-  return Error::usage("the output folder lies among the dataset's scenes", options.output,
-                      "give a folder outside " + scenes.string());
+  return Error::usage(Message("the output folder lies among the dataset's scenes"), options.output,
+                      Message("give a folder outside %1", scenes.string()));
 }
 
 }  // namespace
@@ -121,13 +121,13 @@ Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments,
   auto dataset = open_dataset(arguments.dataset, unusable_scenes(arguments));
   if (!dataset) return dataset.error();
   // Said before anything else: what follows may be their consequence.
-  for (const std::string& warning : dataset->warnings) session.warn(warning);
+  for (const Message& warning : dataset->warnings) session.warn(warning);
   auto request = make_request(arguments, *dataset, session);
   if (!request) return request.error();
   auto result = calibrate(*dataset, *request, session.context);
   if (!result) return result.error();
   if (session.context.stopped()) return Error::cancelled();
-  for (const std::string& warning : result->warnings) {
+  for (const Message& warning : result->warnings) {
     const auto& said = dataset->warnings;
     if (std::find(said.begin(), said.end(), warning) == said.end()) session.warn(warning);
   }
@@ -135,8 +135,8 @@ Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments,
 }
 
 Error untrusted_result(const CalibrationResult& result, const CalibrationArguments& arguments) {
-  return Error::untrusted("the result cannot be trusted: " + result.quality_reason +
-                              "; written for inspection to " + arguments.output,
+  return Error::untrusted(Message("the result cannot be trusted: %1; written for inspection to %2",
+                                  result.quality_reason, arguments.output),
                           arguments.dataset);
 }
 

@@ -22,9 +22,9 @@ std::string summary_of(const EdgeCheck& check) {
   std::snprintf(text, sizeof text,
                 "%s; score %.2f ± %.2f of %zu edges (0 chance, 1 all); a turn by %.1f, %.1f, %.1f "
                 "mrad about the camera's x, y, z would be noticed",
-                reason_of(check).c_str(), check.given.score, check.given.sigma, check.given.edges,
-                1e3 * check.noticed_turn_rad.x(), 1e3 * check.noticed_turn_rad.y(),
-                1e3 * check.noticed_turn_rad.z());
+                reason_of(check).text().c_str(), check.given.score, check.given.sigma,
+                check.given.edges, 1e3 * check.noticed_turn_rad.x(),
+                1e3 * check.noticed_turn_rad.y(), 1e3 * check.noticed_turn_rad.z());
   return text;
 }
 
@@ -42,7 +42,7 @@ Result<std::string> run(const CheckArguments& options, Session& session) {
   const auto read =
       read_fresh_views(pairs, input->camera, input->camera_from_lidar, session.context);
   if (!read) return read.error();
-  for (const std::string& warning : read->warnings) session.warn(warning);
+  for (const Message& warning : read->warnings) session.warn(warning);
   EdgeCheckOptions check_options;
   check_options.covariance = stored->covariance;
   check_options.tolerance_px = options.tolerance_px;
@@ -54,7 +54,8 @@ Result<std::string> run(const CheckArguments& options, Session& session) {
   }
   if (check->verdict == EdgeVerdict::kAgrees)
     return name_of(check->verdict) + ": " + summary_of(*check);
-  return Error::untrusted(name_of(check->verdict) + ": " + summary_of(*check), options.result);
+  return Error::untrusted(Message("%1: %2", name_of(check->verdict), summary_of(*check)),
+                          options.result);
 }
 
 }  // namespace

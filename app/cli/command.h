@@ -16,9 +16,9 @@ namespace lvcalib::cli {
 struct Session {
   RunContext context;
   bool quiet = false;
-  std::function<void(const std::string&)> warn;   ///< One line to standard error.
+  std::function<void(const Message&)> warn;       ///< One line to standard error.
   std::function<void(const std::string&)> print;  ///< One line to standard output.
-  std::function<void(const std::string&)> note;   ///< The same, no warning; not with --quiet.
+  std::function<void(const Message&)> note;       ///< The same, no warning; not with --quiet.
 };
 
 /// A command registers its options on the application and returns what to run. The returned

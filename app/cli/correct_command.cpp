@@ -63,25 +63,29 @@ std::string summary_text(const CorrectionSummary& summary, const std::string& ou
 void warn(const CorrectionSummary& summary, const CorrectArguments& options,
           const Session& session) {
   if (summary.effects.empty()) {
-    session.warn(options.result +
-                 ": its model holds no effects; the cloud is written as it is (lvcalib discover "
-                 "looks for effects)");
+    session.warn(
+        Message("%1: its model holds no effects; the cloud is written as it is (lvcalib discover "
+                "looks for effects)",
+                options.result));
   }
   if (summary.no_surface > 0) {
-    session.warn(options.cloud + ": " +
-                 count_text(summary.no_surface, summary.points,
-                            "keep the effects of the incidence: no flat surface about them"));
+    session.warn(
+        Message("%1: %2", options.cloud,
+                count_text(summary.no_surface, summary.points,
+                           "keep the effects of the incidence: no flat surface about them")));
   }
   if (summary.unknown_line > 0) {
-    session.warn(options.cloud + ": " +
-                 count_text(summary.unknown_line, summary.points,
-                            "keep the effects of single lines: theirs did not cross the board"));
+    session.warn(
+        Message("%1: %2", options.cloud,
+                count_text(summary.unknown_line, summary.points,
+                           "keep the effects of single lines: theirs did not cross the board")));
   }
   if (summary.held > 0) {
-    session.warn(options.cloud + ": " +
-                 count_text(summary.held, summary.points,
-                            "are darker, brighter or more slanted than the board was; they get "
-                            "the correction at its limits"));
+    session.warn(
+        Message("%1: %2", options.cloud,
+                count_text(summary.held, summary.points,
+                           "are darker, brighter or more slanted than the board was; they get "
+                           "the correction at its limits")));
   }
 }
 
@@ -91,7 +95,7 @@ Result<std::string> run(const CorrectArguments& options, Session& session) {
   }
   const auto model = read_model(options.result);
   if (!model) return model.error();
-  session.context.report("load", 0.0, "reading the cloud");
+  session.context.report("load", 0.0, Message("reading the cloud"));
   auto cloud = read_cloud(options.cloud, session.context.stop, PointChoice::kAll);
   if (!cloud) return cloud.error();
   const auto summary =

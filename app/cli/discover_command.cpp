@@ -59,11 +59,11 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
     if (error.kind == ErrorKind::kUntrusted && !session.context.stopped()) {
       // Too little to look for effects, but there is a calibration.
       if (Status s = write_results(*result, output); !s) return s.error();
-      error.message += "; the plain calibration is in " + output;
+      error.message += Message("; the plain calibration is in %1", output);
     }
     return error;
   }
-  for (const std::string& warning : discovery->warnings) session.warn(warning);
+  for (const Message& warning : discovery->warnings) session.warn(warning);
   const CalibrationResult final = with_model(std::move(*result), *discovery);
   if (session.context.stopped()) return Error::cancelled();
   if (Status s = write_discovery(*discovery, final, output); !s) return s.error();

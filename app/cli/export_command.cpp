@@ -34,8 +34,8 @@ Result<std::string> run(const ExportArguments& options, const RunContext& contex
   auto input = read_export_input(options.result);
   if (!input) return input.error();
   if (input->quality == name_of(Quality::kFailed) && !options.force) {
-    return Error::untrusted("the result has failed and is not to be used", options.result,
-                            "its warnings say why; --force exports it all the same");
+    return Error::untrusted(Message("the result has failed and is not to be used"), options.result,
+                            Message("its warnings say why; --force exports it all the same"));
   }
   if (!options.imu.empty()) {
     auto imu = read_transform(options.imu, "T_imu_lidar");
@@ -52,7 +52,7 @@ Result<std::string> run(const ExportArguments& options, const RunContext& contex
            std::to_string(written->hidden) + " hidden -> " + options.output;
   }
   if (!options.scene.empty())
-    return Error::usage("only a coloured cloud is of one scene", "--scene");
+    return Error::usage(Message("only a coloured cloud is of one scene"), "--scene");
   if (Status s = write_export(*input, options.format, options.output); !s) return s.error();
   return options.format + " -> " + options.output;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/text.h"
 #include "base/yaml_file.h"
 #include "camera/camera.h"
 #include "command.h"
@@ -32,8 +33,8 @@ struct ImportArguments {
   ImportOptions import;
 };
 
-void warn_all(const std::vector<std::string>& warnings, const Session& session) {
-  for (const std::string& warning : warnings) session.warn(warning);
+void warn_all(const std::vector<Message>& warnings, const Session& session) {
+  for (const Message& warning : warnings) session.warn(warning);
 }
 
 // A table of topics, as text of several lines.
@@ -80,9 +81,9 @@ Result<std::vector<double>> scene_times(const std::string& text) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     double value = 0.0;
     if (!parse_number(text.substr(begin, end - begin), value) || value < 0.0) {
-      return Error::usage("'" + text.substr(0, 100) +
-                              "' is no list of times; expected auto, or seconds from the first "
-                              "message: 4.5,12,20",
+      return Error::usage(Message("'%1' is no list of times; expected auto, or seconds from the "
+                                  "first message: 4.5,12,20",
+                                  text.substr(0, 100)),
                           "--scenes");
     }
     out.push_back(value);
@@ -134,13 +135,12 @@ void tell_stretches(const ImportSummary& summary, const Session& session) {
   for (const ImportedStretch& s : summary.stretches) {
     char text[160];
     std::snprintf(text, sizeof text, "%8.1f s to %8.1f s: ", s.first_s, s.last_s);
-    std::string line = text;
+    Message line = Message::verbatim(text);
     if (s.taken) {
-      std::snprintf(text, sizeof text, "scene %s, %zu sweeps, %zu points, image at %.2f s",
-                    s.scene.c_str(), s.sweeps, s.points, s.image_s);
-      line += text;
+      line += Message("scene %1, %2 sweeps, %3 points, image at %4 s", s.scene, s.sweeps, s.points,
+                      formatted("%.2f", s.image_s));
     } else {
-      line += "left: " + s.reason;
+      line += Message("left: %1", s.reason);
     }
     session.note(line);
   }
@@ -158,7 +158,7 @@ Result<PairedFiles> pairs_of(const ImportArguments& options, const Session& sess
   pairs.image_time_offset_s = options.import.image_time_offset_s;
   auto found = find_pairs(pairs);
   if (!found) return found;
-  for (const std::string& line : found->unmatched) session.note(line);
+  for (const UnmatchedFile& file : found->unmatched) session.note(file.sentence());
   return found;
 }
 
@@ -196,8 +196,9 @@ Result<std::string> import_files(const ImportArguments& options, Session& sessio
   const auto summary = import_pairs(*files, import, options.output, session.context);
   if (!summary) return summary.error();
   for (const ImportedPair& pair : summary->pairs) {
-    session.note(pair.files.name + ": " +
-                 (pair.taken ? std::to_string(pair.points) + " points" : "left: " + pair.reason));
+    session.note(
+        Message("%1: %2", pair.files.name,
+                pair.taken ? Message("%1 points", pair.points) : Message("left: %1", pair.reason)));
   }
   warn_all(summary->warnings, session);
   return std::to_string(summary->scene_count()) + " scenes of " +
@@ -207,8 +208,8 @@ Result<std::string> import_files(const ImportArguments& options, Session& sessio
 
 Result<std::string> run(const ImportArguments& options, Session& session) {
   if (!options.list && options.output.empty()) {
-    return Error::usage("-o,--output is missing", "import",
-                        "give a folder for the dataset, or --list to look only");
+    return Error::usage(Message("-o,--output is missing"), "import",
+                        Message("give a folder for the dataset, or --list to look only"));
   }
   if (!options.clouds.empty() || looks_like_file_pairs(options.recording))
     return import_files(options, session);

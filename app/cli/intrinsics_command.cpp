@@ -59,12 +59,12 @@ std::string summary_of(const CameraCalibration& result, const std::string& outpu
 Result<Target> load_board(const fs::path& path, bool given, const Session& session) {
   std::error_code code;
   if (!given && !fs::exists(path, code)) {
-    return Error::input("file not found; expected the description of the board", path.string(),
-                        "put it there, or name one with --target");
+    return Error::input(Message("file not found; expected the description of the board"),
+                        path.string(), Message("put it there, or name one with --target"));
   }
   auto file = read_target(path);
   if (!file) return file.error();
-  for (const std::string& warning : file->warnings) session.warn(warning);
+  for (const Message& warning : file->warnings) session.warn(warning);
   return file->target;
 }
 
@@ -79,7 +79,8 @@ Status check_output(const IntrinsicsArguments& options, const CameraImages& imag
   }
   std::error_code code;
   if (fs::is_directory(options.output, code))
-    return Error::usage("the output is a folder", options.output, "name a file: camera.yaml");
+    return Error::usage(Message("the output is a folder"), options.output,
+                        Message("name a file: camera.yaml"));
   const fs::path parent = fs::path(options.output).parent_path();
   return parent.empty() ? Status(Done{}) : check_folder_usable(parent);
 }
@@ -97,7 +98,7 @@ Result<std::string> run(const IntrinsicsArguments& options, Session& session) {
   if (!options.camera.empty()) {
     const auto camera = read_camera(options.camera);
     if (!camera) return camera.error();
-    for (const std::string& warning : camera->warnings) session.warn(warning);
+    for (const Message& warning : camera->warnings) session.warn(warning);
     how.start = camera->camera;
   }
   const auto result = calibrate_camera(images->images, *target, how, session.context);
@@ -106,7 +107,7 @@ Result<std::string> run(const IntrinsicsArguments& options, Session& session) {
     if (error.where.empty()) error.where = options.folder;
     return error;
   }
-  for (const std::string& warning : result->warnings) session.warn(warning);
+  for (const Message& warning : result->warnings) session.warn(warning);
   if (session.context.stopped()) return Error::cancelled();
   const fs::path parent = fs::path(options.output).parent_path();
   if (!parent.empty()) {

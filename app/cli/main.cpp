@@ -46,8 +46,9 @@ int check_printed(ProgressPrinter& printer, int status) {
   std::cout.flush();
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
   if (!lost) return status;
-  return fail(printer, Error::output("what was to be printed is lost: standard output cannot be "
-                                     "written"));
+  return fail(
+      printer,
+      Error::output(Message("what was to be printed is lost: standard output cannot be written")));
 }
 
 struct CommonOptions {
@@ -72,9 +73,9 @@ int parse(CLI::App& app, int argc, char** argv, ProgressPrinter& printer) {
       return check_printed(printer, app.exit(e));
     const auto used = app.get_subcommands();
     const std::string where = used.empty() ? std::string{} : used.front()->get_name();
-    return fail(printer,
-                Error::usage(e.what(), where,
-                             "see lvcalib " + (where.empty() ? "" : where + " ") + "--help"));
+    return fail(printer, Error::usage(Message::verbatim(e.what()), where,
+                                      Message("see lvcalib %1--help",
+                                              where.empty() ? Message() : Message("%1 ", where))));
   }
 }
 
@@ -99,13 +100,15 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
   if (!common.quiet) {
     session.context.progress = [&printer](const Progress& progress) { printer.show(progress); };
   }
-  session.warn = [&printer](const std::string& text) { printer.line("lvcalib: warning: " + text); };
+  session.warn = [&printer](const Message& message) {
+    printer.line("lvcalib: warning: " + message.text());
+  };
   session.print = [&printer](const std::string& text) {
     printer.finish();
     std::printf("%s\n", printable(text).c_str());
   };
-  session.note = [&printer, quiet = common.quiet](const std::string& text) {
-    if (!quiet) printer.line(text);
+  session.note = [&printer, quiet = common.quiet](const Message& message) {
+    if (!quiet) printer.line(message.text());
   };
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
@@ -129,16 +132,18 @@ int main(int argc, char** argv) {
     const lvcalib::cli::InterruptWatch interrupt;
     return lvcalib::cli::run(argc, argv, printer, interrupt);
   } catch (const std::bad_alloc&) {
-    return lvcalib::cli::fail(
-        printer, Error::input("not enough memory", {}, "use smaller clouds or images"));
-  } catch (const std::system_error&) {
     return lvcalib::cli::fail(printer,
-                              Error::input("not enough memory or threads", {},
-                                           "end other programs, or raise the limits (ulimit)"));
+                              Error::input(lvcalib::Message("not enough memory"), {},
+                                           lvcalib::Message("use smaller clouds or images")));
+  } catch (const std::system_error&) {
+    return lvcalib::cli::fail(
+        printer,
+        Error::input(lvcalib::Message("not enough memory or threads"), {},
+                     lvcalib::Message("end other programs, or raise the limits (ulimit)")));
   } catch (const std::exception& e) {
     return lvcalib::cli::fail(printer,
-                              Error::input(std::string("unexpected failure: ") + e.what()));
+                              Error::input(lvcalib::Message("unexpected failure: %1", e.what())));
   } catch (...) {
-    return lvcalib::cli::fail(printer, Error::input("unexpected failure"));
+    return lvcalib::cli::fail(printer, Error::input(lvcalib::Message("unexpected failure")));
   }
 }

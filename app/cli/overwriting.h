@@ -12,7 +12,8 @@ namespace lvcalib::cli {
 inline Status refuse_overwriting(const std::string& output, const std::string& input) {
   std::error_code code;
   if (!std::filesystem::equivalent(output, input, code) || code) return Done{};
-  return Error::usage("the output is the input itself", output, "give another name with -o");
+  return Error::usage(Message("the output is the input itself"), output,
+                      Message("give another name with -o"));
 }
 
 }  // namespace lvcalib::cli

@@ -39,12 +39,12 @@ Result<std::string> run(const PlanArguments& options, Session& session) {
   const auto lidar = read_lidar(options.lidar);
   if (!lidar) return lidar.error();
   for (const auto* warnings : {&target->warnings, &camera->warnings, &lidar->warnings}) {
-    for (const std::string& warning : *warnings) session.warn(warning);
+    for (const Message& warning : *warnings) session.warn(warning);
   }
   auto plan =
       plan_scenes(target->target, camera->camera, lidar->lidar, options.plan, session.context);
   if (!plan) return plan.error();
-  for (const std::string& warning : plan->warnings) session.warn(warning);
+  for (const Message& warning : plan->warnings) session.warn(warning);
   if (Status s = write_plan(*plan, options.output); !s) return s.error();
   return summary_of(*plan, options.output);
 }

@@ -48,7 +48,7 @@ void ProgressPrinter::show(const Progress& progress) {
   stage_ = progress.stage;
   if (!terminal_) {
     if (new_stage)
-      std::fprintf(stderr, "%s: %s\n", stage_.c_str(), printable(progress.text).c_str());
+      std::fprintf(stderr, "%s: %s\n", stage_.c_str(), printable(progress.text.text()).c_str());
     return;
   }
   const auto now = std::chrono::steady_clock::now();
@@ -58,7 +58,7 @@ void ProgressPrinter::show(const Progress& progress) {
   const auto filled = static_cast<std::size_t>(fraction * kBarWidth);
   std::string bar = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, ' ') + "] " +
                     std::to_string(static_cast<int>(100 * fraction)) + " % " + stage_ + ": " +
-                    printable(progress.text);
+                    printable(progress.text.text());
   // A line that wraps could not be redrawn in place.
   bar.resize(std::min(bar.size(), terminal_width() - 1));
   std::fprintf(stderr, "\r\033[K%s", bar.c_str());

@@ -22,7 +22,7 @@ Result<std::string> run(const ReportArguments& options, Session& session) {
   auto report = html_report(options.folder, session.context);
   if (!report) return report.error();
   if (session.context.stopped()) return Error::cancelled();
-  for (const std::string& warning : report->warnings) session.warn(warning);
+  for (const Message& warning : report->warnings) session.warn(warning);
   if (Status s = write_file_atomically(options.output, report->html); !s) return s.error();
   return "report -> " + options.output;
 }

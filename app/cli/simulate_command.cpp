@@ -64,7 +64,7 @@ Status read_image_size(const std::string& text, simulation::ImageOptions& image)
   const auto is_whole = [](double x) { return std::abs(x) < 1e6 && x == std::trunc(x); };
   if (!parts || !parse_number(parts->first, width) || !parse_number(parts->second, height) ||
       !is_whole(width) || !is_whole(height)) {
-    return Error::usage("'" + text + "' is no image size, expected WIDTHxHEIGHT", "--image");
+    return Error::usage(Message("'%1' is no image size, expected WIDTHxHEIGHT", text), "--image");
   }
   image.width_px = static_cast<int>(width);
   image.height_px = static_cast<int>(height);
@@ -76,7 +76,7 @@ Status read_distance(const std::string& text, simulation::PlacementOptions& plac
   const auto parts = split(text, ':');
   if (!parts || !parse_number(parts->first, placement.min_distance_m) ||
       !parse_number(parts->second, placement.max_distance_m)) {
-    return Error::usage("'" + text + "' is no range of distances, expected MIN:MAX in metres",
+    return Error::usage(Message("'%1' is no range of distances, expected MIN:MAX in metres", text),
                         "--distance");
   }
   return Done{};
@@ -87,11 +87,11 @@ Status read_effects(const std::vector<std::string>& texts, std::map<std::string,
     const auto parts = split(text, '=');
     double value = 0.0;
     if (!parts || parts->first.empty() || !parse_number(parts->second, value)) {
-      return Error::usage("'" + text + "' is no effect, expected ID=VALUE with a number",
+      return Error::usage(Message("'%1' is no effect, expected ID=VALUE with a number", text),
                           "--effect");
     }
     if (!effects.emplace(parts->first, value).second) {
-      return Error::usage("'" + parts->first + "' is given twice", "--effect");
+      return Error::usage(Message("'%1' is given twice", parts->first), "--effect");
     }
   }
   return Done{};
@@ -108,7 +108,7 @@ Result<SimulationOptions> complete(const SimulateArguments& options, const Sessi
   if (!options.target_path.empty()) {
     auto file = read_target(options.target_path);
     if (!file) return file.error();
-    for (const std::string& warning : file->warnings) session.warn(warning);
+    for (const Message& warning : file->warnings) session.warn(warning);
     out.target = file->target;
   }
   return out;

@@ -25,15 +25,15 @@ Result<SheetFormat> format_of(const std::string& path) {
   if (extension == ".pdf") return SheetFormat::kPdf;
   if (extension == ".svg") return SheetFormat::kSvg;
   if (extension == ".png") return SheetFormat::kPng;
-  return Error::usage("cannot tell the format of '" + path + "'", "-o",
-                      "end the name in .pdf, .svg or .png");
+  return Error::usage(Message("cannot tell the format of '%1'", path), "-o",
+                      Message("end the name in .pdf, .svg or .png"));
 }
 
 Result<Target> load_target(const TargetArguments& options, const Session& session) {
   if (options.target_path.empty()) return Target{};
   auto file = read_target(options.target_path);
   if (!file) return file.error();
-  for (const std::string& warning : file->warnings) session.warn(warning);
+  for (const Message& warning : file->warnings) session.warn(warning);
   return file->target;
 }
 

@@ -25,8 +25,8 @@
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
-#include "style/texts.h"
 #include "tools/watch_window.h"
+#include "words/core_text.h"
 #include "workbench/demo_tour.h"
 #include "workbench/main_actions.h"
 #include "workbench/page_stack.h"
@@ -242,8 +242,7 @@ void MainWindow::connect_workspace() {
       show_error(error);
     }
   });
-  connect(w, &Workspace::logged, log_,
-          [this](const QString& line) { log_->append(core_text(line)); });
+  connect(w, &Workspace::logged, log_, [this](const QString& line) { log_->append(line); });
   connect(w, &Workspace::dirty_changed, this, &MainWindow::update_title);
 }
 
@@ -251,12 +250,12 @@ void MainWindow::connect_pages() {
   connect(&loader_, &SceneLoader::thumbnail, &model_, &SceneModel::set_thumbnail);
   connect(&loader_, &SceneLoader::loaded, this,
           [this](const QString& scene, const SceneData& data) {
-            if (data.image_problem.isEmpty() && data.cloud_problem.isEmpty())
+            if (data.image_problem.empty() && data.cloud_problem.empty())
               model_.set_problem(scene, {});
             if (scene == scene_) pages_->set_scene_data(data);
           });
   connect(&loader_, &SceneLoader::failed, this,
-          [this](const QString& scene, const QString& message) {
+          [this](const QString& scene, const Message& message) {
             model_.set_problem(scene, message);
             log_->append(tr("Scene %1: %2").arg(scene, core_text(message)));
           });
@@ -286,8 +285,9 @@ void MainWindow::connect_pages() {
           [this](int scene) { workspace_->set_insist({scene_name(scene)}, true); });
   connect(pages_, &PageStack::scene_wanted, this,
           [this](int scene) { scenes_->select(scene_name(scene)); });
-  connect(pages_, &PageStack::failed, this,
-          [this](const QString& message) { show_error(Error::output(message.toStdString())); });
+  connect(pages_, &PageStack::failed, this, [this](const QString& message) {
+    show_error(Error::output(Message::verbatim(message.toStdString())));
+  });
 }
 
 // Thresholds of the solve: looked at first, then decided.

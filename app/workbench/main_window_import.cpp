@@ -9,7 +9,7 @@
 #include "recording/file_pairs.h"
 #include "recording/recording.h"
 #include "start/welcome_page.h"
-#include "style/texts.h"
+#include "words/core_text.h"
 #include "workbench/main_actions.h"
 #include "workbench/main_window.h"
 #include "workbench/page_stack.h"
@@ -84,7 +84,7 @@ void MainWindow::take_imported(const QString& dataset, const ImportSummary& summ
     log_->append(s.taken ? tr("%1: scene %2").arg(time, QString::fromStdString(s.scene))
                          : tr("%1: left: %2").arg(time, core_text(s.reason)));
   }
-  for (const std::string& warning : summary.warnings) log_->append(core_text(warning));
+  for (const Message& warning : summary.warnings) log_->append(core_text(warning));
   calibrate_new(dataset);
 }
 
@@ -101,7 +101,7 @@ void MainWindow::import_files(const QString& folder) {
                 const QString name = QString::fromStdString(pair.files.name);
                 if (!pair.taken) log_->append(tr("%1: left: %2").arg(name, core_text(pair.reason)));
               }
-              for (const std::string& warning : summary.warnings) log_->append(core_text(warning));
+              for (const Message& warning : summary.warnings) log_->append(core_text(warning));
               const bool watched = std::exchange(watch_imported_, false);
               if (!calibrate_new(dataset) || !watched) return;
               watch_next_ = files_->pairOptions();

@@ -2,7 +2,7 @@
 // The window's side of the Model page and of the demo's tour.
 #include "docks/log_dock.h"
 #include "modelling/model_page.h"
-#include "style/texts.h"
+#include "words/core_text.h"
 #include "workbench/demo_tour.h"
 #include "workbench/main_actions.h"
 #include "workbench/main_window.h"

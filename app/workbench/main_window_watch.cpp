@@ -6,8 +6,8 @@
 #include "docks/log_dock.h"
 #include "docks/scenes_dock.h"
 #include "importing/files_dialog.h"
-#include "style/texts.h"
 #include "tools/watch_window.h"
+#include "words/core_text.h"
 #include "workbench/main_actions.h"
 #include "workbench/main_window.h"
 #include "workbench/page_stack.h"
@@ -30,7 +30,7 @@ void MainWindow::connect_watch() {
     update_actions();
   });
   connect(watch_.get(), &WatchWork::refused, this,
-          [this](const QString& name, const QString& reason) {
+          [this](const QString& name, const Message& reason) {
             log_->append(tr("%1: left: %2").arg(name, core_text(reason)));
           });
   connect(watch_.get(), &WatchWork::failed, this,

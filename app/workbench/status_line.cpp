@@ -5,7 +5,7 @@
 #include <QProgressBar>
 
 #include "style/marks.h"
-#include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -69,7 +69,7 @@ void StatusLine::show_progress(const QString& stage, double fraction, const QStr
   stage_->show();
   bar_->setValue(static_cast<int>(kSteps * fraction));
   bar_->show();
-  text_->setText(core_text(text));
+  text_->setText(text);
 }
 
 void StatusLine::show_idle(const QString& message) {

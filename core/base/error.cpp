@@ -3,26 +3,29 @@
 
 namespace lvcalib {
 
-std::string Error::text() const {
-  std::string out = where.empty() ? message : where + ": " + message;
-  if (!hint.empty()) out += " (" + hint + ")";
-  return out;
+Message Error::sentence() const {
+  const Message placed = where.empty() ? message : Message("%1: %2", where, message);
+  return hint.empty() ? placed : Message("%1 (%2)", placed, hint);
 }
 
-Error Error::input(std::string message, std::string where, std::string hint) {
-  return {ErrorKind::kInput, std::move(message), std::move(where), std::move(hint)};
+std::string Error::text() const {
+  return sentence().text();
 }
-Error Error::untrusted(std::string message, std::string where, std::string hint) {
-  return {ErrorKind::kUntrusted, std::move(message), std::move(where), std::move(hint)};
+
+Error Error::input(Message message, std::string where, Message hint) {
+  return {ErrorKind::kInput, std::move(message), std::move(where), std::move(hint), {}};
 }
-Error Error::output(std::string message, std::string where, std::string hint) {
-  return {ErrorKind::kOutput, std::move(message), std::move(where), std::move(hint)};
+Error Error::untrusted(Message message, std::string where, Message hint) {
+  return {ErrorKind::kUntrusted, std::move(message), std::move(where), std::move(hint), {}};
 }
-Error Error::usage(std::string message, std::string where, std::string hint) {
-  return {ErrorKind::kUsage, std::move(message), std::move(where), std::move(hint)};
+Error Error::output(Message message, std::string where, Message hint) {
+  return {ErrorKind::kOutput, std::move(message), std::move(where), std::move(hint), {}};
+}
+Error Error::usage(Message message, std::string where, Message hint) {
+  return {ErrorKind::kUsage, std::move(message), std::move(where), std::move(hint), {}};
 }
 Error Error::cancelled() {
-  return {ErrorKind::kCancelled, "stopped by the user", {}, {}};
+  return {ErrorKind::kCancelled, Message("stopped by the user"), {}, {}, {}};
 }
 
 }  // namespace lvcalib

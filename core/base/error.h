@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "base/message.h"
+
 namespace lvcalib {
 
 /// What kind of thing went wrong. The command line maps each kind to its exit status.
@@ -19,17 +21,21 @@ enum class ErrorKind {
 /// A typed error: what, where, what was expected, what to do.
 struct Error {
   ErrorKind kind = ErrorKind::kInput;
-  std::string message;  ///< One sentence: what is wrong, what was found, what was expected.
-  std::string where;    ///< File (and line or field) or scene; may be empty.
-  std::string hint;     ///< What the user can do; may be empty.
+  Message message;    ///< One sentence: what is wrong, what was found, what was expected.
+  std::string where;  ///< File (and line or field) or scene; may be empty.
+  Message hint;       ///< What the user can do; may be empty.
+  /// The key of the file whose value is wrong; empty if it is not one.
+  std::string field = {};
 
-  /// "where: message (hint)" on a single line.
+  /// "where: message (hint)" as one sentence, for another sentence or another language.
+  [[nodiscard]] Message sentence() const;
+  /// The same in English, on a single line.
   [[nodiscard]] std::string text() const;
 
-  static Error input(std::string message, std::string where = {}, std::string hint = {});
-  static Error untrusted(std::string message, std::string where = {}, std::string hint = {});
-  static Error output(std::string message, std::string where = {}, std::string hint = {});
-  static Error usage(std::string message, std::string where = {}, std::string hint = {});
+  static Error input(Message message, std::string where = {}, Message hint = {});
+  static Error untrusted(Message message, std::string where = {}, Message hint = {});
+  static Error output(Message message, std::string where = {}, Message hint = {});
+  static Error usage(Message message, std::string where = {}, Message hint = {});
   static Error cancelled();
 };
 

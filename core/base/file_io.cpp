@@ -15,20 +15,22 @@ namespace fs = std::filesystem;
 Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (!fs::exists(status)) return Error::input("file not found", path.string());
-  if (!fs::is_regular_file(status)) return Error::input("not a regular file", path.string());
+  if (!fs::exists(status)) return Error::input(Message("file not found"), path.string());
+  if (!fs::is_regular_file(status))
+    return Error::input(Message("not a regular file"), path.string());
   const auto size = fs::file_size(path, code);
-  if (code) return Error::input("cannot be read: " + code.message(), path.string());
+  if (code) return Error::input(Message("cannot be read: %1", code.message()), path.string());
   if (size > max_bytes) {
-    return Error::input("file is too large: " + std::to_string(size) + " bytes, expected at most " +
-                            std::to_string(max_bytes),
-                        path.string());
+    return Error::input(
+        Message("file is too large: %1 bytes, expected at most %2", size, max_bytes),
+        path.string());
   }
   std::ifstream stream(path, std::ios::binary);
   std::string text(static_cast<std::size_t>(size), '\0');
   stream.read(text.data(), static_cast<std::streamsize>(size));
   if (!stream) {
-    return Error::input("cannot be read: " + std::string(std::strerror(errno)), path.string());
+    return Error::input(Message("cannot be read: %1", std::string(std::strerror(errno))),
+                        path.string());
   }
   return text;
 }
@@ -90,7 +92,8 @@ int write_temporary(const fs::path& temporary, std::string_view content) {
 }
 
 Error not_written(int failure, const fs::path& path) {
-  return Error::output("cannot be written: " + std::string(std::strerror(failure)), path.string());
+  return Error::output(Message("cannot be written: %1", std::string(std::strerror(failure))),
+                       path.string());
 }
 
 }  // namespace
@@ -132,7 +135,8 @@ Status create_folder(const fs::path& path) {
   fs::create_directories(path, code);
   if (code || !fs::is_directory(path)) {
     return Error::output(
-        "folder cannot be created: " + (code ? code.message() : "a file is in the way"),
+        Message("folder cannot be created: %1",
+                code ? Message::verbatim(code.message()) : Message("a file is in the way")),
         path.string());
   }
   return Done{};
@@ -145,15 +149,17 @@ Status check_folder_usable(const fs::path& path) {
     existing = existing.parent_path();
   const bool itself = existing == fs::absolute(path, code);
   if (!fs::is_directory(existing, code)) {
-    return Error::output("folder cannot be created: a file is in the way" +
-                             (itself ? "" : " (" + existing.string() + ")"),
-                         path.string(), "give another folder");
+    const std::string file = existing.string();
+    return Error::output(itself
+                             ? Message("folder cannot be created: a file is in the way")
+                             : Message("folder cannot be created: a file is in the way (%1)", file),
+                         path.string(), Message("give another folder"));
   }
   if (::access(existing.c_str(), W_OK | X_OK) != 0) {
     return Error::output(
-        itself ? "folder cannot be written: no right to do so"
-               : "folder cannot be created: no right to write to " + existing.string(),
-        path.string(), "give another folder");
+        itself ? Message("folder cannot be written: no right to do so")
+               : Message("folder cannot be created: no right to write to %1", existing.string()),
+        path.string(), Message("give another folder"));
   }
   return Done{};
 }

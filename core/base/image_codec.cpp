@@ -23,8 +23,8 @@ namespace {
 constexpr long long kMaxPixels = 200'000'000;
 
 Error damaged_data() {
-  return Error::input("the image cannot be decoded: its data are damaged", {},
-                      "copy or save the image again");
+  return Error::input(Message("the image cannot be decoded: its data are damaged"), {},
+                      Message("copy or save the image again"));
 }
 
 void make_room(DecodedImage& image) {
@@ -204,7 +204,8 @@ Result<DecodedImage> decode_bmp(std::string_view file) {
   constexpr std::array<std::uint32_t, 6> kBits{1, 4, 8, 16, 24, 32};
   if (std::find(kBits.begin(), kBits.end(), bits) == kBits.end()) return damaged_data();
   if (compression != 0 && !(compression == kMasks && bits >= 16)) {
-    return Error::input("a compressed bmp file, which cannot be read", {}, "save the image as png");
+    return Error::input(Message("a compressed bmp file, which cannot be read"), {},
+                        Message("save the image as png"));
   }
   const std::size_t stride = (static_cast<std::size_t>(image.width_px) * bits + 31) / 32 * 4;
   const auto rows = static_cast<std::size_t>(image.height_px);
@@ -341,8 +342,8 @@ Result<DecodedImage> decode_tiff(std::string_view file, const ImageHeader& heade
   const std::uint16_t format = field(TIFFTAG_SAMPLEFORMAT);
   const std::uint16_t kind = field(TIFFTAG_PHOTOMETRIC);
   if (bits > 16 || format == SAMPLEFORMAT_IEEEFP || format == SAMPLEFORMAT_COMPLEXIEEEFP) {
-    return Error::input("the image has neither 8 nor 16 bits per channel", {},
-                        "save it as 8 or 16 bit png");
+    return Error::input(Message("the image has neither 8 nor 16 bits per channel"), {},
+                        Message("save it as 8 or 16 bit png"));
   }
   // Two readers of one directory must agree before memory is taken.
   if (width != header.width_px || height != header.height_px) return damaged_data();
@@ -448,9 +449,8 @@ Result<DecodedImage> decode_image(std::string_view file) {
   if (!header) return header.error();
   if (header->width_px < 1 || header->height_px < 1 ||
       header->width_px > kMaxPixels / header->height_px) {
-    return Error::input("the image claims " + std::to_string(header->width_px) + " × " +
-                        std::to_string(header->height_px) + " pixels; expected 1 to " +
-                        std::to_string(kMaxPixels) + " in all");
+    return Error::input(Message("the image claims %1 × %2 pixels; expected 1 to %3 in all",
+                                header->width_px, header->height_px, kMaxPixels));
   }
   // The decoders take a refusal of memory for damage. Pixels of 16 bits and four channels, and room
   // for themselves.
@@ -466,10 +466,10 @@ Result<DecodedImage> decode_image(std::string_view file) {
 
 Result<std::string> encode_png(const PixelView& pixels) {
   if (!has_pixels(pixels))
-    return Error::output("the image has no pixels, so no PNG can be made of it");
+    return Error::output(Message("the image has no pixels, so no PNG can be made of it"));
   PngWriting writing;
   if (writing.info == nullptr) throw std::bad_alloc();
-  if (!writing.run(pixels)) return Error::output("the image could not be encoded as PNG");
+  if (!writing.run(pixels)) return Error::output(Message("the image could not be encoded as PNG"));
   return std::move(writing.out);
 }
 
@@ -477,7 +477,7 @@ Result<std::string> encode_grey_jpeg(const PixelView& pixels, int quality) {
   JpegWriting writing;
   if (!has_pixels(pixels) || pixels.channels != 1 || pixels.bits != 8 ||
       !writing.run(pixels, quality))
-    return Error::output("the image could not be encoded as JPEG");
+    return Error::output(Message("the image could not be encoded as JPEG"));
   return std::string(reinterpret_cast<const char*>(writing.bytes), writing.size);
 }
 

@@ -31,8 +31,8 @@ class Bytes {
 };
 
 Error truncated(const char* format) {
-  return Error::input(std::string("the ") + format + " file ends early or is damaged", {},
-                      "copy or save the image again");
+  return Error::input(Message("the %1 file ends early or is damaged", format), {},
+                      Message("copy or save the image again"));
 }
 
 Result<ImageHeader> read_png(std::string_view data) {
@@ -104,12 +104,12 @@ Result<ImageHeader> read_tiff(std::string_view data) {
 
 Result<ImageHeader> read_image_header(std::string_view bytes) {
   using namespace std::string_view_literals;
-  if (bytes.empty()) return Error::input("the image file is empty");
+  if (bytes.empty()) return Error::input(Message("the image file is empty"));
   if (bytes.starts_with("\x89PNG\r\n\x1A\n"sv)) return read_png(bytes);
   if (bytes.starts_with("\xFF\xD8\xFF"sv)) return read_jpeg(bytes);
   if (bytes.starts_with("BM"sv)) return read_bmp(bytes);
   if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return read_tiff(bytes);
-  return Error::input("not an image that can be read; expected png, jpg, bmp or tiff");
+  return Error::input(Message("not an image that can be read; expected png, jpg, bmp or tiff"));
 }
 
 }  // namespace lvcalib

@@ -5,13 +5,15 @@
 #include <stop_token>
 #include <string>
 
+#include "base/message.h"
+
 namespace lvcalib {
 
 /// One progress report of a running stage.
 struct Progress {
   std::string stage;      ///< "load", "detect", "localize", "refine", "optimize", …
   double fraction = 0.0;  ///< 0…1 of the whole run.
-  std::string text;       ///< One line for people.
+  Message text;           ///< One line for people.
 };
 
 /// Receives progress; may be called from worker threads, one call at a time.
@@ -23,7 +25,7 @@ struct RunContext {
   std::stop_token stop;
   int threads = 0;  ///< 0: as many as the machine has.
 
-  void report(std::string stage, double fraction, std::string text) const {
+  void report(std::string stage, double fraction, Message text) const {
     if (progress) progress({std::move(stage), fraction, std::move(text)});
   }
   [[nodiscard]] bool stopped() const { return stop.stop_requested(); }

@@ -43,18 +43,18 @@ bool convert(const YAML::Node& node, YamlValue& out, int depth, int& budget) {
   return true;
 }
 
-std::string describe(const YamlValue& value) {
+Message describe(const YamlValue& value) {
   switch (value.kind) {
     case YamlValue::Kind::kScalar:
-      return "'" + value.scalar.substr(0, 60) + "'";
+      return Message("'%1'", value.scalar.substr(0, 60));
     case YamlValue::Kind::kList:
-      return "a list of " + std::to_string(value.list.size());
+      return Message("a list of %1", value.list.size());
     case YamlValue::Kind::kMap:
-      return "a map";
+      return Message("a map");
     case YamlValue::Kind::kNull:
       break;
   }
-  return "nothing";
+  return Message("nothing");
 }
 
 std::string short_number(double value) {
@@ -97,15 +97,16 @@ Result<YamlFile> YamlFile::parse(std::string text, std::string name) {
     int budget = kMaxValues;
     const YAML::Node root = YAML::Load(text);
     if (!convert(root, file.root_, 0, budget)) {
-      return Error::input("YAML is nested too deeply or far too large", file.name_);
+      return Error::input(Message("YAML is nested too deeply or far too large"), file.name_);
     }
   } catch (const YAML::Exception& e) {
-    return Error::input("not valid YAML: " + e.msg,
+    return Error::input(Message("not valid YAML: %1", e.msg),
                         file.name_ + ":" + std::to_string(e.mark.line + 1));
   }
   if (file.root_.kind != YamlValue::Kind::kMap) {
-    return Error::input("expected a YAML map of keys and values, found " + describe(file.root_),
-                        file.name_);
+    return Error::input(
+        Message("expected a YAML map of keys and values, found %1", describe(file.root_)),
+        file.name_);
   }
   return file;
 }
@@ -113,10 +114,10 @@ Result<YamlFile> YamlFile::parse(std::string text, std::string name) {
 Result<YamlFile> YamlFile::section(std::string_view key) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return missing(key, "a map");
+    return missing(key, Message("a map"));
   }
   if (value->kind != YamlValue::Kind::kMap) {
-    return error_at(*value, "'" + std::string(key) + "' must be a map, found " + describe(*value));
+    return error_at(*value, Message("'%1' must be a map, found %2", key, describe(*value)));
   }
   YamlFile out;
   out.name_ = name_;
@@ -124,36 +125,39 @@ Result<YamlFile> YamlFile::section(std::string_view key) const {
   return out;
 }
 
-Error YamlFile::error_at(const YamlValue& value, std::string message) const {
+Error YamlFile::error_at(const YamlValue& value, Message message) const {
   return Error::input(std::move(message), name_ + ":" + std::to_string(value.line));
 }
 
-Error YamlFile::missing(std::string_view key, std::string_view expected) const {
+Error YamlFile::missing(std::string_view key, Message expected) const {
   std::vector<std::string> present;
   for (const auto& [name, value] : root_.map) present.push_back(name);
   const std::string near = nearest_word(key, present);
-  return Error::input(
-      "key '" + std::string(key) + "' is missing; expected " + std::string(expected), name_,
-      near.empty() ? "" : "is '" + near + "' a misspelling of it?");
+  return Error::input(Message("key '%1' is missing; expected %2", key, expected), name_,
+                      near.empty() ? Message() : Message("is '%1' a misspelling of it?", near));
 }
 
 Result<double> YamlFile::number(std::string_view key, double low, double high) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return missing(key, "a number");
+    return missing(key, Message("a number"));
   }
   double number = 0;
   if (value->kind != YamlValue::Kind::kScalar || !parse_number(value->scalar, number)) {
-    return error_at(*value,
-                    "'" + std::string(key) + "' must be a number, found " + describe(*value));
+    return error_at(*value, Message("'%1' must be a number, found %2", key, describe(*value)));
   }
   if (number < low || number > high) {
-    const std::string range =
-        low == std::numeric_limits<double>::lowest() ? "' must be at most " + short_number(high)
-        : high == std::numeric_limits<double>::max()
-            ? "' must be at least " + short_number(low)
-            : "' must be between " + short_number(low) + " and " + short_number(high);
-    return error_at(*value, "'" + std::string(key) + range + ", found " + describe(*value));
+    const Message found = describe(*value);
+    if (low == std::numeric_limits<double>::lowest()) {
+      return error_at(*value,
+                      Message("'%1' must be at most %2, found %3", key, short_number(high), found));
+    }
+    if (high == std::numeric_limits<double>::max()) {
+      return error_at(*value,
+                      Message("'%1' must be at least %2, found %3", key, short_number(low), found));
+    }
+    return error_at(*value, Message("'%1' must be between %2 and %3, found %4", key,
+                                    short_number(low), short_number(high), found));
   }
   return number;
 }
@@ -162,8 +166,8 @@ Result<int> YamlFile::integer(std::string_view key, int low, int high) const {
   auto value = number(key, low, high);
   if (!value) return value.error();
   if (*value != std::floor(*value)) {
-    return error_at(*root_.find(key), "'" + std::string(key) + "' must be a whole number, found " +
-                                          describe(*root_.find(key)));
+    return error_at(*root_.find(key), Message("'%1' must be a whole number, found %2", key,
+                                              describe(*root_.find(key))));
   }
   return static_cast<int>(*value);
 }
@@ -171,10 +175,10 @@ Result<int> YamlFile::integer(std::string_view key, int low, int high) const {
 Result<std::string> YamlFile::string(std::string_view key) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return missing(key, "a word");
+    return missing(key, Message("a word"));
   }
   if (value->kind != YamlValue::Kind::kScalar) {
-    return error_at(*value, "'" + std::string(key) + "' must be a word, found " + describe(*value));
+    return error_at(*value, Message("'%1' must be a word, found %2", key, describe(*value)));
   }
   return value->scalar;
 }
@@ -182,8 +186,8 @@ Result<std::string> YamlFile::string(std::string_view key) const {
 Result<std::vector<double>> YamlFile::flatten(const YamlValue& value, std::string_view key) const {
   std::vector<double> out;
   if (value.kind != YamlValue::Kind::kList) {
-    return error_at(
-        value, "'" + std::string(key) + "' must be a list of numbers, found " + describe(value));
+    return error_at(value,
+                    Message("'%1' must be a list of numbers, found %2", key, describe(value)));
   }
   for (const YamlValue& item : value.list) {
     if (item.kind == YamlValue::Kind::kList) {
@@ -194,8 +198,7 @@ Result<std::vector<double>> YamlFile::flatten(const YamlValue& value, std::strin
     }
     double number = 0;
     if (item.kind != YamlValue::Kind::kScalar || !parse_number(item.scalar, number)) {
-      return error_at(item,
-                      "'" + std::string(key) + "' must hold numbers, found " + describe(item));
+      return error_at(item, Message("'%1' must hold numbers, found %2", key, describe(item)));
     }
     out.push_back(number);
   }
@@ -205,25 +208,25 @@ Result<std::vector<double>> YamlFile::flatten(const YamlValue& value, std::strin
 Result<std::vector<double>> YamlFile::numbers(std::string_view key, std::size_t count) const {
   const YamlValue* value = root_.find(key);
   if (value == nullptr) {
-    return missing(key, "a list of numbers");
+    return missing(key, Message("a list of numbers"));
   }
   auto out = flatten(*value, key);
   if (out && count != 0 && out->size() != count) {
-    return error_at(*value, "'" + std::string(key) + "' must hold " + std::to_string(count) +
-                                " numbers, found " + std::to_string(out->size()));
+    return error_at(*value,
+                    Message("'%1' must hold %2 numbers, found %3", key, count, out->size()));
   }
   return out;
 }
 
-std::vector<std::string> YamlFile::unknown_keys(const std::vector<std::string>& known) const {
-  std::vector<std::string> warnings;
+std::vector<Message> YamlFile::unknown_keys(const std::vector<std::string>& known) const {
+  std::vector<Message> warnings;
   for (const auto& [key, value] : root_.map) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    std::string text =
-        name_ + ":" + std::to_string(value.line) + ": unknown key '" + key + "' ignored";
+    const std::string place = name_ + ":" + std::to_string(value.line);
     const std::string nearest = nearest_word(key, known);
-    if (!nearest.empty()) text += "; did you mean '" + nearest + "'?";
-    warnings.push_back(std::move(text));
+    warnings.push_back(nearest.empty() ? Message("%1: unknown key '%2' ignored", place, key)
+                                       : Message("%1: unknown key '%2' ignored; did you mean '%3'?",
+                                                 place, key, nearest));
   }
   return warnings;
 }

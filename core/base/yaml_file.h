@@ -60,12 +60,12 @@ class YamlFile {
                                                     std::size_t count = 0) const;
 
   /// A warning for every top-level key not in `known`, naming the nearest known key.
-  [[nodiscard]] std::vector<std::string> unknown_keys(const std::vector<std::string>& known) const;
+  [[nodiscard]] std::vector<Message> unknown_keys(const std::vector<std::string>& known) const;
 
   /// An input error at a value of this file.
   /// The error of a missing key; points to a key that may be a misspelling of it.
-  [[nodiscard]] Error missing(std::string_view key, std::string_view expected) const;
-  [[nodiscard]] Error error_at(const YamlValue& value, std::string message) const;
+  [[nodiscard]] Error missing(std::string_view key, Message expected) const;
+  [[nodiscard]] Error error_at(const YamlValue& value, Message message) const;
 
   /// Flattens a list value (of lists) into numbers.
   [[nodiscard]] Result<std::vector<double>> flatten(const YamlValue& value,

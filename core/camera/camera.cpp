@@ -222,31 +222,32 @@ std::optional<Eigen::Vector3d> Camera::unproject(const Eigen::Vector2d& pixel) c
 }
 
 Status check(const Camera& c) {
-  const auto bad = [](std::string message, std::string hint = {}) -> Status {
-    return Error::input(std::move(message), {}, std::move(hint));
+  const auto bad = [](Message message, Message hint = {}, const char* field = "") -> Status {
+    Error error = Error::input(std::move(message), {}, std::move(hint));
+    error.field = field;
+    return error;
   };
   if (c.width_px < 1 || c.height_px < 1) {
-    return bad("the image size must be positive, found " + std::to_string(c.width_px) + " × " +
-               std::to_string(c.height_px));
+    return bad(Message("the image size must be positive, found %1 × %2", c.width_px, c.height_px));
   }
   if (!std::isfinite(c.cx) || !std::isfinite(c.cy) || !c.distortion.allFinite()) {
-    return bad("the intrinsics must be finite numbers");
+    return bad(Message("the intrinsics must be finite numbers"));
   }
   // From fisheye lenses that see all round to telescopes: f / image side well inside 1/50 … 1000.
   const double side = std::max(c.width_px, c.height_px);
-  for (const double f : {c.fx, c.fy}) {
+  for (const auto& [f, field] : {std::pair(c.fx, "fx"), std::pair(c.fy, "fy")}) {
     if (!(f >= side / 50.0 && f <= 1000.0 * side)) {
-      return bad("a focal length of " + std::to_string(f) + " px is not plausible for an image " +
-                     std::to_string(static_cast<int>(side)) + " px long",
-                 "focal lengths are given in pixels");
+      return bad(Message("a focal length of %1 px is not plausible for an image %2 px long",
+                         std::to_string(f), static_cast<int>(side)),
+                 Message("focal lengths are given in pixels"), field);
     }
   }
   // A cropped image may have lost its principal point, but not by more than its own size.
   if (c.cx < -c.width_px || c.cx > 2.0 * c.width_px || c.cy < -c.height_px ||
       c.cy > 2.0 * c.height_px) {
-    return bad("the principal point (" + std::to_string(c.cx) + ", " + std::to_string(c.cy) +
-               ") px lies far outside the image of " + std::to_string(c.width_px) + " × " +
-               std::to_string(c.height_px) + " px");
+    return bad(Message("the principal point (%1, %2) px lies far outside the image of %3 × %4 px",
+                       std::to_string(c.cx), std::to_string(c.cy), c.width_px, c.height_px),
+               {}, "cx");
   }
   return Done{};
 }

@@ -53,7 +53,7 @@ struct Camera {
 /// A camera read from a file, with warnings about unknown keys.
 struct CameraFile {
   Camera camera;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// Reads intrinsics; ROS camera_info, Kalibr camchain and OpenCV FileStorage are told apart by

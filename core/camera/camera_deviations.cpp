@@ -29,13 +29,13 @@ Result<CameraDeviations> read_section(const YamlFile& section, const Camera& cam
   if (!values) return values.error();
   const YamlValue& at = *section.root().find("distortion");
   if (values->size() > static_cast<std::size_t>(camera.distortion_count())) {
-    return section.error_at(at, "'distortion' holds " + std::to_string(values->size()) +
-                                    " standard deviations, but the model has " +
-                                    std::to_string(camera.distortion_count()) + " coefficients");
+    return section.error_at(
+        at, Message("'distortion' holds %1 standard deviations, but the model has %2 coefficients",
+                    values->size(), camera.distortion_count()));
   }
   for (std::size_t k = 0; k < values->size(); ++k) {
     if (!((*values)[k] >= 0.0 && (*values)[k] <= kLargest))
-      return section.error_at(at, "standard deviations must be 0 or more");
+      return section.error_at(at, Message("standard deviations must be 0 or more"));
     out(4 + static_cast<Eigen::Index>(k)) = (*values)[k];
   }
   return out;

@@ -56,7 +56,7 @@ Result<std::vector<double>> matrix_numbers(const YamlFile& file, const std::stri
   auto data = section->numbers("data");
   if (!data) {
     Error error = data.error();
-    error.message = "in '" + key + "': " + error.message;
+    error.message = Message("in '%1': %2", key, error.message);
     return error;
   }
   if (section->has("rows") || section->has("cols")) {
@@ -65,10 +65,8 @@ Result<std::vector<double>> matrix_numbers(const YamlFile& file, const std::stri
     if (!rows) return rows.error();
     if (!cols) return cols.error();
     if (static_cast<std::size_t>(*rows) * static_cast<std::size_t>(*cols) != data->size()) {
-      return file.error_at(*file.root().find(key), "'" + key + "' says " + std::to_string(*rows) +
-                                                       " × " + std::to_string(*cols) +
-                                                       " but holds " +
-                                                       std::to_string(data->size()) + " numbers");
+      return file.error_at(*file.root().find(key), Message("'%1' says %2 × %3 but holds %4 numbers",
+                                                           key, *rows, *cols, data->size()));
     }
   }
   return data;
@@ -84,7 +82,7 @@ Result<Done> read_size(const YamlFile& file, Camera& camera) {
     for (const double side : *size) {
       if (side < 1 || side > kLargestSide_px || side != std::floor(side)) {
         return file.error_at(*file.root().find(pair),
-                             "'" + pair + "' must hold width and height in whole pixels");
+                             Message("'%1' must hold width and height in whole pixels", pair));
       }
     }
     camera.width_px = static_cast<int>((*size)[0]);
@@ -103,19 +101,19 @@ Result<Done> read_size(const YamlFile& file, Camera& camera) {
 Result<Done> read_matrix(const YamlFile& file, Camera& camera) {
   const std::string key = first_present(file, kMatrix);
   if (key.empty()) {
-    return file.missing("camera_matrix", "a 3 × 3 matrix");
+    return file.missing("camera_matrix", Message("a 3 × 3 matrix"));
   }
   const auto m = matrix_numbers(file, key);
   if (!m) return m.error();
   const YamlValue& value = *file.root().find(key);
   if (m->size() != 9) {
-    return file.error_at(value,
-                         "'" + key + "' must hold 9 numbers, found " + std::to_string(m->size()));
+    return file.error_at(value, Message("'%1' must hold 9 numbers, found %2", key, m->size()));
   }
   const auto& k = *m;
   if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) {
-    return file.error_at(value, "'" + key + "' must be [fx, 0, cx, 0, fy, cy, 0, 0, 1] row by row" +
-                                    (k[1] != 0 ? "; skew is not supported" : ""));
+    return file.error_at(value,
+                         Message("'%1' must be [fx, 0, cx, 0, fy, cy, 0, 0, 1] row by row%2", key,
+                                 k[1] != 0 ? Message("; skew is not supported") : Message()));
   }
   camera.fx = k[0];
   camera.fy = k[4];
@@ -134,18 +132,20 @@ Result<Done> set_distortion(const YamlFile& file, const std::string& key,
   if (!enough || values.size() > 14) {
     return file.error_at(
         *file.root().find(key),
-        "'" + key + "' must hold " +
-            (camera.model == DistortionModel::kPlumbBob ? "4 or 5" : std::to_string(count)) +
-            " numbers for this distortion model, found " + std::to_string(values.size()));
+        Message("'%1' must hold %2 numbers for this distortion model, found %3", key,
+                camera.model == DistortionModel::kPlumbBob
+                    ? Message("4 or 5")
+                    : Message::verbatim(std::to_string(count)),
+                values.size()));
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i < count) {
       camera.distortion[static_cast<Eigen::Index>(i)] = values[i];
     } else if (values[i] != 0.0) {
       return file.error_at(*file.root().find(key),
-                           "'" + key + "' holds " + std::to_string(values.size()) +
-                               " numbers, but this distortion model has " + std::to_string(count) +
-                               "; thin-prism and tilt terms are not supported");
+                           Message("'%1' holds %2 numbers, but this distortion model has %3; "
+                                   "thin-prism and tilt terms are not supported",
+                                   key, values.size(), count));
     }
   }
   return Done{};
@@ -163,11 +163,11 @@ Result<Done> read_model(const YamlFile& file, const std::string& key, Camera& ca
   } else {
     const std::string near = nearest_word(
         *name, {"plumb_bob", "radtan", "rational_polynomial", "equidistant", "fisheye"});
-    return file.error_at(
-        *file.root().find(key),
-        "distortion model '" + name->substr(0, 60) +
-            "' is not known; expected plumb_bob, rational_polynomial or equidistant" +
-            (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    return file.error_at(*file.root().find(key),
+                         Message("distortion model '%1' is not known; expected plumb_bob, "
+                                 "rational_polynomial or equidistant%2",
+                                 name->substr(0, 60),
+                                 near.empty() ? Message() : Message("; did you mean '%1'?", near)));
   }
   return Done{};
 }
@@ -177,7 +177,8 @@ Status choose_model(const YamlFile& file, std::size_t coefficients, CameraFile& 
   Camera& camera = out.camera;
   if (file.has("distortion_model")) return read_model(file, "distortion_model", camera);
   if (!first_present(file, kRosOnly).empty()) {
-    return file.missing("distortion_model", "plumb_bob, rational_polynomial or equidistant");
+    return file.missing("distortion_model",
+                        Message("plumb_bob, rational_polynomial or equidistant"));
   }
   if (file.has("fisheye_model")) {
     const auto fisheye = file.integer("fisheye_model", 0, 1);
@@ -187,9 +188,10 @@ Status choose_model(const YamlFile& file, std::size_t coefficients, CameraFile& 
       return Done{};
     }
   } else if (coefficients == 4) {
-    out.warnings.push_back(file.name() +
-                           ": 4 distortion coefficients and no distortion_model: taken as k1 k2 p1 "
-                           "p2; add 'distortion_model: equidistant' if this is a fisheye lens");
+    out.warnings.push_back(
+        Message("%1: 4 distortion coefficients and no distortion_model: taken as k1 k2 p1 p2; add "
+                "'distortion_model: equidistant' if this is a fisheye lens",
+                file.name()));
   }
   if (coefficients >= 8) camera.model = DistortionModel::kRationalPolynomial;
   return Done{};
@@ -207,7 +209,7 @@ Result<CameraFile> read_matrix_style(const YamlFile& file) {
   if (Status s = read_matrix(file, out.camera); !s) return s.error();
   const std::string key = first_present(file, kCoefficients);
   if (key.empty()) {
-    return file.missing("distortion_coefficients", "a list of numbers");
+    return file.missing("distortion_coefficients", Message("a list of numbers"));
   }
   const auto values = matrix_numbers(file, key);
   if (!values) return values.error();
@@ -234,7 +236,7 @@ Result<CameraFile> read_kalibr_camera(const YamlFile& file, std::string name) {
   if (*model != "pinhole") {
     return file.error_at(
         *file.root().find("camera_model"),
-        "camera_model '" + model->substr(0, 60) + "' is not supported; expected pinhole");
+        Message("camera_model '%1' is not supported; expected pinhole", model->substr(0, 60)));
   }
   const auto intrinsics = file.numbers("intrinsics", 4);
   if (!intrinsics) return intrinsics.error();
@@ -243,7 +245,7 @@ Result<CameraFile> read_kalibr_camera(const YamlFile& file, std::string name) {
   camera.cx = (*intrinsics)[2];
   camera.cy = (*intrinsics)[3];
   if (!file.has("resolution")) {
-    return file.missing("resolution", "[width, height]");
+    return file.missing("resolution", Message::verbatim("[width, height]"));
   }
   if (Status s = read_size(file, camera); !s) return s.error();
   const auto distortion = file.string("distortion_model");
@@ -272,8 +274,8 @@ Result<CameraFile> read_camchain(const YamlFile& file) {
   if (out) {
     for (auto& warning : file.unknown_keys(cameras)) out->warnings.push_back(std::move(warning));
     if (cameras.size() > 1) {
-      out->warnings.push_back(file.name() + ": holds " + std::to_string(cameras.size()) +
-                              " cameras; '" + cameras.front() + "' is used");
+      out->warnings.push_back(Message("%1: holds %2 cameras; '%3' is used", file.name(),
+                                      cameras.size(), cameras.front()));
     }
   }
   return out;
@@ -290,8 +292,8 @@ Result<CameraFile> read_any(const YamlFile& file) {
     return read_matrix_style(file);
   }
   return Error::input(
-      "no camera intrinsics found; expected the keys of ROS camera_info (camera_matrix, "
-      "distortion_model), a Kalibr camchain (cam0) or OpenCV (camera_matrix)",
+      Message("no camera intrinsics found; expected the keys of ROS camera_info (camera_matrix, "
+              "distortion_model), a Kalibr camchain (cam0) or OpenCV (camera_matrix)"),
       file.name());
 }
 
@@ -306,8 +308,9 @@ void warn_of_fold(CameraFile& out, const std::string& where) {
   }
   if (blind > 0) {
     out.warnings.push_back(
-        where + ": the distortion folds back inside the image: " + std::to_string(blind) +
-        " of its 4 corners have no ray; are the coefficients right?");
+        Message("%1: the distortion folds back inside the image: %2 of its 4 corners have no ray; "
+                "are the coefficients right?",
+                where, blind));
   }
 }
 
@@ -348,8 +351,9 @@ Result<CameraFile> read_camera(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".xml") {
-    return Error::input("XML intrinsics are not read", path.string(),
-                        "save them as YAML: OpenCV's FileStorage does for a name ending in .yaml");
+    return Error::input(
+        Message("XML intrinsics are not read"), path.string(),
+        Message("save them as YAML: OpenCV's FileStorage does for a name ending in .yaml"));
   }
   return camera_of(YamlFile::load(path));
 }

@@ -15,7 +15,7 @@ namespace {
 Result<Cloud> read(Input& input, PointChoice choice) {
   auto enough = input.require(4);
   if (!enough) return enough.error();
-  if (input.remaining() == 0) return input.error("is empty, expected a PCD or PLY file");
+  if (input.remaining() == 0) return input.error(Message("is empty, expected a PCD or PLY file"));
   const std::string_view start = input.rest();
   try {
     if (start.starts_with("ply")) return read_ply(input, choice);
@@ -24,11 +24,12 @@ Result<Cloud> read(Input& input, PointChoice choice) {
       if (start.starts_with(sign)) return read_pcd(input, choice);
     }
   } catch (const std::bad_alloc&) {
-    return input.error("does not fit into memory");
+    return input.error(Message("does not fit into memory"));
   } catch (const std::length_error&) {
-    return input.error("does not fit into memory");
+    return input.error(Message("does not fit into memory"));
   }
-  return input.error("is neither a PCD nor a PLY file", "convert it to PCD with x y z intensity");
+  return input.error(Message("is neither a PCD nor a PLY file"),
+                     Message("convert it to PCD with x y z intensity"));
 }
 
 }  // namespace

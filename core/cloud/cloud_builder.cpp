@@ -181,13 +181,13 @@ bool CloudBuilder::is_return(std::size_t i) const {
 }
 
 Result<Cloud> CloudBuilder::finish(const std::string& name, std::uint64_t rows) {
-  if (seen_ == 0) return Error::input("holds no points (its header says 0)", name);
+  if (seen_ == 0) return Error::input(Message("holds no points (its header says 0)"), name);
   drop_not_finite(cloud_.intensity);
   drop_not_finite(cloud_.time_s);
   if (cloud_.points_m.empty() || returns_ == 0) {
-    return Error::input("none of its " + std::to_string(seen_) +
-                            " points is usable: all are NaN, infinite or at the origin",
-                        name, "check the driver or the export that wrote the file");
+    return Error::input(
+        Message("none of its %1 points is usable: all are NaN, infinite or at the origin", seen_),
+        name, Message("check the driver or the export that wrote the file"));
   }
   scale_times();
   if (choice_ == PointChoice::kAll) cloud_.rows = static_cast<std::size_t>(rows);

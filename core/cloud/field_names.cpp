@@ -50,8 +50,8 @@ Result<RoleFields> assign_roles(const std::vector<std::string>& names, const std
     if (fields[role] >= 0) continue;
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
-    return Error::input("has no field '" + std::string(role_name(role)) +
-                            "'; expected x y z, found: " + (list.empty() ? "none" : list),
+    return Error::input(Message("has no field '%1'; expected x y z, found: %2", role_name(role),
+                                list.empty() ? Message("none") : Message::verbatim(list)),
                         where);
   }
   return fields;

@@ -17,18 +17,20 @@ namespace fs = std::filesystem;
 Result<Input> Input::open(const fs::path& path, std::stop_token stop) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (!fs::exists(status)) return Error::input("file not found", path.string());
+  if (!fs::exists(status)) return Error::input(Message("file not found"), path.string());
   if (fs::is_directory(status)) {
-    return Error::input("is a folder, expected a PCD or PLY file", path.string());
+    return Error::input(Message("is a folder, expected a PCD or PLY file"), path.string());
   }
-  if (!fs::is_regular_file(status)) return Error::input("not a regular file", path.string());
+  if (!fs::is_regular_file(status))
+    return Error::input(Message("not a regular file"), path.string());
 
   Input input(path.string(), kDefaultChunk);
   input.stop_ = std::move(stop);
   input.file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat facts = {};
   if (input.file_ < 0 || ::fstat(input.file_, &facts) != 0) {
-    return Error::input("cannot be read: " + std::system_category().message(errno), path.string());
+    return Error::input(Message("cannot be read: %1", std::system_category().message(errno)),
+                        path.string());
   }
   input.unread_ = static_cast<std::uint64_t>(facts.st_size);
   return input;
@@ -109,7 +111,8 @@ Result<std::size_t> Input::read_some(char* to, std::size_t size) {
   for (;;) {
     const ssize_t count = ::read(file_, to, size);
     if (count >= 0) return static_cast<std::size_t>(count);
-    if (errno != EINTR) return error("cannot be read: " + std::system_category().message(errno));
+    if (errno != EINTR)
+      return error(Message("cannot be read: %1", std::system_category().message(errno)));
   }
 }
 

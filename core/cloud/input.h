@@ -51,7 +51,7 @@ class Input {
   /// Bytes between here and the end: what a header may claim at most.
   [[nodiscard]] std::uint64_t remaining() const { return unread_ + (filled_ - begin_); }
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] Error error(std::string message, std::string hint = {}) const {
+  [[nodiscard]] Error error(Message message, Message hint = {}) const {
     return Error::input(std::move(message), name_, std::move(hint));
   }
 

@@ -13,9 +13,9 @@ Result<Cloud> read_kitti_points(const std::filesystem::path& path, std::stop_tok
   constexpr std::size_t point_bytes = 4 * sizeof(float);
   const std::uint64_t bytes = input->remaining();
   if (bytes == 0 || bytes % point_bytes != 0) {
-    return input->error("holds " + std::to_string(bytes) +
-                        " bytes; expected 16 for each point: x, y, z and reflectance as 4-byte "
-                        "floats");
+    return input->error(Message(
+        "holds %1 bytes; expected 16 for each point: x, y, z and reflectance as 4-byte floats",
+        bytes));
   }
   BlockLayout layout;
   for (const Role role : {kX, kY, kZ, kIntensity})

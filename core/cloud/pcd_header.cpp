@@ -30,7 +30,7 @@ class PcdHeaderParser {
       auto line = lines_.next();
       if (!line) return line.error();
       if (!line->has_value() || start - input_.remaining() > kLongestPcdHeader) {
-        return input_.error("its PCD header ends without a DATA line");
+        return input_.error(Message("its PCD header ends without a DATA line"));
       }
       std::string_view words = **line;
       const std::string_view key = next_word(words);
@@ -82,7 +82,7 @@ class PcdHeaderParser {
   }
 
   [[nodiscard]] Error error(const std::string& message) const {
-    return input_.error("line " + std::to_string(lines_.number()) + ": " + message);
+    return input_.error(Message("line %1: %2", lines_.number(), message));
   }
 
   Status take_fields(std::string_view words) {
@@ -146,10 +146,10 @@ class PcdHeaderParser {
     const std::size_t count = header_.fields.size();
     if (counts_.empty()) counts_.assign(count, 1);
     if (count == 0 || sizes_.size() != count || types_.size() != count || counts_.size() != count) {
-      return input_.error("its PCD header does not agree with itself: " + std::to_string(count) +
-                          " FIELDS, " + std::to_string(sizes_.size()) + " SIZE, " +
-                          std::to_string(types_.size()) + " TYPE, " +
-                          std::to_string(counts_.size()) + " COUNT entries");
+      return input_.error(
+          Message("its PCD header does not agree with itself: %1 FIELDS, %2 SIZE, %3 TYPE, %4 "
+                  "COUNT entries",
+                  count, sizes_.size(), types_.size(), counts_.size()));
     }
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -160,8 +160,8 @@ class PcdHeaderParser {
       bytes += sizes_[i] * counts_[i];  // at most 4096 · 2⁴⁰
     }
     if (bytes > kLargestPoint) {
-      return input_.error("its PCD header claims points of " + std::to_string(bytes) +
-                          " bytes, expected at most " + std::to_string(kLargestPoint));
+      return input_.error(Message("its PCD header claims points of %1 bytes, expected at most %2",
+                                  bytes, kLargestPoint));
     }
     return with_points();
   }
@@ -170,18 +170,18 @@ class PcdHeaderParser {
     std::optional<std::uint64_t> grid;
     if (width_ && height_) {
       if (*height_ > 0 && *width_ > (std::uint64_t{1} << 40) / *height_) {
-        return input_.error("its PCD header claims more than 2^40 points");
+        return input_.error(Message("its PCD header claims more than 2^40 points"));
       }
       grid = *width_ * *height_;
     }
     if (points_ && grid && *points_ != *grid) {
-      return input_.error("its PCD header does not agree with itself: POINTS is " +
-                          std::to_string(*points_) + ", WIDTH x HEIGHT is " +
-                          std::to_string(*grid));
+      return input_.error(
+          Message("its PCD header does not agree with itself: POINTS is %1, WIDTH x HEIGHT is %2",
+                  *points_, *grid));
     }
     if (!points_ && !grid) {
       return input_.error(
-          "its PCD header lacks the number of points (POINTS, or WIDTH and HEIGHT)");
+          Message("its PCD header lacks the number of points (POINTS, or WIDTH and HEIGHT)"));
     }
     header_.points = points_ ? *points_ : *grid;
     if (grid && *height_ > 0) header_.rows = *height_;

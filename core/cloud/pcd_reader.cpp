@@ -16,9 +16,9 @@ namespace {
 Result<ScalarType> field_type(const Input& input, const PcdField& field) {
   const auto type = pcd_scalar_type(field.type, field.size);
   if (type) return *type;
-  return input.error("field '" + field.name + "' has TYPE " + field.type + " and SIZE " +
-                     std::to_string(field.size) +
-                     ", expected F with 4 or 8 or I or U with 1, 2, 4 or 8");
+  return input.error(Message(
+      "field '%1' has TYPE %2 and SIZE %3, expected F with 4 or 8 or I or U with 1, 2, 4 or 8",
+      field.name, field.type, field.size));
 }
 
 struct PcdColumns {
@@ -106,26 +106,27 @@ Result<Block> decompress(Input& input, std::uint64_t points, std::uint64_t padde
   input.consume(sizeof sizes);
   const auto [packed, plain] = sizes;
   if (plain != padded && plain != unpadded) {
-    return input.error("its compressed data hold " + std::to_string(plain) + " bytes, expected " +
-                       std::to_string(padded) + " for " + std::to_string(points) + " points");
+    return input.error(Message("its compressed data hold %1 bytes, expected %2 for %3 points",
+                               plain, padded, points));
   }
   if (packed > input.remaining()) {
-    return input.error("is truncated: its compressed data take " + std::to_string(packed) +
-                           " bytes, found " + std::to_string(input.remaining()) + ", so none of " +
-                           std::to_string(points) + " points can be read",
-                       "copy or export the file again");
+    return input.error(Message("is truncated: its compressed data take %1 bytes, found %2, so none "
+                               "of %3 points can be read",
+                               packed, input.remaining(), points),
+                       Message("copy or export the file again"));
   }
   // Three bytes of LZF give at most 264 bytes; this bounds memory by the file's real size.
   if (plain > 88 * static_cast<std::uint64_t>(packed)) {
-    return input.error("its compressed data cannot hold " + std::to_string(points) +
-                       " points: " + std::to_string(packed) + " bytes are too few");
+    return input.error(
+        Message("its compressed data cannot hold %1 points: %2 bytes are too few", points, packed));
   }
   complete = input.require(packed);
   if (!complete) return complete.error();
   Block block{std::unique_ptr<char[]>(new char[std::max<std::size_t>(plain, 1)]), plain};
   if (!*complete || (plain > 0 && lzf_decompress(input.rest().data(), packed, block.bytes.get(),
                                                  plain) != plain)) {
-    return input.error("its compressed data are damaged", "copy or export the file again");
+    return input.error(Message("its compressed data are damaged"),
+                       Message("copy or export the file again"));
   }
   return block;
 }

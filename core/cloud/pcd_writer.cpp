@@ -47,7 +47,7 @@ class PartFile {
     if (code_ == 0 && ::fsync(file_) != 0) code_ = errno;
     if (code_ == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) code_ = errno;
     if (code_ != 0) {
-      return Error::output("cannot be written: " + std::system_category().message(code_),
+      return Error::output(Message("cannot be written: %1", std::system_category().message(code_)),
                            path_.string());
     }
     ::close(file_);
@@ -101,7 +101,7 @@ Status write_pcd(const std::filesystem::path& path, const Cloud& cloud) {
     return column.empty() || column.size() == cloud.size();
   };
   if (!fits(cloud.intensity) || !fits(cloud.time_s) || !fits(cloud.line)) {
-    return Error::output("cloud has columns of different length", path.string());
+    return Error::output(Message("cloud has columns of different length"), path.string());
   }
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   PartFile file(path);

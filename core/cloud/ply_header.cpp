@@ -39,7 +39,7 @@ class PlyHeaderParser {
       auto line = lines_.next();
       if (!line) return line.error();
       if (!line->has_value() || start - input_.remaining() > kLongestPlyHeader) {
-        return input_.error("its PLY header ends without an end_header line");
+        return input_.error(Message("its PLY header ends without an end_header line"));
       }
       std::string_view words = **line;
       const std::string_view key = next_word(words);
@@ -62,7 +62,7 @@ class PlyHeaderParser {
   }
 
   [[nodiscard]] Error error(const std::string& message) const {
-    return input_.error("line " + std::to_string(lines_.number()) + ": " + message);
+    return input_.error(Message("line %1: %2", lines_.number(), message));
   }
 
   Status take_format(std::string_view words) {
@@ -119,11 +119,11 @@ class PlyHeaderParser {
   }
 
   Result<PlyHeader> complete() {
-    if (!has_format_) return input_.error("its PLY header has no format line");
+    if (!has_format_) return input_.error(Message("its PLY header has no format line"));
     const auto found = std::find_if(header_.elements.begin(), header_.elements.end(),
                                     [](const PlyElement& e) { return e.name == "vertex"; });
     if (found == header_.elements.end()) {
-      return input_.error("its PLY header has no element 'vertex'");
+      return input_.error(Message("its PLY header has no element 'vertex'"));
     }
     header_.vertex = static_cast<std::size_t>(found - header_.elements.begin());
     header_.line_count = lines_.number();

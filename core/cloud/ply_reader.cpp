@@ -81,7 +81,8 @@ class ListRowReader {
     input_.consume(size);
     // No file holds 2⁴⁰ entries, and a product with a scalar's size stays exact.
     if (length < 0 || length > 1099511627776.0) {
-      return input_.error("a list of property '" + property.name + "' has an impossible length");
+      return input_.error(
+          Message("a list of property '%1' has an impossible length", property.name));
     }
     return static_cast<std::int64_t>(length);
   }
@@ -93,8 +94,8 @@ class ListRowReader {
 
 Error ends_before_vertices(const Input& input, const PlyElement& element) {
   return input.error(
-      "is truncated: it ends in element '" + element.name + "' before any of its points",
-      "copy or export the file again");
+      Message("is truncated: it ends in element '%1' before any of its points", element.name),
+      Message("copy or export the file again"));
 }
 
 Status skip_binary_element(Input& input, const PlyElement& element, bool swap_bytes) {

@@ -34,7 +34,7 @@ struct RowParser {
   std::string_view line;
 
   [[nodiscard]] Error error(const std::string& message) const {
-    return input.error("line " + std::to_string(line_number) + ": " + message);
+    return input.error(Message("line %1: %2", line_number, message));
   }
 
   // Passes over `words` words; false at the end of the line.
@@ -90,8 +90,7 @@ Result<std::optional<std::string_view>> LineReader::next() {
     }
     searched = rest.size();
     if (searched > kLongestLine) {
-      return input_.error("line " + std::to_string(number_ + 1) +
-                          " is longer than a mebibyte; expected text");
+      return input_.error(Message("line %1 is longer than a mebibyte; expected text", number_ + 1));
     }
     auto grew = input_.more();
     if (!grew) return grew.error();
@@ -164,9 +163,9 @@ Status read_text_rows(Input& input, LineReader& lines, const std::vector<TextEnt
 }
 
 Error truncated(const Input& input, std::uint64_t expected_points, std::uint64_t found_points) {
-  return input.error("is truncated: its header says " + std::to_string(expected_points) +
-                         " points, found " + std::to_string(found_points),
-                     "copy or export the file again");
+  return input.error(
+      Message("is truncated: its header says %1 points, found %2", expected_points, found_points),
+      Message("copy or export the file again"));
 }
 
 }  // namespace lvcalib

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "base/text.h"
 #include "base/units.h"
 
 namespace lvcalib {
@@ -72,35 +72,40 @@ Status BoardGridOptions::check() const {
       !std::all_of(distances_m.begin(), distances_m.end(), positive) ||
       !std::all_of(tilts_deg.begin(), tilts_deg.end(), turned) || cells < 1 || cells > 20) {
     return Error::usage(
-        "grid of board poses: expected distances above zero, tilts up to 80 degrees, at least one "
-        "of each, and 1 to 20 cells");
+        Message("grid of board poses: expected distances above zero, tilts up to 80 degrees, at "
+                "least one of each, and 1 to 20 cells"));
   }
   return Done{};
 }
 
-std::string GridPose::text() const {
-  const auto number = [](const char* format, double v) {
-    char out[64];
-    std::snprintf(out, sizeof out, format, std::abs(v));
-    return std::string(out);
-  };
-  std::string out = "at " + number("%.1f m", distance_m);
-  std::string away;
+Message GridPose::description() const {
+  const auto number = [](const char* format, double v) { return formatted(format, std::abs(v)); };
+  Message out = Message("at %1 m", number("%.1f", distance_m));
+  const std::string aside = number("%.0f", right_deg);
+  const std::string height = number("%.0f", down_deg);
+  Message across, along;
   if (std::abs(right_deg) >= 0.5)
-    away += number(" %.0f°", right_deg) + (right_deg > 0 ? " right" : " left");
+    across = right_deg > 0 ? Message("%1° right", aside) : Message("%1° left", aside);
   if (std::abs(down_deg) >= 0.5)
-    away += (away.empty() ? "" : " and") + number(" %.0f°", down_deg) +
-            (down_deg > 0 ? " below" : " above");
-  out += away.empty() ? ", in the middle of the image" : "," + away + " of the optical axis";
-  if (tilt_x_deg == 0.0 && tilt_y_deg == 0.0) out += ", facing the camera";
-  if (tilt_x_deg != 0.0)
-    out +=
-        (tilt_x_deg > 0 ? ", the top leaning towards the camera by" : ", the top leaning away by") +
-        number(" %.0f°", tilt_x_deg);
-  if (tilt_y_deg != 0.0)
-    out += (tilt_y_deg > 0 ? ", the right side turned away by" : ", the left side turned away by") +
-           number(" %.0f°", tilt_y_deg);
-  if (roll_deg != 0.0) out += ", rolled by" + number(" %.0f°", roll_deg);
+    along = down_deg > 0 ? Message("%1° below", height) : Message("%1° above", height);
+  if (across.empty() && along.empty())
+    out += Message(", in the middle of the image");
+  else if (across.empty() || along.empty())
+    out += Message(", %1 of the optical axis", across + along);
+  else
+    out += Message(", %1 and %2 of the optical axis", across, along);
+  if (tilt_x_deg == 0.0 && tilt_y_deg == 0.0) out += Message(", facing the camera");
+  if (tilt_x_deg != 0.0) {
+    const std::string tilt = number("%.0f", tilt_x_deg);
+    out += tilt_x_deg > 0 ? Message(", the top leaning towards the camera by %1°", tilt)
+                          : Message(", the top leaning away by %1°", tilt);
+  }
+  if (tilt_y_deg != 0.0) {
+    const std::string tilt = number("%.0f", tilt_y_deg);
+    out += tilt_y_deg > 0 ? Message(", the right side turned away by %1°", tilt)
+                          : Message(", the left side turned away by %1°", tilt);
+  }
+  if (roll_deg != 0.0) out += Message(", rolled by %1°", number("%.0f", roll_deg));
   return out;
 }
 

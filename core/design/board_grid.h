@@ -31,8 +31,9 @@ struct GridPose {
   double right_deg = 0.0;   ///< Direction of the centre from the optical axis.
   double down_deg = 0.0;
 
-  /// "at 2.0 m, 12° right and 5° up of the image's centre, the right side turned away by 30°".
-  [[nodiscard]] std::string text() const;
+  /// "at 2.0 m, 12° right and 5° above of the optical axis, the right side turned away by 30°".
+  [[nodiscard]] Message description() const;
+  [[nodiscard]] std::string text() const { return description().text(); }
 };
 
 /// All poses of the grid at which the camera sees every corner of the pattern.

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/text.h"
 #include "base/units.h"
 #include "base/yaml_file.h"
 
@@ -34,7 +35,7 @@ class Reader {
       keep(value.error());
     } else if (*value != "true" && *value != "false") {
       keep(file_.error_at(*file_.root().find(key),
-                          std::string(key) + ": expected true or false, found '" + *value + "'"));
+                          Message("%1: expected true or false, found '%2'", key, *value)));
     }
     return value ? *value == "true" : otherwise;
   }
@@ -46,9 +47,9 @@ class Reader {
     }
     const Eigen::Vector2d out((*value)[0], (*value)[1]);
     if (!(out.y() > out.x()) || out.x() < least || out.y() > most) {
-      keep(file_.error_at(*file_.root().find(key), std::string(key) + ": expected [low, high] in " +
-                                                       std::to_string(int(least)) + " to " +
-                                                       std::to_string(int(most)) + " degrees"));
+      keep(file_.error_at(
+          *file_.root().find(key),
+          Message("%1: expected [low, high] in %2 to %3 degrees", key, int(least), int(most))));
     }
     return kRadPerDeg * out;
   }
@@ -61,10 +62,8 @@ class Reader {
     for (const std::string& k : known) {
       if (*value == k) return k;
     }
-    std::string list;
-    for (const std::string& k : known) list += (list.empty() ? "" : " or ") + k;
-    keep(file_.error_at(*file_.root().find(key),
-                        std::string(key) + ": expected " + list + ", found '" + *value + "'"));
+    keep(file_.error_at(*file_.root().find(key), Message("%1: expected %2, found '%3'", key,
+                                                         joined(known, " or "), *value)));
     return {};
   }
   std::optional<Rigid3> transform(const char* key) {
@@ -75,9 +74,9 @@ class Reader {
       return std::nullopt;
     }
     if (value->size() != 12 && value->size() != 16) {
-      keep(file_.error_at(*file_.root().find(key),
-                          std::string(key) + ": expected 3 or 4 rows of 4 numbers, found " +
-                              std::to_string(value->size()) + " numbers"));
+      keep(file_.error_at(
+          *file_.root().find(key),
+          Message("%1: expected 3 or 4 rows of 4 numbers, found %2 numbers", key, value->size())));
       return std::nullopt;
     }
     using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
@@ -86,7 +85,7 @@ class Reader {
     if ((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm() > 1e-3 ||
         rotation.determinant() < 0.0) {
       keep(file_.error_at(*file_.root().find(key),
-                          std::string(key) + ": its left 3x3 part is not a rotation"));
+                          Message("%1: its left 3x3 part is not a rotation", key)));
       return std::nullopt;
     }
     return Rigid3::from_matrix(rotation, Eigen::Vector3d(rows.col(3)));

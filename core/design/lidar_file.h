@@ -25,7 +25,7 @@ struct LidarDescription {
 
 struct LidarFile {
   LidarDescription lidar;
-  std::vector<std::string> warnings;  ///< Unknown keys.
+  std::vector<Message> warnings;  ///< Unknown keys.
 };
 
 /// Reads a LiDAR's description (YAML). Keys:

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include <Eigen/Cholesky>
 
+#include "base/text.h"
 #include "base/yaml_file.h"
 
 namespace lvcalib {
@@ -57,12 +57,11 @@ class Planner {
     if (Status s = collect(); !s) return s.error();
     for (int k = 0; k < options_.scenes; ++k) {
       if (context_.stopped()) return Error::cancelled();
-      context_.report("plan", 0.5 + 0.5 * k / options_.scenes,
-                      "choosing scene " + std::to_string(k + 1));
+      context_.report("plan", 0.5 + 0.5 * k / options_.scenes, Message("choosing scene %1", k + 1));
       if (!choose_next()) break;
     }
     warn();
-    context_.report("plan", 1.0, "done");
+    context_.report("plan", 1.0, Message("done"));
     return std::move(out_);
   }
 
@@ -73,13 +72,13 @@ class Planner {
     for (const std::string& id : options_.effects) {
       const EffectPtr effect = find_effect(id);
       if (effect == nullptr) {
-        std::string message = "there is no effect '" + id + "'";
-        if (const std::string near = nearest_word(id, known); !near.empty())
-          message.append("; did you mean '").append(near).append("'?");
-        return Error::usage(message);
+        const std::string near = nearest_word(id, known);
+        return Error::usage(near.empty()
+                                ? Message("there is no effect '%1'", id)
+                                : Message("there is no effect '%1'; did you mean '%2'?", id, near));
       }
-      if (const std::string why = why_not(*effect); !why.empty())
-        return Error::input("the effect '" + id + "' cannot be planned for: " + why);
+      if (const Message why = why_not(*effect); !why.empty())
+        return Error::input(Message("the effect '%1' cannot be planned for: %2", id, why));
       // Of a shape number that nobody knows yet, the middle of its grid.
       const auto shapes = effect->shapes(table_);
       columns_.add(effect, shapes[shapes.size() / 2], table_);
@@ -89,19 +88,20 @@ class Planner {
   }
 
   // why_not_testable() looks at rows, and there are none yet.
-  [[nodiscard]] std::string why_not(const Effect& effect) const {
+  [[nodiscard]] Message why_not(const Effect& effect) const {
     const EffectNeeds& needs = effect.info().needs;
-    if (needs.time && !table_.has_time) return "the LiDAR's description says no time";
-    if (needs.line && table_.lines.empty()) return "the LiDAR's description has one line only";
+    if (needs.time && !table_.has_time) return Message("the LiDAR's description says no time");
+    if (needs.line && table_.lines.empty())
+      return Message("the LiDAR's description has one line only");
     if (needs.intensity && !table_.has_intensity)
-      return "the LiDAR's description says no intensity";
-    if (needs.tags && !table_.target.has_tags()) return "this board has no tags";
-    if (effect.is_gauge()) return "no data can tell it from a turn of the LiDAR frame";
+      return Message("the LiDAR's description says no intensity");
+    if (needs.tags && !table_.target.has_tags()) return Message("this board has no tags");
+    if (effect.is_gauge()) return Message("no data can tell it from a turn of the LiDAR frame");
     return {};
   }
 
   Status collect() {
-    context_.report("plan", 0.0, "predicting measurements");
+    context_.report("plan", 0.0, Message("predicting measurements"));
     poses_ = board_grid(table_.target, table_.camera, options_.grid);
     const std::size_t in_image = poses_.size();
     std::erase_if(poses_, [&](const GridPose& pose) {
@@ -109,9 +109,11 @@ class Planner {
                          out_.camera_from_lidar.inverse() * pose.camera_from_board);
     });
     if (poses_.empty()) {
-      return Error::input("no board pose of the grid is in view of both sensors (" +
-                              std::to_string(in_image) + " are in view of the camera)",
-                          {}, "check the field of view and T_camera_lidar, or use a smaller board");
+      return Error::input(
+          Message(
+              "no board pose of the grid is in view of both sensors (%1 are in view of the camera)",
+              in_image),
+          {}, Message("check the field of view and T_camera_lidar, or use a smaller board"));
     }
     out_.poses_tried = poses_.size();
     taken_.assign(poses_.size(), false);
@@ -205,18 +207,16 @@ class Planner {
   void warn() {
     if (out_.scenes.empty()) return;
     if (static_cast<int>(out_.scenes.size()) < options_.scenes)
-      out_.warnings.push_back("the grid has no more poses than " +
-                              std::to_string(out_.scenes.size()));
+      out_.warnings.push_back(Message("the grid has no more poses than %1", out_.scenes.size()));
     const PlannedScene& last = out_.scenes.back();
-    if (!last.determined) out_.warnings.push_back("so few scenes do not determine the extrinsic");
+    if (!last.determined)
+      out_.warnings.push_back(Message("so few scenes do not determine the extrinsic"));
     for (const EffectVisibility& e : last.effects) {
       if (e.sigmas >= options_.testable) continue;
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    "%s stays hard to test: what matters of it stands %.1f σ above zero",
-                    e.id.c_str(), e.sigmas);
-      out_.warnings.push_back(text + std::string("; to see it: ") +
-                              find_effect(e.id)->info().discriminating_pose);
+      out_.warnings.push_back(
+          Message("%1 stays hard to test: what matters of it stands %2 σ above zero; to see it: %3",
+                  e.id, formatted("%.1f", e.sigmas),
+                  Message::listed(find_effect(e.id)->info().discriminating_pose)));
     }
   }
 
@@ -237,13 +237,13 @@ class Planner {
 
 Status PlanOptions::check() const {
   if (scenes < 1 || scenes > 100)
-    return Error::usage("scenes to plan: expected 1 to 100, found " + std::to_string(scenes));
+    return Error::usage(Message("scenes to plan: expected 1 to 100, found %1", scenes));
   if (!(testable > 0.0) || !(corner_sigma_px > 0.0))
-    return Error::usage("planning: expected a corner noise and a threshold above zero");
+    return Error::usage(Message("planning: expected a corner noise and a threshold above zero"));
   if (known && (!known->allFinite() || Eigen::LLT<Matrix6d>(*known).info() != Eigen::Success)) {
     return Error::usage(
-        "planning: what is known of the extrinsic before must be a covariance without directions "
-        "that are known exactly or not at all");
+        Message("planning: what is known of the extrinsic before must be a covariance without "
+                "directions that are known exactly or not at all"));
   }
   return grid.check();
 }

@@ -42,10 +42,10 @@ struct PlannedScene {
 
 struct ScenePlan {
   std::vector<PlannedScene> scenes;
-  Rigid3 camera_from_lidar;           ///< That the plan was made with.
-  std::optional<Matrix6d> known;      ///< What was known before (see PlanOptions).
-  std::size_t poses_tried = 0;        ///< Of the grid: those that both sensors see.
-  std::vector<std::string> warnings;  ///< Effects that stay untestable.
+  Rigid3 camera_from_lidar;       ///< That the plan was made with.
+  std::optional<Matrix6d> known;  ///< What was known before (see PlanOptions).
+  std::size_t poses_tried = 0;    ///< Of the grid: those that both sensors see.
+  std::vector<Message> warnings;  ///< Effects that stay untestable.
 };
 
 /// Chooses board poses one after the other from a grid, each the one that most reduces the volume

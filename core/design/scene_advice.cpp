@@ -107,8 +107,8 @@ std::pair<std::size_t, double> best_pose(const Knowledge& known, Value&& value) 
   return out;
 }
 
-std::string tell_apart(const Knowledge& known, const ScenesTaken& taken, const std::string& a,
-                       const std::string& b) {
+Message tell_apart(const Knowledge& known, const ScenesTaken& taken, const std::string& a,
+                   const std::string& b) {
   const Block& block_a = known.involved.at(a).block;
   const Block& block_b = known.involved.at(b).block;
   std::vector<Block> rest{{0, 6}};
@@ -125,17 +125,18 @@ std::string tell_apart(const Knowledge& known, const ScenesTaken& taken, const s
   const auto [pose, after] = best_pose(known, sigmas);
   const double before = sigmas(known.now);
   if (after < kTells || after < kWorthwhile * before) {
-    return "No further scene of this board will tell " + a + " from " + b +
-           formatted(" (at best %.1f σ); measure instead: ", after) +
-           known.involved.at(b).columns.effect->info().discriminating_pose;
+    return Message(
+        "No further scene of this board will tell %1 from %2 (at best %3 σ); measure instead: %4",
+        a, b, formatted("%.1f", after),
+        Message::listed(known.involved.at(b).columns.effect->info().discriminating_pose));
   }
-  return "To tell " + a + " from " + b + ", take a scene with the board " +
-         known.poses[pose].text() +
-         formatted("; the difference would stand %.1f σ (now %.1f σ)", after, before);
+  return Message(
+      "To tell %1 from %2, take a scene with the board %3; the difference would stand %4 σ (now "
+      "%5 σ)",
+      a, b, known.poses[pose].description(), formatted("%.1f", after), formatted("%.1f", before));
 }
 
-std::string make_visible(const Knowledge& known, const std::string& id,
-                         const UnseenEffect& unseen) {
+Message make_visible(const Knowledge& known, const std::string& id, const UnseenEffect& unseen) {
   const Knowledge::Involved& effect = known.involved.at(id);
   std::vector<Block> rest{{0, 6}};
   rest.insert(rest.end(), known.own.begin(), known.own.end());
@@ -155,19 +156,21 @@ std::string make_visible(const Knowledge& known, const std::string& id,
   };
   const auto [pose, after] = best_pose(known, t);
   const double before = t(known.now);
-  const std::string what = id + formatted(" (it could move the extrinsic by %.1f mm and %.2f mrad)",
-                                          unseen.extrinsic_move_mm, unseen.extrinsic_move_mrad);
+  const Message what = Message("%1 (it could move the extrinsic by %2 mm and %3 mrad)", id,
+                               formatted("%.1f", unseen.extrinsic_move_mm),
+                               formatted("%.2f", unseen.extrinsic_move_mrad));
   if (after < kWorthwhile * before) {
-    return "No further scene of this board will show " + what +
-           "; measure instead: " + effect.columns.effect->info().discriminating_pose;
+    return Message("No further scene of this board will show %1; measure instead: %2", what,
+                   Message::listed(effect.columns.effect->info().discriminating_pose));
   }
-  return "To see whether there is " + what + ", take a scene with the board " +
-         known.poses[pose].text() +
-         formatted("; what matters of it would stand %.1f σ (now %.1f σ)", after, before);
+  return Message(
+      "To see whether there is %1, take a scene with the board %2; what matters of it would stand "
+      "%3 σ (now %4 σ)",
+      what, known.poses[pose].description(), formatted("%.1f", after), formatted("%.1f", before));
 }
 
 // Nothing if no pose is worth the way.
-std::optional<std::string> shrink_extrinsic(const Knowledge& known) {
+std::optional<Message> shrink_extrinsic(const Knowledge& known) {
   std::vector<Eigen::Index> mine(6);
   std::iota(mine.begin(), mine.end(), 0);
   const auto others = indices_of(known.own);
@@ -183,9 +186,10 @@ std::optional<std::string> shrink_extrinsic(const Knowledge& known) {
   const auto [pose, after] = best_pose(known, [&](const Eigen::MatrixXd& h) { return -worst(h); });
   const double before = worst(known.now);
   if (-after * kWorthwhile > before) return std::nullopt;
-  return "The extrinsic's weakest direction gains most from a scene with the board " +
-         known.poses[pose].text() +
-         formatted(": its standard deviation falls from %.2g to %.2g mm (or mrad)", before, -after);
+  return Message(
+      "The extrinsic's weakest direction gains most from a scene with the board %1: its standard "
+      "deviation falls from %2 to %3 mm (or mrad)",
+      known.poses[pose].description(), formatted("%.2g", before), formatted("%.2g", -after));
 }
 
 }  // namespace
@@ -210,11 +214,11 @@ double t_optimality(const Eigen::MatrixXd& now, const Eigen::MatrixXd& with_scen
                 noncentrality(with_scene, b, without_b, mimic));
 }
 
-std::vector<std::string> advise_scenes(const ScenesTaken& taken, const OpenQuestions& questions,
-                                       const BoardGridOptions& grid, const RunContext& context) {
+std::vector<Message> advise_scenes(const ScenesTaken& taken, const OpenQuestions& questions,
+                                   const BoardGridOptions& grid, const RunContext& context) {
   const Knowledge known = collect(taken, questions, grid, context);
   if (known.added.empty()) return {};
-  std::vector<std::string> out;
+  std::vector<Message> out;
   const auto& list = taken.linear.columns.list();
   for (const auto& [a, b] : questions.aliased)
     out.push_back(tell_apart(known, taken, id_of(list[a]), id_of(list[b])));

@@ -62,7 +62,7 @@ struct OpenQuestions {
 /// aliases, to see effects that could move the extrinsic unseen, and to shrink the extrinsic's
 /// weakest direction. Where no pose helps it says so and names what to measure instead. Empty when
 /// stopped.
-std::vector<std::string> advise_scenes(const ScenesTaken& taken, const OpenQuestions& questions,
-                                       const BoardGridOptions& grid, const RunContext& context);
+std::vector<Message> advise_scenes(const ScenesTaken& taken, const OpenQuestions& questions,
+                                   const BoardGridOptions& grid, const RunContext& context);
 
 }  // namespace lvcalib

@@ -237,15 +237,14 @@ bool same_pose(const Rigid3& a, const Rigid3& b, const Matrix6d& covariance) {
 Result<BoardPose> estimate_board_pose(const std::vector<CornerObservation>& corners,
                                       const Camera& camera, const DetectionOptions& options) {
   if (corners.size() < 4) {
-    return Error::input("a board's pose needs four corners, found " +
-                        std::to_string(corners.size()));
+    return Error::input(Message("a board's pose needs four corners, found %1", corners.size()));
   }
   const PoseFit fit(corners, camera);
   const auto candidates =
       refined_candidates(fit, planar_poses(corners, camera, options.max_reprojection_px));
   if (candidates.empty()) {
-    return Error::input("the corners fit no pose of a flat board", {},
-                        "check the intrinsics and the target's description");
+    return Error::input(Message("the corners fit no pose of a flat board"), {},
+                        Message("check the intrinsics and the target's description"));
   }
   BoardPose out;
   const Rigid3 pose = candidates.front().pose;
@@ -264,7 +263,8 @@ Result<BoardPose> estimate_board_pose(const std::vector<CornerObservation>& corn
     squares += distances[i] * distances[i];
     pixel_squares += out.residual_px[i] * out.residual_px[i];
   }
-  if (2 * count <= kPoseUnknowns) return Error::input("the corners fit no pose of a flat board");
+  if (2 * count <= kPoseUnknowns)
+    return Error::input(Message("the corners fit no pose of a flat board"));
   // With two or four degrees of freedom left the residuals alone may say next to nothing: the
   // corners' stated σ then counts as much as six more.
   constexpr double kFewDegrees = 12.0;
@@ -278,7 +278,7 @@ Result<BoardPose> estimate_board_pose(const std::vector<CornerObservation>& corn
   out.camera_from_board = {pose,
                            out.sigma_px * out.sigma_px * normal.ldlt().solve(Matrix6d::Identity())};
   if (!out.camera_from_board.covariance.allFinite()) {
-    return Error::input("the corners do not determine the board's pose");
+    return Error::input(Message("the corners do not determine the board's pose"));
   }
   if (candidates.size() < 2) return out;
   const Candidate& other = candidates[1];

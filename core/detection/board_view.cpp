@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "base/text.h"
 #include "detection/board_pose.h"
 #include "detection/board_tags.h"
 #include "detection/checkerboard_detector.h"
@@ -22,21 +23,20 @@ std::string size_text(int width, int height) {
 Status check_input(const GrayImage& image, const Target& target, const Camera& camera,
                    const DetectionOptions& options) {
   if (image.width_px != camera.width_px || image.height_px != camera.height_px) {
-    return Error::input("the image has " + size_text(image.width_px, image.height_px) +
-                            " pixels, the intrinsics are for " +
-                            size_text(camera.width_px, camera.height_px),
-                        {}, "use the intrinsics of this camera at this resolution");
+    return Error::input(Message("the image has %1 pixels, the intrinsics are for %2",
+                                size_text(image.width_px, image.height_px),
+                                size_text(camera.width_px, camera.height_px)),
+                        {}, Message("use the intrinsics of this camera at this resolution"));
   }
   if (image.width_px < 1 || image.height_px < 1 ||
       image.pixels.size() !=
           static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px)) {
-    return Error::input("the image has no pixels");
+    return Error::input(Message("the image has no pixels"));
   }
   if (const Status status = check(camera); !status) return status;
   if (!(options.max_reprojection_px > 0.0) || !(options.quad_decimate >= 1.0)) {
-    return Error::usage(
-        "the largest reprojection error must be positive and the image reduction "
-        "at least 1");
+    return Error::usage(Message(
+        "the largest reprojection error must be positive and the image reduction at least 1"));
   }
   return check(target);
 }
@@ -123,8 +123,8 @@ bool seen_twice(const std::vector<BoardTag>& tags, const Target& target) {
 }
 
 Error twice_in_image() {
-  return Error::input("the board, or one with the same tags, is in the image twice", {},
-                      "cover one of them, or leave this scene out");
+  return Error::input(Message("the board, or one with the same tags, is in the image twice"), {},
+                      Message("cover one of them, or leave this scene out"));
 }
 
 // How many of the tags lie where a target has them.
@@ -141,21 +141,21 @@ std::size_t fitting_tags(std::vector<BoardTag> tags, const Target& target, const
 Error misplaced_tags(std::size_t fitting, const std::vector<BoardTag>& seen, const Target& target,
                      const Camera& camera, const DetectionOptions& options) {
   if (const auto grid = other_grid(seen, target, camera, options)) {
-    return Error::input("the tags do not lie where the target has them; they do with " + *grid, {},
-                        "correct target.yaml, or use the right board");
+    return Error::input(
+        Message("the tags do not lie where the target has them; they do with %1", *grid), {},
+        Message("correct target.yaml, or use the right board"));
   }
   if (const auto other = other_arrangement(seen, target, camera, options)) {
-    return Error::input("the tags lie as on a board " + *other, {},
-                        "use a board as lvcalib target draws it: tags upright, ids from the bottom "
-                        "left");
+    return Error::input(
+        Message("the tags lie as on a board %1", *other), {},
+        Message("use a board as lvcalib target draws it: tags upright, ids from the bottom left"));
   }
-  return Error::input("only " + std::to_string(fitting) + " of the " + std::to_string(seen.size()) +
-                          " tags seen lie where the target has them",
-                      {},
-                      target.type == TargetType::kCharuco
-                          ? "check targetCols, targetRows, firstMarkerId, legacyPattern and the "
-                            "intrinsics"
-                          : "check tagCols, tagRows, tagSpacing and the intrinsics");
+  return Error::input(
+      Message("only %1 of the %2 tags seen lie where the target has them", fitting, seen.size()),
+      {},
+      target.type == TargetType::kCharuco
+          ? Message("check targetCols, targetRows, firstMarkerId, legacyPattern and the intrinsics")
+          : Message("check tagCols, tagRows, tagSpacing and the intrinsics"));
 }
 
 // ChArUco boards come in two layouts with the same markers; half of them lie alike in both, one
@@ -168,8 +168,8 @@ std::optional<Error> other_layout(std::size_t fitting, const std::vector<BoardTa
   other.legacy_pattern = !target.legacy_pattern;
   if (fitting_tags(seen, other, camera, options) <= fitting) return std::nullopt;
   const std::string value = other.legacy_pattern ? "true" : "false";
-  return Error::input("the markers lie as on a board with legacyPattern: " + value, {},
-                      "set legacyPattern: " + value);
+  return Error::input(Message("the markers lie as on a board with legacyPattern: %1", value), {},
+                      Message("set legacyPattern: %1", value));
 }
 
 // Tags that the target does not have are in the image, and all of them fit with other numbers in
@@ -182,8 +182,8 @@ std::optional<Error> other_count(const GrayImage& image, const Target& target, c
     return std::nullopt;
   const auto grid = other_grid(all, target, camera, options);
   if (!grid) return std::nullopt;
-  return Error::input(tags_against_target(all, target) + "; all of them fit with " + *grid, {},
-                      "correct target.yaml, or use the right board");
+  return Error::input(tags_that_fit_with(*grid, all, target), {},
+                      Message("correct target.yaml, or use the right board"));
 }
 
 // Where a quarter of the board should be in the image and shows no tag of the target's: with ids
@@ -219,8 +219,9 @@ BoardView make_view(std::vector<CornerObservation> corners, const BoardPose& pos
   view.rms_px = pose.rms_px;
   // Refined corners reach a few hundredths of a pixel; the rest is the model.
   if (pose.rms_px > 1.0) {
-    view.warnings.push_back("corners miss the board by " + std::to_string(pose.rms_px) +
-                            " px RMS: check the intrinsics and the target's measures");
+    view.warnings.push_back(Message(
+        "corners miss the board by %1 px RMS: check the intrinsics and the target's measures",
+        formatted("%f", pose.rms_px)));
   }
   return view;
 }
@@ -243,8 +244,8 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
   if (target.tag_count() == 1) {
     std::erase_if(tags, [](const BoardTag& tag) { return !tag.refined; });
     if (tags.empty()) {
-      return Error::input("the tag in the image is too small or too blurred", {},
-                          "show it nearer or sharper");
+      return Error::input(Message("the tag in the image is too small or too blurred"), {},
+                          Message("show it nearer or sharper"));
     }
   }
   if (seen_twice(tags, target)) return twice_in_image();
@@ -284,7 +285,8 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
   view.tag_count = static_cast<int>(tags.size());
   for (const BoardTag& tag : tags) dropped.erase(tag.id);
   if (!dropped.empty()) {
-    view.warnings.push_back("tags that miss the board's pose were dropped: " + id_list(dropped));
+    view.warnings.push_back(
+        Message("tags that miss the board's pose were dropped: %1", id_list(dropped)));
   }
   return view;
 }

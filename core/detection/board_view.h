@@ -59,7 +59,7 @@ struct BoardView {
   double sigma_px =
       0.0;  ///< Standard deviation of one corner coordinate, estimated from the residuals.
   double rms_px = 0.0;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 struct DetectionOptions {

@@ -217,19 +217,20 @@ Result<CheckerboardCorners> find_checkerboard(const GrayImage& image, const Targ
     cv::Mat mat = to_mat(image);
     if (!search(mat, grid, context)) {
       if (context.stopped()) return Error::cancelled();
-      return Error::input("no checkerboard with " + std::to_string(target.corner_columns) + " × " +
-                              std::to_string(target.corner_rows) + " inner corners in the image",
-                          {}, "all of it must be visible; check targetCols and targetRows");
+      return Error::input(Message("no checkerboard with %1 × %2 inner corners in the image",
+                                  target.corner_columns, target.corner_rows),
+                          {},
+                          Message("all of it must be visible; check targetCols and targetRows"));
     }
     refine(mat, grid);
     grid = oriented(grid, mat, target);
     other_colors = color_match(grid, mat, target) < 0.0;
     if (shows_another(mat, grid)) {
-      return Error::input("two checkerboards of this size are in the image", {},
-                          "cover one of them, or leave this scene out");
+      return Error::input(Message("two checkerboards of this size are in the image"), {},
+                          Message("cover one of them, or leave this scene out"));
     }
   } catch (const cv::Exception&) {
-    return Error::input("the image cannot be searched for a checkerboard");
+    return Error::input(Message("the image cannot be searched for a checkerboard"));
   }
   const std::vector<Eigen::Vector2d> board = target.checkerboard_corners_m();
   CheckerboardCorners out;

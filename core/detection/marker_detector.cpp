@@ -96,7 +96,7 @@ Result<std::vector<TagDetection>> find_markers(const GrayImage& image,
                                                const TagSearchOptions& options,
                                                const RunContext& context) {
   if (!is_marker_dictionary(dictionary))
-    return Error::usage("marker dictionary '" + dictionary + "' is not known");
+    return Error::usage(Message("marker dictionary '%1' is not known", dictionary));
   if (std::min(image.width_px, image.height_px) < 16) return std::vector<TagDetection>{};
   std::vector<MarkerPass> passes{{1.0, 0.02}};
   // What is printed small or seen from afar; what only its blurred outline shows.
@@ -119,7 +119,7 @@ Result<std::vector<TagDetection>> find_markers(const GrayImage& image,
       }
     }
   } catch (const cv::Exception&) {
-    return Error::input("the image cannot be searched for markers");
+    return Error::input(Message("the image cannot be searched for markers"));
   }
   return all;
 }

@@ -66,20 +66,23 @@ Fit fitting(const std::vector<CornerObservation>& corners, const Camera& camera,
   return out;
 }
 
-std::string described(const Arrangement& how) {
-  std::string text;
-  if (how.from_right || how.from_top) {
-    text = std::string("whose ids grow from the ") + (how.from_top ? "top " : "bottom ") +
-           (how.from_right ? "right" : "left");
-  }
-  if (how.turn != 0) {
-    text += std::string(text.empty() ? "" : " and ") + "whose tags are each turned by " +
-            std::to_string(90 * how.turn) + "°";
+Message described(const Arrangement& how) {
+  Message ids;
+  if (how.from_top && how.from_right)
+    ids = Message("whose ids grow from the top right");
+  else if (how.from_top)
+    ids = Message("whose ids grow from the top left");
+  else if (how.from_right)
+    ids = Message("whose ids grow from the bottom right");
+  const int turn_deg = 90 * how.turn;
+  if (turn_deg != 0) {
+    return ids.empty() ? Message("whose tags are each turned by %1°", turn_deg)
+                       : Message("%1 and whose tags are each turned by %2°", ids, turn_deg);
   }
   // The same board seen from its other end.
-  if (how.from_top && how.from_right && how.turn == 0)
-    text += ", or upside down and whose tags are each turned by 180°";
-  return text;
+  if (how.from_top && how.from_right)
+    return Message("%1, or upside down and whose tags are each turned by 180°", ids);
+  return ids;
 }
 
 // Tags that lie where a target has them.
@@ -90,12 +93,12 @@ Fit fitting_as_is(const std::vector<BoardTag>& tags, const Target& target, const
 
 // The grid with another number of columns or another first id that most tags fit. Which rows are
 // there the tags say themselves.
-std::pair<Fit, std::string> best_counting(const std::vector<BoardTag>& tags, const Target& target,
-                                          const Camera& camera, const DetectionOptions& options) {
+std::pair<Fit, Message> best_counting(const std::vector<BoardTag>& tags, const Target& target,
+                                      const Camera& camera, const DetectionOptions& options) {
   constexpr int kMostColumns = 16;  // No board that fits a sheet has more tags side by side.
   const auto [low, high] = std::minmax_element(
       tags.begin(), tags.end(), [](const BoardTag& a, const BoardTag& b) { return a.id < b.id; });
-  std::pair<Fit, std::string> best;
+  std::pair<Fit, Message> best;
   for (int columns = 1; columns <= kMostColumns; ++columns) {
     // Ids that differ by whole rows lie alike but for a shift of the whole board.
     for (int k = 0; k < columns; ++k) {
@@ -115,36 +118,37 @@ std::pair<Fit, std::string> best_counting(const std::vector<BoardTag>& tags, con
       say("tagCols", columns, target.tag_columns);
       if (other.tag_rows > target.tag_rows || columns != target.tag_columns)
         say("tagRows", other.tag_rows, target.tag_rows);
-      best = {fit, fields};
+      best = {fit, Message::verbatim(fields)};
     }
   }
   return best;
 }
 
 // The spacing that most tags fit, to two per cent: what corners tell within the gate.
-std::pair<Fit, std::string> best_spacing(const std::vector<BoardTag>& tags, const Target& target,
-                                         const Camera& camera, const DetectionOptions& options) {
+std::pair<Fit, Message> best_spacing(const std::vector<BoardTag>& tags, const Target& target,
+                                     const Camera& camera, const DetectionOptions& options) {
   constexpr double kStep = 1.02;
-  std::pair<Fit, std::string> best;
+  std::pair<Fit, Message> best;
   for (double spacing = 0.05; spacing < 3.0; spacing *= kStep) {
     Target other = target;
     other.tag_spacing = spacing;
     const Fit fit = fitting_as_is(tags, other, camera, options);
-    if (fit.better_than(best.first)) best = {fit, formatted("tagSpacing: about %.2f", spacing)};
+    if (fit.better_than(best.first))
+      best = {fit, Message("tagSpacing: about %1", formatted("%.2f", spacing))};
   }
   return best;
 }
 
 }  // namespace
 
-std::optional<std::string> other_grid(const std::vector<BoardTag>& tags, const Target& target,
-                                      const Camera& camera, const DetectionOptions& options) {
+std::optional<Message> other_grid(const std::vector<BoardTag>& tags, const Target& target,
+                                  const Camera& camera, const DetectionOptions& options) {
   if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
       tags.size() < 4)
     return std::nullopt;
   const std::size_t given = fitting_as_is(tags, target, camera, options).count;
   constexpr std::size_t kMore = 3;  // One or two tags fit another grid by chance of their place.
-  const auto better = [&](const std::pair<Fit, std::string>& found) {
+  const auto better = [&](const std::pair<Fit, Message>& found) {
     return !found.second.empty() && found.first.count >= given + kMore &&
            4 * found.first.count >= 3 * tags.size();
   };
@@ -155,13 +159,12 @@ std::optional<std::string> other_grid(const std::vector<BoardTag>& tags, const T
   return std::nullopt;
 }
 
-std::optional<std::string> other_arrangement(const std::vector<BoardTag>& tags,
-                                             const Target& target, const Camera& camera,
-                                             const DetectionOptions& options) {
+std::optional<Message> other_arrangement(const std::vector<BoardTag>& tags, const Target& target,
+                                         const Camera& camera, const DetectionOptions& options) {
   if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
     return std::nullopt;
   std::size_t best = 2;
-  std::optional<std::string> out;
+  std::optional<Message> out;
   for (int turn = 0; turn < 4; ++turn) {
     for (const bool from_right : {false, true}) {
       for (const bool from_top : {false, true}) {

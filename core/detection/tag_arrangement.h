@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "camera/camera.h"
 #include "detection/board_tags.h"
 
@@ -14,15 +14,14 @@ namespace lvcalib {
 /// turned on its place (as some programs draw AprilTags), or both. In words that complete "the tags
 /// fit a board …"; nothing if no such arrangement fits at least three quarters of the tags, and
 /// three.
-std::optional<std::string> other_arrangement(const std::vector<BoardTag>& tags,
-                                             const Target& target, const Camera& camera,
-                                             const DetectionOptions& options);
+std::optional<Message> other_arrangement(const std::vector<BoardTag>& tags, const Target& target,
+                                         const Camera& camera, const DetectionOptions& options);
 
 /// Fields of target.yaml with which at least three quarters of the tags, and three more than with
 /// the present ones, lie where the target has them: "firstTagId: 0", "tagCols: 4",
 /// "tagSpacing: 0.833". `tags` may hold ids that the target does not have. Nothing for other boards
 /// than grids, or if nothing fits so well.
-std::optional<std::string> other_grid(const std::vector<BoardTag>& tags, const Target& target,
-                                      const Camera& camera, const DetectionOptions& options);
+std::optional<Message> other_grid(const std::vector<BoardTag>& tags, const Target& target,
+                                  const Camera& camera, const DetectionOptions& options);
 
 }  // namespace lvcalib

@@ -299,15 +299,17 @@ void drop_other_border(std::vector<TagDetection>& tags, const GrayImage& image,
 
 Status check(const std::string& family, int border_bits, const TagSearchOptions& options) {
   const int size = tag_family_size(family);
-  if (size == 0) return Error::usage("tag family '" + family + "' is not known");
-  if (border_bits < 1 || border_bits > 2) return Error::usage("tag border must be 1 or 2 bits");
+  if (size == 0) return Error::usage(Message("tag family '%1' is not known", family));
+  if (border_bits < 1 || border_bits > 2)
+    return Error::usage(Message("tag border must be 1 or 2 bits"));
   if (options.first_id < 0 || options.id_count < 0 || options.first_id >= size ||
       options.id_count > size - options.first_id) {
-    return Error::usage("tag ids beyond the " + std::to_string(size) + " of " + family);
+    return Error::usage(Message("tag ids beyond the %1 of %2", size, family));
   }
-  if (!(options.decimate >= 1.0)) return Error::usage("image reduction must be at least 1");
+  if (!(options.decimate >= 1.0))
+    return Error::usage(Message("image reduction must be at least 1"));
   if (options.max_hamming < 0 || options.max_hamming > 2) {
-    return Error::usage("corrected bits must be 0, 1 or 2");
+    return Error::usage(Message("corrected bits must be 0, 1 or 2"));
   }
   return Done{};
 }

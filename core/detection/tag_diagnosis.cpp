@@ -48,28 +48,27 @@ std::string listed(const std::set<int>& ids) {
   return out;
 }
 
-std::string border_name(int bits) {
-  return std::to_string(bits) + "-bit border";
+Message border_name(int bits) {
+  return Message("%1-bit border", bits);
 }
 
-std::string expected_ids(const Target& target) {
-  return std::to_string(target.first_tag_id) + " to " +
-         std::to_string(target.first_tag_id + target.tag_count() - 1);
+Message expected_ids(const Target& target) {
+  return Message("%1 to %2", target.first_tag_id, target.first_tag_id + target.tag_count() - 1);
 }
 
-std::string ids_against_target(const std::set<int>& ids, const Target& target) {
-  return "the image shows tags " + listed(ids) + " of " + target.tag_family + "; the target has " +
-         expected_ids(target);
+Message ids_against_target(const std::set<int>& ids, const Target& target) {
+  return Message("the image shows tags %1 of %2; the target has %3", listed(ids), target.tag_family,
+                 expected_ids(target));
 }
 
-std::string checked_fields(const Target& target) {
+Message checked_fields(const Target& target) {
   switch (target.type) {
     case TargetType::kCharuco:
-      return "check firstMarkerId, targetCols and targetRows, or use the right board";
+      return Message("check firstMarkerId, targetCols and targetRows, or use the right board");
     case TargetType::kAprilTag:
-      return "check tagId, or use the right board";
+      return Message("check tagId, or use the right board");
     default:
-      return "check firstTagId, tagCols and tagRows, or use the right board";
+      return Message("check firstTagId, tagCols and tagRows, or use the right board");
   }
 }
 
@@ -92,9 +91,10 @@ std::optional<Error> other_dictionary(const GrayImage& image, const Target& targ
         ids_seen(image, dictionary, 1, options.quad_decimate, context, 3).empty())
       continue;
     return Error::input(
-        "markers of " + dictionary + " found; the target says " + target.tag_family, {},
-        target.type == TargetType::kCharuco ? "set dictionary: " + dictionary
-                                            : "describe the board with target_type: charuco");
+        Message("markers of %1 found; the target says %2", dictionary, target.tag_family), {},
+        target.type == TargetType::kCharuco
+            ? Message("set dictionary: %1", dictionary)
+            : Message("describe the board with target_type: charuco"));
   }
   return std::nullopt;
 }
@@ -107,13 +107,13 @@ std::optional<Error> other_family(const GrayImage& image, const Target& target,
       if (family == target.tag_family) continue;
       if (context.stopped()) return std::nullopt;
       if (ids_seen(image, family, bits, options.quad_decimate, context, fewest).empty()) continue;
-      return Error::input(std::string("tags of family ") + family + " with a " + border_name(bits) +
-                              " found; the target says " + target.tag_family,
-                          {},
-                          target.type == TargetType::kCharuco
-                              ? "describe the board with target_type: aprilgrid or apriltag"
-                              : std::string("set tagFamily: ") + family +
-                                    " and tagBorder: " + std::to_string(bits));
+      return Error::input(
+          Message("tags of family %1 with a %2 found; the target says %3", family,
+                  border_name(bits), target.tag_family),
+          {},
+          target.type == TargetType::kCharuco
+              ? Message("describe the board with target_type: aprilgrid or apriltag")
+              : Message("set tagFamily: %1 and tagBorder: %2", family, bits));
     }
   }
   return std::nullopt;
@@ -129,10 +129,12 @@ std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
       std::count_if(ids.begin(), ids.end(), [&](int id) { return target.tag(id).has_value(); }));
 }
 
-std::string tags_against_target(const std::vector<BoardTag>& seen, const Target& target) {
+Message tags_that_fit_with(const Message& fields, const std::vector<BoardTag>& seen,
+                           const Target& target) {
   std::set<int> ids;
   for (const BoardTag& tag : seen) ids.insert(tag.id);
-  return ids_against_target(ids, target);
+  return Message("the image shows tags %1 of %2; the target has %3; all of them fit with %4",
+                 listed(ids), target.tag_family, expected_ids(target), fields);
 }
 
 std::vector<BoardTag> all_tags_of_family(const GrayImage& image, const Target& target,
@@ -164,8 +166,9 @@ std::optional<Error> other_tag_family(const GrayImage& image, const Target& targ
 }
 
 Error explain_mirrored() {
-  return Error::input("the image (or the print) is mirrored: its tags can be read in a mirror", {},
-                      "turn off flipping in the camera driver, or print the board again");
+  return Error::input(
+      Message("the image (or the print) is mirrored: its tags can be read in a mirror"), {},
+      Message("turn off flipping in the camera driver, or print the board again"));
 }
 
 Error explain_missing_tags(const GrayImage& image, const Target& target, int found,
@@ -185,18 +188,17 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
     if (const auto other =
             other_tag_family(image, target, static_cast<std::size_t>(found), options, context))
       return *other;
-    return Error::input("only " + std::to_string(found) + " of the board's " +
-                            std::to_string(target.tag_count()) + " tags found, expected at least " +
-                            std::to_string(fewest_tags(target, options)),
-                        {}, "show more of the board, nearer, sharper or better lit");
+    return Error::input(Message("only %1 of the board's %2 tags found, expected at least %3", found,
+                                target.tag_count(), fewest_tags(target, options)),
+                        {}, Message("show more of the board, nearer, sharper or better lit"));
   }
   if (context.stopped()) return Error::cancelled();
   if (target.type != TargetType::kCharuco &&
       !ids_seen(image, target.tag_family, other_border, options.quad_decimate, context, fewest)
            .empty()) {
-    return Error::input("the tags in the image have a " + border_name(other_border) +
-                            "; the target says " + border_name(border),
-                        {}, "set tagBorder: " + std::to_string(other_border));
+    return Error::input(Message("the tags in the image have a %1; the target says %2",
+                                border_name(other_border), border_name(border)),
+                        {}, Message("set tagBorder: %1", other_border));
   }
   if (context.stopped()) return Error::cancelled();
   const GrayImage mirror = mirrored(image);
@@ -215,8 +217,9 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
     if (context.stopped()) return Error::cancelled();
     if (other) return *other;
   }
-  return Error::input("no tags in the image", {},
-                      "the board must be in view, sharp, and neither dark nor overexposed");
+  return Error::input(
+      Message("no tags in the image"), {},
+      Message("the board must be in view, sharp, and neither dark nor overexposed"));
 }
 
 }  // namespace lvcalib

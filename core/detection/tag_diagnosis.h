@@ -31,8 +31,10 @@ std::optional<Error> other_tag_family(const GrayImage& image, const Target& targ
 /// The image, or the print, is mirrored.
 Error explain_mirrored();
 
-/// "the image shows tags 8, 9 of tag36h11; the target has 0 to 3".
-std::string tags_against_target(const std::vector<BoardTag>& seen, const Target& target);
+/// "the image shows tags 8, 9 of tag36h11; the target has 0 to 3; all of them fit with
+/// firstTagId: 8". `fields`: of target.yaml, see other_grid().
+Message tags_that_fit_with(const Message& fields, const std::vector<BoardTag>& seen,
+                           const Target& target);
 
 /// Every tag of the target's family that the image shows without a wrong bit, also those that the
 /// target does not have. None where the search is stopped.

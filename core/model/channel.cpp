@@ -14,6 +14,20 @@ const char* name_of(Channel channel) {
   return kNames[static_cast<std::size_t>(channel)];
 }
 
+Message word_for(Channel channel) {
+  switch (channel) {
+    case Channel::kCorner:
+      return Message("corner");
+    case Channel::kRange:
+      return Message("range");
+    case Channel::kBoundary:
+      return Message("boundary");
+    case Channel::kIntensity:
+      break;
+  }
+  return Message("intensity");
+}
+
 const char* unit_of(Channel channel) {
   return kUnits[static_cast<std::size_t>(channel)];
 }

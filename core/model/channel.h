@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "base/message.h"
+
 namespace lvcalib {
 
 /// Kinds of measurement that the model predicts.
@@ -14,6 +16,8 @@ constexpr std::array<Channel, kChannels> kAllChannels{Channel::kCorner, Channel:
 
 /// "corner", "range", "boundary", "intensity".
 const char* name_of(Channel channel);
+/// The same word within a sentence.
+Message word_for(Channel channel);
 /// Unit in which people read its residuals: "px", "mm", "mm", "1" (of the logarithm).
 const char* unit_of(Channel channel);
 /// From the internal unit (px, m, m, 1) to that one.

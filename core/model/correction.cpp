@@ -81,8 +81,8 @@ class Probe {
 
 Error missing(const std::string& id, const std::string& field) {
   return Error::input(
-      "the effect '" + id + "' cannot be taken out: there is no " + field + " in this cloud", {},
-      "record the cloud with " + field + ", or leave the effect in with --skip " + id);
+      Message("the effect '%1' cannot be taken out: there is no %2 in this cloud", id, field), {},
+      Message("record the cloud with %1, or leave the effect in with --skip %2", field, id));
 }
 
 class Corrector {
@@ -103,14 +103,14 @@ class Corrector {
     }
     if (any([](const CorrectionReads& r) { return r.scan; })) velocities_ = scan_velocities(cloud_);
     if (any([](const CorrectionReads& r) { return r.incidence; })) {
-      context_.report("normals", 0.1, "estimating surfaces");
+      context_.report("normals", 0.1, Message("estimating surfaces"));
       normals_ = local_normals(cloud_, options_.normals, context_);
     }
     for (std::size_t i = 0; i < cloud_.size(); ++i) {
       if (i % kBetweenLooks == 0) {
         if (context_.stopped()) return Error::cancelled();
         context_.report("correct", 0.3 + 0.7 * static_cast<double>(i) / cloud_.size(),
-                        "taking effects out");
+                        Message("taking effects out"));
       }
       correct(i);
     }
@@ -134,11 +134,12 @@ class Corrector {
       const bool known = std::any_of(model_.begin(), model_.end(), [&](const EffectInUse& use) {
         return use.effect->info().id == id;
       });
-      if (!known) return Error::usage("the effect '" + id + "' to skip is not in the model");
+      if (!known) return Error::usage(Message("the effect '%1' to skip is not in the model", id));
     }
     if (!options_.clock) return Done{};
     if (!(*options_.clock >= 0.0 && *options_.clock <= 1.0))
-      return Error::usage("the clock is " + std::to_string(*options_.clock) + ", expected 0 to 1");
+      return Error::usage(
+          Message("the clock is %1, expected 0 to 1", std::to_string(*options_.clock)));
     table_.scenes.front().clock = *options_.clock;
     return Done{};
   }
@@ -166,8 +167,9 @@ class Corrector {
       if ((reads.line || info.needs.line) && !cloud_.has_line()) return missing(info.id, "line");
       if (reads.darkness && !cloud_.has_intensity()) return missing(info.id, "intensity");
       if (reads.darkness && !(scales_.log_contrast > 0.0)) {
-        return Error::input("the effect '" + info.id +
-                            "' cannot be taken out: the model lacks the calibration's intensities");
+        return Error::input(Message(
+            "the effect '%1' cannot be taken out: the model lacks the calibration's intensities",
+            info.id));
       }
       plans_.push_back({&use, summary_.effects.size(), reads});
     }

@@ -67,8 +67,8 @@ class CurveEffect final : public CovariateEffect, public CurveView {
   double material_;
 };
 
-Error error(const UserEffectSpec& spec, const std::string& what) {
-  return Error::input("the effect '" + spec.id + "' cannot be used: " + what);
+Error error(const UserEffectSpec& spec, const Message& what) {
+  return Error::input(Message("the effect '%1' cannot be used: %2", spec.id, what));
 }
 
 // The interval, or the labels, that the table's rows take.
@@ -79,20 +79,19 @@ Result<CurveAxis> axis_of(const UserEffectSpec& spec, const RowCovariate& covari
   for (const CovariateSource& source : covariate_sources(table, spec.channel)) {
     values.push_back(covariate.value(table, source));
     if (!std::isfinite(values.back()))
-      return error(spec, std::string(covariate.name) + " is not a finite number on some rows");
+      return error(spec, Message("%1 is not a finite number on some rows", covariate.name));
   }
   std::sort(values.begin(), values.end());
-  if (values.empty()) return error(spec, "these data have no rows of its channel");
+  if (values.empty()) return error(spec, Message("these data have no rows of its channel"));
   if (!(values.back() > values.front()))
-    return error(spec, std::string(covariate.name) + " is the same on all rows");
+    return error(spec, Message("%1 is the same on all rows", covariate.name));
   axis.low = values.front();
   axis.high = values.back();
   if (!covariate.categories) return axis;
   values.erase(std::unique(values.begin(), values.end()), values.end());
   if (static_cast<int>(values.size()) > options.most_labels) {
-    return error(spec, std::string(covariate.name) + " has " + std::to_string(values.size()) +
-                           " different labels, expected at most " +
-                           std::to_string(options.most_labels));
+    return error(spec, Message("%1 has %2 different labels, expected at most %3", covariate.name,
+                               values.size(), options.most_labels));
   }
   axis.labels = std::move(values);
   return axis;
@@ -127,12 +126,13 @@ Result<EffectPtr> make_curve_effect(const UserEffectSpec& spec, const Measuremen
     covariates.push_back(covariate);
     const bool open = !axes[k].categories() && !(axes[k].high > axes[k].low);
     if (open && table == nullptr) {
-      return Error::usage("the effect '" + spec.id + "' lacks the interval of " + covariate->name +
-                          ", expected '" + covariate->identifier() + "[low..high]'");
+      return Error::usage(
+          Message("the effect '%1' lacks the interval of %2, expected '%3[low..high]'", spec.id,
+                  covariate->name, covariate->identifier()));
     }
     if (open) {
       if (!has_covariate(*table, *covariate))
-        return error(spec, std::string("no ") + covariate->name + " in these clouds");
+        return error(spec, Message("no %1 in these clouds", covariate->name));
       auto axis = axis_of(spec, *covariate, *table, options);
       if (!axis) return axis.error();
       axes[k] = *axis;

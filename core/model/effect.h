@@ -121,6 +121,6 @@ const std::vector<EffectPtr>& effect_catalogue();
 EffectPtr find_effect(const std::string& id);
 
 /// Why an effect cannot be tested on this table ("no time in these clouds"); empty if it can.
-std::string why_not_testable(const Effect& effect, const MeasurementTable& table);
+Message why_not_testable(const Effect& effect, const MeasurementTable& table);
 
 }  // namespace lvcalib

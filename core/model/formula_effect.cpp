@@ -38,8 +38,8 @@ class FormulaEffect final : public CovariateEffect {
   }
 
  private:
-  [[nodiscard]] Error error(const std::string& what, const std::string& hint = {}) const {
-    return Error::input("the effect '" + info_.id + "' cannot be used: " + what, {}, hint);
+  [[nodiscard]] Error error(const Message& what, const Message& hint = {}) const {
+    return Error::input(Message("the effect '%1' cannot be used: %2", info_.id, what), {}, hint);
   }
   [[nodiscard]] Status check_linear(const std::vector<std::vector<double>>& rows) const;
   [[nodiscard]] bool adds_up(const std::vector<double>& row, std::span<const double> columns,
@@ -69,21 +69,21 @@ Status FormulaEffect::check_linear(const std::vector<std::vector<double>>& rows)
     expression_.columns(rows[r], columns);
     std::vector<double> c(names.size(), 0.0);
     if (expression_.evaluate(rows[r], c) != 0.0) {
-      return error("it is not zero when its coefficients are",
-                   "multiply every term with a coefficient");
+      return error(Message("it is not zero when its coefficients are"),
+                   Message("multiply every term with a coefficient"));
     }
     for (std::size_t k = 0; k < names.size(); ++k) {
       c[k] = -2.0;
       if (!adds_up(rows[r], columns, c)) {
-        return error("it is not linear in the coefficient " + names[k],
-                     "write a number in its place, such as the 3 in 'a*sin(3*azimuth)'");
+        return error(Message("it is not linear in the coefficient %1", names[k]),
+                     Message("write a number in its place, such as the 3 in 'a*sin(3*azimuth)'"));
       }
       c[k] = 0.0;
     }
     for (std::size_t k = 0; k < names.size(); ++k) c[k] = 0.3 + 0.7 * static_cast<double>(k);
     if (!adds_up(rows[r], columns, c)) {
-      return error("its coefficients do not act one by one: it is not linear in them",
-                   "write a sum of terms with one coefficient each");
+      return error(Message("its coefficients do not act one by one: it is not linear in them"),
+                   Message("write a sum of terms with one coefficient each"));
     }
   }
   return Done{};
@@ -113,10 +113,11 @@ Status FormulaEffect::bind(const MeasurementTable& table, const UserEffectOption
     rows.push_back(std::move(at));
   }
   if (bad > 0) {
-    return error("it is not a finite number on " + std::to_string(bad) + " of " +
-                     std::to_string(sources.size()) + " rows of the channel " + name_of(acts_on()) +
-                     (first_bad.empty() ? "" : ", first where " + first_bad),
-                 "divisions by zero, roots and logarithms of negative numbers do that");
+    Message what = Message("it is not a finite number on %1 of %2 rows of the channel %3", bad,
+                           sources.size(), word_for(acts_on()));
+    if (!first_bad.empty()) what += Message(", first where %1", first_bad);
+    return error(what,
+                 Message("divisions by zero, roots and logarithms of negative numbers do that"));
   }
   if (Status s = check_linear(rows); !s) return s;
   squares /= std::max<double>(1.0, static_cast<double>(rows.size()));
@@ -124,8 +125,8 @@ Status FormulaEffect::bind(const MeasurementTable& table, const UserEffectOption
   std::vector<EffectParameter> parameters;
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!(rms(k) > 0.0))
-      return error("its coefficient " + names[static_cast<std::size_t>(k)] +
-                   " changes nothing on any row");
+      return error(Message("its coefficient %1 changes nothing on any row",
+                           names[static_cast<std::size_t>(k)]));
     parameters.push_back(
         user_parameter(names[static_cast<std::size_t>(k)], acts_on(), rms(k), options));
   }
@@ -138,8 +139,8 @@ Status FormulaEffect::bind(const MeasurementTable& table, const UserEffectOption
       if (std::abs(eigen.eigenvectors()(k, 0)) > 0.05)
         together += (together.empty() ? "" : " and ") + names[static_cast<std::size_t>(k)];
     }
-    return error("its coefficients " + together + " cannot be told apart on these data",
-                 "leave one of them out");
+    return error(Message("its coefficients %1 cannot be told apart on these data", together),
+                 Message("leave one of them out"));
   }
   set_parameters(std::move(parameters));
   return Done{};

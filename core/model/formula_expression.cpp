@@ -40,9 +40,9 @@ Error syntax_error(const mu::Parser::exception_type& e, const std::string& text)
   const int position = std::min(static_cast<int>(e.GetPos()), static_cast<int>(text.size()));
   const bool inside = position >= 0;
   if (const auto at = message.find(" at position "); at != std::string::npos) message.resize(at);
-  return Error::usage("in the formula '" + text + "'" +
-                      (inside ? " at character " + std::to_string(position + 1) : "") + ": " +
-                      message);
+  return Error::usage(
+      inside ? Message("in the formula '%1' at character %2: %3", text, position + 1, message)
+             : Message("in the formula '%1': %2", text, message));
 }
 
 std::string listed(const std::vector<std::string>& words) {
@@ -106,12 +106,14 @@ FormulaExpression::~FormulaExpression() = default;
 Result<FormulaExpression> FormulaExpression::parse(const std::string& text,
                                                    const std::vector<std::string>& variables) {
   if (text.size() > kLongest) {
-    return Error::usage("the formula has " + std::to_string(text.size()) +
-                        " characters, expected at most " + std::to_string(kLongest));
+    return Error::usage(
+        Message("the formula has %1 characters, expected at most %2", text.size(), kLongest));
   }
   if (const auto at = assignment_at(text); at != std::string::npos) {
-    return Error::usage("in the formula '" + text + "' at character " + std::to_string(at + 1) +
-                        ": '=' assigns; expected an expression (write == to compare)");
+    return Error::usage(
+        Message("in the formula '%1' at character %2: '=' assigns; expected an expression (write "
+                "== to compare)",
+                text, at + 1));
   }
   auto content = std::make_unique<Content>();
   content->text = text;
@@ -127,24 +129,26 @@ Result<FormulaExpression> FormulaExpression::parse(const std::string& text,
         continue;
       }
       const std::string near = nearest_word(name, variables);
-      return Error::usage("in the formula '" + text + "': there is no covariate '" + name + "'" +
-                              (near.empty() ? "" : "; did you mean '" + near + "'?"),
-                          {},
-                          "coefficients are single letters; this channel has " + listed(variables));
+      return Error::usage(
+          near.empty()
+              ? Message("in the formula '%1': there is no covariate '%2'", text, name)
+              : Message("in the formula '%1': there is no covariate '%2'; did you mean '%3'?", text,
+                        name, near),
+          {}, Message("coefficients are single letters; this channel has %1", listed(variables)));
     }
     if (content->coefficients.empty()) {
-      return Error::usage("the formula '" + text +
-                          "' has no free coefficient; expected one or more, such as a in "
-                          "'a*range'");
+      return Error::usage(Message(
+          "the formula '%1' has no free coefficient; expected one or more, such as a in 'a*range'",
+          text));
     }
     for (const std::size_t v : content->variables) content->names.push_back(variables[v]);
     for (const std::string& c : content->coefficients) content->names.push_back(c);
     auto first = content->borrow();
     first->parser.Eval();
     if (first->parser.GetNumResults() != 1) {
-      return Error::usage("the formula '" + text + "' has " +
-                          std::to_string(first->parser.GetNumResults()) +
-                          " values separated by commas, expected one");
+      return Error::usage(
+          Message("the formula '%1' has %2 values separated by commas, expected one", text,
+                  first->parser.GetNumResults()));
     }
     content->give_back(std::move(first));
   } catch (const mu::Parser::exception_type& e) {

@@ -24,17 +24,19 @@ EffectPtr find_effect(const std::string& id) {
   return at == all.end() ? nullptr : *at;
 }
 
-std::string why_not_testable(const Effect& effect, const MeasurementTable& table) {
+Message why_not_testable(const Effect& effect, const MeasurementTable& table) {
   const EffectNeeds& needs = effect.info().needs;
-  if (needs.time && !table.has_time) return "no time in these clouds";
-  if (needs.line && table.lines.size() < 2) return "no laser lines in these clouds";
+  if (needs.time && !table.has_time) return Message("no time in these clouds");
+  if (needs.line && table.lines.size() < 2) return Message("no laser lines in these clouds");
   if (needs.intensity && !table.has_intensity)
-    return "no intensity in these clouds (or the same on all points)";
-  if (needs.circles && table.boundary.empty()) return "no edges of the print in the returns";
-  if (needs.tags && !table.target.has_tags()) return "no tags on this board";
-  if (effect.is_in_base_model()) return "measured with the base model, as the beam's blur";
+    return Message("no intensity in these clouds (or the same on all points)");
+  if (needs.circles && table.boundary.empty())
+    return Message("no edges of the print in the returns");
+  if (needs.tags && !table.target.has_tags()) return Message("no tags on this board");
+  if (effect.is_in_base_model()) return Message("measured with the base model, as the beam's blur");
   if (effect.is_gauge())
-    return "not defined: the same as a turn of the LiDAR frame, which is part of the extrinsic";
+    return Message(
+        "not defined: the same as a turn of the LiDAR frame, which is part of the extrinsic");
   return {};
 }
 

@@ -36,9 +36,14 @@ Result<Channel> channel_named(const std::string& name, const std::string& id) {
     known.emplace_back(name_of(channel));
   }
   const std::string near = nearest_word(name, known);
-  return Error::usage("in '" + id + "': there is no channel '" + name + "'" +
-                      (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                      " (expected corner, range, boundary or intensity)");
+  return Error::usage(
+      near.empty()
+          ? Message(
+                "in '%1': there is no channel '%2' (expected corner, range, boundary or intensity)",
+                id, name)
+          : Message("in '%1': there is no channel '%2'; did you mean '%3'? (expected corner, "
+                    "range, boundary or intensity)",
+                    id, name, near));
 }
 
 // "low..high" or "1|2|3" into an axis.
@@ -63,14 +68,17 @@ Status read_covariate(const std::string& text, UserEffectSpec& spec) {
     std::vector<std::string> known;
     for (const RowCovariate& c : row_covariates(spec.channel)) known.push_back(c.identifier());
     const std::string near = nearest_word(name, known);
-    return Error::usage("in '" + spec.id + "': there is no covariate '" + name + "'" +
-                        (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    return Error::usage(near.empty()
+                            ? Message("in '%1': there is no covariate '%2'", spec.id, name)
+                            : Message("in '%1': there is no covariate '%2'; did you mean '%3'?",
+                                      spec.id, name, near));
   }
   CurveAxis axis;
   if (bracket != std::string::npos) {
     if (text.back() != ']' || !read_axis(text.substr(bracket + 1, text.size() - bracket - 2), axis))
-      return Error::usage("in '" + spec.id + "': expected '[low..high]' or '[1|2|3]' after " +
-                          name + ", found '" + text.substr(bracket) + "'");
+      return Error::usage(
+          Message("in '%1': expected '[low..high]' or '[1|2|3]' after %2, found '%3'", spec.id,
+                  name, text.substr(bracket)));
   }
   spec.covariates.push_back(covariate->identifier());
   spec.axes.push_back(std::move(axis));
@@ -80,19 +88,19 @@ Status read_covariate(const std::string& text, UserEffectSpec& spec) {
 Status read_curve(UserEffectSpec& spec) {
   const auto parts = split(spec.body, ",");
   if (parts.size() > 2) {
-    return Error::usage("'" + spec.id + "' has " + std::to_string(parts.size()) +
-                        " covariates, expected one or two");
+    return Error::usage(
+        Message("'%1' has %2 covariates, expected one or two", spec.id, parts.size()));
   }
   for (const std::string& part : parts) {
     if (Status s = read_covariate(part, spec); !s) return s;
   }
   if (parts.size() < 2) return Done{};
   if (spec.covariates[0] == spec.covariates[1])
-    return Error::usage("'" + spec.id + "' names the same covariate twice");
+    return Error::usage(Message("'%1' names the same covariate twice", spec.id));
   for (const std::string& name : spec.covariates) {
     if (find_covariate(spec.channel, name)->categories) {
-      return Error::usage("'" + spec.id + "': " + name +
-                          " is a label; a curve over two covariates needs two scales");
+      return Error::usage(Message(
+          "'%1': %2 is a label; a curve over two covariates needs two scales", spec.id, name));
     }
   }
   return Done{};
@@ -111,12 +119,12 @@ Result<EffectPtr> make(const std::string& text, const MeasurementTable* table,
 Status UserEffectOptions::check() const {
   for (std::size_t c = 0; c < kChannels; ++c) {
     if (!(material[c] > 0.0) || !(believable[c] > material[c]))
-      return Error::usage("sizes of users' effects: expected 0 < material < believable");
+      return Error::usage(Message("sizes of users' effects: expected 0 < material < believable"));
   }
   if (curve_splines < 5 || tensor_splines < 5 || curve_splines > 100 || tensor_splines > 20)
     return Error::usage(
-        "splines of users' curves: expected 5 to 100, or 5 to 20 along each of two");
-  if (most_labels < 2) return Error::usage("labels of a curve: expected 2 or more");
+        Message("splines of users' curves: expected 5 to 100, or 5 to 20 along each of two"));
+  if (most_labels < 2) return Error::usage(Message("labels of a curve: expected 2 or more"));
   return Done{};
 }
 
@@ -133,10 +141,9 @@ Result<UserEffectSpec> parse_user_effect(const std::string& text) {
   const std::string kind = trimmed(spec.id.substr(0, first));
   if (second == std::string::npos || trimmed(spec.id.substr(second + 1)).empty()) {
     return Error::usage(
-        "'" + spec.id + "' is not complete, expected '" +
-        (kind == "curve" ? "curve:CHANNEL:COVARIATE" : "formula:CHANNEL:EXPRESSION") +
-        "', such as '" + (kind == "curve" ? "curve:range:azimuth" : "formula:range:a*darkness") +
-        "'");
+        Message("'%1' is not complete, expected '%2', such as '%3'", spec.id,
+                kind == "curve" ? "curve:CHANNEL:COVARIATE" : "formula:CHANNEL:EXPRESSION",
+                kind == "curve" ? "curve:range:azimuth" : "formula:range:a*darkness"));
   }
   spec.kind = kind == "curve" ? UserEffectSpec::Kind::kCurve : UserEffectSpec::Kind::kFormula;
   auto channel = channel_named(trimmed(spec.id.substr(first + 1, second - first - 1)), spec.id);

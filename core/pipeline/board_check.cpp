@@ -7,26 +7,26 @@ namespace lvcalib {
 
 namespace {
 
-std::string complaint_of(const Result<GrayImage>& pixels, const Target& target,
-                         const Camera& camera, const RunContext& context) {
+Message complaint_of(const Result<GrayImage>& pixels, const Target& target, const Camera& camera,
+                     const RunContext& context) {
   if (!pixels) return pixels.error().message;
   RunContext silent = context;
   silent.progress = nullptr;
   const auto view = find_board_in_image(*pixels, target, camera, {}, silent);
-  return view ? std::string{} : view.error().message;
+  return view ? Message() : view.error().message;
 }
 
 }  // namespace
 
-std::function<std::string(const std::filesystem::path& image, const Camera& camera)>
-make_board_check(const Target& target, const RunContext& context) {
+std::function<Message(const std::filesystem::path& image, const Camera& camera)> make_board_check(
+    const Target& target, const RunContext& context) {
   return [target, context](const std::filesystem::path& image, const Camera& camera) {
     return complaint_of(read_image(image), target, camera, context);
   };
 }
 
-std::string board_complaint(std::string_view image_file, const Target& target, const Camera& camera,
-                            const RunContext& context) {
+Message board_complaint(std::string_view image_file, const Target& target, const Camera& camera,
+                        const RunContext& context) {
   return complaint_of(read_image(image_file, "image"), target, camera, context);
 }
 

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
 #include <string_view>
 
+#include "base/message.h"
 #include "base/progress.h"
 #include "camera/camera.h"
 #include "target/target.h"
@@ -14,11 +14,11 @@ namespace lvcalib {
 
 /// What ImportOptions::board_check asks: why an image file does not show this board, in words;
 /// empty if it does. Holds copies of both arguments.
-std::function<std::string(const std::filesystem::path& image, const Camera& camera)>
-make_board_check(const Target& target, const RunContext& context);
+std::function<Message(const std::filesystem::path& image, const Camera& camera)> make_board_check(
+    const Target& target, const RunContext& context);
 
 /// The same of an image file's content.
-std::string board_complaint(std::string_view image_file, const Target& target, const Camera& camera,
-                            const RunContext& context);
+Message board_complaint(std::string_view image_file, const Target& target, const Camera& camera,
+                        const RunContext& context);
 
 }  // namespace lvcalib

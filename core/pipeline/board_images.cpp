@@ -51,7 +51,7 @@ Result<std::vector<BoardImage>> look_at_images(
     ++done;
     context.report("detect",
                    first + (last - first) * static_cast<double>(done) / static_cast<double>(count),
-                   paths[k].filename().string());
+                   Message::verbatim(paths[k].filename().string()));
   });
   if (context.stopped()) return Error::cancelled();
   return out;
@@ -78,14 +78,16 @@ double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, corners.size())));
 }
 
-std::string stray_reason(double rms_px, double usual_px) {
+Message stray_reason(double rms_px, double usual_px) {
   // Five standard deviations of one corner, as all of an image's corners together hardly ever are,
   // and more than the smear of a hand that is nearly still.
   constexpr double kFactor = 5.0;
   constexpr double kFloor_px = 0.3;
   if (rms_px <= std::max(kFloor_px, kFactor * usual_px)) return {};
-  return formatted("its corners miss the camera of the other images by %.2f px RMS", rms_px) +
-         "; was it taken in motion, or is it of another board?";
+  return Message(
+      "its corners miss the camera of the other images by %1 px RMS; was it taken in motion, or is "
+      "it of another board?",
+      formatted("%.2f", rms_px));
 }
 
 }  // namespace lvcalib

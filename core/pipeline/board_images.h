@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -21,7 +20,7 @@ struct BoardImage {
   int width_px = 0;  ///< 0 if it could not be read.
   int height_px = 0;
   std::optional<BoardView> view;
-  std::string reason;  ///< Why there is no view, or why it is not used.
+  Message reason;  ///< Why there is no view, or why it is not used.
   [[nodiscard]] bool used() const { return view && reason.empty(); }
 };
 
@@ -50,6 +49,6 @@ double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera
 /// Why an image is left out whose corners miss a camera that fits the others: it is of something
 /// else, moved, bent, another board or camera. Empty unless it misses by five times the usual, and
 /// by 0.3 px.
-std::string stray_reason(double rms_px, double usual_px);
+Message stray_reason(double rms_px, double usual_px);
 
 }  // namespace lvcalib

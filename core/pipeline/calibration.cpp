@@ -46,7 +46,7 @@ class Calibration {
     if (Status s = refine(); !s) return s.error();
     if (Status s = optimize(); !s) return s.error();
     result_.times.total_ms = ms_since(start);
-    context_.report("optimize", 1.0, "done");
+    context_.report("optimize", 1.0, Message("done"));
     return std::move(result_);
   }
 
@@ -68,7 +68,7 @@ class Calibration {
           request_.rejected.end()) {
         reject(scene);
       } else if (files.problem) {
-        scene.reason = files.problem->text();
+        scene.reason = files.problem->sentence();
         scene.unreadable = true;
       }
       scene.insisted = std::find(request_.insisted.begin(), request_.insisted.end(), files.name) !=
@@ -82,7 +82,8 @@ class Calibration {
       const bool known = std::any_of(dataset_.scenes.begin(), dataset_.scenes.end(),
                                      [&](const SceneFiles& f) { return f.name == name; });
       if (!known)
-        return Error::usage("there is no scene '" + name + "' to reject", dataset_.path.string());
+        return Error::usage(Message("there is no scene '%1' to reject", name),
+                            dataset_.path.string());
     }
     return Done{};
   }
@@ -105,11 +106,19 @@ class Calibration {
       if (first != same.begin() + static_cast<std::ptrdiff_t>(s)) {
         const SceneResult& one = result_.scenes[static_cast<std::size_t>(first - same.begin())];
         if (one.reason.empty())
-          scene.reason = "the same files as scene " + one.name + ", which counts once";
+          scene.reason = Message("the same files as scene %1, which counts once", one.name);
         continue;
       }
-      if (image) scene.shared_file = "the same image as scene " + result_.scenes[*image].name;
-      if (cloud) scene.shared_file = "the same cloud as scene " + result_.scenes[*cloud].name;
+      if (image) {
+        scene.shared_file = Message(
+            "scene %1 has the same image as scene %2: one of the two is not the scene's own",
+            scene.name, result_.scenes[*image].name);
+      }
+      if (cloud) {
+        scene.shared_file = Message(
+            "scene %1 has the same cloud as scene %2: one of the two is not the scene's own",
+            scene.name, result_.scenes[*cloud].name);
+      }
     }
   }
 
@@ -121,7 +130,8 @@ class Calibration {
       constexpr std::size_t kFewest = 4;
       if (scene.view->corners.size() >= kFewest) continue;
       scene.view.reset();
-      if (scene.reason.empty()) scene.reason = "too few tags: the others are left out by the user";
+      if (scene.reason.empty())
+        scene.reason = Message("too few tags: the others are left out by the user");
     }
   }
 
@@ -133,15 +143,15 @@ class Calibration {
       if (scene.unreadable && unreadable == nullptr) unreadable = &scene;
     }
     if (unreadable != nullptr)
-      return Error::input("no scene can be used; scene " + unreadable->name + ": " +
-                          unreadable->reason);
+      return Error::input(
+          Message("no scene can be used; scene %1: %2", unreadable->name, unreadable->reason));
     for (const SceneResult& scene : result_.scenes) {
       if (!scene.reason.empty() && !scene.rejected) {
-        return Error::input("the board is not found in any image; scene " + scene.name + ": " +
-                            scene.reason);
+        return Error::input(
+            Message("the board is not found in any image; scene %1: %2", scene.name, scene.reason));
       }
     }
-    return Error::input("every scene is rejected", result_.dataset);
+    return Error::input(Message("every scene is rejected"), result_.dataset);
   }
 
   // Which squares of a checkerboard are black is not in its description; the images say it.
@@ -157,14 +167,14 @@ class Calibration {
     if (most) result_.target.white_first = !result_.target.white_first;
     for (SceneResult& scene : result_.scenes) {
       if (!scene.view || scene.view->other_colors == most || !scene.reason.empty()) continue;
-      scene.reason =
+      scene.reason = Message(
           "its checkerboard has black and white squares the other way round than in most scenes: "
-          "is it another board, or is the image mirrored?";
+          "is it another board, or is the image mirrored?");
     }
   }
 
   Status agree() {
-    context_.report("localize", 0.7, "comparing scenes");
+    context_.report("localize", 0.7, Message("comparing scenes"));
     auto consensus = decide_scenes(hypotheses(result_), request_.guess, request_.options.consensus);
     if (!consensus) {
       // What would mend it costs less to look for than walls do, and gets clearer evidence: first
@@ -196,12 +206,14 @@ class Calibration {
         const auto best = std::max_element(
             all.begin(), all.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
         scene.chosen = static_cast<std::size_t>(best - all.begin());
-        scene.objection = "the board found in the cloud does not agree with the other scenes";
+        scene.objection =
+            Message("the board found in the cloud does not agree with the other scenes");
         continue;
       }
       scene.contradicts = elsewhere || scene.place != BoardPlace::kOpen;
-      scene.reason = elsewhere ? "the board found in the cloud does not agree with the other scenes"
-                               : missing_board(scene);
+      scene.reason =
+          elsewhere ? Message("the board found in the cloud does not agree with the other scenes")
+                    : missing_board(scene);
     }
     return Done{};
   }
@@ -219,8 +231,9 @@ class Calibration {
       for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
         SceneResult& scene = result_.scenes[one];
         scene.contradicts = true;
-        scene.reason = "its image and that of scene " + result_.scenes[other].name +
-                       " seem to be exchanged: the scenes agree if they are";
+        scene.reason = Message(
+            "its image and that of scene %1 seem to be exchanged: the scenes agree if they are",
+            result_.scenes[other].name);
         result_.consensus.chosen[one].reset();
       }
       return Done{};
@@ -322,31 +335,32 @@ class Calibration {
     return Done{};
   }
 
-  static std::string search_summary(const SceneResult& scene) {
-    if (!scene.search) return "not searched";
-    std::string text = std::to_string(scene.search->patches) + " flat patches of its size";
-    if (scene.search->best_correlation > 0) {
-      text += ", best pattern correlation " +
-              std::to_string(scene.search->best_correlation).substr(0, 4);
-    }
-    return text;
+  static Message search_summary(const SceneResult& scene) {
+    if (!scene.search) return Message("not searched");
+    if (!(scene.search->best_correlation > 0))
+      return Message("%1 flat patches of its size", scene.search->patches);
+    return Message("%1 flat patches of its size, best pattern correlation %2",
+                   scene.search->patches,
+                   std::to_string(scene.search->best_correlation).substr(0, 4));
   }
 
-  static std::string missing_board(const SceneResult& scene) {
-    std::string text = "the board is not found in the cloud (" + search_summary(scene) + ")";
+  static Message missing_board(const SceneResult& scene) {
+    const Message search = search_summary(scene);
     switch (scene.place) {
       case BoardPlace::kPast:
-        return text +
-               "; the LiDAR sees past the place where the image has it: does the image belong to "
-               "this cloud?";
+        return Message(
+            "the board is not found in the cloud (%1); the LiDAR sees past the place where the "
+            "image has it: does the image belong to this cloud?",
+            search);
       case BoardPlace::kHidden:
-        return text +
-               "; something nearer stands where the image has it: does the image belong to this "
-               "cloud, or is the board hidden from the LiDAR?";
+        return Message(
+            "the board is not found in the cloud (%1); something nearer stands where the image has "
+            "it: does the image belong to this cloud, or is the board hidden from the LiDAR?",
+            search);
       case BoardPlace::kOpen:
         break;
     }
-    return text;
+    return Message("the board is not found in the cloud (%1)", search);
   }
 
   [[nodiscard]] bool several_views() const {
@@ -369,7 +383,7 @@ class Calibration {
   std::optional<Error> wrong_size() {
     if (looked_for_sizes_) return std::nullopt;
     looked_for_sizes_ = true;
-    context_.report("localize", 0.7, "other sizes of the board");
+    context_.report("localize", 0.7, Message("other sizes of the board"));
     const auto scale = find_scaled_board(dataset_, request_, result_, context_);
     if (context_.stopped()) return Error::cancelled();
     // A board of the right size was found before, and refused for another reason.
@@ -378,26 +392,30 @@ class Calibration {
     const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
     // Of its own size it was looked for already: something else is wrong.
     if (percent == 0) return std::nullopt;
-    if (const std::string spacing = better_spacing(result_); !spacing.empty())
+    if (const Message spacing = better_spacing(result_); !spacing.empty())
       return wrong_target(spacing);
-    if (const std::string what = contradicted_by_corners(result_); !what.empty())
+    if (const Message what = contradicted_by_corners(result_); !what.empty())
       return wrong_camera(what);
     return Error::untrusted(
-        "LiDAR and camera disagree on the board's size: the LiDAR sees it about " +
-            std::to_string(std::abs(percent)) + " % " + (percent > 0 ? "larger" : "smaller") +
-            " than target.yaml says",
-        result_.dataset, "measure the printed tags and correct tagSize");
+        percent > 0 ? Message("LiDAR and camera disagree on the board's size: the LiDAR sees it "
+                              "about %1 % larger than target.yaml says",
+                              percent)
+                    : Message("LiDAR and camera disagree on the board's size: the LiDAR sees it "
+                              "about %1 % smaller than target.yaml says",
+                              -percent),
+        result_.dataset, Message("measure the printed tags and correct tagSize"));
   }
 
-  [[nodiscard]] Error wrong_target(const std::string& what) const {
-    return Error::untrusted("the images contradict target.yaml: " + what, result_.dataset,
-                            "measure the print and correct target.yaml");
+  [[nodiscard]] Error wrong_target(const Message& what) const {
+    return Error::untrusted(Message("the images contradict target.yaml: %1", what), result_.dataset,
+                            Message("measure the print and correct target.yaml"));
   }
 
   // A wrong focal length makes every distance, and with it the board's size, wrong.
-  [[nodiscard]] Error wrong_camera(const std::string& what) const {
-    return Error::untrusted("the images contradict the intrinsics: " + what, result_.dataset,
-                            "calibrate the camera again, or use --intrinsics free");
+  [[nodiscard]] Error wrong_camera(const Message& what) const {
+    return Error::untrusted(Message("the images contradict the intrinsics: %1", what),
+                            result_.dataset,
+                            Message("calibrate the camera again, or use --intrinsics free"));
   }
 
   // Files that stand in for others' contradict their scenes in ways that other faults would
@@ -405,18 +423,17 @@ class Calibration {
   [[nodiscard]] std::optional<Error> shared_files() const {
     for (const SceneResult& scene : result_.scenes) {
       if (scene.shared_file.empty()) continue;
-      return Error::input("scene " + scene.name + " has " + scene.shared_file +
-                              ": one of the two is not the scene's own",
-                          result_.dataset, "give each scene its own image and cloud");
+      return Error::input(scene.shared_file, result_.dataset,
+                          Message("give each scene its own image and cloud"));
     }
     return std::nullopt;
   }
 
   Status not_found() {
     if (const auto error = shared_files()) return *error;
-    if (const std::string spacing = better_spacing(result_); !spacing.empty())
+    if (const Message spacing = better_spacing(result_); !spacing.empty())
       return wrong_target(spacing);
-    if (const std::string what = contradicted_by_corners(result_); !what.empty())
+    if (const Message what = contradicted_by_corners(result_); !what.empty())
       return wrong_camera(what);
     // What two scenes agree on comes before what looks like the board in one of another size.
     if (several_views()) {
@@ -424,18 +441,15 @@ class Calibration {
     }
     if (const auto error = wrong_size()) return *error;
     if (const auto error = wrong_clouds()) return *error;
-    std::string detail;
+    std::vector<Message> details;
     for (const SceneResult& scene : result_.scenes) {
-      if (!scene.view) {
-        detail += (detail.empty() ? "" : "; ") + scene.name + ": " + scene.reason;
-        continue;
-      }
-      detail += (detail.empty() ? "" : "; ") + scene.name + ": " +
-                (scene.reason.empty() ? search_summary(scene) : scene.reason);
+      const bool searched = scene.view && scene.reason.empty();
+      details.push_back(
+          Message("%1: %2", scene.name, searched ? search_summary(scene) : scene.reason));
     }
     return Error::untrusted(
-        "the board is not found in any cloud (" + detail + ")", result_.dataset,
-        "check that the LiDAR sees the whole board and that target.yaml describes it");
+        Message("the board is not found in any cloud (%1)", joined(details, "; ")), result_.dataset,
+        Message("check that the LiDAR sees the whole board and that target.yaml describes it"));
   }
 
   Status refine() {
@@ -457,7 +471,7 @@ class Calibration {
           if (refinement) {
             scene.refinement = std::move(*refinement);
           } else {
-            scene.reason = refinement.error().text();
+            scene.reason = refinement.error().sentence();
           }
         },
         [&](std::size_t s) {
@@ -476,7 +490,7 @@ class Calibration {
           ++done;
           const double share =
               static_cast<double>(done) / static_cast<double>(result_.scenes.size());
-          context_.report("refine", 0.7 + 0.2 * share, scene.name);
+          context_.report("refine", 0.7 + 0.2 * share, Message::verbatim(scene.name));
         });
     if (context_.stopped()) return Error::cancelled();
     use_without_circles();
@@ -513,11 +527,12 @@ class Calibration {
 
   // The print as a whole and the plane are used instead.
   static void do_without_circles(SceneResult& scene) {
-    scene.refinement->warnings.push_back("its circles cannot be measured: " + scene.reason);
+    scene.refinement->warnings.push_back(
+        Message("its circles cannot be measured: %1", scene.reason));
     scene.refinement->nodes.clear();
     scene.paper_nodes.clear();
     scene.refinement->scale_sigma = 0.0;
-    scene.reason.clear();
+    scene.reason = {};
     scene.used = true;
   }
 
@@ -572,13 +587,14 @@ class Calibration {
 
   void judge_refinement(SceneResult& scene) const {
     if (!can_be_used(scene, result_.target)) {
-      std::string detail;
-      for (const RefinedNode& node : scene.refinement->nodes) {
-        if (!node.valid && detail.empty())
-          detail = "; node " + std::to_string(node.id) + ": " + node.reason;
-      }
-      scene.reason = "only " + std::to_string(scene.refinement->valid_nodes()) + " of " +
-                     std::to_string(scene.refinement->nodes.size()) + " circles usable" + detail;
+      const std::vector<RefinedNode>& nodes = scene.refinement->nodes;
+      const int usable = scene.refinement->valid_nodes();
+      const auto bad = std::find_if(nodes.begin(), nodes.end(),
+                                    [](const RefinedNode& node) { return !node.valid; });
+      scene.reason = bad == nodes.end()
+                         ? Message("only %1 of %2 circles usable", usable, nodes.size())
+                         : Message("only %1 of %2 circles usable; node %3: %4", usable,
+                                   nodes.size(), bad->id, bad->reason);
       if (scene.insisted) {
         scene.objection = scene.reason;
         do_without_circles(scene);
@@ -589,7 +605,7 @@ class Calibration {
   }
 
   Status optimize() {
-    context_.report("optimize", 0.92, "joint solve");
+    context_.report("optimize", 0.92, Message("joint solve"));
     const auto start = Clock::now();
     std::vector<bool> use;
     for (const SceneResult& scene : result_.scenes) use.push_back(scene.used);
@@ -625,8 +641,9 @@ Result<CalibrationResult> without_guess(Result<CalibrationResult> failed, const 
   if (result->extrinsic.used_scenes < 2) return failed;
   result->warnings.insert(
       result->warnings.begin(),
-      "the rough extrinsic (rig.yaml or --init) contradicts the scenes and was left out: " +
-          diagnose_guess(*request.guess, result->extrinsic.camera_from_lidar.transform));
+      Message(
+          "the rough extrinsic (rig.yaml or --init) contradicts the scenes and was left out: %1",
+          diagnose_guess(*request.guess, result->extrinsic.camera_from_lidar.transform)));
   return result;
 }
 

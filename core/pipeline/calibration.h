@@ -35,15 +35,15 @@ struct StageTimes {
 struct SceneResult {
   std::string name;
   bool used = false;
-  std::string reason;       ///< Why it is not used, in words.
+  Message reason;           ///< Why it is not used, in words.
   bool unreadable = false;  ///< Left out because of its files, not of what they show.
   bool rejected = false;    ///< Left out by the user; nothing need speak against it.
   bool insisted = false;    ///< The user wants it used, whatever speaks against it.
   SceneEdits edits;         ///< What the user left out by hand, or wants used.
   /// Insisted on: what spoke against it.
-  std::string objection;
-  /// "the same cloud as scene B", where only one of the two files is another scene's.
-  std::string shared_file;
+  Message objection;
+  /// The sentence that its image or its cloud, and only one of the two, is another scene's.
+  Message shared_file;
   bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
   BoardPlace place = BoardPlace::kOpen;  ///< What is where the other scenes put its board.
   /// The LiDAR sees the board but not its print: `search` goes by the outline, and the intensity of
@@ -94,7 +94,7 @@ struct CalibrationResult {
   ExtrinsicSolution extrinsic;                ///< Of the forward model where it could be solved.
   /// The forward model behind it; empty where the nodes and planes alone had to do.
   std::optional<ForwardSolution> forward;
-  std::string forward_failure;     ///< Why it is empty, in words.
+  Message forward_failure;         ///< Why it is empty, in words.
   std::vector<ModelEffect> model;  ///< Effects beyond the base model; see discover().
   std::vector<BudgetItem> budget;  ///< What effects left out could still do; see discover().
   /// The extrinsic's covariance with what faults that are left out could still do to it: errors of
@@ -103,7 +103,7 @@ struct CalibrationResult {
   Matrix6d covariance_total = Matrix6d::Zero();
   /// Whether the scenes would have shown intrinsics that are wrong by what matters.
   bool verified = false;
-  std::string unverified;  ///< Why not, and what would: a sentence. Empty if verified.
+  Message unverified;  ///< Why not, and what would: a sentence. Empty if verified.
   /// The extrinsic's covariance with the budget; zero before discover().
   Matrix6d covariance_with_budget = Matrix6d::Zero();
   ModelScales model_scales;             ///< What the numbers of the model refer to.
@@ -121,10 +121,11 @@ struct CalibrationResult {
   UncertaintyReport uncertainty;
   BoundaryResponse response;  ///< Of the scenes in use.
   Quality quality = Quality::kFailed;
-  std::string quality_reason;                ///< Why the quality is not good, in words.
-  std::vector<std::string> quality_reasons;  ///< Everything that speaks against "good".
-  std::vector<std::string> warnings;
-  std::vector<InputFile> inputs;  ///< The files read, with their SHA-256.
+  Message quality_reason;                ///< Why the quality is not good, in words.
+  std::vector<Message> quality_reasons;  ///< Everything that speaks against "good".
+  std::vector<Message> warnings;
+  std::vector<Message> verdict_warnings;  ///< Those of them that judge_quality() gave.
+  std::vector<InputFile> inputs;          ///< The files read, with their SHA-256.
   StageTimes times;
 };
 

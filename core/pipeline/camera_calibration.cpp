@@ -274,7 +274,7 @@ void leave_out_repeats(std::vector<BoardImage>& images) {
     for (std::size_t a = 0; a < b && images[b].used(); ++a) {
       if (images[a].used() && same_corners(*images[a].view, *images[b].view))
         images[b].reason =
-            "the same image as " + images[a].path.filename().string() + ", which counts once";
+            Message("the same image as %1, which counts once", images[a].path.filename().string());
     }
   }
 }
@@ -293,10 +293,11 @@ bool leave_out_strays(const std::vector<double>& rms_px, const Indices& use,
 }
 
 // Thirds of the image, row by row, that hold no corner.
-std::vector<std::string> unreached_parts(const std::vector<BoardImage>& images, const Indices& use,
-                                         const Camera& camera) {
-  constexpr std::array kNames = {"top left", "top",         "top right", "left",        "middle",
-                                 "right",    "bottom left", "bottom",    "bottom right"};
+std::vector<Message> unreached_parts(const std::vector<BoardImage>& images, const Indices& use,
+                                     const Camera& camera) {
+  const std::array names = {Message("top left"),    Message("top"),    Message("top right"),
+                            Message("left"),        Message("middle"), Message("right"),
+                            Message("bottom left"), Message("bottom"), Message("bottom right")};
   std::array<bool, 9> seen{};
   const auto third = [](double at, int size) {
     return static_cast<std::size_t>(std::clamp(3.0 * (at + 0.5) / size, 0.0, 2.0));
@@ -305,9 +306,9 @@ std::vector<std::string> unreached_parts(const std::vector<BoardImage>& images, 
     for (const CornerObservation& c : images[i].view->corners)
       seen[3 * third(c.pixel.y(), camera.height_px) + third(c.pixel.x(), camera.width_px)] = true;
   }
-  std::vector<std::string> out;
+  std::vector<Message> out;
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    if (!seen[k]) out.emplace_back(kNames[k]);
+    if (!seen[k]) out.push_back(names[k]);
   }
   return out;
 }
@@ -326,37 +327,40 @@ double widest_turn_deg(const std::vector<BoardImage>& images, const Indices& use
 }
 
 void judge_views(const Indices& use, CameraCalibration& out) {
-  std::vector<std::string>& warnings = out.warnings;
+  std::vector<Message>& warnings = out.warnings;
   if (use.size() == 1) {
-    warnings.emplace_back(
-        "one image only: nothing checks it; take ten or more, the board turned differently in "
-        "each");
+    warnings.push_back(
+        Message("one image only: nothing checks it; take ten or more, the board turned differently "
+                "in each"));
   } else {
     if (use.size() < kFewImages)
-      warnings.push_back("only " + std::to_string(use.size()) +
-                         " images: take ten or more, the board turned differently in each");
+      warnings.push_back(Message(
+          "only %1 images: take ten or more, the board turned differently in each", use.size()));
     if (const double turn = widest_turn_deg(out.images, use); turn < kAlike_deg) {
       warnings.push_back(
-          formatted("the boards are turned by no more than %.0f° against each other: the focal "
-                    "length rests on little; turn the board by 20° to 45°, another way each time",
-                    turn));
+          Message("the boards are turned by no more than %1° against each other: the focal length "
+                  "rests on little; turn the board by 20° to 45°, another way each time",
+                  formatted("%.0f", turn)));
     }
   }
   const auto parts = unreached_parts(out.images, use, out.camera);
   if (!parts.empty()) {
-    warnings.push_back("no board reached these parts of the image: " + joined(parts, ", ") +
-                       "; the distortion there is extrapolated");
+    warnings.push_back(Message(
+        "no board reached these parts of the image: %1; the distortion there is extrapolated",
+        joined(parts, ", ")));
   }
   if (out.replicate_px > 0.0 && out.noise_px > kMisfit_px &&
       out.noise_px > kMisfitFactor * out.replicate_px) {
     warnings.push_back(
-        formatted("corners miss the camera by %.2f px where their noise is %.2f px: the board is "
-                  "not flat, or the lens is not of this distortion model",
-                  out.noise_px, out.replicate_px));
+        Message("corners miss the camera by %1 px where their noise is %2 px: the board is not "
+                "flat, or the lens is not of this distortion model",
+                formatted("%.2f", out.noise_px), formatted("%.2f", out.replicate_px)));
   }
   if (const int blind = blind_corners(out.camera); blind > 0) {
-    warnings.push_back("the distortion folds back inside the image: " + std::to_string(blind) +
-                       " of its 4 corners have no ray; take images with the board there");
+    warnings.push_back(
+        Message("the distortion folds back inside the image: %1 of its 4 corners have no ray; take "
+                "images with the board there",
+                blind));
   }
 }
 
@@ -364,26 +368,27 @@ Status check_focal_length(const CameraCalibration& out, double largest_share) {
   const double share = std::max(out.sigma(0) / out.camera.fx, out.sigma(1) / out.camera.fy);
   if (share <= largest_share) return Done{};
   return Error::untrusted(
-      formatted("the images do not determine the focal length: %.0f ± %.0f px", out.camera.fx,
-                out.sigma(0)) +
-          formatted(", known to %.0f %% where %.0f %% is the most that counts as a result",
-                    100.0 * share, 100.0 * largest_share),
-      {}, "take images of the board turned by 20° to 45°, another way each time");
+      Message("the images do not determine the focal length: %1 ± %2 px, known to %3 % where %4 % "
+              "is the most that counts as a result",
+              formatted("%.0f", out.camera.fx), formatted("%.0f", out.sigma(0)),
+              formatted("%.0f", 100.0 * share), formatted("%.0f", 100.0 * largest_share)),
+      {}, Message("take images of the board turned by 20° to 45°, another way each time"));
 }
 
 Error nothing_fits() {
-  return Error::untrusted("no camera fits the corners of the images", {},
-                          "check target.yaml, and take more images of the board, turned by 20° to "
-                          "45°");
+  return Error::untrusted(
+      Message("no camera fits the corners of the images"), {},
+      Message("check target.yaml, and take more images of the board, turned by 20° to 45°"));
 }
 
 Error no_board(const std::vector<BoardImage>& images) {
   for (const BoardImage& image : images) {
     if (!image.reason.empty())
-      return Error::input("the board is not found in any image; the first: " + image.reason,
-                          image.path.string(), "check that target.yaml describes this board");
+      return Error::input(
+          Message("the board is not found in any image; the first: %1", image.reason),
+          image.path.string(), Message("check that target.yaml describes this board"));
   }
-  return Error::input("there is no image");
+  return Error::input(Message("there is no image"));
 }
 
 // All images must come from one camera at one resolution.
@@ -396,11 +401,11 @@ Status check_sizes(const std::vector<BoardImage>& images, const std::optional<Ca
     const int height = given ? given->height_px : first->height_px;
     if (image.width_px == width && image.height_px == height) continue;
     return Error::input(
-        "the image has " + std::to_string(image.width_px) + " × " +
-            std::to_string(image.height_px) + " pixels, " +
-            (given ? "the given intrinsics are for " : first->path.filename().string() + " has ") +
-            std::to_string(width) + " × " + std::to_string(height),
-        image.path.string(), "use images of one camera at one resolution");
+        given ? Message("the image has %1 × %2 pixels, the given intrinsics are for %3 × %4",
+                        image.width_px, image.height_px, width, height)
+              : Message("the image has %1 × %2 pixels, %3 has %4 × %5", image.width_px,
+                        image.height_px, first->path.filename().string(), width, height),
+        image.path.string(), Message("use images of one camera at one resolution"));
   }
   return Done{};
 }
@@ -433,10 +438,10 @@ Result<CameraCalibration> calibrate_camera(std::vector<BoardImage> images,
   if (Status s = check_focal_length(out, options.largest_focal_sigma); !s) return s.error();
   for (const BoardImage& image : out.images) {
     if (!image.reason.empty()) {
-      out.warnings.push_back(image.path.string() + ": " + image.reason + "; left out");
+      out.warnings.push_back(Message("%1: %2; left out", image.path.string(), image.reason));
     } else {
-      for (const std::string& warning : image.view->warnings)
-        out.warnings.push_back(image.path.string() + ": " + warning);
+      for (const Message& warning : image.view->warnings)
+        out.warnings.push_back(Message("%1: %2", image.path.string(), warning));
     }
   }
   judge_views(use, out);
@@ -463,15 +468,15 @@ Result<CameraCalibration> calibrate_camera(const std::vector<std::filesystem::pa
     if (!rough) return rough.error();
     how.start = rough->camera;
   }
-  context.report("detect", 0.5, "with the camera found");
+  context.report("detect", 0.5, Message("with the camera found"));
   const Camera& camera = *how.start;
   auto images = look_at_images(
       paths, target, [&](int, int) { return camera; }, options.detection, context, 0.5, 0.9);
   if (!images) return images.error();
   if (Status s = check_sizes(*images, options.start); !s) return s.error();
-  context.report("optimize", 0.9, "bundle adjustment");
+  context.report("optimize", 0.9, Message("bundle adjustment"));
   auto out = calibrate_camera(std::move(*images), how, context);
-  if (out) context.report("optimize", 1.0, "done");
+  if (out) context.report("optimize", 1.0, Message("done"));
   return out;
 }
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -52,7 +51,7 @@ struct CameraCalibration {
   double noise_px = 0.0;           ///< Of one coordinate: see IntrinsicsFit::sigma_px
   double replicate_px = 0.0;       ///< and replicate_noise().
   std::vector<ModelPrediction> predictions;  ///< Of the models compared; empty if none were.
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
   [[nodiscard]] std::size_t used_images() const;
 };
 

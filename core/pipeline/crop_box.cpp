@@ -18,13 +18,14 @@ bool CropBox::operator==(const CropBox& other) const {
 Status check(const CropBox& box) {
   if (!box.center_m.allFinite() || !box.half_size_m.allFinite() ||
       !box.rotation.coeffs().allFinite()) {
-    return Error::usage("a number of the crop box is not finite");
+    return Error::usage(Message("a number of the crop box is not finite"));
   }
   if (!(box.half_size_m.array() > 0.0).all()) {
-    return Error::usage("the crop box has no volume", {}, "give every side a length above zero");
+    return Error::usage(Message("the crop box has no volume"), {},
+                        Message("give every side a length above zero"));
   }
   if (std::abs(box.rotation.norm() - 1.0) > 1e-3) {
-    return Error::usage("the rotation of the crop box is not a unit quaternion");
+    return Error::usage(Message("the rotation of the crop box is not a unit quaternion"));
   }
   return Done{};
 }

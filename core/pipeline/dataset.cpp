@@ -30,7 +30,8 @@ fs::path scene_image(const fs::path& folder) {
 Result<std::vector<fs::path>> list_scene_folders(const fs::path& folder) {
   std::error_code code;
   if (!fs::is_directory(folder, code)) {
-    return Error::input("folder not found; expected one folder per scene in it", folder.string());
+    return Error::input(Message("folder not found; expected one folder per scene in it"),
+                        folder.string());
   }
   std::vector<fs::path> folders;
   for (auto it = fs::directory_iterator(folder, code); !code && it != fs::directory_iterator();
@@ -39,7 +40,7 @@ Result<std::vector<fs::path>> list_scene_folders(const fs::path& folder) {
     if (it->is_directory(inner) && !it->path().filename().string().starts_with('.'))
       folders.push_back(it->path());
   }
-  if (code) return Error::input("cannot be listed: " + code.message(), folder.string());
+  if (code) return Error::input(Message("cannot be listed: %1", code.message()), folder.string());
   std::sort(folders.begin(), folders.end());
   return folders;
 }
@@ -56,7 +57,7 @@ Result<std::vector<SceneFiles>> list_scenes(const fs::path& folder, UnusableScen
   const auto folders = list_scene_folders(folder);
   if (!folders) return folders.error();
   if (folders->empty()) {
-    return Error::input("no scenes; expected folders with image.png and cloud.pcd",
+    return Error::input(Message("no scenes; expected folders with image.png and cloud.pcd"),
                         folder.string());
   }
   std::vector<SceneFiles> scenes;
@@ -82,12 +83,13 @@ Result<SceneFiles> open_scene(const fs::path& folder) {
   scene.name = folder.filename().string();
   scene.image = scene_image(folder);
   if (scene.image.empty()) {
-    return Error::input("no image in this scene; expected image.png, .jpg, .bmp or .tiff",
+    return Error::input(Message("no image in this scene; expected image.png, .jpg, .bmp or .tiff"),
                         folder.string());
   }
   scene.cloud = first_existing(folder, {"cloud.pcd", "cloud.ply"});
   if (scene.cloud.empty()) {
-    return Error::input("no cloud in this scene; expected cloud.pcd or cloud.ply", folder.string());
+    return Error::input(Message("no cloud in this scene; expected cloud.pcd or cloud.ply"),
+                        folder.string());
   }
   scene.crop = first_existing(folder, {"board.pcd", "board.ply"});
   return scene;
@@ -95,7 +97,8 @@ Result<SceneFiles> open_scene(const fs::path& folder) {
 
 Result<std::vector<fs::path>> list_images(const fs::path& folder) {
   std::error_code code;
-  if (!fs::is_directory(folder, code)) return Error::input("folder not found", folder.string());
+  if (!fs::is_directory(folder, code))
+    return Error::input(Message("folder not found"), folder.string());
   std::vector<fs::path> images;
   for (auto it = fs::directory_iterator(folder, code); !code && it != fs::directory_iterator();
        it.increment(code)) {
@@ -104,7 +107,7 @@ Result<std::vector<fs::path>> list_images(const fs::path& folder) {
         !it->path().filename().string().starts_with('.'))
       images.push_back(it->path());
   }
-  if (code) return Error::input("cannot be listed: " + code.message(), folder.string());
+  if (code) return Error::input(Message("cannot be listed: %1", code.message()), folder.string());
   std::sort(images.begin(), images.end());
   return images;
 }
@@ -112,7 +115,7 @@ Result<std::vector<fs::path>> list_images(const fs::path& folder) {
 Result<CameraImages> find_camera_images(const fs::path& path) {
   std::error_code code;
   if (!fs::is_directory(path, code)) {
-    return Error::input("folder not found; expected images of the board, or a dataset",
+    return Error::input(Message("folder not found; expected images of the board, or a dataset"),
                         path.string());
   }
   CameraImages out;
@@ -132,8 +135,9 @@ Result<CameraImages> find_camera_images(const fs::path& path) {
     out.images.insert(out.images.end(), images->begin(), images->end());
   }
   if (out.images.empty()) {
-    return Error::input("no images; expected png, jpg, bmp or tiff files that show the board",
-                        path.string());
+    return Error::input(
+        Message("no images; expected png, jpg, bmp or tiff files that show the board"),
+        path.string());
   }
   return out;
 }
@@ -142,7 +146,7 @@ Result<Rigid3> read_transform(const fs::path& path, const std::string& key) {
   auto file = YamlFile::load(path);
   if (!file) return file.error();
   const YamlValue* value = file->root().find(key);
-  if (value == nullptr) return Error::input("key '" + key + "' is missing", path.string());
+  if (value == nullptr) return Error::input(Message("key '%1' is missing", key), path.string());
   if (value->kind == YamlValue::Kind::kMap && value->find("matrix") != nullptr)
     value = value->find("matrix");
   if (value->kind == YamlValue::Kind::kMap) {
@@ -150,34 +154,35 @@ Result<Rigid3> read_transform(const fs::path& path, const std::string& key) {
     const YamlValue* q = value->find("quaternion_xyzw");
     if (t == nullptr || q == nullptr) {
       return file->error_at(
-          *value, "'" + key + "' must be a matrix, or have translation_m and quaternion_xyzw");
+          *value, Message("'%1' must be a matrix, or have translation_m and quaternion_xyzw", key));
     }
     auto translation = file->flatten(*t, "translation_m");
     if (!translation) return translation.error();
     auto rotation = file->flatten(*q, "quaternion_xyzw");
     if (!rotation) return rotation.error();
     if (translation->size() != 3 || rotation->size() != 4) {
-      return file->error_at(*value, "expected 3 numbers in translation_m and 4 in quaternion_xyzw");
+      return file->error_at(
+          *value, Message("expected 3 numbers in translation_m and 4 in quaternion_xyzw"));
     }
     const auto& r = *rotation;
     const Eigen::Quaterniond quaternion(r[3], r[0], r[1], r[2]);
     if (std::abs(quaternion.norm() - 1.0) > 0.01)
-      return file->error_at(*q, "quaternion_xyzw must have length 1");
+      return file->error_at(*q, Message("quaternion_xyzw must have length 1"));
     return Rigid3{quaternion.normalized(),
                   {(*translation)[0], (*translation)[1], (*translation)[2]}};
   }
   auto numbers = file->flatten(*value, key);
   if (!numbers) return numbers.error();
   if (numbers->size() != 12 && numbers->size() != 16) {
-    return file->error_at(*value, "'" + key + "' must hold 12 or 16 numbers, found " +
-                                      std::to_string(numbers->size()));
+    return file->error_at(
+        *value, Message("'%1' must hold 12 or 16 numbers, found %2", key, numbers->size()));
   }
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
   for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = (*numbers)[static_cast<std::size_t>(i)];
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   // Rough matrices are typed by hand; but they must be rotations, not scales or mirrors.
   if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 0.05 || R.determinant() < 0) {
-    return file->error_at(*value, "the left 3×3 part of '" + key + "' is not a rotation");
+    return file->error_at(*value, Message("the left 3×3 part of '%1' is not a rotation", key));
   }
   return Rigid3::from_matrix(m);
 }
@@ -190,16 +195,16 @@ Result<Dataset> open_dataset(const fs::path& path, UnusableScenes unusable) {
   std::error_code code;
   if (!fs::is_directory(path, code)) {
     return Error::input(
-        "dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it",
+        Message("dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it"),
         path.string());
   }
   // Who opens some other folder learns what a dataset is, not which of its files came first.
   if (!fs::exists(path / "target.yaml", code) && !fs::exists(path / "camera.yaml", code) &&
       !fs::exists(path / "scenes", code)) {
     return Error::input(
-        "this folder is no dataset; a dataset holds target.yaml (the board), camera.yaml (the "
-        "intrinsics) and scenes/NAME/ with image.png and cloud.pcd for every scene",
-        path.string(), "choose the folder that holds these, or make one from a recording");
+        Message("this folder is no dataset; a dataset holds target.yaml (the board), camera.yaml "
+                "(the intrinsics) and scenes/NAME/ with image.png and cloud.pcd for every scene"),
+        path.string(), Message("choose the folder that holds these, or make one from a recording"));
   }
   Dataset dataset;
   dataset.path = path;

@@ -42,7 +42,7 @@ struct Dataset {
   std::vector<SceneFiles> scenes;  ///< Sorted by name.
   /// Images of the board without a cloud, in intrinsics/: for the camera alone. Sorted.
   std::vector<std::filesystem::path> camera_images;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// One scene folder: its image and its cloud (and board.pcd), which are not opened.

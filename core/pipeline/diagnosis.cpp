@@ -15,13 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CloudReading {
-  const char* what;  // Completes "the cloud is …".
+  Message what;  // Completes "the clouds are …".
   Eigen::Vector3f by;
 };
 
-Cloud read_as(const Cloud& cloud, const CloudReading& reading) {
+Cloud read_as(const Cloud& cloud, const Eigen::Vector3f& by) {
   Cloud out = cloud;
-  for (Eigen::Vector3f& p : out.points_m) p = p.cwiseProduct(reading.by);
+  for (Eigen::Vector3f& p : out.points_m) p = p.cwiseProduct(by);
   return out;
 }
 
@@ -44,12 +44,13 @@ SceneHypotheses seen_by_camera(const BoardView& view, const Target& target) {
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
                                      const CalibrationResult& result, const RunContext& context) {
   // Mirrored along one axis is mirrored along any: the search does not care how a cloud is turned.
-  static const std::vector<CloudReading> kReadings = {
-      {"in millimetres", Eigen::Vector3f::Constant(1e-3F)},
-      {"in centimetres", Eigen::Vector3f::Constant(1e-2F)},
-      {"in feet", Eigen::Vector3f::Constant(0.3048F)},
-      {"in inches", Eigen::Vector3f::Constant(0.0254F)},
-      {"mirrored (its axes make a left-handed frame)", Eigen::Vector3f(1.0F, -1.0F, 1.0F)}};
+  const std::vector<CloudReading> readings = {
+      {Message("in millimetres"), Eigen::Vector3f::Constant(1e-3F)},
+      {Message("in centimetres"), Eigen::Vector3f::Constant(1e-2F)},
+      {Message("in feet"), Eigen::Vector3f::Constant(0.3048F)},
+      {Message("in inches"), Eigen::Vector3f::Constant(0.0254F)},
+      {Message("mirrored (its axes make a left-handed frame)"),
+       Eigen::Vector3f(1.0F, -1.0F, 1.0F)}};
   // Something may look like the board by chance, but hardly twice in the same place of the rig.
   constexpr std::size_t kMostScenes = 3;  // Two that agree, and one that may show nothing.
   std::vector<std::size_t> seen;
@@ -65,28 +66,27 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
   RunContext quiet = context;
   quiet.progress = {};
   quiet.threads = 1;
-  std::vector<std::vector<BoardCandidate>> found(kReadings.size() * seen.size());
+  std::vector<std::vector<BoardCandidate>> found(readings.size() * seen.size());
   const auto look = [&](std::size_t reading, std::size_t k) {
     if (context.stopped()) return;
     const BoardView& view = *result.scenes[seen[k]].view;
     found[reading * seen.size() + k] =
-        search_board(read_as(clouds[k], kReadings[reading]), dataset.target, pyramid,
+        search_board(read_as(clouds[k], readings[reading].by), dataset.target, pyramid,
                      middle_distance_m(view, dataset.target), std::nullopt,
                      request.options.localization, quiet)
             .candidates;
   };
   for (std::size_t k = 0; k < seen.size(); ++k) {
     // The other scenes are asked about what the first one speaks for.
-    std::vector<std::size_t> readings;
-    for (std::size_t r = 0; r < kReadings.size(); ++r) {
-      if (k == 0 || !found[r * seen.size()].empty()) readings.push_back(r);
+    std::vector<std::size_t> asked;
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+      if (k == 0 || !found[r * seen.size()].empty()) asked.push_back(r);
     }
-    parallel_for(readings.size(), context.thread_count(),
-                 [&](std::size_t i) { look(readings[i], k); });
+    parallel_for(asked.size(), context.thread_count(), [&](std::size_t i) { look(asked[i], k); });
   }
   std::size_t best = 0;
   int most = 0;
-  for (std::size_t r = 0; r < kReadings.size() && !context.stopped(); ++r) {
+  for (std::size_t r = 0; r < readings.size() && !context.stopped(); ++r) {
     std::vector<SceneHypotheses> scenes;
     for (std::size_t k = 0; k < seen.size(); ++k) {
       scenes.push_back(seen_by_camera(*result.scenes[seen[k]].view, dataset.target));
@@ -99,10 +99,11 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
   }
   if (context.stopped() || most < std::min<int>(2, static_cast<int>(seen.size())) || most == 0)
     return std::nullopt;
-  return Error::untrusted("the board is not found in any cloud, but it is if the clouds are " +
-                              std::string(kReadings[best].what),
-                          dataset.scenes[seen.front()].cloud.string(),
-                          "write the clouds in metres, in a right-handed frame");
+  return Error::untrusted(
+      Message("the board is not found in any cloud, but it is if the clouds are %1",
+              readings[best].what),
+      dataset.scenes[seen.front()].cloud.string(),
+      Message("write the clouds in metres, in a right-handed frame"));
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
@@ -176,11 +177,12 @@ std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
   const auto best = static_cast<std::size_t>(std::max_element(agreeing.begin(), agreeing.end()) -
                                              agreeing.begin());
   if (context.stopped() || agreeing[best] < static_cast<int>(seen.size())) return std::nullopt;
-  return Error::untrusted("the clouds or the images of scenes " +
-                              result.scenes[seen[pairs[best].first]].name + " and " +
-                              result.scenes[seen[pairs[best].second]].name +
-                              " seem to be exchanged: all scenes agree if they are",
-                          dataset.path.string(), "give each scene its own image and cloud");
+  return Error::untrusted(Message("the clouds or the images of scenes %1 and %2 seem to be "
+                                  "exchanged: all scenes agree if they are",
+                                  result.scenes[seen[pairs[best].first]].name,
+                                  result.scenes[seen[pairs[best].second]].name),
+                          dataset.path.string(),
+                          Message("give each scene its own image and cloud"));
 }
 
 std::optional<Error> diagnose_mirrored(const Dataset& dataset, const CalibrationRequest& request,
@@ -197,7 +199,7 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
     quiet.progress = {};
     quiet.threads = 1;
     scenes[s].candidates =
-        search_board(read_as(*cloud, {"mirrored", {1.0F, -1.0F, 1.0F}}), dataset.target, pyramid,
+        search_board(read_as(*cloud, {1.0F, -1.0F, 1.0F}), dataset.target, pyramid,
                      middle_distance_m(*result.scenes[s].view, dataset.target), std::nullopt,
                      request.options.localization, quiet)
             .candidates;
@@ -206,29 +208,34 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
   if (context.stopped() || !consensus || consensus->agreeing < std::max(2, agreeing + 1))
     return std::nullopt;
   return Error::untrusted(
-      "the scenes do not agree, but " + std::to_string(consensus->agreeing) +
-          " of them do if the clouds are mirrored (their axes make a left-handed frame)",
-      dataset.path.string(), "exchange two axes, or the sign of one, in what writes the clouds");
+      Message("the scenes do not agree, but %1 of them do if the clouds are mirrored (their axes "
+              "make a left-handed frame)",
+              consensus->agreeing),
+      dataset.path.string(),
+      Message("exchange two axes, or the sign of one, in what writes the clouds"));
 }
 
-std::string diagnose_guess(const Rigid3& guess, const Rigid3& found) {
+Message diagnose_guess(const Rigid3& guess, const Rigid3& found) {
   // A rough extrinsic is good to some 20°, and to half a metre or its length.
   const auto near = [&](const Rigid3& a) {
     return rotation_distance_rad(a, found) < 0.35 &&
            (a.translation - found.translation).norm() < 0.1 + 0.3 * found.translation.norm();
   };
-  if (near(guess.inverse())) return "it is the inverse: T_lidar_camera instead of T_camera_lidar";
+  if (near(guess.inverse()))
+    return Message("it is the inverse: T_lidar_camera instead of T_camera_lidar");
   Rigid3 metres = guess;
   metres.translation *= 1e-3;
-  if (guess.translation.norm() > 5.0 && near(metres)) return "its translation is in millimetres";
+  if (guess.translation.norm() > 5.0 && near(metres))
+    return Message("its translation is in millimetres");
   metres = guess.inverse();
   metres.translation *= 1e-3;
   if (guess.translation.norm() > 5.0 && near(metres))
-    return "it is the inverse, with its translation in millimetres";
+    return Message("it is the inverse, with its translation in millimetres");
   if (rotation_distance_rad(guess, Rigid3()) < 1e-6)
-    return "its rotation is the identity, but the sensors' axes point in other directions";
-  return formatted("it is off by %.2f m and %.0f°", (guess.translation - found.translation).norm(),
-                   rotation_distance_rad(guess, found) * 180.0 / M_PI);
+    return Message("its rotation is the identity, but the sensors' axes point in other directions");
+  return Message("it is off by %1 m and %2°",
+                 formatted("%.2f", (guess.translation - found.translation).norm()),
+                 formatted("%.0f", rotation_distance_rad(guess, found) * 180.0 / M_PI));
 }
 
 std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
@@ -255,7 +262,7 @@ std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
   return out;
 }
 
-std::string diagnose_unseen_tags(const CalibrationResult& result) {
+Message diagnose_unseen_tags(const CalibrationResult& result) {
   const Target& target = result.target;
   if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
     return {};
@@ -275,14 +282,15 @@ std::string diagnose_unseen_tags(const CalibrationResult& result) {
   }
   if (views < 2 || seen.empty() || (columns == target.tag_columns && rows == target.tag_rows))
     return {};
-  std::string fields;
-  if (columns < target.tag_columns) fields += "tagCols: " + std::to_string(columns);
-  if (rows < target.tag_rows)
-    fields += (fields.empty() ? "" : ", ") + ("tagRows: " + std::to_string(rows));
+  std::vector<std::string> values;
+  if (columns < target.tag_columns) values.push_back("tagCols: " + std::to_string(columns));
+  if (rows < target.tag_rows) values.push_back("tagRows: " + std::to_string(rows));
+  const std::string fields = joined(values, ", ");
   if (columns < target.tag_columns)
-    return "no image shows the tags of the right columns that target.yaml has: " + fields +
-           " would fit";
-  return "no image shows the tags of the upper rows that target.yaml has: " + fields + " would fit";
+    return Message(
+        "no image shows the tags of the right columns that target.yaml has: %1 would fit", fields);
+  return Message("no image shows the tags of the upper rows that target.yaml has: %1 would fit",
+                 fields);
 }
 
 SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target) {
@@ -292,24 +300,28 @@ SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target) {
   return h;
 }
 
-std::string describe_bump(const SceneGroup& first, const SceneGroup& second,
-                          const std::string& last_before, const std::string& first_after) {
-  const auto gives = [](const SceneGroup& group) {
+Message describe_bump(const SceneGroup& first, const SceneGroup& second,
+                      const std::string& last_before, const std::string& first_after) {
+  const auto give = [](const SceneGroup& group) {
+    const std::string names = joined(group.names, ", ");
+    return group.names.size() > 1 ? Message("scenes %1 give", names)
+                                  : Message("scene %1 gives", names);
+  };
+  const auto translation = [](const SceneGroup& group) {
     const Eigen::Vector3d& t = group.camera_from_lidar.translation;
-    const bool several = group.names.find(',') != std::string::npos;
-    return (several ? "scenes " : "scene ") + group.names + (several ? " give " : " gives ") +
-           formatted("t = [%.3f %.3f ", t.x(), t.y()) + formatted("%.3f] m", t.z());
+    return formatted("%.3f %.3f ", t.x(), t.y()) + formatted("%.3f", t.z());
   };
   const Rigid3& a = first.camera_from_lidar;
   const Rigid3& b = second.camera_from_lidar;
-  return gives(first) + ", " + gives(second) +
-         formatted(", %.1f mm and %.1f mrad apart: ",
-                   1e3 * translation_distance_m(a.inverse(), b.inverse()),
-                   1e3 * rotation_distance_rad(a, b)) +
-         "did a sensor move between scenes " + last_before + " and " + first_after + "?";
+  return Message(
+      "%1 t = [%2] m, %3 t = [%4] m, %5 mm and %6 mrad apart: did a sensor move between scenes %7 "
+      "and %8?",
+      give(first), translation(first), give(second), translation(second),
+      formatted("%.1f", 1e3 * translation_distance_m(a.inverse(), b.inverse())),
+      formatted("%.1f", 1e3 * rotation_distance_rad(a, b)), last_before, first_after);
 }
 
-std::string diagnose_bump(const CalibrationResult& result) {
+Message diagnose_bump(const CalibrationResult& result) {
   // Scenes are taken in the order of their names.
   std::vector<std::size_t> order;
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
@@ -326,10 +338,9 @@ std::string diagnose_bump(const CalibrationResult& result) {
                   [&](std::size_t s) { return used(s) == used(order.front()); }))
     return {};
   std::vector<SceneHypotheses> others;
-  std::string names[2];
+  std::vector<std::string> names[2];
   for (auto at = order.begin(); at != order.end(); ++at) {
-    std::string& list = names[used(*at) ? 0 : 1];
-    list += (list.empty() ? "" : ", ") + result.scenes[*at].name;
+    names[used(*at) ? 0 : 1].push_back(result.scenes[*at].name);
     if (!used(*at)) others.push_back(hypotheses_of(result.scenes[*at], result.target));
   }
   const auto agreed = decide_scenes(others, std::nullopt, result.options.consensus);

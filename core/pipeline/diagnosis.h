@@ -41,7 +41,7 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
 
 /// How a rough extrinsic went wrong, seen from the one that the scenes give: "it is the inverse",
 /// "its translation is in millimetres", …
-std::string diagnose_guess(const Rigid3& guess, const Rigid3& camera_from_lidar);
+Message diagnose_guess(const Rigid3& guess, const Rigid3& camera_from_lidar);
 
 /// The first earlier scene whose image, and whose cloud, has the same content as a scene's; nothing
 /// where there is none.
@@ -55,23 +55,23 @@ std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
 
 /// Whole rows or columns at the end of a grid of tags that no image shows, of two images or more:
 /// "no image shows tags 16 to 19: tagRows: 4 would fit". Empty if there are none.
-std::string diagnose_unseen_tags(const CalibrationResult& result);
+Message diagnose_unseen_tags(const CalibrationResult& result);
 
 /// What a scene that has been searched brings to the joint decision; nothing if it brings nothing.
 SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target);
 
-/// Scenes that agree on an extrinsic: their names, joined by commas, and it.
+/// Scenes that agree on an extrinsic: their names, and it.
 struct SceneGroup {
-  std::string names;
+  std::vector<std::string> names;
   Rigid3 camera_from_lidar;
 };
 /// The sentence that two groups of scenes before and after each other give different extrinsics.
-std::string describe_bump(const SceneGroup& first, const SceneGroup& second,
-                          const std::string& last_before, const std::string& first_after);
+Message describe_bump(const SceneGroup& first, const SceneGroup& second,
+                      const std::string& last_before, const std::string& first_after);
 
 /// Whether the scenes that contradict the others agree among themselves, and come all before or all
 /// after them in the order of their names: then something moved in between. The sentence that says
 /// so, with both extrinsics; empty if not.
-std::string diagnose_bump(const CalibrationResult& result);
+Message diagnose_bump(const CalibrationResult& result);
 
 }  // namespace lvcalib

@@ -46,7 +46,7 @@ Result<std::vector<FilePair>> find_fresh_data(const fs::path& folder) {
   auto scenes = scene_lister(folder / "scenes")();
   if (!scenes) return scenes.error();
   if (scenes->pairs.empty())
-    return Error::input("no scene has an image and a cloud", (folder / "scenes").string());
+    return Error::input(Message("no scene has an image and a cloud"), (folder / "scenes").string());
   return std::move(scenes->pairs);
 }
 
@@ -61,7 +61,7 @@ Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Ca
     if (context.stopped()) return;
     read[k] = read_pair(pairs[k], camera, rough_camera_from_lidar, silent);
     context.report("load", static_cast<double>(++done) / static_cast<double>(pairs.size()),
-                   "reading " + pairs[k].name);
+                   Message("reading %1", pairs[k].name));
   });
   if (context.stopped()) return Error::cancelled();
   FreshViews out;
@@ -72,11 +72,11 @@ Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Ca
       out.points_m.push_back(std::move((*pair)->points_m));
       out.pairs.push_back(k);
     } else if (pair) {
-      out.warnings.push_back("left out: " + pair->error().text());
+      out.warnings.push_back(Message("left out: %1", pair->error().sentence()));
     }
   }
   if (out.views.empty() && !out.warnings.empty()) return read.front()->error();
-  if (out.views.empty()) return Error::input("there is no image with a cloud to check");
+  if (out.views.empty()) return Error::input(Message("there is no image with a cloud to check"));
   return out;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -23,7 +22,7 @@ struct FreshViews {
   std::vector<std::size_t> pairs;  ///< Which pair each is of.
   /// As many: points of each cloud to draw, some kMostDrawn spread evenly over it.
   std::vector<std::vector<Eigen::Vector3f>> points_m;
-  std::vector<std::string> warnings;  ///< Pairs that were left out, and why.
+  std::vector<Message> warnings;  ///< Pairs that were left out, and why.
 };
 
 /// Reads pairs and finds their edges, as many at a time as the context has threads; what cannot be

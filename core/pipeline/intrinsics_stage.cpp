@@ -73,7 +73,8 @@ bool drop_stray_images(CalibrationResult& result, const IntrinsicsFit& fit) {
     image.reason = stray_reason(rms_px[next++], usual);
     if (image.reason.empty()) continue;
     any = true;
-    result.warnings.push_back(extra_image_name(image.path) + ": " + image.reason + "; left out");
+    result.warnings.push_back(
+        Message("%1: %2; left out", extra_image_name(image.path), image.reason));
   }
   return any;
 }
@@ -280,7 +281,7 @@ void free_camera(CalibrationResult& result) {
   report.evidence = intrinsics_evidence(extra_views(report), result.camera, fit->sigma_px);
 }
 
-std::string contradicted_by_corners(const CalibrationResult& result) {
+Message contradicted_by_corners(const CalibrationResult& result) {
   if (result.intrinsics.mode != IntrinsicsMode::kFixed) return {};
   const std::vector<CornerView> views = views_of(result);
   const Camera& given = result.intrinsics.given;
@@ -290,11 +291,11 @@ std::string contradicted_by_corners(const CalibrationResult& result) {
   const IntrinsicsContrast contrast =
       contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance, wide,
                           result.options.intrinsics.false_alarm);
-  return contrast.contradicts() ? describe(contrast, given, views) : std::string();
+  return contrast.contradicts() ? describe(contrast, given, views) : Message();
 }
 
-std::string better_spacing(const std::vector<CornerView>& views, const Target& target,
-                           const Camera& given) {
+Message better_spacing(const std::vector<CornerView>& views, const Target& target,
+                       const Camera& given) {
   // Twice the noise is four times its square: with dozens of corners no chance.
   constexpr double kNotNoise = 2.0;
   if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
@@ -347,31 +348,33 @@ std::string better_spacing(const std::vector<CornerView>& views, const Target& t
     }
   }
   if (!(kNotNoise * std::min(at_a, at_b) < as_given->sigma_px)) return {};
-  return formatted("tagSpacing: %.4f would fit ", 0.5 * (low + high)) +
-         formatted("(corners then scatter by %.2f px, now by %.2f px)", std::min(at_a, at_b),
-                   as_given->sigma_px);
+  return Message("%1 would fit (corners then scatter by %2 px, now by %3 px)",
+                 formatted("tagSpacing: %.4f", 0.5 * (low + high)),
+                 formatted("%.2f", std::min(at_a, at_b)), formatted("%.2f", as_given->sigma_px));
 }
 
-std::string better_spacing(const CalibrationResult& result) {
+Message better_spacing(const CalibrationResult& result) {
   return better_spacing(views_of(result), result.target, result.intrinsics.given);
 }
 
 void verify_intrinsics(CalibrationResult& result) {
   result.verified = false;
-  result.unverified.clear();
+  result.unverified = {};
   if (!result.forward || result.intrinsics.contradiction) return;
   result.verified = true;
   if (result.intrinsics.mode != IntrinsicsMode::kFixed) return;
   const IntrinsicsVector wide = wide_intrinsics_sigma(result.intrinsics.given);
   if (open_share(result, wide) <= 1.0) return;
   result.verified = false;
-  constexpr std::array kWhat = {
-      "focal length: a scene with the board tilted by 40° or more and one at twice the distance",
-      "principal point: scenes with the board tilted, and rolled by 90° against each other",
-      "distortion: scenes with the board in the corners of the image"};
+  const std::array what = {
+      Message("focal length: a scene with the board tilted by 40° or more and one at twice the "
+              "distance"),
+      Message(
+          "principal point: scenes with the board tilted, and rolled by 90° against each other"),
+      Message("distortion: scenes with the board in the corners of the image")};
   std::size_t worst = 0;
   double most = -1.0;
-  for (std::size_t part = 0; part < kWhat.size(); ++part) {
+  for (std::size_t part = 0; part < what.size(); ++part) {
     IntrinsicsVector only = IntrinsicsVector::Zero();
     const auto first = static_cast<Eigen::Index>(2 * part);
     const Eigen::Index count = part < 2 ? 2 : 8;
@@ -382,8 +385,8 @@ void verify_intrinsics(CalibrationResult& result) {
     worst = part;
   }
   result.unverified =
-      std::string("these scenes cannot verify the camera's intrinsics; most open is the ") +
-      kWhat[worst] + " would tell";
+      Message("these scenes cannot verify the camera's intrinsics; most open is the %1 would tell",
+              what[worst]);
 }
 
 Status check_intrinsics(CalibrationResult& result,

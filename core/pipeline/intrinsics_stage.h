@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -20,7 +19,7 @@ struct CalibrationResult;
 
 /// That corners and returns contradict the given intrinsics, and what mends it.
 struct IntrinsicsContradiction {
-  std::string what;  ///< "the focal length is 10.0 ± 0.1 % too long"
+  Message what;  ///< "the focal length is 10.0 ± 0.1 % too long"
   IntrinsicsContrast contrast;
   /// The extrinsic with what is wrong freed, if it could be solved.
   std::optional<UncertainRigid3> camera_from_lidar;
@@ -44,7 +43,7 @@ struct IntrinsicsReport {
   std::optional<IntrinsicsEvidence> evidence;
   double replicate_px = 0.0;  ///< Corner noise of replicates; 0 where there are none.
   std::optional<IntrinsicsContradiction> contradiction;
-  std::string spacing;  ///< See better_spacing(); empty if the tags lie where the target has them.
+  Message spacing;  ///< See better_spacing(); empty if the tags lie where the target has them.
 };
 
 /// The report of a dataset before anything has been looked at.
@@ -61,16 +60,16 @@ void free_camera(CalibrationResult& result);
 IntrinsicsVector solve_prior(const IntrinsicsReport& report);
 
 /// If the images' corners alone contradict the given intrinsics: in words what is wrong.
-std::string contradicted_by_corners(const CalibrationResult& result);
+Message contradicted_by_corners(const CalibrationResult& result);
 
 /// Where corners scatter more than twice as much as their replicates, whatever the intrinsics,
 /// three quarters of what is left are not noise: then, on a grid of tags, the spacing that fits
 /// best, if it leaves less than half of it. "tagSpacing: 0.8333 would fit (…)"; empty if there is
 /// none.
-std::string better_spacing(const std::vector<CornerView>& views, const Target& target,
-                           const Camera& given);
+Message better_spacing(const std::vector<CornerView>& views, const Target& target,
+                       const Camera& given);
 /// The same for the scenes' images.
-std::string better_spacing(const CalibrationResult& result);
+Message better_spacing(const CalibrationResult& result);
 
 /// Sets `verified`: whether the scenes leave intrinsics open that would move the extrinsic by more
 /// than three tolerances (95 % limit, to first order about the solution), and which scene would

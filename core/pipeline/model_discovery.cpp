@@ -13,6 +13,7 @@
 #include "pipeline/ablation.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
+#include "pipeline/verdict.h"
 
 namespace lvcalib {
 namespace {
@@ -348,17 +349,13 @@ std::shared_ptr<const CalibrationResult> result_at(
 
 void judge_missing(CalibrationResult& result, const ModelRanking& ranking) {
   if (ranking.nothing_missing()) return;
-  std::string text = "structure is left that no known effect explains";
-  for (const EffectProposal& proposal : ranking.proposals) {
-    if (!proposal.suggested) continue;
-    text = "scenes held out speak for an effect that the model lacks: " + proposal.finding.id;
-    break;
-  }
-  result.quality_reasons.push_back(text);
-  result.warnings.push_back("result: " + text);
-  if (result.quality != Quality::kGood) return;
-  result.quality = Quality::kDoubtful;
-  result.quality_reason = text;
+  const auto lacking = std::find_if(ranking.proposals.begin(), ranking.proposals.end(),
+                                    [](const EffectProposal& p) { return p.suggested; });
+  Verdict(result).doubtful(
+      lacking == ranking.proposals.end()
+          ? Message("structure is left that no known effect explains")
+          : Message("scenes held out speak for an effect that the model lacks: %1",
+                    lacking->finding.id));
 }
 
 }  // namespace lvcalib

@@ -244,12 +244,12 @@ Status read_value(const YamlFile& file, const std::string& key, const YamlValue&
   if (scalar == "true") scalar = "1";
   if (scalar == "false") scalar = "0";
   if (value.kind != YamlValue::Kind::kScalar || !parse_number(scalar, number)) {
-    return file.error_at(value, "'" + key + "' must be a number");
+    return file.error_at(value, Message("'%1' must be a number", key));
   }
   if (Status status = set_option(out.options, key, number); !status) {
     if (status.error().kind == ErrorKind::kUsage) {
-      out.warnings.push_back(file.name() + ":" + std::to_string(value.line) + ": " +
-                             status.error().text());
+      out.warnings.push_back(
+          Message("%1:%2: %3", file.name(), value.line, status.error().sentence()));
       return Done{};
     }
     return file.error_at(value, status.error().message);
@@ -270,18 +270,19 @@ Status set_option(CalibrationOptions& options, const std::string& key, double va
     keys.push_back(d.key);
     if (d.key != key) continue;
     if (!(value >= d.low && value <= d.high)) {
-      return Error::input("'" + key + "' must be between " + shown(d.low) + " and " +
-                          shown(d.high) + " " + d.unit + ", found " + shown(value));
+      return Error::input(Message("'%1' must be between %2 and %3, found %4", key, shown(d.low),
+                                  shown(d.high) + " " + d.unit, shown(value)));
     }
     if (d.whole && value != std::floor(value)) {
-      return Error::input("'" + key + "' must be a whole number, found " + shown(value));
+      return Error::input(Message("'%1' must be a whole number, found %2", key, shown(value)));
     }
     d.set(options, value);
     return Done{};
   }
   const std::string nearest = nearest_word(key, keys);
-  return Error::usage("unknown option '" + key + "' ignored" +
-                      (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  return Error::usage(
+      nearest.empty() ? Message("unknown option '%1' ignored", key)
+                      : Message("unknown option '%1' ignored; did you mean '%2'?", key, nearest));
 }
 
 Result<OptionsFile> read_options(const std::filesystem::path& path) {

@@ -98,7 +98,7 @@ Status set_option(CalibrationOptions& options, const std::string& key, double va
 
 struct OptionsFile {
   CalibrationOptions options;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// Reads a YAML file of "section: {name: value}" or "section.name: value". Unknown keys are

@@ -28,15 +28,45 @@ PrintState print_state(const SceneResult& scene, const ForwardSceneResult& solve
                                                       : PrintState::kOtherPrint;
 }
 
-std::string print_problem(PrintState state) {
+Message print_problem(PrintState state) {
   switch (state) {
     case PrintState::kNoIntensity:
-      return "the clouds' intensity is missing or the same everywhere";
+      return Message("the clouds' intensity is missing or the same everywhere");
     case PrintState::kNoContrast:
-      return "the print has no contrast for this LiDAR";
+      return Message("the print has no contrast for this LiDAR");
     default:
-      return "the clouds' intensities do not follow the target's print";
+      return Message("the clouds' intensities do not follow the target's print");
   }
+}
+
+// Where it is so in all scenes.
+Message print_problem_everywhere(PrintState state) {
+  switch (state) {
+    case PrintState::kNoIntensity:
+      return Message(
+          "the clouds' intensity is missing or the same everywhere: the extrinsic rests on planes "
+          "and corners, and the print does not hold it sideways");
+    case PrintState::kNoContrast:
+      return Message(
+          "the print has no contrast for this LiDAR: the extrinsic rests on planes and corners, "
+          "and the print does not hold it sideways");
+    default:
+      return Message(
+          "the clouds' intensities do not follow the target's print: the extrinsic rests on planes "
+          "and corners, and the print does not hold it sideways; does target.yaml describe this "
+          "board?");
+  }
+}
+
+// Where it is so in some scenes.
+Message print_problem_in(PrintState state, const std::string& names) {
+  const Message problem = print_problem(state);
+  return state == PrintState::kOtherPrint
+             ? Message(
+                   "%1 in scene %2: planes and corners are used there; does target.yaml describe "
+                   "this board?",
+                   problem, names)
+             : Message("%1 in scene %2: planes and corners are used there", problem, names);
 }
 
 // The step that a cloud's coordinates come in, of the axis where it is largest: the smallest gap
@@ -109,16 +139,25 @@ void judge_print_size(const CalibrationResult& result, const QualityOptions& opt
   const double apart = std::abs(size.scale.x() - size.scale.y());
   const Eigen::Array2d weight = size.sigma.array().square().inverse();
   const double mean = (weight * off).sum() / weight.sum();
-  std::string text = "LiDAR and camera disagree on the board's size: the LiDAR sees the print ";
+  Message text;
   if (apart < 3.0 * size.sigma.norm()) {
-    text += formatted("%.2f ± %.2f %% ", 100.0 * std::abs(mean), 100.0 / std::sqrt(weight.sum())) +
-            (mean > 0 ? "larger" : "smaller") + " than target.yaml says; ";
+    const std::string percent =
+        formatted("%.2f ± %.2f", 100.0 * std::abs(mean), 100.0 / std::sqrt(weight.sum()));
+    text = mean > 0 ? Message(
+                          "LiDAR and camera disagree on the board's size: the LiDAR sees the print "
+                          "%1 % larger than target.yaml says; %2 would fit; measure the print",
+                          percent, fits)
+                    : Message(
+                          "LiDAR and camera disagree on the board's size: the LiDAR sees the print "
+                          "%1 % smaller than target.yaml says; %2 would fit; measure the print",
+                          percent, fits);
   } else {
-    text += formatted("%.2f ± %.2f %% as wide ", 100.0 * size.scale.x(), 100.0 * size.sigma.x()) +
-            formatted("and %.2f ± %.2f %% as high as target.yaml says; ", 100.0 * size.scale.y(),
-                      100.0 * size.sigma.y());
+    text = Message(
+        "LiDAR and camera disagree on the board's size: the LiDAR sees the print %1 % as wide and "
+        "%2 % as high as target.yaml says; %3 would fit; measure the print",
+        formatted("%.2f ± %.2f", 100.0 * size.scale.x(), 100.0 * size.sigma.x()),
+        formatted("%.2f ± %.2f", 100.0 * size.scale.y(), 100.0 * size.sigma.y()), fits);
   }
-  text += fits + " would fit; measure the print";
   if (off.abs().maxCoeff() > options.scale_failure) {
     verdict.failed(text);
   } else {
@@ -185,47 +224,46 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
       displaced_m = std::max(displaced_m, displaced);
     }
     if (found.seen < 0.6) {
-      verdict.note("scene " + scene->name +
-                   formatted(": the LiDAR sees %.0f %% of the board only: something covers it, or "
-                             "it is cut off",
-                             100.0 * found.seen));
+      verdict.note(
+          Message("scene %1: %2", scene->name,
+                  Message("the LiDAR sees %1 % of the board only: something covers it, or it is "
+                          "cut off",
+                          formatted("%.0f", 100.0 * found.seen))));
     }
   }
   for (const auto& [state, names] : unseen) {
     const bool all = !forward.uses_intensity && unseen.size() == 1;
-    std::string text = print_problem(state);
-    if (!all) text += " in scene " + names;
-    text += all ? ": the extrinsic rests on planes and corners, and the print does not hold it "
-                  "sideways"
-                : ": planes and corners are used there";
+    const Message text = all ? print_problem_everywhere(state) : print_problem_in(state, names);
     if (state == PrintState::kOtherPrint) {
-      verdict.doubtful(text + "; does target.yaml describe this board?");
+      verdict.doubtful(text);
     } else {
       verdict.note(text);
     }
   }
   if (!saturated.empty()) {
-    verdict.note("the intensities are saturated on part of the board: scene " + saturated +
-                 "; lower the LiDAR's gain or print the white greyer");
+    verdict.note(
+        Message("the intensities are saturated on part of the board: scene %1; lower the LiDAR's "
+                "gain or print the white greyer",
+                saturated));
   }
   if (!clipped.empty()) {
     verdict.doubtful(
-        "white print is saturated, so that the place of its edges is not measured: "
-        "scene " +
-        clipped + "; lower the LiDAR's gain or print the white greyer");
+        Message("white print is saturated, so that the place of its edges is not measured: scene "
+                "%1; lower the LiDAR's gain or print the white greyer",
+                clipped));
   }
   if (!rounded.empty()) {
-    verdict.doubtful(formatted("the clouds' coordinates are rounded to steps of %.0f mm, which may "
-                               "displace edges of the print by %.1f mm: scene ",
-                               1e3 * step_m, 1e3 * displaced_m) +
-                     rounded + "; write them to the millimetre");
+    verdict.doubtful(
+        Message("the clouds' coordinates are rounded to steps of %1 mm, which may displace edges "
+                "of the print by %2 mm: scene %3; write them to the millimetre",
+                formatted("%.0f", 1e3 * step_m), formatted("%.1f", 1e3 * displaced_m), rounded));
   }
   if (!forward.uses_intensity) return;
   if (forward.lattice_margin < options.min_margin) {
     verdict.doubtful(
-        formatted("ambiguous: another place of the print on the board fits the intensities of all "
-                  "scenes nearly as well (log-likelihood %.1f less)",
-                  forward.lattice_margin));
+        Message("ambiguous: another place of the print on the board fits the intensities of all "
+                "scenes nearly as well (log-likelihood %1 less)",
+                formatted("%.1f", forward.lattice_margin)));
   }
   judge_print_size(result, options, verdict);
 }

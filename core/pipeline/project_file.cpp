@@ -109,7 +109,7 @@ Result<bool> flag(const YamlFile& file, const std::string& key, bool otherwise) 
   if (!text) return text.error();
   if (*text == "true") return true;
   if (*text == "false") return false;
-  return file.error_at(*file.root().find(key), "'" + key + "' must be true or false");
+  return file.error_at(*file.root().find(key), Message("'%1' must be true or false", key));
 }
 
 Result<Rigid3> pose(const YamlFile& file) {
@@ -119,7 +119,7 @@ Result<Rigid3> pose(const YamlFile& file) {
   if (!q) return q.error();
   const Eigen::Quaterniond rotation(Eigen::Vector4d(q->data()));
   if (std::abs(rotation.norm() - 1.0) > 1e-3)
-    return file.error_at(file.root(), "quaternion_xyzw must have length 1");
+    return file.error_at(file.root(), Message("quaternion_xyzw must have length 1"));
   return Rigid3{rotation, Eigen::Vector3d(t->data())};
 }
 
@@ -142,8 +142,7 @@ Result<std::vector<double>> grouped(const YamlFile& file, const YamlValue* list,
   if (list == nullptr) return std::vector<double>();
   auto numbers = file.flatten(*list, key);
   if (numbers && numbers->size() % together != 0) {
-    return file.error_at(
-        *list, "'" + key + "' must hold " + std::to_string(together) + " numbers for each place");
+    return file.error_at(*list, Message("'%1' must hold %2 numbers for each place", key, together));
   }
   return numbers;
 }
@@ -155,7 +154,7 @@ Result<SceneEdits> scene_edits(const YamlFile& file) {
     if (!numbers) return numbers.error();
     for (const double x : *numbers) {
       if (x != std::floor(x) || std::abs(x) > 1e9)
-        return file.error_at(*file.root().find(key), std::string("'") + key + "' must hold ids");
+        return file.error_at(*file.root().find(key), Message("'%1' must hold ids", key));
       (edits.*ids).push_back(static_cast<int>(x));
     }
   }
@@ -166,7 +165,7 @@ Result<SceneEdits> scene_edits(const YamlFile& file) {
   const YamlValue* patches = file.root().find("patches_m");
   if (patches == nullptr) return edits;
   if (patches->kind != YamlValue::Kind::kList)
-    return file.error_at(*patches, "'patches_m' must be a list of polygons");
+    return file.error_at(*patches, Message("'patches_m' must be a list of polygons"));
   for (const YamlValue& item : patches->list) {
     auto numbers = grouped(file, &item, "patches_m", 2);
     if (!numbers) return numbers.error();
@@ -231,14 +230,16 @@ class Reader {
   Status header() {
     auto format = file_.has("format") ? file_.string("format") : Result<std::string>(std::string());
     if (!format || *format != "lvcalib-project") {
-      return Error::input("is not a project; expected 'format: lvcalib-project'", file_.name());
+      return Error::input(Message("is not a project; expected 'format: lvcalib-project'"),
+                          file_.name());
     }
     auto version = file_.integer("version", 1, 1'000'000);
     if (!version) return version.error();
     if (*version > kProjectVersion) {
-      return Error::input("the project has format version " + std::to_string(*version) +
-                              ", this program knows up to " + std::to_string(kProjectVersion),
-                          file_.name(), "open it with a newer release; it was not changed");
+      return Error::input(Message("the project has format version %1, this program knows up to %2",
+                                  *version, kProjectVersion),
+                          file_.name(),
+                          Message("open it with a newer release; it was not changed"));
     }
     return Done{};
   }
@@ -246,26 +247,25 @@ class Reader {
   Status paths() {
     auto dataset = file_.string("dataset");
     if (!dataset) return dataset.error();
-    if (dataset->empty()) return Error::input("'dataset' is empty", file_.name());
+    if (dataset->empty()) return Error::input(Message("'dataset' is empty"), file_.name());
     out_.project.dataset = absolute(*dataset);
     auto crops = flag(file_, "use_crops", false);
     if (!crops) return crops.error();
     decisions().use_crops = *crops;
-    auto added = texts("added_scenes", "folders");
+    auto added = texts("added_scenes", Message("'%1' must be a list of folders", "added_scenes"));
     if (!added) return added.error();
     for (const std::string& path : *added) decisions().added_scenes.push_back(absolute(path));
-    auto order = texts("scene_order", "scenes");
+    auto order = texts("scene_order", Message("'%1' must be a list of scenes", "scene_order"));
     if (!order) return order.error();
     decisions().scene_order = std::move(*order);
     return Done{};
   }
 
-  // A list of texts; none if it is not there.
-  Result<std::vector<std::string>> texts(const char* key, const char* what) {
+  // A list of texts; none if it is not there. `expected` says what it must be.
+  Result<std::vector<std::string>> texts(const char* key, const Message& expected) {
     std::vector<std::string> out;
     const YamlValue* list = map_or_null(key);
     if (list == nullptr) return out;
-    const std::string expected = std::string("'") + key + "' must be a list of " + what;
     if (list->kind != YamlValue::Kind::kList) return file_.error_at(*list, expected);
     for (const YamlValue& item : list->list) {
       if (item.kind != YamlValue::Kind::kScalar || item.scalar.empty())
@@ -289,15 +289,15 @@ class Reader {
     const YamlValue* values = map_or_null("options");
     if (values == nullptr) return Done{};
     if (values->kind != YamlValue::Kind::kMap)
-      return file_.error_at(*values, "'options' must hold 'name: value' entries");
+      return file_.error_at(*values, Message("'options' must hold 'name: value' entries"));
     for (const auto& [key, value] : values->map) {
       double x = 0;
       if (value.kind != YamlValue::Kind::kScalar || !parse_number(value.scalar, x))
-        return file_.error_at(value, "'" + key + "' must be a number");
+        return file_.error_at(value, Message("'%1' must be a number", key));
       if (Status s = set_option(decisions().options, key, x); !s) {
         if (s.error().kind != ErrorKind::kUsage) return file_.error_at(value, s.error().message);
-        out_.warnings.push_back(file_.name() + ":" + std::to_string(value.line) + ": " +
-                                s.error().text());
+        out_.warnings.push_back(
+            Message("%1:%2: %3", file_.name(), value.line, s.error().sentence()));
       }
     }
     return Done{};
@@ -347,17 +347,18 @@ class Reader {
     const YamlValue* list = map_or_null("model");
     if (list == nullptr) return Done{};
     if (list->kind != YamlValue::Kind::kList)
-      return file_.error_at(*list, "'model' must be a list of changes");
+      return file_.error_at(*list, Message("'model' must be a list of changes"));
     for (const YamlValue& item : list->list) {
       ModelDecision decision;
       const YamlValue* change = item.find("change");
       const YamlValue* effect = item.find("effect");
       if (change == nullptr || effect == nullptr || effect->scalar.empty())
-        return file_.error_at(item, "a change of the model needs 'change' and 'effect'");
+        return file_.error_at(item, Message("a change of the model needs 'change' and 'effect'"));
       const auto known = change_named(change->scalar);
       if (!known) {
-        return file_.error_at(*change, "unknown change '" + change->scalar +
-                                           "' (add, remove, off, on, hold or release)");
+        return file_.error_at(
+            *change,
+            Message("unknown change '%1' (add, remove, off, on, hold or release)", change->scalar));
       }
       decision.change = *known;
       decision.spec = effect->scalar;
@@ -447,7 +448,7 @@ Result<OpenedProject> open_project_dataset(const Project& project) {
   opened.dataset = std::move(*dataset);
   for (const fs::path& folder : project.decisions.added_scenes) {
     if (Status s = add_scenes(opened.dataset, {folder}); !s) {
-      opened.warnings.push_back(s.error().text());
+      opened.warnings.push_back(s.error().sentence());
       opened.missing_scenes.push_back(folder.filename().string());
     }
   }
@@ -468,8 +469,8 @@ Result<std::shared_ptr<const CalibrationResult>> calibrate_project(const Project
   const auto opened = open_project_dataset(project);
   if (!opened) return opened.error();
   if (opened->dataset_moved) {
-    return Error::input("the project's dataset is not there", project.dataset.string(),
-                        "open the project and say where the dataset is now, then save it");
+    return Error::input(Message("the project's dataset is not there"), project.dataset.string(),
+                        Message("open the project and say where the dataset is now, then save it"));
   }
   const SessionRun run = run_session(opened->dataset, project.decisions, {}, context);
   if (run.error) return *run.error;

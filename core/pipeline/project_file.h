@@ -24,7 +24,7 @@ struct Project {
 /// A project read from a file.
 struct ProjectFile {
   Project project;
-  std::vector<std::string> warnings;  ///< Unknown keys and options.
+  std::vector<Message> warnings;  ///< Unknown keys and options.
 };
 
 /// Format version that this program writes; files of a newer one are refused.
@@ -49,7 +49,7 @@ struct OpenedProject {
   bool dataset_moved = false;
   Dataset dataset;                          ///< With the added scenes that are there.
   std::vector<std::string> missing_scenes;  ///< Decided about in the project, not found on disk.
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// Opens the project's dataset. Errors: as open_dataset(), if the folder is there;

@@ -22,11 +22,16 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
   if (scale.sigma <= 0) return;
   const double off = scale.scale - 1.0;
   if (std::abs(off) < 4.0 * scale.sigma || std::abs(off) < options.scale_warning) return;
-  const std::string text =
-      "LiDAR and camera disagree on the board's size: the LiDAR measures it " +
-      formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * scale.sigma) +
-      (off > 0 ? "larger" : "smaller") +
-      " than target.yaml says; measure the print and correct tagSize";
+  const std::string percent = formatted("%.2f ± %.2f", 100.0 * std::abs(off), 100.0 * scale.sigma);
+  const Message text =
+      off > 0 ? Message(
+                    "LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % "
+                    "larger than target.yaml says; measure the print and correct tagSize",
+                    percent)
+              : Message(
+                    "LiDAR and camera disagree on the board's size: the LiDAR measures it %1 % "
+                    "smaller than target.yaml says; measure the print and correct tagSize",
+                    percent);
   if (std::abs(off) > options.scale_failure) {
     verdict.failed(text);
   } else {
@@ -37,25 +42,37 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
 // Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
 void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
   if (!result.intrinsics.spacing.empty()) {
-    verdict.doubtful("the images contradict target.yaml: " + result.intrinsics.spacing +
-                     "; measure the print");
+    verdict.doubtful(Message("the images contradict target.yaml: %1; measure the print",
+                             result.intrinsics.spacing));
   }
   if (!result.intrinsics.contradiction) return;
   const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
   if (result.intrinsics.mode == IntrinsicsMode::kPrior) {
-    verdict.doubtful("the images contradict the standard deviations of the intrinsics: " +
-                     found.what + "; calibrate the camera again, or use --intrinsics free");
+    verdict.doubtful(
+        Message("the images contradict the standard deviations of the intrinsics: %1; calibrate "
+                "the camera again, or use --intrinsics free",
+                found.what));
     return;
   }
-  std::string text = "the images contradict the intrinsics: " + found.what;
-  if (found.camera_from_lidar) {
-    text += formatted("; with that freed the extrinsic moves by %.1f mm and %.2f mrad",
-                      found.move_mm, found.move_mrad);
-  }
+  const bool moves = found.camera_from_lidar.has_value();
+  const std::string move_mm = formatted("%.1f", found.move_mm);
+  const std::string move_mrad = formatted("%.2f", found.move_mrad);
   if (found.matters) {
-    verdict.doubtful(text + "; calibrate the camera again, or use --intrinsics free");
+    verdict.doubtful(
+        moves ? Message("the images contradict the intrinsics: %1; with that freed the extrinsic "
+                        "moves by %2 mm and %3 mrad; calibrate the camera again, or use "
+                        "--intrinsics free",
+                        found.what, move_mm, move_mrad)
+              : Message("the images contradict the intrinsics: %1; calibrate the camera again, or "
+                        "use --intrinsics free",
+                        found.what));
   } else {
-    verdict.note(text + ", less than what matters");
+    verdict.note(
+        moves ? Message("the images contradict the intrinsics: %1; with that freed the extrinsic "
+                        "moves by %2 mm and %3 mrad, less than what matters",
+                        found.what, move_mm, move_mrad)
+              : Message("the images contradict the intrinsics: %1, less than what matters",
+                        found.what));
   }
 }
 
@@ -74,9 +91,9 @@ void judge_precision(const ExtrinsicSolution& x, const QualityOptions& options, 
   const double sigma_rad = worst(covariance.bottomRightCorner<3, 3>());
   if (sigma_m > options.max_sigma_translation_m || sigma_rad > options.max_sigma_rotation_rad) {
     verdict.failed(
-        formatted("the scenes leave the extrinsic open: ± %.0f mm and ± %.1f mrad along "
-                  "the worst axes; add scenes with the board turned differently",
-                  1e3 * sigma_m, 1e3 * sigma_rad));
+        Message("the scenes leave the extrinsic open: ± %1 mm and ± %2 mrad along the worst axes; "
+                "add scenes with the board turned differently",
+                formatted("%.0f", 1e3 * sigma_m), formatted("%.1f", 1e3 * sigma_rad)));
   }
 }
 
@@ -103,11 +120,15 @@ void judge_dark_offset(const CalibrationResult& result, const QualityOptions& op
   if (result.modelled_dark_offset_m * offset > 0.0) return;
   if (std::abs(offset) < options.max_dark_offset_m || std::abs(offset) < 5.0 / std::sqrt(weight))
     return;
-  verdict.doubtful(formatted("black print reads %.1f ± %.1f mm ", 1e3 * std::abs(offset),
-                             1e3 / std::sqrt(weight)) +
-                   (offset > 0 ? "farther" : "nearer") +
-                   " than white: the LiDAR's range depends on the reflectivity, an effect is "
-                   "missing in the model");
+  const std::string size =
+      formatted("%.1f ± %.1f", 1e3 * std::abs(offset), 1e3 / std::sqrt(weight));
+  verdict.doubtful(
+      offset > 0 ? Message("black print reads %1 mm farther than white: the LiDAR's range depends "
+                           "on the reflectivity, an effect is missing in the model",
+                           size)
+                 : Message("black print reads %1 mm nearer than white: the LiDAR's range depends "
+                           "on the reflectivity, an effect is missing in the model",
+                           size));
 }
 
 bool is_deviating(const MeasuredScale& relative, double outlier) {
@@ -122,33 +143,52 @@ void judge_scene_scales(const CalibrationResult& result, const QualityOptions& o
     const MeasuredScale relative = relative_scale(result, scene);
     if (!is_deviating(relative, options.scale_warning)) continue;
     const double off = relative.scale - 1.0;
-    verdict.doubtful("scene " + scene.name + ": its board measures " +
-                     formatted("%.2f ± %.2f %% ", 100.0 * std::abs(off), 100.0 * relative.sigma) +
-                     (off > 0 ? "larger" : "smaller") +
-                     " than in the other scenes: is it another print?");
+    const std::string percent =
+        formatted("%.2f ± %.2f", 100.0 * std::abs(off), 100.0 * relative.sigma);
+    verdict.doubtful(
+        off > 0 ? Message("scene %1: its board measures %2 % larger than in the other scenes: is "
+                          "it another print?",
+                          scene.name, percent)
+                : Message("scene %1: its board measures %2 % smaller than in the other scenes: is "
+                          "it another print?",
+                          scene.name, percent));
   }
 }
 
-// Names the scene that fits clearly worse than the others, if there is one.
-std::string worst_scene(const ExtrinsicSolution& x) {
+// What nodes and planes miss the model by, and the scene that fits clearly worse than the others,
+// if there is one.
+Message misfit(const ExtrinsicSolution& x) {
+  const std::string nodes = formatted("%.1f", x.node_scale);
+  const std::string planes = formatted("%.1f", x.plane_scale);
+  const Message all = Message(
+      "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is "
+      "missing in the model",
+      nodes, planes);
   constexpr double kClearly = 2.0;
   const SceneSolution* worst = nullptr;
   for (const SceneSolution& scene : x.scenes) {
     if (scene.used && (worst == nullptr || scene.rms_mm > worst->rms_mm)) worst = &scene;
   }
-  if (worst == nullptr) return {};
+  if (worst == nullptr) return all;
   std::vector<double> others;
   for (const SceneSolution& scene : x.scenes) {
     if (scene.used && &scene != worst) others.push_back(scene.rms_mm);
   }
-  if (others.empty()) return {};
+  if (others.empty()) return all;
   const double usual = median(std::move(others));
-  if (!(worst->rms_mm > kClearly * usual)) return {};
+  if (!(worst->rms_mm > kClearly * usual)) return all;
   // Metres say only that the circles were not found; the number would say nothing.
   constexpr double kMeaningful_mm = 100.0;
-  if (worst->rms_mm > kMeaningful_mm) return "; scene " + worst->name + " misses most";
-  return "; scene " + worst->name +
-         formatted(" misses most: %.1f mm, the others %.1f mm", worst->rms_mm, usual);
+  if (worst->rms_mm > kMeaningful_mm) {
+    return Message(
+        "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is "
+        "missing in the model; scene %3 misses most",
+        nodes, planes, worst->name);
+  }
+  return Message(
+      "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is "
+      "missing in the model; scene %3 misses most: %4 mm, the others %5 mm",
+      nodes, planes, worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
 }
 
 // What a model with effects leaves: its ranges against their noise, and structure that moves the
@@ -156,39 +196,41 @@ std::string worst_scene(const ExtrinsicSolution& x) {
 void judge_model(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
   if (result.modelled_range_misfit > options.max_noise_scale) {
     verdict.doubtful(
-        formatted("ranges miss the model by %.1f times their noise: another effect is "
-                  "missing in the model",
-                  result.modelled_range_misfit));
+        Message("ranges miss the model by %1 times their noise: another effect is missing in the "
+                "model",
+                formatted("%.1f", result.modelled_range_misfit)));
   }
   for (const StructureScore& s : result.unexplained) {
-    verdict.doubtful(std::string("the ") + name_of(s.channel) + " channel shows structure over " +
-                     s.covariates() +
-                     formatted(" that no effect of the model explains; it could move the extrinsic "
-                               "by %.1f mm and %.2f mrad",
-                               1e3 * s.extrinsic_move.translation_m,
-                               1e3 * s.extrinsic_move.rotation_rad));
+    verdict.doubtful(
+        Message("the %1 channel shows structure over %2 that no effect of the model explains; it "
+                "could move the extrinsic by %3 mm and %4 mrad",
+                word_for(s.channel), s.covariates(),
+                formatted("%.1f", 1e3 * s.extrinsic_move.translation_m),
+                formatted("%.2f", 1e3 * s.extrinsic_move.rotation_rad)));
   }
 }
 
 // Which scenes are out of use and why; equal reasons once.
-std::string unused_scenes(const CalibrationResult& result) {
+Message unused_scenes(const CalibrationResult& result) {
   constexpr std::size_t kMost = 6;  // As many as a reader takes in at once.
-  std::vector<std::pair<std::string, std::string>> by_reason;
+  std::vector<std::pair<Message, std::vector<std::string>>> by_reason;
   for (const SceneResult& scene : result.scenes) {
     if (scene.used || scene.reason.empty() || scene.rejected) continue;
     const auto same = std::find_if(by_reason.begin(), by_reason.end(),
                                    [&](const auto& r) { return r.first == scene.reason; });
     if (same != by_reason.end()) {
-      same->second += ", " + scene.name;
+      same->second.push_back(scene.name);
     } else {
-      by_reason.emplace_back(scene.reason, scene.name);
+      by_reason.emplace_back(scene.reason, std::vector{scene.name});
     }
   }
-  std::string text;
-  for (std::size_t k = 0; k < by_reason.size() && k < kMost; ++k)
-    text += "; scene " + by_reason[k].second + ": " + by_reason[k].first;
-  if (by_reason.size() > kMost) text += "; and more";
-  return text;
+  std::vector<Message> out;
+  for (std::size_t k = 0; k < by_reason.size() && k < kMost; ++k) {
+    const auto& [reason, names] = by_reason[k];
+    out.push_back(Message("scene %1: %2", joined(names, ", "), reason));
+  }
+  if (by_reason.size() > kMost) out.push_back(Message("and more"));
+  return joined(out, "; ");
 }
 
 // One scene agrees with itself whatever is wrong.
@@ -196,20 +238,22 @@ void judge_count(const CalibrationResult& result, Verdict& verdict) {
   const int used = result.extrinsic.used_scenes;
   if (used == 2) {
     verdict.doubtful(
-        "two scenes: a mistake in one of them could not be told from one in the other");
+        Message("two scenes: a mistake in one of them could not be told from one in the other"));
   }
   if (used >= 2) return;
-  const std::string others = unused_scenes(result);
-  verdict.doubtful("only one usable scene: nothing to check the result against; take two or more" +
-                   others);
+  const Message others = unused_scenes(result);
+  verdict.doubtful(
+      others.empty()
+          ? Message("only one usable scene: nothing to check the result against; take two or more")
+          : Message("only one usable scene: nothing to check the result against; take two or more; "
+                    "%1",
+                    others));
 }
 
 // Image and cloud of one place and time belong together: two scenes cannot share one of them.
 void judge_shared_files(const CalibrationResult& result, Verdict& verdict) {
   for (const SceneResult& scene : result.scenes) {
-    if (scene.shared_file.empty()) continue;
-    verdict.doubtful("scene " + scene.name + " has " + scene.shared_file +
-                     ": one of the two is not the scene's own");
+    if (!scene.shared_file.empty()) verdict.doubtful(scene.shared_file);
   }
 }
 
@@ -260,28 +304,28 @@ MeasuredScale measured_scale(const CalibrationResult& result, double outlier) {
 }
 
 void judge_quality(CalibrationResult& result, const QualityOptions& options) {
-  // Solving again starts from a clean list.
-  std::erase_if(result.warnings, [](const std::string& w) { return w.starts_with("result: "); });
-  const std::size_t before = result.warnings.size();
   Verdict verdict(result);
+  verdict.start();
   const ExtrinsicSolution& x = result.extrinsic;
   judge_intrinsics(result, verdict);
   judge_shared_files(result, verdict);
-  if (const std::string unseen = diagnose_unseen_tags(result); !unseen.empty())
+  if (const Message unseen = diagnose_unseen_tags(result); !unseen.empty())
     verdict.doubtful(unseen);
   judge_count(result, verdict);
-  if (const std::string bump = diagnose_bump(result); !bump.empty()) verdict.doubtful(bump);
+  if (const Message bump = diagnose_bump(result); !bump.empty()) verdict.doubtful(bump);
   if (x.rank < 6)
-    verdict.failed("the scenes determine only " + std::to_string(x.rank) +
-                   " of 6 directions of the extrinsic");
+    verdict.failed(
+        Message("the scenes determine only %1 of 6 directions of the extrinsic", x.rank));
   if (!result.forward_failure.empty()) {
-    verdict.note("the model of every return could not be solved (" + result.forward_failure +
-                 "): the extrinsic rests on nodes, planes and corners");
+    verdict.note(
+        Message("the model of every return could not be solved (%1): the extrinsic rests on nodes, "
+                "planes and corners",
+                result.forward_failure));
   }
   if (result.forward) judge_print(result, options, verdict);
   judge_place(result, verdict);
   judge_precision(x, options, verdict);
-  for (const std::string& direction : x.weak_directions) verdict.doubtful(direction);
+  for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
   judge_dark_offset(result, options, verdict);
   judge_scene_scales(result, options, verdict);
@@ -291,34 +335,31 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_scans(result, options, verdict);
   if (!result.unverified.empty()) verdict.note(result.unverified);
   if (x.sigma_px > options.max_sigma_px) {
-    verdict.doubtful(formatted(
-        "tag corners miss their model by %.2f px: check the intrinsics and that the board is flat",
-        x.sigma_px));
+    verdict.doubtful(
+        Message("tag corners miss their model by %1 px: check the intrinsics and that the board is "
+                "flat",
+                formatted("%.2f", x.sigma_px)));
   }
   if (result.model_fit) {
     judge_model(result, options, verdict);
   } else if (x.node_scale > options.max_noise_scale || x.plane_scale > options.max_noise_scale) {
-    verdict.doubtful(
-        formatted("LiDAR residuals are %.1f times (nodes) and %.1f times (planes) their noise: an "
-                  "effect is missing in the model",
-                  x.node_scale, x.plane_scale) +
-        worst_scene(x));
+    verdict.doubtful(misfit(x));
   }
   if (result.target.has_circles() && x.rms_mm > 1e3 * result.target.circle_radius_m) {
     verdict.doubtful(
-        "the circles' centres miss the model by more than their radius: the clouds do not show "
-        "them");
+        Message("the circles' centres miss the model by more than their radius: the clouds do not "
+                "show them"));
   }
   judge_second_board(result, verdict);
   if (x.used_scenes > 1 && result.consensus.margin() < options.min_margin) {
-    verdict.doubtful(formatted("another assignment of the board is nearly as good (margin %.1f)",
-                               result.consensus.margin()));
+    verdict.doubtful(Message("another assignment of the board is nearly as good (margin %1)",
+                             formatted("%.1f", result.consensus.margin())));
   }
   for (const SceneResult& scene : result.scenes) {
     if (!scene.used && !scene.reason.empty() && !scene.rejected) {
       // The image shows the board, and the cloud shows none where the other scenes say: a scene
       // that contradicts them is worth more than a note.
-      const std::string text = "scene " + scene.name + " is not used: " + scene.reason;
+      const Message text = Message("scene %1 is not used: %2", scene.name, scene.reason);
       if (scene.contradicts) {
         verdict.doubtful(text);
       } else {
@@ -326,14 +367,12 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
       }
     }
     if (scene.used && !scene.objection.empty())
-      verdict.doubtful("scene " + scene.name + " is used all the same, as you decided, though " +
-                       scene.objection);
+      verdict.doubtful(Message("scene %1 is used all the same, as you decided, though %2",
+                               scene.name, scene.objection));
     if (!scene.refinement || !scene.used) continue;
-    for (const std::string& w : scene.refinement->warnings)
-      verdict.note("scene " + scene.name + ": " + w);
+    for (const Message& w : scene.refinement->warnings)
+      verdict.note(Message("scene %1: %2", scene.name, w));
   }
-  for (std::size_t k = before; k < result.warnings.size(); ++k)
-    result.warnings[k].insert(0, "result: ");
 }
 
 }  // namespace lvcalib

@@ -24,8 +24,8 @@ void refuse_features(const SceneSolution& solved, const SceneResult* found,
   for (const NodeResidual& node : solved.nodes) {
     if (node.used || (found != nullptr && contains_id(found->edits.circles, node.id))) continue;
     bool measured = true;
-    std::string reason = formatted("misses the board's pose by %.1f mm, more than the gate",
-                                   1e3 * node.residual_m.norm());
+    Message reason = Message("misses the board's pose by %1 mm, more than the gate",
+                             formatted("%.1f", 1e3 * node.residual_m.norm()));
     if (found != nullptr && found->refinement) {
       for (const RefinedNode& refined : found->refinement->nodes) {
         if (refined.id != node.id || refined.valid) continue;
@@ -42,8 +42,8 @@ void refuse_features(const SceneSolution& solved, const SceneResult* found,
   for (std::size_t k = 0; found != nullptr && k < found->refused_corners.size(); ++k)
     tags.insert(found->refused_corners[k].feature_id);
   for (const int id : tags) {
-    out.push_back(
-        {solved.name, What::kTag, id, 0, "misses the board's pose by more than the gate", true});
+    out.push_back({solved.name, What::kTag, id, 0,
+                   Message("misses the board's pose by more than the gate"), true});
   }
 }
 
@@ -73,11 +73,12 @@ std::vector<Refusal> refusals(const CalibrationResult& result) {
         const CoveredPatch& patch = returns.covered[k];
         off_plane -= std::min(off_plane, patch.returns);
         out.push_back({solved.name, What::kPatch, static_cast<int>(k), patch.returns,
-                       "something stands before the board there or lies on it", false,
+                       Message("something stands before the board there or lies on it"), false,
                        patch.board_m});
       }
       if (off_plane > 0)
-        out.push_back({solved.name, What::kPoints, -1, off_plane, "off the board's plane"});
+        out.push_back(
+            {solved.name, What::kPoints, -1, off_plane, Message("off the board's plane")});
     }
     const auto found = std::find_if(result.scenes.begin(), result.scenes.end(),
                                     [&](const SceneResult& s) { return s.name == solved.name; });

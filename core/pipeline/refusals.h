@@ -24,7 +24,7 @@ struct Refusal {
   What what = What::kScene;
   int id = -1;
   std::size_t points = 0;  ///< How many, of kPoints and kPatch.
-  std::string reason;      ///< In words.
+  Message reason;          ///< In words.
   /// The user can insist on it (CalibrationRequest::insisted, SceneEdits).
   bool can_be_used = false;
   Eigen::AlignedBox2d board_m = {};  ///< Where on the board, of kPatch.

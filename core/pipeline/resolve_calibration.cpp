@@ -56,7 +56,7 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
     }
   }
   result.forward.reset();
-  result.forward_failure.clear();
+  result.forward_failure = {};
   result.extrinsic = nodes;
   result.covariance_total = nodes.camera_from_lidar.covariance;
   if (!forward) {
@@ -176,7 +176,7 @@ Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const T
 
 void reject(SceneResult& scene) {
   scene.rejected = true;
-  scene.reason = "rejected by the user";
+  scene.reason = Message("rejected by the user");
 }
 
 bool can_be_used(const SceneResult& scene, const Target& target) {
@@ -207,7 +207,8 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     error.where = result.dataset;
     for (const SceneResult& scene : result.scenes) {
       if (!scene.reason.empty()) {
-        error.message += "; scene " + scene.name + ": " + scene.reason;
+        error.message +=
+            Message::verbatim("; ") + Message("scene %1: %2", scene.name, scene.reason);
         break;
       }
     }

@@ -63,10 +63,10 @@ void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
     const double move_rad = rotation_distance_rad(all.transform, rest->transform);
     const QualityOptions& q = result.options.quality;
     if (!(chi > gate) || (move_m < q.tolerance_m && move_rad < q.tolerance_rad)) continue;
-    verdict.doubtful("without scene " + scene.name + " the extrinsic moves by " +
-                     formatted("%.1f mm and %.2f mrad, more than three of its standard deviations",
-                               1e3 * move_m, 1e3 * move_rad) +
-                     ": did something move while that scene was taken?");
+    verdict.doubtful(
+        Message("without scene %1 the extrinsic moves by %2 mm and %3 mrad, more than three of its "
+                "standard deviations: did something move while that scene was taken?",
+                scene.name, formatted("%.1f", 1e3 * move_m), formatted("%.2f", 1e3 * move_rad)));
   }
 }
 
@@ -239,9 +239,9 @@ void judge_bump(const CalibrationResult& result, Verdict& verdict) {
     const double move_rad = rotation_distance_rad(mean, end);
     if (move_m < q.tolerance_m && move_rad < q.tolerance_rad) return;
     verdict.doubtful(
-        formatted("the extrinsic moves steadily from scene to scene, by %.1f mm and "
-                  "%.2f mrad from the first to the last: does a mount give way?",
-                  1e3 * move_m, 1e3 * move_rad));
+        Message("the extrinsic moves steadily from scene to scene, by %1 mm and %2 mrad from the "
+                "first to the last: does a mount give way?",
+                formatted("%.1f", 1e3 * move_m), formatted("%.2f", 1e3 * move_rad)));
     return;
   }
   if (last == 0) return;
@@ -249,12 +249,11 @@ void judge_bump(const CalibrationResult& result, Verdict& verdict) {
   const bool one = last < n;  // A scene between others.
   std::vector<std::size_t> apart;
   std::vector<std::size_t> others;
-  std::string names[2];
+  std::vector<std::string> names[2];
   for (std::size_t k = 0; k < n; ++k) {
     const bool inside = k >= first && k < last;
     (inside ? apart : others).push_back(in_use[order[k]]);
-    std::string& list = names[inside ? 1 : 0];
-    list += (list.empty() ? "" : ", ") + name_of(order[k]);
+    names[inside ? 1 : 0].push_back(name_of(order[k]));
   }
   const auto before = subset(others);
   const auto after = subset(apart);
@@ -263,12 +262,13 @@ void judge_bump(const CalibrationResult& result, Verdict& verdict) {
       translation_distance_m(before->transform.inverse(), after->transform.inverse());
   const double move_rad = rotation_distance_rad(before->transform, after->transform);
   if (move_m < q.tolerance_m && move_rad < q.tolerance_rad) return;
-  verdict.doubtful(one ? "scene " + names[1] +
-                             " contradicts the others, which agree: it puts the LiDAR " +
-                             formatted("%.1f mm and %.2f mrad", 1e3 * move_m, 1e3 * move_rad) +
-                             " elsewhere; did the board or a sensor move while it was taken?"
-                       : describe_bump({names[0], before->transform}, {names[1], after->transform},
-                                       name_of(order[first - 1]), name_of(order[first])));
+  verdict.doubtful(
+      one ? Message("scene %1 contradicts the others, which agree: it puts the LiDAR %2 mm and %3 "
+                    "mrad elsewhere; did the board or a sensor move while it was taken?",
+                    name_of(order[first]), formatted("%.1f", 1e3 * move_m),
+                    formatted("%.2f", 1e3 * move_rad))
+          : describe_bump({names[0], before->transform}, {names[1], after->transform},
+                          name_of(order[first - 1]), name_of(order[first])));
 }
 
 void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdict& verdict) {
@@ -284,47 +284,54 @@ void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
     const bool matters = move_m > std::max(q.tolerance_m, q.tolerance_sigmas * sigma_m) ||
                          move_rad > std::max(q.tolerance_rad, q.tolerance_sigmas * sigma_rad);
     if (!fault.is_there() || !matters) continue;
-    const std::string moves = formatted("; with that the extrinsic moves by %.1f mm and %.2f mrad",
-                                        1e3 * move_m, 1e3 * move_rad);
+    const std::string move_mm = formatted("%.1f", 1e3 * move_m);
+    const std::string move_mrad = formatted("%.2f", 1e3 * move_rad);
     if (fault.kind == ScanFault::Kind::kLag) {
-      verdict.doubtful(
-          "the print lies displaced along the scan" +
-          formatted(", by %.1f ± %.1f µs of it", 1e6 * std::abs(fault.size), 1e6 * fault.sigma) +
-          moves +
-          ": intensity or angle is read too late; find the effect with "
-          "lvcalib discover");
+      verdict.doubtful(Message(
+          "the print lies displaced along the scan, by %1 µs of it; with that the extrinsic moves "
+          "by %2 mm and %3 mrad: intensity or angle is read too late; find the effect with lvcalib "
+          "discover",
+          formatted("%.1f ± %.1f", 1e6 * std::abs(fault.size), 1e6 * fault.sigma), move_mm,
+          move_mrad));
       continue;
     }
     if (fault.kind == ScanFault::Kind::kAngles) {
       verdict.doubtful(
-          "the LiDAR's angles do not fit the boards (scale, eccentric encoder or tilted axis)" +
-          moves + ": find the effect with lvcalib discover");
+          Message("the LiDAR's angles do not fit the boards (scale, eccentric encoder or tilted "
+                  "axis); with that the extrinsic moves by %1 mm and %2 mrad: find the effect with "
+                  "lvcalib discover",
+                  move_mm, move_mrad));
       continue;
     }
+    const std::string size = formatted("%.1f ± %.1f", 1e3 * fault.size, 1e3 * fault.sigma);
     if (fault.kind == ScanFault::Kind::kOrigin) {
-      verdict.doubtful("the LiDAR's beams start beside the origin of its frame" +
-                       formatted(", by %.1f ± %.1f mm", 1e3 * fault.size, 1e3 * fault.sigma) +
-                       moves + ": find the effect with lvcalib discover");
+      verdict.doubtful(
+          Message("the LiDAR's beams start beside the origin of its frame, by %1 mm; with that the "
+                  "extrinsic moves by %2 mm and %3 mrad: find the effect with lvcalib discover",
+                  size, move_mm, move_mrad));
       continue;
     }
-    std::string where = "in all scenes alike";
-    if (fault.scene && *fault.scene < in_use.size())
-      where = "in scene " + result.extrinsic.scenes[in_use[*fault.scene]].name;
-    verdict.doubtful("the board moves against the LiDAR while it scans, " + where +
-                     formatted(", by %.1f ± %.1f mm/s", 1e3 * fault.size, 1e3 * fault.sigma) +
-                     moves + "; let board and rig rest, or find the effect with lvcalib discover");
+    const bool one = fault.scene && *fault.scene < in_use.size();
+    verdict.doubtful(
+        one ? Message("the board moves against the LiDAR while it scans, in scene %1, by %2 mm/s; "
+                      "with that the extrinsic moves by %3 mm and %4 mrad; let board and rig rest, "
+                      "or find the effect with lvcalib discover",
+                      result.extrinsic.scenes[in_use[*fault.scene]].name, size, move_mm, move_mrad)
+            : Message("the board moves against the LiDAR while it scans, in all scenes alike, by "
+                      "%1 mm/s; with that the extrinsic moves by %2 mm and %3 mrad; let board and "
+                      "rig rest, or find the effect with lvcalib discover",
+                      size, move_mm, move_mrad));
   }
 }
 
 void judge_splits(const CalibrationResult& result, Verdict& verdict) {
   for (const SplitHalf& split : result.uncertainty.splits) {
     if (split.agrees()) continue;
-    verdict.doubtful(
-        "the halves of the scenes (" + split.name + ") differ by " +
-        formatted("%.1f mm and %.1f mrad, ", split.translation_mm, split.rotation_mrad) +
-        formatted("more than noise explains (χ² %.0f, at most %.0f): an effect is missing "
-                  "in the model, or one scene is off",
-                  split.chi_square, split.gate));
+    verdict.doubtful(Message(
+        "the halves of the scenes (%1) differ by %2 mm and %3 mrad, more than noise explains (χ² "
+        "%4, at most %5): an effect is missing in the model, or one scene is off",
+        split.name, formatted("%.1f", split.translation_mm), formatted("%.1f", split.rotation_mrad),
+        formatted("%.0f", split.chi_square), formatted("%.0f", split.gate)));
   }
 }
 
@@ -343,10 +350,10 @@ void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
   const double share = consensus.elsewhere / consensus.score;
   if (share < kMostOfIt) return;
   verdict.doubtful(
-      formatted("the clouds hold a second board with this print: another extrinsic has "
-                "%.0f %% of the evidence of this one",
-                100.0 * share) +
-      "; take one of the boards away, or give a rough extrinsic with --init");
+      Message("the clouds hold a second board with this print: another extrinsic has %1 % of the "
+              "evidence of this one; take one of the boards away, or give a rough extrinsic with "
+              "--init",
+              formatted("%.0f", 100.0 * share)));
 }
 
 // What localization states holds a systematic part besides its noise, so that nothing but another
@@ -359,14 +366,13 @@ void judge_place(const CalibrationResult& result, Verdict& verdict) {
   const Matrix6d spread = localized.covariance + solved.covariance;
   // One in ten thousand, as where scenes are compared.
   if (!(move.dot(spread.ldlt().solve(move)) > chi_square_gate(6, 1e-4))) return;
-  verdict.doubtful(
-      formatted(
-          "the joint solve puts the LiDAR %.0f mm and %.1f mrad from where the localized "
-          "boards put it",
-          1e3 * translation_distance_m(solved.transform.inverse(), localized.transform.inverse()),
-          1e3 * rotation_distance_rad(solved.transform, localized.transform)) +
-      ", more than both leave open: it may have locked onto another place of the print; add scenes "
-      "with the board turned differently");
+  verdict.doubtful(Message(
+      "the joint solve puts the LiDAR %1 mm and %2 mrad from where the localized boards put it, "
+      "more than both leave open: it may have locked onto another place of the print; add scenes "
+      "with the board turned differently",
+      formatted("%.0f", 1e3 * translation_distance_m(solved.transform.inverse(),
+                                                     localized.transform.inverse())),
+      formatted("%.1f", 1e3 * rotation_distance_rad(solved.transform, localized.transform))));
 }
 
 }  // namespace lvcalib

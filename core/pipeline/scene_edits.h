@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "base/message.h"
 #include "base/rigid3.h"
 #include "cloud/cloud.h"
 #include "detection/board_view.h"
@@ -32,7 +33,7 @@ struct SceneEdits {
 };
 
 /// Why something is left out that the user does not want.
-inline constexpr const char* kLeftOutByUser = "left out by the user";
+inline const Message kLeftOutByUser = Message("left out by the user");
 
 bool contains_id(const std::vector<int>& ids, int id);
 

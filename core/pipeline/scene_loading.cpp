@@ -81,13 +81,13 @@ class SceneLoader {
     if (view.error().kind == ErrorKind::kCancelled) return;
     Error error = view.error();
     if (error.where.empty()) error.where = files.image.string();
-    result_.scenes[s].reason = error.text();
+    result_.scenes[s].reason = error.sentence();
     // A size that contradicts the intrinsics spoils every scene alike.
     if (size_differs(*image)) {
       if (request_.unusable == UnusableScenes::kRefuse) failure_ = error;
       result_.scenes[s].unreadable = true;
     } else if (cache_) {
-      cache_->scene(files.name).seen.keep(key, {{}, error.text()});
+      cache_->scene(files.name).seen.keep(key, {{}, error.sentence()});
     }
   }
 
@@ -111,14 +111,14 @@ class SceneLoader {
     if (!cloud) return fail(s, cloud.error());
     if (cloud->size() == 0 && request_.crop_boxes.contains(files.name)) {
       const std::lock_guard lock(mutex_);
-      result_.scenes[s].reason = "the crop box holds no points";
+      result_.scenes[s].reason = Message("the crop box holds no points");
       return;
     }
     constexpr std::size_t kFewest = 10;  // A plane takes as many.
     if (cloud->size() < kFewest) {
       const std::lock_guard lock(mutex_);
-      result_.scenes[s].reason = "the board is not found in the cloud, which holds " +
-                                 std::to_string(cloud->size()) + " points only";
+      result_.scenes[s].reason =
+          Message("the board is not found in the cloud, which holds %1 points only", cloud->size());
       return;
     }
     start = Clock::now();
@@ -159,7 +159,7 @@ class SceneLoader {
     if (error.kind == ErrorKind::kCancelled) return;
     const std::lock_guard lock(mutex_);
     if (request_.unusable == UnusableScenes::kLeaveOut) {
-      result_.scenes[s].reason = error.text();
+      result_.scenes[s].reason = error.sentence();
       result_.scenes[s].unreadable = true;
       return;
     }
@@ -170,7 +170,8 @@ class SceneLoader {
     const std::lock_guard lock(mutex_);
     ++done_;
     const double tasks = 2.0 * static_cast<double>(dataset_.scenes.size());
-    context_.report(stage, 0.7 * static_cast<double>(done_) / tasks, dataset_.scenes[s].name);
+    context_.report(stage, 0.7 * static_cast<double>(done_) / tasks,
+                    Message::verbatim(dataset_.scenes[s].name));
   }
 
   const Dataset& dataset_;
@@ -245,9 +246,11 @@ Status load_extra_images(const Dataset& dataset, const CalibrationRequest& reque
   };
   for (std::size_t k = 0; k < images.size(); ++k) {
     BoardImage& image = images[k];
-    if (image.view && repeats(image, k)) image.reason = "it is there already, and counts once";
+    if (image.view && repeats(image, k))
+      image.reason = Message("it is there already, and counts once");
     if (!image.reason.empty())
-      result.warnings.push_back(extra_image_name(image.path) + ": " + image.reason + "; left out");
+      result.warnings.push_back(
+          Message("%1: %2; left out", extra_image_name(image.path), image.reason));
   }
   return Done{};
 }

@@ -52,7 +52,7 @@ Result<CalibrationResult> solve_again(const CalibrationRequest& request,
       reject(scene);
     } else if (usable) {
       scene.rejected = false;
-      scene.reason.clear();  // The solve says anew whether it contradicts the others.
+      scene.reason = {};  // The solve says anew whether it contradicts the others.
     }
   }
   return resolve_calibration(std::move(result), use, request.options, context);
@@ -90,8 +90,8 @@ Status add_scenes(Dataset& dataset, const std::vector<std::filesystem::path>& fo
     if (!scene) return scene.error();
     for (const SceneFiles& other : scenes) {
       if (other.name != scene->name) continue;
-      return Error::input("there is already a scene '" + scene->name + "' in this dataset",
-                          folder.string(), "rename the folder");
+      return Error::input(Message("there is already a scene '%1' in this dataset", scene->name),
+                          folder.string(), Message("rename the folder"));
     }
     scenes.push_back(std::move(*scene));
   }
@@ -119,7 +119,7 @@ CalibrationRequest request_of(const Dataset& dataset, const Decisions& decisions
 
 Result<CalibrationResult> preview_session(const Dataset& dataset, const Decisions& decisions,
                                           const SessionState& state, const RunContext& context) {
-  if (!state.whole) return Error::usage("there is no calibration yet");
+  if (!state.whole) return Error::usage(Message("there is no calibration yet"));
   return solve_again(request_of(dataset, decisions), *state.whole, context);
 }
 
@@ -129,12 +129,12 @@ SessionRun run_session(const Dataset& dataset, const Decisions& decisions, Sessi
   CalibrationRequest request = request_of(dataset, decisions);
   if (solving_is_enough(dataset, request, state)) {
     run.solved_only = true;
-    context.report("optimize", 0.5, "joint solve");
+    context.report("optimize", 0.5, Message("joint solve"));
     auto solved = solve_again(request, *state.whole);
     run.state = std::move(state);
     if (solved) {
       run.state.latest = std::make_shared<const CalibrationResult>(std::move(*solved));
-      context.report("optimize", 1.0, "done");
+      context.report("optimize", 1.0, Message("done"));
     } else {
       run.error = solved.error();
     }

@@ -38,7 +38,7 @@ struct Kept {
 /// What the image stage found: a view of the board or the reason why there is none.
 struct SeenBoard {
   std::optional<BoardView> view;
-  std::string reason;
+  Message reason;
 };
 
 /// What a LiDAR that does not find the board measures at the place where the image has it.

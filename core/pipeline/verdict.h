@@ -1,33 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <utility>
+#include <algorithm>
+#include <vector>
 
 #include "pipeline/calibration.h"
 
 namespace lvcalib {
 
-/// Collects the warnings of a result and keeps the worst verdict with its first reason.
+/// Collects the warnings of a result and keeps the worst verdict with its first reason; goes on
+/// with what the result says of itself already.
 class Verdict {
  public:
-  explicit Verdict(CalibrationResult& result) : result_(result) {
+  explicit Verdict(CalibrationResult& result) : result_(result) {}
+  /// Takes back what was said before: of a result that is good.
+  void start() {
+    std::erase_if(result_.warnings, [&](const Message& warning) {
+      const std::vector<Message>& before = result_.verdict_warnings;
+      return std::find(before.begin(), before.end(), warning) != before.end();
+    });
+    result_.verdict_warnings.clear();
     result_.quality = Quality::kGood;
-    result_.quality_reason.clear();
+    result_.quality_reason = {};
     result_.quality_reasons.clear();
   }
-  void note(std::string text) { result_.warnings.push_back(std::move(text)); }
-  void doubtful(std::string text) {
-    become(Quality::kDoubtful, text);
-    note(std::move(text));
+  void note(const Message& text) {
+    result_.warnings.push_back(Message("result: %1", text));
+    result_.verdict_warnings.push_back(result_.warnings.back());
   }
-  void failed(std::string text) {
+  void doubtful(const Message& text) {
+    become(Quality::kDoubtful, text);
+    note(text);
+  }
+  void failed(const Message& text) {
     become(Quality::kFailed, text);
-    note(std::move(text));
+    note(text);
   }
 
  private:
-  void become(Quality quality, const std::string& reason) {
+  void become(Quality quality, const Message& reason) {
     result_.quality_reasons.push_back(reason);
     if (result_.quality >= quality) return;
     result_.quality = quality;

@@ -172,9 +172,9 @@ bool decompress(Compression compression, std::string_view bytes, std::size_t lim
 Result<bool> decompress_file(const std::filesystem::path& from, const std::filesystem::path& to,
                              const RunContext& context) {
   const File in(std::fopen(from.c_str(), "rbe"));
-  if (!in) return Error::input("cannot be read: " + std::string(std::strerror(errno)), from);
+  if (!in) return Error::input(Message("cannot be read: %1", std::strerror(errno)), from);
   const File out(std::fopen(to.c_str(), "wbe"));
-  if (!out) return Error::output("cannot be written: " + std::string(std::strerror(errno)), to);
+  if (!out) return Error::output(Message("cannot be written: %1", std::strerror(errno)), to);
   std::vector<char> stored(kPiece);
   std::vector<char> plain(4 * kPiece);
   std::unique_ptr<Decoder> decoder;
@@ -183,24 +183,25 @@ Result<bool> decompress_file(const std::filesystem::path& from, const std::files
     if (context.stopped()) return Error::cancelled();
     std::string_view rest(stored.data(), got);
     if (!decoder) decoder = make_decoder(compression_by_content(rest));
-    if (!decoder) return Error::input("is neither an lz4 nor a zstd file", from);
+    if (!decoder) return Error::input(Message("is neither an lz4 nor a zstd file"), from);
     // What a decoder still holds comes out once the output was full, also without input.
     for (bool full = false; !rest.empty() || full;) {
       const Step step = decoder->step(rest, plain.data(), plain.size());
       rest.remove_prefix(step.used);
       end = step.end;
       if (std::fwrite(plain.data(), 1, step.made, out.get()) != step.made) {
-        return Error::output("cannot be written: " + std::string(std::strerror(errno)), to,
-                             "unpack the file first, or give TMPDIR a place with more room");
+        return Error::output(
+            Message("cannot be written: %1", std::strerror(errno)), to,
+            Message("unpack the file first, or give TMPDIR a place with more room"));
       }
       if (step.bad) return false;
       full = step.made == plain.size();
       if (step.used == 0 && step.made == 0) break;
     }
   }
-  if (std::ferror(in.get()) != 0) return Error::input("cannot be read to its end", from);
-  if (!decoder) return Error::input("is empty", from);
-  if (std::fflush(out.get()) != 0) return Error::output("cannot be written", to);
+  if (std::ferror(in.get()) != 0) return Error::input(Message("cannot be read to its end"), from);
+  if (!decoder) return Error::input(Message("is empty"), from);
+  if (std::fflush(out.get()) != 0) return Error::output(Message("cannot be written"), to);
   return end;
 }
 

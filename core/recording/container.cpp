@@ -38,8 +38,9 @@ class ChunkCursor : public MessageCursor {
       const ChunkMessage& found = earliest->messages[earliest->next++];
       if (found.time_ns < last_ns_ && !told_order_) {
         told_order_ = true;
-        warnings.push_back(container_.file().name() +
-                           ": the times of its messages go back; some are read out of order");
+        warnings.push_back(
+            Message("%1: the times of its messages go back; some are read out of order",
+                    container_.file().name()));
       }
       last_ns_ = std::max(last_ns_, found.time_ns);
       message = {found.topic, found.time_ns,
@@ -75,9 +76,9 @@ class ChunkCursor : public MessageCursor {
     std::vector<ChunkMessage> all;
     whole = container_.list_messages(entry.bytes, all) && whole;
     if (!whole) {
-      warnings.push_back(container_.file().name() + ": the chunk at byte " +
-                         std::to_string(chunk.offset) + " is damaged or cut off; " +
-                         std::to_string(all.size()) + " messages of it are read");
+      warnings.push_back(
+          Message("%1: the chunk at byte %2 is damaged or cut off; %3 messages of it are read",
+                  container_.file().name(), chunk.offset, all.size()));
     }
     for (const ChunkMessage& m : all) {
       if (wanted_[m.topic] != 0 && span_.contains(m.time_ns)) entry.messages.push_back(m);

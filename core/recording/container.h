@@ -19,7 +19,7 @@ class MessageCursor {
   virtual ~MessageCursor() = default;
   /// False at the end. Its data stay valid until the next call.
   virtual Result<bool> next(RecordedMessage& message) = 0;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// One file of a recording.
@@ -31,7 +31,7 @@ class Container {
                                                               const TimeSpan& span,
                                                               std::stop_token stop) const = 0;
   std::vector<Topic> topics;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 
   /// From its first to its last message.
   [[nodiscard]] TimeSpan span() const;
@@ -92,7 +92,9 @@ class ChunkedContainer : public Container {
 /// Errors: another version, nothing readable, a stop.
 Result<std::unique_ptr<Container>> open_ros1_bag(RandomFile file, const RunContext& context);
 Result<std::unique_ptr<Container>> open_mcap(RandomFile file, const RunContext& context);
+/// `name` stands for the file in messages; empty: its path.
 Result<std::unique_ptr<Container>> open_rosbag2_sqlite(const std::filesystem::path& path,
-                                                       const RunContext& context);
+                                                       const RunContext& context,
+                                                       std::string name = {});
 
 }  // namespace lvcalib

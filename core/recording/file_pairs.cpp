@@ -182,19 +182,19 @@ void name_unmatched(const Paths& images, const Paths& clouds, PairedFiles& out) 
     used.insert(pair.board_points);
   }
   std::size_t more = 0;
-  const auto tell = [&](const Paths& files, const char* what) {
+  const auto tell = [&](const Paths& files, const Message& what) {
     for (const fs::path& file : files) {
       if (used.contains(file)) continue;
       if (out.unmatched.size() < kMostNamed) {
-        out.unmatched.push_back(file.filename().string() + ": " + what);
+        out.unmatched.push_back({file.filename().string(), what});
       } else {
         ++more;
       }
     }
   };
-  tell(images, "no cloud belongs to it");
-  tell(clouds, "no image belongs to it");
-  if (more > 0) out.unmatched.push_back(std::to_string(more) + " more files without a partner");
+  tell(images, Message("no cloud belongs to it"));
+  tell(clouds, Message("no image belongs to it"));
+  if (more > 0) out.unmatched.push_back({{}, Message("%1 more files without a partner", more)});
 }
 
 // Width and height of an image file.
@@ -209,7 +209,7 @@ void take_camera(const Result<Camera>& camera, const fs::path& from, PairedFiles
     out.camera = *camera;
     out.camera_from = from.string();
   } else {
-    out.warnings.push_back(camera.error().text());
+    out.warnings.push_back(camera.error().sentence());
   }
 }
 
@@ -404,12 +404,12 @@ Result<PairedFiles> other_pairs(const PairOptions& options) {
   const Paths images = files_in(images_at, kImages);
   const Paths clouds = files_in(clouds_at, kClouds);
   if (images.empty()) {
-    return Error::input("holds no images; expected png, jpg, bmp or tiff files", images_at.string(),
-                        "give the folder that holds them");
+    return Error::input(Message("holds no images; expected png, jpg, bmp or tiff files"),
+                        images_at.string(), Message("give the folder that holds them"));
   }
   if (clouds.empty()) {
-    return Error::input("holds no clouds; expected pcd, ply or KITTI's bin files",
-                        clouds_at.string(), "give the folder that holds them");
+    return Error::input(Message("holds no clouds; expected pcd, ply or KITTI's bin files"),
+                        clouds_at.string(), Message("give the folder that holds them"));
   }
   PairedFiles out;
   if (options.rule != PairRule::kTime) {
@@ -429,10 +429,10 @@ Result<PairedFiles> other_pairs(const PairOptions& options) {
     const auto cloud_times = timed(clouds, 0.0);
     if (!image_times || !cloud_times) {
       if (options.rule == PairRule::kTime) {
-        return Error::input(
-            "the names of its files are no times: " + first_names(image_times ? clouds : images),
-            (image_times ? clouds_at : images_at).string(),
-            "expected seconds, ms, µs or ns: 1650000000.25.png");
+        return Error::input(Message("the names of its files are no times: %1",
+                                    first_names(image_times ? clouds : images)),
+                            (image_times ? clouds_at : images_at).string(),
+                            Message("expected seconds, ms, µs or ns: 1650000000.25.png"));
       }
     } else {
       out.layout = "files of the nearest time";
@@ -440,10 +440,11 @@ Result<PairedFiles> other_pairs(const PairOptions& options) {
     }
   }
   if (out.pairs.empty()) {
-    return Error::input("no image and cloud belong together: found " + first_names(images) +
-                            " and " + first_names(clouds),
-                        options.images.string(),
-                        "give both the same name, the same number, or their times as names");
+    return Error::input(
+        Message("no image and cloud belong together: found %1 and %2", first_names(images),
+                first_names(clouds)),
+        options.images.string(),
+        Message("give both the same name, the same number, or their times as names"));
   }
   name_unmatched(images, clouds, out);
   find_camera_file({options.images, images_at, images_at.parent_path()}, out);
@@ -451,6 +452,10 @@ Result<PairedFiles> other_pairs(const PairOptions& options) {
 }
 
 }  // namespace
+
+Message UnmatchedFile::sentence() const {
+  return name.empty() ? reason : Message("%1: %2", name, reason);
+}
 
 std::optional<double> time_of_name(const std::string& stem) {
   const std::size_t split = stem.find_first_of("._");
@@ -498,7 +503,8 @@ bool looks_like_file_pairs(const fs::path& folder) {
 Result<PairedFiles> find_pairs(const PairOptions& options) {
   for (const fs::path& folder : {options.images, options.clouds}) {
     if (!folder.empty() && !is_folder(folder))
-      return Error::input("is no folder", folder.string(), "give the folder that holds the files");
+      return Error::input(Message("is no folder"), folder.string(),
+                          Message("give the folder that holds the files"));
   }
   const bool known = options.clouds.empty() && options.rule == PairRule::kAuto;
   if (known) {

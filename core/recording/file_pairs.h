@@ -37,14 +37,21 @@ struct PairOptions {
   double image_time_offset_s = 0.0;  ///< Added to the times of images.
 };
 
+/// A file without a partner.
+struct UnmatchedFile {
+  std::string name;  ///< Empty: several that are not named.
+  Message reason;
+  /// Both in one sentence.
+  [[nodiscard]] Message sentence() const;
+};
+
 struct PairedFiles {
   std::string layout;  ///< "KITTI raw", "files of the same name"…
   std::vector<FilePair> pairs;
-  /// Files without a partner and why, in words; at most some dozens are named.
-  std::vector<std::string> unmatched;
-  std::optional<Camera> camera;  ///< Intrinsics that lie there.
-  std::string camera_from;       ///< Their file.
-  std::vector<std::string> warnings;
+  std::vector<UnmatchedFile> unmatched;  ///< At most some dozens are named.
+  std::optional<Camera> camera;          ///< Intrinsics that lie there.
+  std::string camera_from;               ///< Their file.
+  std::vector<Message> warnings;
 };
 
 /// Finds images and clouds that belong together in folders of others. Known layouts:

@@ -12,9 +12,10 @@ namespace {
 
 Status can_be_listed(const fs::path& folder) {
   std::error_code code;
-  if (!fs::is_directory(folder, code)) return Error::input("folder not found", folder.string());
+  if (!fs::is_directory(folder, code))
+    return Error::input(Message("folder not found"), folder.string());
   const fs::directory_iterator first(folder, code);
-  if (code) return Error::input("cannot be listed: " + code.message(), folder.string());
+  if (code) return Error::input(Message("cannot be listed: %1", code.message()), folder.string());
   return Done{};
 }
 
@@ -33,14 +34,8 @@ FolderLister pair_lister(PairOptions options) {
       return out;
     }
     out.pairs = files->pairs;
-    for (const std::string& line : files->unmatched) {
-      const std::size_t colon = line.find(": ");
-      if (colon == std::string::npos) {
-        out.incomplete.push_back({"", line});
-      } else {
-        out.incomplete.push_back({line.substr(0, colon), line.substr(colon + 2)});
-      }
-    }
+    for (const UnmatchedFile& file : files->unmatched)
+      out.incomplete.push_back({file.name, file.reason});
     return out;
   };
 }
@@ -72,16 +67,16 @@ Result<FolderLook> FolderWatch::look(const RunContext& context) {
     const auto before = last_.find(pair.name);
     if (!stamp.empty()) seen[pair.name] = stamp;
     if (stamp.empty() || before == last_.end() || before->second != stamp) {
-      out.pending.push_back({pair.name, "is still being written"});
+      out.pending.push_back({pair.name, Message("is still being written")});
       continue;
     }
-    const std::string complaint = pair_complaint(pair, context);
+    const Message complaint = pair_complaint(pair, context);
     if (context.stopped()) return Error::cancelled();
     // It may have grown on while it was read.
     if (stamp_of(pair) != stamp) {
-      out.pending.push_back({pair.name, "is still being written"});
+      out.pending.push_back({pair.name, Message("is still being written")});
     } else if (!complaint.empty()) {
-      out.pending.push_back({pair.name, "cannot be read yet: " + complaint});
+      out.pending.push_back({pair.name, Message("cannot be read yet: %1", complaint)});
     } else {
       known_.insert(pair.name);
       seen.erase(pair.name);

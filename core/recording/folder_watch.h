@@ -19,8 +19,8 @@ namespace lvcalib {
 
 /// Something in a watched folder that cannot be taken yet.
 struct PendingPair {
-  std::string name;    ///< Of the scene that is to become of it; empty: the folder as a whole.
-  std::string reason;  ///< In words.
+  std::string name;  ///< Of the scene that is to become of it; empty: the folder as a whole.
+  Message reason;    ///< In words.
 };
 
 /// What lies in a folder.

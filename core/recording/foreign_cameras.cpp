@@ -40,8 +40,7 @@ Result<Camera> camera_of_kitti(std::string_view text, const std::string& number,
                            std::size_t count) -> Result<std::vector<double>> {
     const auto found = lines.find(key);
     if (found != lines.end() && found->second.size() == count) return found->second;
-    return Error::input("expected " + std::to_string(count) + " numbers after '" + key + ":'",
-                        where);
+    return Error::input(Message("expected %1 numbers after '%2:'", count, key), where);
   };
   const auto size = numbers((rectified ? "S_rect_" : "S_") + number, 2);
   if (!size) return size.error();
@@ -68,9 +67,9 @@ Result<Camera> camera_of_kitti(std::string_view text, const std::string& number,
 Result<Camera> camera_of_calib_json(std::string_view text, int width_px, int height_px,
                                     const std::string& where) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  const auto bad = [&](const std::string& what) { return Error::input(what, where); };
+  const auto bad = [&](const Message& what) { return Error::input(what, where); };
   if (!json.is_object() || !json.contains("camera") || !json["camera"].is_object())
-    return bad("expected JSON with an object \"camera\"");
+    return bad(Message("expected JSON with an object \"camera\""));
   const auto& camera = json["camera"];
   const auto numbers = [&](const char* key) {
     std::vector<double> out;
@@ -87,14 +86,15 @@ Result<Camera> camera_of_calib_json(std::string_view text, int width_px, int hei
   if (model == "fisheye") {
     out.model = DistortionModel::kEquidistant;
   } else if (model != "plumb_bob") {
-    return bad("its camera model '" + model.substr(0, 40) +
-               "' has no counterpart here; expected plumb_bob or fisheye");
+    return bad(
+        Message("its camera model '%1' has no counterpart here; expected plumb_bob or fisheye",
+                model.substr(0, 40)));
   }
   const auto intrinsics = numbers("intrinsics");
   const auto distortion = numbers("distortion_coeffs");
-  if (intrinsics.size() != 4) return bad("\"intrinsics\" must hold fx, fy, cx, cy");
+  if (intrinsics.size() != 4) return bad(Message("\"intrinsics\" must hold fx, fy, cx, cy"));
   if (distortion.size() > static_cast<std::size_t>(out.distortion_count()))
-    return bad("\"distortion_coeffs\" holds more numbers than its model has");
+    return bad(Message("\"distortion_coeffs\" holds more numbers than its model has"));
   out.width_px = width_px;
   out.height_px = height_px;
   out.fx = intrinsics[0];

@@ -32,8 +32,8 @@ class SceneWriter {
       : recording_(recording), survey_(survey), options_(options), context_(context) {}
 
   /// Writes image and cloud of a stretch; its counts go to `out`, a reason to leave it is returned.
-  Result<std::string> write_scene(const StillStretch& stretch, const std::optional<Camera>& camera,
-                                  const fs::path& folder, ImportedStretch& out) const;
+  Result<Message> write_scene(const StillStretch& stretch, const std::optional<Camera>& camera,
+                              const fs::path& folder, ImportedStretch& out) const;
 
  private:
   [[nodiscard]] const Topic& image_topic() const {
@@ -102,13 +102,13 @@ Result<Cloud> SceneWriter::accumulate(const StillStretch& stretch, std::size_t& 
   return out;
 }
 
-Result<std::string> SceneWriter::write_scene(const StillStretch& stretch,
-                                             const std::optional<Camera>& camera,
-                                             const fs::path& folder, ImportedStretch& out) const {
+Result<Message> SceneWriter::write_scene(const StillStretch& stretch,
+                                         const std::optional<Camera>& camera,
+                                         const fs::path& folder, ImportedStretch& out) const {
   if (Status s = create_folder(folder); !s) return s.error();
   RunContext silent = context_;
   silent.progress = nullptr;
-  std::string reason = "its image cannot be read again";
+  Message reason = Message("its image cannot be read again");
   fs::path image_path;
   auto read = recording_.read({survey_.topics.image}, {out.image_ns, out.image_ns}, silent, "scene",
                               [&](const RecordedMessage& message) -> Result<bool> {
@@ -119,23 +119,23 @@ Result<std::string> SceneWriter::write_scene(const StillStretch& stretch,
                                 image_path = folder / ("image" + file->extension);
                                 if (Status s = write_file_atomically(image_path, file->bytes); !s)
                                   return s.error();
-                                reason.clear();
+                                reason = {};
                                 return false;
                               });
   if (!read) return read.error();
   if (!reason.empty()) return reason;
   if (camera && options_.board_check) {
     reason = options_.board_check(image_path, *camera);
-    if (!reason.empty()) reason = "the board is not found in its image: " + reason;
+    if (!reason.empty()) reason = Message("the board is not found in its image: %1", reason);
     if (!reason.empty() && options_.board_is_certain) return reason;
     out.board_complaint = reason;
   }
   const auto cloud = accumulate(stretch, out.sweeps);
   if (!cloud) return cloud.error();
-  if (cloud->size() == 0) return std::string("none of its sweeps can be read");
+  if (cloud->size() == 0) return Message("none of its sweeps can be read");
   out.points = cloud->size();
   if (Status s = write_pcd(folder / "cloud.pcd", *cloud); !s) return s.error();
-  return std::string{};
+  return Message();
 }
 
 std::string import_json(const Recording& recording, const ImportSummary& summary) {
@@ -157,14 +157,15 @@ std::string import_json(const Recording& recording, const ImportSummary& summary
     entry["taken"] = s.taken;
     entry["scene"] = nullptr;
     if (s.taken) entry["scene"] = s.scene;
-    entry["reason"] = s.reason;
+    entry["reason"] = s.reason.text();
     entry["images"] = s.images;
     entry["image_s"] = s.image_s;
     entry["sweeps"] = s.sweeps;
     entry["points"] = s.points;
     out["stretches"].push_back(entry);
   }
-  out["warnings"] = summary.warnings;
+  out["warnings"] = nlohmann::ordered_json::array();
+  for (const Message& warning : summary.warnings) out["warnings"].push_back(warning.text());
   return out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -172,15 +173,16 @@ Error nothing_usable(const Recording& recording, const ImportSummary& summary) {
   const std::string where = recording.path().string();
   if (summary.stretches.empty()) {
     return Error::input(
-        "rig and board never stand still: something moves in images or clouds all "
-        "the time",
-        where, "let everything rest for two seconds or more at each board pose");
+        Message(
+            "rig and board never stand still: something moves in images or clouds all the time"),
+        where, Message("let everything rest for two seconds or more at each board pose"));
   }
-  std::string why = formatted("none of its %.0f still stretches can be used",
-                              static_cast<double>(summary.stretches.size()));
   const ImportedStretch& first = summary.stretches.front();
-  why += formatted("; that from %.1f s to %.1f s: ", first.first_s, first.last_s) + first.reason;
-  return Error::input(why, where);
+  return Error::input(
+      Message("none of its %1 still stretches can be used; that from %2 s to %3 s: %4",
+              summary.stretches.size(), formatted("%.1f", first.first_s),
+              formatted("%.1f", first.last_s), first.reason),
+      where);
 }
 
 // Where some scenes show the guessed board it was guessed well, and the others do not show it.
@@ -188,8 +190,8 @@ void judge_guessed_board(const fs::path& folder, ImportSummary& out) {
   const auto shows = [](const ImportedStretch& s) { return s.taken && s.board_complaint.empty(); };
   if (std::none_of(out.stretches.begin(), out.stretches.end(), shows)) {
     out.warnings.push_back(
-        "no scene shows the default board, which target.yaml describes; put the description of "
-        "yours in its place, or import with --target");
+        Message("no scene shows the default board, which target.yaml describes; put the "
+                "description of yours in its place, or import with --target"));
     return;
   }
   for (ImportedStretch& s : out.stretches) {
@@ -231,7 +233,7 @@ Status write_scenes(const Recording& recording, const RecordingSurvey& survey,
       if (context.stopped()) return Error::cancelled();
       entry.scene = scene_name(scenes + 1);
       context.report("write", static_cast<double>(i) / static_cast<double>(stretches->size()),
-                     "scene " + entry.scene);
+                     Message("scene %1", entry.scene));
       const fs::path place = folder / "scenes" / entry.scene;
       const auto reason = writer.write_scene((*stretches)[i], camera, place, entry);
       if (!reason) return reason.error();

@@ -47,8 +47,7 @@ TopicCandidates list_candidates(const Recording& recording);
 /// What to know about a recording before it is imported: missing or unreadable topics, clouds
 /// without intensity, clocks that differ, low rates, sensors that never ran together. Reads the
 /// first message of the topics concerned.
-Result<std::vector<std::string>> check_recording(const Recording& recording,
-                                                 const RunContext& context);
+Result<std::vector<Message>> check_recording(const Recording& recording, const RunContext& context);
 
 /// Edges that a still stretch is given by hand. Times in s from the recording's first message.
 struct MovedEdges {
@@ -73,7 +72,7 @@ struct ImportOptions {
   std::optional<Camera> camera;  ///< Instead of CameraInfo.
   /// Says why the board cannot be seen in an image (a file of the dataset); empty: it can. Not
   /// asked without intrinsics.
-  std::function<std::string(const std::filesystem::path& image, const Camera& camera)> board_check;
+  std::function<Message(const std::filesystem::path& image, const Camera& camera)> board_check;
   /// False if the board is a guess: stretches without it are left only if others show it.
   bool board_is_certain = true;
   bool force = false;  ///< Replace an earlier import.
@@ -89,13 +88,13 @@ struct ImportedStretch {
   double found_last_s = 0.0;
   bool usable = false;  ///< Is a scene if its time is asked for, unless its files say otherwise.
   std::string scene;    ///< Name of the scene, if taken.
-  std::string reason;   ///< In words, why it was taken or left.
+  Message reason;       ///< In words, why it was taken or left.
   double image_s = 0.0;
   std::int64_t image_ns = 0;  ///< The image's time in the recording.
   std::size_t images = 0;     ///< To choose from.
   std::size_t sweeps = 0;
   std::size_t points = 0;
-  std::string board_complaint;  ///< Why a scene that was taken does not show the guessed board.
+  Message board_complaint;  ///< Why a scene that was taken does not show the guessed board.
 };
 
 struct ImportSummary {
@@ -103,7 +102,7 @@ struct ImportSummary {
   double length_s = 0.0;
   bool has_camera = false;                 ///< The dataset has a camera.yaml.
   std::vector<ImportedStretch> stretches;  ///< In the order of time.
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
   [[nodiscard]] std::size_t scene_count() const;
 };
 

@@ -82,9 +82,10 @@ class McapFile : public ChunkedContainer {
     topic_of_.clear();
     types_.clear();
     if (!ended) {
-      warnings.push_back(file_.name() +
-                         ": has no end (its recording was not ended in good order, or it is cut "
-                         "off); read through instead, as far as whole messages go");
+      warnings.push_back(
+          Message("%1: has no end (its recording was not ended in good order, or it is cut off); "
+                  "read through instead, as far as whole messages go",
+                  file_.name()));
     }
     return scan(context);
   }
@@ -157,7 +158,7 @@ class McapFile : public ChunkedContainer {
       if (context.stopped()) return false;
       if (i % 256 == 0) {
         context.report("open", static_cast<double>(i) / static_cast<double>(chunk_indexes.size()),
-                       "reading the index");
+                       Message("reading the index"));
       }
       if (!read_chunk_index(chunk_indexes[i])) return false;
     }
@@ -242,11 +243,12 @@ class McapFile : public ChunkedContainer {
     const ChunkHeader header = read_chunk_header(reader);
     const auto compression = compression_by_name(header.compression);
     if (reader.failed() || !compression) {
-      warnings.push_back(file_.name() + ": the chunk at byte " + std::to_string(at) +
-                         (reader.failed()
-                              ? " is damaged"
-                              : " is packed as '" + std::string(header.compression.substr(0, 40)) +
-                                    "', which is not known; expected lz4 or zstd"));
+      warnings.push_back(
+          reader.failed()
+              ? Message("%1: the chunk at byte %2 is damaged", file_.name(), at)
+              : Message("%1: the chunk at byte %2 is packed as '%3', which is not known; expected "
+                        "lz4 or zstd",
+                        file_.name(), at, header.compression.substr(0, 40)));
       return;
     }
     const std::uint64_t room = size - std::min<std::uint64_t>(size, reader.position());
@@ -272,15 +274,15 @@ class McapFile : public ChunkedContainer {
     while (at < file_.size()) {
       if (context.stopped()) return Error::cancelled();
       context.report("open", static_cast<double>(at) / static_cast<double>(file_.size()),
-                     "reading through the file");
+                     Message("reading through the file"));
       file_.read(at, 9, head);
       ByteReader reader(head);
       const auto opcode = reader.number<std::uint8_t>();
       const auto size = reader.number<std::uint64_t>();
       if (reader.failed() || opcode == 0 || size > file_.size() - at - 9) {
         end_bare(bare, at);
-        warnings.push_back(file_.name() + ": is damaged or cut off within the record at byte " +
-                           std::to_string(at) + " of " + std::to_string(file_.size()));
+        warnings.push_back(Message("%1: is damaged or cut off within the record at byte %2 of %3",
+                                   file_.name(), at, file_.size()));
         if (!reader.failed() && opcode == kMcapChunk) scan_chunk(at + 9, file_.size() - at - 9);
         break;
       }

@@ -27,18 +27,18 @@ class MessageReader {
   static Result<MessageReader> begin(const Topic& topic, std::string_view data) {
     if (topic.encoding == "ros1") return MessageReader(ByteReader(data), false);
     if (topic.encoding != "cdr") {
-      return Error::input("messages are serialized as '" + topic.encoding.substr(0, 40) +
-                              "'; ROS 1 and CDR are read",
+      return Error::input(Message("messages are serialized as '%1'; ROS 1 and CDR are read",
+                                  topic.encoding.substr(0, 40)),
                           topic.name);
     }
-    if (data.size() < 4) return Error::input("a message is empty", topic.name);
+    if (data.size() < 4) return Error::input(Message("a message is empty"), topic.name);
     // 0 and 1: plain CDR, big and little endian; 6 and 7: its second version, which aligns to 4.
     const auto kind = static_cast<unsigned char>(data[1]);
     if (data[0] != 0 || (kind != 0 && kind != 1 && kind != 6 && kind != 7)) {
-      return Error::input("a message is not CDR: it begins with " +
-                              std::to_string(static_cast<unsigned char>(data[0])) + " " +
-                              std::to_string(kind) + ", expected 0 and 0 or 1",
-                          topic.name);
+      return Error::input(
+          Message("a message is not CDR: it begins with %1 %2, expected 0 and 0 or 1",
+                  static_cast<unsigned char>(data[0]), kind),
+          topic.name);
     }
     ByteReader reader(data, (kind & 1U) == 0);
     reader.take(4);
@@ -84,7 +84,8 @@ class MessageReader {
 };
 
 Error cut_off(const Topic& topic) {
-  return Error::input("a message of type " + topic.type + " ends before its data do", topic.name);
+  return Error::input(Message("a message of type %1 ends before its data do", topic.type),
+                      topic.name);
 }
 
 // What sensor_msgs/PointField calls its types.
@@ -141,15 +142,14 @@ Result<BlockLayout> layout_of(const PointFields& fields, std::uint32_t point_ste
     const auto field = static_cast<std::size_t>((*roles)[role]);
     const auto type = field_type(fields.types[field]);
     if (!type) {
-      return Error::input("field '" + fields.names[field] + "' has the unknown type " +
-                              std::to_string(fields.types[field]) + "; expected 1 to 8",
+      return Error::input(Message("field '%1' has the unknown type %2; expected 1 to 8",
+                                  fields.names[field], fields.types[field]),
                           topic.name);
     }
     if (point_step < scalar_size(*type) ||
         fields.offsets[field] > point_step - scalar_size(*type)) {
-      return Error::input("field '" + fields.names[field] + "' lies outside of a point: offset " +
-                              std::to_string(fields.offsets[field]) + " in " +
-                              std::to_string(point_step) + " bytes",
+      return Error::input(Message("field '%1' lies outside of a point: offset %2 in %3 bytes",
+                                  fields.names[field], fields.offsets[field], point_step),
                           topic.name);
     }
     layout.fields[role] = FieldLayout{*type, fields.offsets[field], point_step};
@@ -176,9 +176,8 @@ Result<CloudMessage> decode_point_cloud2(const Topic& topic, MessageReader reade
   if (height > 0 && width > 0 &&
       (row > data.size() ||
        (height - 1) > (data.size() - row) / std::max<std::uint64_t>(stride, 1))) {
-    return Error::input("a cloud claims " + std::to_string(width) + " × " + std::to_string(height) +
-                            " points of " + std::to_string(point_step) + " bytes and holds " +
-                            std::to_string(data.size()) + " bytes",
+    return Error::input(Message("a cloud claims %1 × %2 points of %3 bytes and holds %4 bytes",
+                                width, height, point_step, data.size()),
                         topic.name);
   }
   const auto time = layout->fields[kTime];
@@ -251,18 +250,16 @@ Result<ImageMessage> decode_raw_image(const Topic& topic, MessageReader reader) 
   if (reader.bytes.failed()) return cut_off(topic);
   const auto bytes = pixel_bytes(out.encoding);
   if (!bytes) {
-    return Error::input("images have the encoding '" + out.encoding.substr(0, 40) +
-                            "'; read are mono, rgb, bgr (8 and 16 bit), rgba8, bgra8, bayer and "
-                            "yuv422",
+    return Error::input(Message("images have the encoding '%1'; read are mono, rgb, bgr (8 and 16 "
+                                "bit), rgba8, bgra8, bayer and yuv422",
+                                out.encoding.substr(0, 40)),
                         topic.name);
   }
   const std::uint64_t row = std::uint64_t{width} * static_cast<std::uint64_t>(*bytes);
   if (width == 0 || height == 0 || width > kMostImagePixels / height || out.step < row ||
       row > out.data.size() || (height - 1) > (out.data.size() - row) / out.step) {
-    return Error::input("an image claims " + std::to_string(width) + " × " +
-                            std::to_string(height) + " pixels (" + out.encoding + ", step " +
-                            std::to_string(out.step) + ") and holds " +
-                            std::to_string(out.data.size()) + " bytes",
+    return Error::input(Message("an image claims %1 × %2 pixels (%3, step %4) and holds %5 bytes",
+                                width, height, out.encoding, out.step, out.data.size()),
                         topic.name);
   }
   out.width_px = static_cast<int>(width);
@@ -288,16 +285,18 @@ Result<ImageMessage> decode_compressed_image(const Topic& topic, MessageReader r
   out.encoding = picture_format(out.data);
   const auto header = read_image_header(out.data);
   if (out.encoding.empty() || !header) {
-    return Error::input("a compressed image (format '" + stated.substr(0, 60) + "') " +
-                            (out.encoding.empty() ? "is neither jpeg nor png"
-                                                  : "is damaged: " + header.error().message),
+    return Error::input(out.encoding.empty()
+                            ? Message("a compressed image (format '%1') is neither jpeg nor png",
+                                      stated.substr(0, 60))
+                            : Message("a compressed image (format '%1') is damaged: %2",
+                                      stated.substr(0, 60), header.error().message),
                         topic.name);
   }
   if (header->width_px < 1 || header->height_px < 1 ||
       header->width_px > kMostImagePixels / header->height_px) {
-    return Error::input("a compressed image claims " + std::to_string(header->width_px) + " × " +
-                            std::to_string(header->height_px) + " pixels",
-                        topic.name);
+    return Error::input(
+        Message("a compressed image claims %1 × %2 pixels", header->width_px, header->height_px),
+        topic.name);
   }
   out.width_px = static_cast<int>(header->width_px);
   out.height_px = static_cast<int>(header->height_px);
@@ -343,28 +342,26 @@ Status set_distortion(const CameraFields& fields, const Topic& topic, CameraInfo
   } else if (fields.model == "equidistant" || fields.model == "fisheye") {
     camera.model = DistortionModel::kEquidistant;
   } else {
-    return Error::input("distortion model '" + fields.model.substr(0, 60) +
-                            "' is not known; read are plumb_bob, rational_polynomial and "
-                            "equidistant",
-                        topic.name, "give intrinsics with --camera FILE");
+    return Error::input(Message("distortion model '%1' is not known; read are plumb_bob, "
+                                "rational_polynomial and equidistant",
+                                fields.model.substr(0, 60)),
+                        topic.name, Message("give intrinsics with --camera FILE"));
   }
   const auto count = static_cast<std::size_t>(camera.distortion_count());
   for (std::size_t i = 0; i < fields.d.size(); ++i) {
     if (i < count) {
       camera.distortion[static_cast<Eigen::Index>(i)] = fields.d[i];
     } else if (fields.d[i] != 0.0) {
-      return Error::input("distortion model '" + fields.model.substr(0, 60) + "' has " +
-                              std::to_string(count) + " coefficients, found " +
-                              std::to_string(fields.d.size()),
-                          topic.name, "give intrinsics with --camera FILE");
+      return Error::input(Message("distortion model '%1' has %2 coefficients, found %3",
+                                  fields.model.substr(0, 60), count, fields.d.size()),
+                          topic.name, Message("give intrinsics with --camera FILE"));
     }
   }
   const bool short_form = camera.model == DistortionModel::kPlumbBob && fields.d.size() == 4;
   if (fields.d.size() < count && !fields.d.empty() && !short_form) {
-    return Error::input("distortion model '" + fields.model.substr(0, 60) + "' has " +
-                            std::to_string(count) + " coefficients, found " +
-                            std::to_string(fields.d.size()),
-                        topic.name, "give intrinsics with --camera FILE");
+    return Error::input(Message("distortion model '%1' has %2 coefficients, found %3",
+                                fields.model.substr(0, 60), count, fields.d.size()),
+                        topic.name, Message("give intrinsics with --camera FILE"));
   }
   return Done{};
 }
@@ -459,7 +456,7 @@ Result<CameraInfoMessage> decode_camera_info(const Topic& topic, std::string_vie
   constexpr std::uint32_t most = 1U << 20U;
   for (const std::uint32_t n : {fields.width, fields.height, fields.roi_width, fields.roi_height,
                                 fields.roi_x, fields.roi_y, fields.binning_x, fields.binning_y}) {
-    if (n > most) return Error::input("the camera's size is absurd", topic.name);
+    if (n > most) return Error::input(Message("the camera's size is absurd"), topic.name);
   }
   Camera& camera = out.camera;
   camera.name = out.frame;
@@ -469,8 +466,8 @@ Result<CameraInfoMessage> decode_camera_info(const Topic& topic, std::string_vie
   const std::vector<double>& m = rectified ? fields.p : fields.k;
   const std::size_t row = rectified ? 4 : 3;
   if (m[0] == 0.0) {
-    return Error::input("the camera is not calibrated: fx is 0", topic.name,
-                        "give intrinsics with --camera FILE");
+    return Error::input(Message("the camera is not calibrated: fx is 0"), topic.name,
+                        Message("give intrinsics with --camera FILE"));
   }
   camera.fx = m[0];
   camera.fy = m[row + 1];
@@ -483,7 +480,7 @@ Result<CameraInfoMessage> decode_camera_info(const Topic& topic, std::string_vie
   if (Status s = check(camera); !s) {
     Error error = s.error();
     error.where = topic.name;
-    error.hint = "give intrinsics with --camera FILE";
+    error.hint = Message("give intrinsics with --camera FILE");
     return error;
   }
   return out;

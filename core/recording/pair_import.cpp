@@ -47,11 +47,12 @@ Result<Cloud> cloud_of_recording(const fs::path& path, const RunContext& context
   if (!recording) return recording.error();
   const auto candidates = list_candidates(*recording);
   if (candidates.clouds.empty())
-    return Error::input("holds no clouds", path.string(), "expected PointCloud2 or CustomMsg");
+    return Error::input(Message("holds no clouds"), path.string(),
+                        Message("expected PointCloud2 or CustomMsg"));
   const std::size_t index = candidates.clouds.front();
   const Topic& topic = recording->topics()[index];
   Cloud out;
-  std::string complaint;
+  Message complaint;
   std::int64_t first_ns = 0;
   const auto read = recording->read(
       {index}, {}, silent, "scene", [&](const RecordedMessage& message) -> Result<bool> {
@@ -82,9 +83,10 @@ Result<Cloud> cloud_of_recording(const fs::path& path, const RunContext& context
       });
   if (!read) return read.error();
   if (out.points_m.empty()) {
-    return Error::input(
-        "none of its clouds can be read" + (complaint.empty() ? "" : ": " + complaint),
-        path.string());
+    return Error::input(complaint.empty()
+                            ? Message("none of its clouds can be read")
+                            : Message("none of its clouds can be read: %1", complaint),
+                        path.string());
   }
   return out;
 }
@@ -92,7 +94,7 @@ Result<Cloud> cloud_of_recording(const fs::path& path, const RunContext& context
 Status copy_whole(const fs::path& from, const fs::path& to) {
   std::error_code code;
   fs::copy_file(from, to, code);
-  if (code) return Error::output("cannot be written: " + code.message(), to.string());
+  if (code) return Error::output(Message("cannot be written: %1", code.message()), to.string());
   return Done{};
 }
 
@@ -109,16 +111,15 @@ Result<std::size_t> write_cloud(const fs::path& from, const fs::path& folder,
 }
 
 // Why the image cannot be used; empty: it can.
-std::string image_complaint(const fs::path& image, const std::optional<Camera>& camera) {
+Message image_complaint(const fs::path& image, const std::optional<Camera>& camera) {
   const auto bytes = read_text_file(image, kMostImageBytes);
   if (!bytes) return bytes.error().message;
   const auto header = read_image_header(*bytes);
   if (!header) return header.error().message;
   if (!camera || (header->width_px == camera->width_px && header->height_px == camera->height_px))
     return {};
-  return "its image has " + std::to_string(header->width_px) + " × " +
-         std::to_string(header->height_px) + " px, the camera's have " +
-         std::to_string(camera->width_px) + " × " + std::to_string(camera->height_px);
+  return Message("its image has %1 × %2 px, the camera's have %3 × %4", header->width_px,
+                 header->height_px, camera->width_px, camera->height_px);
 }
 
 // Writes the scene of a pair. A reason to leave it goes to `out`; an error ends the import.
@@ -130,10 +131,10 @@ Status write_scene(const PairImportOptions& options, const std::optional<Camera>
   const fs::path image = folder / ("image" + lower_extension(out.files.image));
   if (Status s = copy_whole(out.files.image, image); !s) return s;
   if (camera && options.board_check) {
-    const std::string complaint = options.board_check(image, *camera);
+    const Message complaint = options.board_check(image, *camera);
     if (context.stopped()) return Error::cancelled();
     if (!complaint.empty())
-      out.board_complaint = "the board is not found in its image: " + complaint;
+      out.board_complaint = Message("the board is not found in its image: %1", complaint);
     if (!complaint.empty() && options.board_is_certain) {
       out.reason = out.board_complaint;
       return Done{};
@@ -161,8 +162,8 @@ void judge_guessed_board(const fs::path& folder, PairImportSummary& out) {
   const auto shows = [](const ImportedPair& p) { return p.taken && p.board_complaint.empty(); };
   if (std::none_of(out.pairs.begin(), out.pairs.end(), shows)) {
     out.warnings.push_back(
-        "no scene shows the default board, which target.yaml describes; put the description of "
-        "yours in its place, or import with --target");
+        Message("no scene shows the default board, which target.yaml describes; put the "
+                "description of yours in its place, or import with --target"));
     return;
   }
   for (ImportedPair& pair : out.pairs) {
@@ -182,7 +183,7 @@ nlohmann::ordered_json pair_json(const ImportedPair& pair) {
   entry["apart_s"] = nullptr;
   if (pair.files.apart_s) entry["apart_s"] = *pair.files.apart_s;
   entry["taken"] = pair.taken;
-  entry["reason"] = pair.reason;
+  entry["reason"] = pair.reason.text();
   entry["points"] = pair.points;
   return entry;
 }
@@ -198,8 +199,11 @@ std::string import_json(const PairedFiles& files, const PairImportSummary& summa
   if (!files.camera_from.empty()) out["camera_from"] = files.camera_from;
   out["pairs"] = nlohmann::ordered_json::array();
   for (const ImportedPair& pair : summary.pairs) out["pairs"].push_back(pair_json(pair));
-  out["unmatched"] = files.unmatched;
-  out["warnings"] = summary.warnings;
+  out["unmatched"] = nlohmann::ordered_json::array();
+  for (const UnmatchedFile& file : files.unmatched)
+    out["unmatched"].push_back(file.sentence().text());
+  out["warnings"] = nlohmann::ordered_json::array();
+  for (const Message& warning : summary.warnings) out["warnings"].push_back(warning.text());
   return text_of(out);
 }
 
@@ -213,7 +217,7 @@ Status tell_import(const fs::path& dataset, PairImportSummary& summary) {
   auto json = text ? nlohmann::ordered_json::parse(*text, nullptr, false)
                    : nlohmann::ordered_json(nlohmann::ordered_json::value_t::discarded);
   if (!json.is_object() || !json["pairs"].is_array()) {
-    summary.warnings.push_back(path.string() + ": cannot be read, and stays as it is");
+    summary.warnings.push_back(Message("%1: cannot be read, and stays as it is", path.string()));
     return Done{};
   }
   for (const ImportedPair& pair : summary.pairs) json["pairs"].push_back(pair_json(pair));
@@ -264,12 +268,12 @@ Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImpor
   out.warnings = files.warnings;
   if (!camera)
     out.warnings.push_back(
-        "no intrinsics lie with the files; put a camera.yaml into the dataset before it is "
-        "calibrated");
+        Message("no intrinsics lie with the files; put a camera.yaml into the dataset before it is "
+                "calibrated"));
   for (std::size_t i = 0; i < files.pairs.size(); ++i) {
     if (context.stopped()) return Error::cancelled();
     context.report("write", static_cast<double>(i) / static_cast<double>(files.pairs.size()),
-                   "scene " + files.pairs[i].name);
+                   Message("scene %1", files.pairs[i].name));
     ImportedPair pair;
     pair.files = files.pairs[i];
     const fs::path place = folder->path() / "scenes" / pair.files.name;
@@ -281,11 +285,12 @@ Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImpor
     out.pairs.push_back(std::move(pair));
   }
   if (out.scene_count() == 0) {
-    const ImportedPair* first = out.pairs.empty() ? nullptr : &out.pairs.front();
-    return Error::input(
-        "none of its " + std::to_string(out.pairs.size()) + " pairs can be used" +
-            (first == nullptr ? "" : "; " + first->files.name + ": " + first->reason),
-        files.pairs.empty() ? "" : files.pairs.front().image.parent_path().string());
+    if (out.pairs.empty())
+      return Error::input(Message("none of its %1 pairs can be used", out.pairs.size()));
+    const ImportedPair& first = out.pairs.front();
+    return Error::input(Message("none of its %1 pairs can be used; %2: %3", out.pairs.size(),
+                                first.files.name, first.reason),
+                        first.files.image.parent_path().string());
   }
   if (camera && options.board_check && !options.board_is_certain)
     judge_guessed_board(folder->path(), out);
@@ -305,19 +310,20 @@ Result<PairImportSummary> add_pairs(const std::vector<FilePair>& pairs,
                                     const RunContext& context) {
   const fs::path scenes = dataset / "scenes";
   std::error_code code;
-  if (!fs::is_directory(dataset, code)) return Error::input("folder not found", dataset.string());
+  if (!fs::is_directory(dataset, code))
+    return Error::input(Message("folder not found"), dataset.string());
   if (Status s = create_folder(scenes); !s) return s.error();
   PairImportSummary out;
   out.has_camera = options.camera.has_value();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (context.stopped()) return Error::cancelled();
     context.report("write", static_cast<double>(i) / static_cast<double>(pairs.size()),
-                   "scene " + pairs[i].name);
+                   Message("scene %1", pairs[i].name));
     ImportedPair pair;
     pair.files = pairs[i];
     const fs::path place = scenes / pair.files.name;
     if (fs::exists(fs::symlink_status(place, code))) {
-      pair.reason = "there is already a scene of this name";
+      pair.reason = Message("there is already a scene of this name");
       out.pairs.push_back(std::move(pair));
       continue;
     }
@@ -326,7 +332,8 @@ Result<PairImportSummary> add_pairs(const std::vector<FilePair>& pairs,
       return s.error();
     if (pair.taken) {
       fs::rename(hidden.path(), place, code);
-      if (code) return Error::output("cannot be put in place: " + code.message(), place.string());
+      if (code)
+        return Error::output(Message("cannot be put in place: %1", code.message()), place.string());
     }
     out.pairs.push_back(std::move(pair));
   }
@@ -334,11 +341,11 @@ Result<PairImportSummary> add_pairs(const std::vector<FilePair>& pairs,
   return out;
 }
 
-std::string pair_complaint(const FilePair& pair, const RunContext& context) {
-  std::string out = image_complaint(pair.image, std::nullopt);
+Message pair_complaint(const FilePair& pair, const RunContext& context) {
+  Message out = image_complaint(pair.image, std::nullopt);
   if (!out.empty()) return out;
   const auto cloud = read_pair_cloud(pair.cloud, context);
-  return cloud ? std::string() : cloud.error().message;
+  return cloud ? Message() : cloud.error().message;
 }
 
 }  // namespace lvcalib

@@ -21,7 +21,7 @@ struct PairImportOptions {
   std::string target_yaml;       ///< Content of the dataset's target.yaml.
   std::optional<Camera> camera;  ///< Instead of intrinsics that lie with the files.
   /// Says why the board cannot be seen in an image; empty: it can. Not asked without intrinsics.
-  std::function<std::string(const std::filesystem::path& image, const Camera& camera)> board_check;
+  std::function<Message(const std::filesystem::path& image, const Camera& camera)> board_check;
   /// False if the board is a guess: pairs without it are left only if others show it.
   bool board_is_certain = true;
   bool force = false;  ///< Replace an earlier import.
@@ -31,16 +31,16 @@ struct PairImportOptions {
 struct ImportedPair {
   FilePair files;
   bool taken = false;
-  std::string reason;  ///< In words, why it was left; empty if it was taken.
+  Message reason;  ///< In words, why it was left; empty if it was taken.
   std::size_t points = 0;
-  std::string board_complaint;  ///< Why a scene that was taken does not show the guessed board.
+  Message board_complaint;  ///< Why a scene that was taken does not show the guessed board.
 };
 
 struct PairImportSummary {
   std::string layout;
   bool has_camera = false;  ///< The dataset has a camera.yaml.
   std::vector<ImportedPair> pairs;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
   [[nodiscard]] std::size_t scene_count() const;
 };
 
@@ -67,6 +67,6 @@ Result<PairImportSummary> add_pairs(const std::vector<FilePair>& pairs,
 
 /// Why image or cloud of a pair cannot be read (another format, truncated, damaged); empty if both
 /// can.
-std::string pair_complaint(const FilePair& pair, const RunContext& context);
+Message pair_complaint(const FilePair& pair, const RunContext& context);
 
 }  // namespace lvcalib

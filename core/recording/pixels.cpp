@@ -54,7 +54,7 @@ Conversion conversion_of(const std::string& encoding) {
 }
 
 Error damaged_image(const std::string& where) {
-  return Error::input("an image cannot be decoded: its data are damaged", where);
+  return Error::input(Message("an image cannot be decoded: its data are damaged"), where);
 }
 
 // Blue first, as OpenCV has colours; grey without alpha.

@@ -12,21 +12,22 @@
 
 namespace lvcalib {
 
-Result<RandomFile> RandomFile::open(const std::filesystem::path& path) {
+Result<RandomFile> RandomFile::open(const std::filesystem::path& path, std::string name) {
+  if (name.empty()) name = path.string();
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
-  if (!std::filesystem::exists(status)) return Error::input("file not found", path.string());
+  if (!std::filesystem::exists(status)) return Error::input(Message("file not found"), name);
   if (!std::filesystem::is_regular_file(status)) {
-    return Error::input("not a regular file", path.string());
+    return Error::input(Message("not a regular file"), name);
   }
   RandomFile out;
-  out.name_ = path.string();
   out.file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (out.file_ < 0) {
-    return Error::input("cannot be read: " + std::string(std::strerror(errno)), path.string());
+    return Error::input(Message("cannot be read: %1", std::strerror(errno)), name);
   }
   out.size_ = std::filesystem::file_size(path, code);
-  if (code) return Error::input("cannot be read: " + code.message(), path.string());
+  if (code) return Error::input(Message("cannot be read: %1", code.message()), name);
+  out.name_ = std::move(name);
   return out;
 }
 

@@ -13,8 +13,9 @@ namespace lvcalib {
 /// A file (or bytes in memory) of which any part can be read.
 class RandomFile {
  public:
-  static Result<RandomFile> open(const std::filesystem::path& path);
-  /// `content` must outlive the file; `name` stands for it in messages.
+  /// `name` stands for the file in messages; empty: its path.
+  static Result<RandomFile> open(const std::filesystem::path& path, std::string name = {});
+  /// `content` must outlive the file.
   static RandomFile from_memory(std::string_view content, std::string name);
 
   RandomFile(RandomFile&& other) noexcept;

@@ -20,20 +20,21 @@ namespace {
 class UnpackedFile {
  public:
   static Result<UnpackedFile> unpack(const fs::path& packed, const RunContext& context,
-                                     std::vector<std::string>& warnings) {
+                                     std::vector<Message>& warnings) {
     UnpackedFile out;
     std::error_code code;
     std::string pattern = fs::temp_directory_path(code).string() + "/lvcalib-unpacked-XXXXXX";
     const int file = ::mkstemp(pattern.data());
-    if (file < 0) return Error::output("no temporary file can be made", pattern);
+    if (file < 0) return Error::output(Message("no temporary file can be made"), pattern);
     ::close(file);
     out.path_ = pattern;
-    context.report("open", 0.0, "unpacking " + packed.filename().string());
+    context.report("open", 0.0, Message("unpacking %1", packed.filename().string()));
     const auto whole = decompress_file(packed, out.path_, context);
     if (!whole) return whole.error();
     if (!*whole) {
-      warnings.push_back(packed.string() +
-                         ": its compressed data are damaged or cut off; the part before is read");
+      warnings.push_back(
+          Message("%1: its compressed data are damaged or cut off; the part before is read",
+                  packed.string()));
     }
     return out;
   }
@@ -78,14 +79,16 @@ struct Opened {
   std::string kind;
 };
 
-Result<Opened> open_plain(const fs::path& path, const RunContext& context) {
-  auto file = RandomFile::open(path);
+// `name` stands for the file in messages.
+Result<Opened> open_plain(const fs::path& path, const std::string& name,
+                          const RunContext& context) {
+  auto file = RandomFile::open(path, name);
   if (!file) return file.error();
   std::string start;
   file->read(0, 16, start);
-  if (start.empty()) return Error::input("is empty, expected a recording", path.string());
+  if (start.empty()) return Error::input(Message("is empty, expected a recording"), name);
   if (start.starts_with("SQLite format 3")) {
-    auto container = open_rosbag2_sqlite(path, context);
+    auto container = open_rosbag2_sqlite(path, context, name);
     if (!container) return container.error();
     return Opened{std::move(*container), "rosbag2 (sqlite3)"};
   }
@@ -99,13 +102,12 @@ Result<Opened> open_plain(const fs::path& path, const RunContext& context) {
     if (!container) return container.error();
     return Opened{std::move(*container), "MCAP"};
   }
-  return Error::input(
-      "is no recording that can be read; expected a ROS 1 bag (.bag), a rosbag2 folder, or one of "
-      "its files (.db3, .mcap)",
-      path.string(),
-      start.starts_with("\xff\xd8\xff") || start.starts_with("\x89PNG")
-          ? "this is an image; lvcalib calibrate takes a folder of scenes"
-          : "what matters is the file's content, not its name");
+  return Error::input(Message("is no recording that can be read; expected a ROS 1 bag (.bag), a "
+                              "rosbag2 folder, or one of its files (.db3, .mcap)"),
+                      name,
+                      start.starts_with("\xff\xd8\xff") || start.starts_with("\x89PNG")
+                          ? Message("this is an image; lvcalib calibrate takes a folder of scenes")
+                          : Message("what matters is the file's content, not its name"));
 }
 
 Result<Opened> open_file(const fs::path& path, const RunContext& context) {
@@ -113,26 +115,17 @@ Result<Opened> open_file(const fs::path& path, const RunContext& context) {
   if (!file) return file.error();
   std::string start;
   file->read(0, 4, start);
-  if (compression_by_content(start) == Compression::kNone) return open_plain(path, context);
-  std::vector<std::string> warnings;
+  if (compression_by_content(start) == Compression::kNone)
+    return open_plain(path, path.string(), context);
+  std::vector<Message> warnings;
   auto unpacked = UnpackedFile::unpack(path, context, warnings);
   if (!unpacked) return unpacked.error();
-  const std::string unpacked_name = unpacked->path().string();
-  auto inner = open_plain(unpacked_name, context);
-  if (!inner) {
-    Error error = inner.error();
-    error.where = path.string();
-    return error;
-  }
+  // Users know the file by its own name, not by that of its unpacked copy.
+  auto inner = open_plain(unpacked->path(), path.string(), context);
+  if (!inner) return inner.error();
   Opened out{std::make_unique<UnpackedContainer>(std::move(inner->container), std::move(*unpacked)),
              inner->kind};
-  // Users know the file by its own name, not by that of its unpacked copy.
-  for (std::string& warning : out.container->warnings) {
-    if (warning.starts_with(unpacked_name)) {
-      warning.replace(0, unpacked_name.size(), path.string());
-    }
-  }
-  for (std::string& warning : warnings) out.container->warnings.push_back(std::move(warning));
+  for (Message& warning : warnings) out.container->warnings.push_back(std::move(warning));
   return out;
 }
 
@@ -172,16 +165,15 @@ bool is_bag_name(const fs::path& path) {
 }
 
 // The files that metadata.yaml lists; those that lie there are read.
-Result<std::vector<fs::path>> listed_files(const fs::path& folder,
-                                           std::vector<std::string>& warnings) {
+Result<std::vector<fs::path>> listed_files(const fs::path& folder, std::vector<Message>& warnings) {
   const auto yaml = YamlFile::load(folder / "metadata.yaml");
   if (!yaml) return yaml.error();
   const YamlValue* info = yaml->root().find("rosbag2_bagfile_information");
   const YamlValue* list = info == nullptr ? nullptr : info->find("relative_file_paths");
   if (list == nullptr || list->kind != YamlValue::Kind::kList || list->list.empty()) {
     return Error::input(
-        "is not rosbag2's: expected rosbag2_bagfile_information with relative_file_paths",
-        (folder / "metadata.yaml").string(), "give the .db3 or .mcap file itself");
+        Message("is not rosbag2's: expected rosbag2_bagfile_information with relative_file_paths"),
+        (folder / "metadata.yaml").string(), Message("give the .db3 or .mcap file itself"));
   }
   std::vector<fs::path> files;
   for (const YamlValue& entry : list->list) {
@@ -196,17 +188,18 @@ Result<std::vector<fs::path>> listed_files(const fs::path& folder,
     if (fs::is_regular_file(path, code)) {
       files.push_back(path);
     } else {
-      warnings.push_back(path.string() + ": named in metadata.yaml and not there; left out");
+      warnings.push_back(
+          Message("%1: named in metadata.yaml and not there; left out", path.string()));
     }
   }
   if (files.empty()) {
-    return Error::input("none of the files that it names is there",
+    return Error::input(Message("none of the files that it names is there"),
                         (folder / "metadata.yaml").string());
   }
   return files;
 }
 
-Result<std::vector<fs::path>> files_of(const fs::path& path, std::vector<std::string>& warnings) {
+Result<std::vector<fs::path>> files_of(const fs::path& path, std::vector<Message>& warnings) {
   std::error_code code;
   if (!fs::is_directory(path, code)) return std::vector<fs::path>{path};
   if (fs::exists(path / "metadata.yaml", code)) return listed_files(path, warnings);
@@ -215,17 +208,21 @@ Result<std::vector<fs::path>> files_of(const fs::path& path, std::vector<std::st
     std::error_code inner;
     if (it->is_regular_file(inner) && is_bag_name(it->path())) files.push_back(it->path());
   }
-  if (code) return Error::input("cannot be listed: " + code.message(), path.string());
+  if (code) return Error::input(Message("cannot be listed: %1", code.message()), path.string());
   if (files.empty()) {
-    return Error::input(
-        "is a folder without a recording; expected metadata.yaml, or .db3, .mcap or .bag files",
-        path.string(), "a folder of scenes needs no import: lvcalib calibrate takes it");
+    return Error::input(Message("is a folder without a recording; expected metadata.yaml, or .db3, "
+                                ".mcap or .bag files"),
+                        path.string(),
+                        Message("a folder of scenes needs no import: lvcalib calibrate takes it"));
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
-  warnings.push_back(path.string() + ": has no metadata.yaml; its " + std::to_string(files.size()) +
-                     (files.size() == 1 ? " file is read" : " files are read as one recording"));
+  warnings.push_back(
+      files.size() == 1
+          ? Message("%1: has no metadata.yaml; its %2 file is read", path.string(), files.size())
+          : Message("%1: has no metadata.yaml; its %2 files are read as one recording",
+                    path.string(), files.size()));
   return files;
 }
 
@@ -284,7 +281,7 @@ class MergedCursor {
     }
   }
 
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -313,7 +310,7 @@ class MergedCursor {
       a.message.topic = topic_of_[a.container][a.message.topic];
       return true;
     }
-    for (std::string& warning : a.cursor->warnings) warnings.push_back(std::move(warning));
+    for (Message& warning : a.cursor->warnings) warnings.push_back(std::move(warning));
     active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(at));
     return true;
   }
@@ -353,7 +350,7 @@ Result<Recording> Recording::open(const fs::path& path, const RunContext& contex
       }
       // One bad file of a split recording does not spoil the others.
       failure = opened.error();
-      out.warnings_.push_back(failure->text() + "; left out");
+      out.warnings_.push_back(Message("%1; left out", failure->sentence()));
       continue;
     }
     out.kind_ = opened->kind;
@@ -373,7 +370,7 @@ void Recording::merge_topics() {
   for (std::size_t c = 0; c < containers_.size(); ++c) {
     for (std::size_t t = 0; t < containers_[c]->topics.size(); ++t) sources.push_back({c, t});
     topic_of_container_.emplace_back(containers_[c]->topics.size());
-    for (std::string& warning : containers_[c]->warnings) warnings_.push_back(std::move(warning));
+    for (Message& warning : containers_[c]->warnings) warnings_.push_back(std::move(warning));
   }
   const auto topic = [&](const Source& s) -> const Topic& {
     return containers_[s.container]->topics[s.topic];
@@ -408,10 +405,9 @@ TimeSpan Recording::span() const {
   return out;
 }
 
-Result<std::vector<std::string>> Recording::read(const std::vector<std::size_t>& topics,
-                                                 const TimeSpan& span, const RunContext& context,
-                                                 const std::string& stage,
-                                                 const Visitor& visit) const {
+Result<std::vector<Message>> Recording::read(const std::vector<std::size_t>& topics,
+                                             const TimeSpan& span, const RunContext& context,
+                                             const std::string& stage, const Visitor& visit) const {
   std::vector<char> wanted(topics_.size(), 0);
   TimeSpan expected{std::numeric_limits<std::int64_t>::max(),
                     std::numeric_limits<std::int64_t>::min()};
@@ -437,7 +433,8 @@ Result<std::vector<std::string>> Recording::read(const std::vector<std::size_t>&
         length > 0.0 ? (static_cast<double>(message.time_ns) - first) / length : 1.0;
     if (done >= reported + 0.002) {
       reported = done;
-      context.report(stage, std::clamp(done, 0.0, 1.0), topics_[message.topic].name);
+      context.report(stage, std::clamp(done, 0.0, 1.0),
+                     Message::verbatim(topics_[message.topic].name));
     }
     if (topics_[message.topic].encoding != "ros1" && !unpacker.unpack(message)) {
       ++damaged;
@@ -448,15 +445,15 @@ Result<std::vector<std::string>> Recording::read(const std::vector<std::size_t>&
     if (!*go_on) break;
   }
   if (damaged > 0) {
-    cursor.warnings.push_back(path_.string() + ": " + std::to_string(damaged) +
-                              " compressed messages are damaged; left out");
+    cursor.warnings.push_back(
+        Message("%1: %2 compressed messages are damaged; left out", path_.string(), damaged));
   }
   return std::move(cursor.warnings);
 }
 
 bool looks_like_recording(const fs::path& path) {
   std::error_code code;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
   const auto files = files_of(path, warnings);
   if (!files) return false;
   return std::any_of(files->begin(), files->end(), [&](const fs::path& file) {

@@ -65,7 +65,7 @@ class Recording {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Sorted by name, then type.
   [[nodiscard]] const std::vector<Topic>& topics() const { return topics_; }
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  [[nodiscard]] const std::vector<Message>& warnings() const { return warnings_; }
   /// From the first to the last message of all topics; empty (first > last) without messages.
   [[nodiscard]] TimeSpan span() const;
 
@@ -74,9 +74,9 @@ class Recording {
   /// Hands the messages of some topics to `visit` in the order of their times, and reports
   /// progress as `stage`. Returns warnings about what could not be read. Errors: those of
   /// `visit`, a stop (within a chunk's time).
-  Result<std::vector<std::string>> read(const std::vector<std::size_t>& topics,
-                                        const TimeSpan& span, const RunContext& context,
-                                        const std::string& stage, const Visitor& visit) const;
+  Result<std::vector<Message>> read(const std::vector<std::size_t>& topics, const TimeSpan& span,
+                                    const RunContext& context, const std::string& stage,
+                                    const Visitor& visit) const;
 
  private:
   Recording() = default;
@@ -87,7 +87,7 @@ class Recording {
   std::vector<std::unique_ptr<Container>> containers_;
   std::vector<std::vector<std::size_t>> topic_of_container_;  // [container][its topic] -> topic
   std::vector<Topic> topics_;
-  std::vector<std::string> warnings_;
+  std::vector<Message> warnings_;
 };
 
 /// Whether a file, or what a folder holds, looks like a recording: by the first bytes of files, by

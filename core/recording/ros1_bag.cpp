@@ -129,8 +129,8 @@ class Ros1Bag : public ChunkedContainer {
   Status list(const RunContext& context) {
     FileRecord header;
     if (!read_record(kVersion.size(), header) || header.fields.op != kBagHeader) {
-      return Error::input("the ROS 1 bag ends within its header", file_.name(),
-                          "copy or record it again");
+      return Error::input(Message("the ROS 1 bag ends within its header"), file_.name(),
+                          Message("copy or record it again"));
     }
     const std::uint64_t first = header.data_offset + header.data_size;
     const std::uint64_t index = header.fields.index_position;
@@ -139,10 +139,14 @@ class Ros1Bag : public ChunkedContainer {
     chunks_.clear();
     topics.clear();
     topic_of_.clear();
-    warnings.push_back(file_.name() +
-                       (index == 0 ? ": has no index (its recording was not ended in good order)"
-                                   : ": its index is missing or damaged") +
-                       "; read through instead, as far as whole messages go");
+    warnings.push_back(
+        index == 0
+            ? Message("%1: has no index (its recording was not ended in good order); read through "
+                      "instead, as far as whole messages go",
+                      file_.name())
+            : Message("%1: its index is missing or damaged; read through instead, as far as whole "
+                      "messages go",
+                      file_.name()));
     return scan(first, context);
   }
 
@@ -189,7 +193,7 @@ class Ros1Bag : public ChunkedContainer {
       if (context.stopped()) return false;
       if (i % 256 == 0) {
         context.report("open", static_cast<double>(i) / static_cast<double>(infos.size()),
-                       "reading the index");
+                       Message("reading the index"));
       }
       if (!read_chunk_index(infos[i])) return false;
     }
@@ -240,10 +244,10 @@ class Ros1Bag : public ChunkedContainer {
     while (at < file_.size()) {
       if (context.stopped()) return Error::cancelled();
       context.report("open", static_cast<double>(at) / static_cast<double>(file_.size()),
-                     "reading through the bag");
+                     Message("reading through the bag"));
       if (!read_record(at, record)) {
-        warnings.push_back(file_.name() + ": is damaged or cut off at byte " + std::to_string(at) +
-                           " of " + std::to_string(file_.size()));
+        warnings.push_back(
+            Message("%1: is damaged or cut off at byte %2 of %3", file_.name(), at, file_.size()));
         break;
       }
       if (record.fields.op == kConnection && record.data_whole &&
@@ -253,8 +257,8 @@ class Ros1Bag : public ChunkedContainer {
       }
       if (record.fields.op == kChunk) scan_chunk(record, stored, bytes);
       if (!record.data_whole) {
-        warnings.push_back(file_.name() + ": is cut off within the record at byte " +
-                           std::to_string(at));
+        warnings.push_back(
+            Message("%1: is cut off within the record at byte %2", file_.name(), at));
         break;
       }
       at = record.data_offset + record.data_size;
@@ -266,9 +270,9 @@ class Ros1Bag : public ChunkedContainer {
   void scan_chunk(const FileRecord& record, std::string& stored, std::string& bytes) {
     const auto compression = compression_by_name(record.fields.compression);
     if (!compression) {
-      warnings.push_back(file_.name() + ": a chunk is packed as '" +
-                         std::string(record.fields.compression.substr(0, 40)) +
-                         "', which is not known; expected none, bz2 or lz4");
+      warnings.push_back(
+          Message("%1: a chunk is packed as '%2', which is not known; expected none, bz2 or lz4",
+                  file_.name(), record.fields.compression.substr(0, 40)));
       return;
     }
     const std::uint64_t there = file_.size() - std::min(file_.size(), record.data_offset);
@@ -300,8 +304,8 @@ Result<std::unique_ptr<Container>> open_ros1_bag(RandomFile file, const RunConte
   file.read(0, kVersion.size(), magic);
   if (magic != kVersion) {
     const std::string version = magic.size() > kMagic.size() ? magic.substr(kMagic.size(), 3) : "?";
-    return Error::input("is a ROS 1 bag of version " + version + "; expected 2.0", file.name(),
-                        "convert it with 'rosbag fix' or 'rosbag migrate' of ROS 1");
+    return Error::input(Message("is a ROS 1 bag of version %1; expected 2.0", version), file.name(),
+                        Message("convert it with 'rosbag fix' or 'rosbag migrate' of ROS 1"));
   }
   auto bag = std::make_unique<Ros1Bag>(std::move(file));
   if (Status s = bag->list(context); !s) return s.error();

@@ -94,9 +94,10 @@ class SqliteCursor : public MessageCursor {
  public:
   // The order is fetched first, as numbers only: sorting the messages themselves could take as much
   // memory as the file.
-  SqliteCursor(const std::filesystem::path& path, const std::map<std::int64_t, std::size_t>& topics,
-               const std::vector<char>& wanted, const TimeSpan& span, std::stop_token stop)
-      : name_(path.string()),
+  SqliteCursor(const std::filesystem::path& path, std::string name,
+               const std::map<std::int64_t, std::size_t>& topics, const std::vector<char>& wanted,
+               const TimeSpan& span, std::stop_token stop)
+      : name_(std::move(name)),
         database_(open_database(path)),
         cut_off_(is_cut_off(path)),
         stop_(std::move(stop)) {
@@ -157,7 +158,8 @@ class SqliteCursor : public MessageCursor {
   void warn_of_damage() {
     if (damaged_ || stop_.stop_requested()) return;
     damaged_ = true;
-    warnings.push_back(name_ + ": is damaged or cut off; the messages that can be read are read");
+    warnings.push_back(
+        Message("%1: is damaged or cut off; the messages that can be read are read", name_));
   }
 
   std::string name_;
@@ -172,22 +174,23 @@ class SqliteCursor : public MessageCursor {
 
 class Rosbag2Sqlite : public Container {
  public:
-  explicit Rosbag2Sqlite(std::filesystem::path path) : path_(std::move(path)) {}
+  Rosbag2Sqlite(std::filesystem::path path, std::string name)
+      : path_(std::move(path)), name_(std::move(name)) {}
 
   [[nodiscard]] std::unique_ptr<MessageCursor> cursor(std::vector<char> wanted,
                                                       const TimeSpan& span,
                                                       std::stop_token stop) const override {
-    return std::make_unique<SqliteCursor>(path_, topic_of_, wanted, span, std::move(stop));
+    return std::make_unique<SqliteCursor>(path_, name_, topic_of_, wanted, span, std::move(stop));
   }
 
   Status list(const RunContext& context) {
     const Database database = open_database(path_);
-    if (!database) return unreadable("cannot be opened");
+    if (!database) return unreadable(Message("cannot be opened"));
     std::stop_token stop = context.stop;
     sqlite3_progress_handler(database.get(), kInstructionsBetweenLooks, stop_wanted, &stop);
     const Statement rows =
         prepare(database.get(), "SELECT id, name, type, serialization_format FROM topics");
-    if (!rows) return unreadable(sqlite3_errmsg(database.get()));
+    if (!rows) return unreadable(database.get());
     int code = 0;
     while ((code = sqlite3_step(rows.get())) == SQLITE_ROW && topic_of_.size() < kMostTopics) {
       const auto encoding = text_of(rows.get(), 3);
@@ -196,21 +199,25 @@ class Rosbag2Sqlite : public Container {
     }
     if (code != SQLITE_DONE && code != SQLITE_ROW) {
       if (context.stopped()) return Error::cancelled();
-      return unreadable(sqlite3_errmsg(database.get()));
+      return unreadable(database.get());
     }
     return count_messages(database.get(), context);
   }
 
  private:
-  Status unreadable(const std::string& why) const {
-    return Error::input("the rosbag2 database cannot be read: " + why, path_.string(),
-                        "it needs rosbag2's tables topics and messages; copy the file again");
+  Status unreadable(sqlite3* database) const {
+    return unreadable(Message::verbatim(sqlite3_errmsg(database)));
+  }
+  Status unreadable(const Message& why) const {
+    return Error::input(
+        Message("the rosbag2 database cannot be read: %1", why), name_,
+        Message("it needs rosbag2's tables topics and messages; copy the file again"));
   }
 
   Status count_messages(sqlite3* database, const RunContext& context) {
-    context.report("open", 0.0, "counting messages");
+    context.report("open", 0.0, Message("counting messages"));
     const Statement rows = prepare(database, "SELECT topic_id, timestamp FROM messages");
-    if (!rows) return unreadable(sqlite3_errmsg(database));
+    if (!rows) return unreadable(database);
     int code = 0;
     while ((code = sqlite3_step(rows.get())) == SQLITE_ROW) {
       const auto topic = topic_of_.find(sqlite3_column_int64(rows.get(), 0));
@@ -220,21 +227,24 @@ class Rosbag2Sqlite : public Container {
     }
     if (context.stopped()) return Error::cancelled();
     if (code != SQLITE_DONE) {
-      warnings.push_back(path_.string() +
-                         ": is damaged or cut off; the messages that can be read are read");
+      warnings.push_back(
+          Message("%1: is damaged or cut off; the messages that can be read are read", name_));
     }
     return Done{};
   }
 
   std::filesystem::path path_;
+  std::string name_;
   std::map<std::int64_t, std::size_t> topic_of_;  // Of rosbag2's id.
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Container>> open_rosbag2_sqlite(const std::filesystem::path& path,
-                                                       const RunContext& context) {
-  auto bag = std::make_unique<Rosbag2Sqlite>(path);
+                                                       const RunContext& context,
+                                                       std::string name) {
+  if (name.empty()) name = path.string();
+  auto bag = std::make_unique<Rosbag2Sqlite>(path, std::move(name));
   if (Status s = bag->list(context); !s) return s.error();
   return std::unique_ptr<Container>(std::move(bag));
 }

@@ -38,18 +38,20 @@ Status move_edges(const Recording& recording, const RecordingSurvey& survey,
   }
   // Two scenes may not share messages. Edges are meant to the millisecond.
   constexpr std::int64_t tolerance_ns = 1'000'000;
-  const auto seconds = [&](std::int64_t t) { return seconds_from_start(recording, t); };
+  const auto seconds = [&](std::int64_t t) {
+    return formatted("%.2f", seconds_from_start(recording, t));
+  };
   for (const StillStretch& s : stretches) {
     if (!s.by_hand || !is_usable(s)) continue;
     for (const StillStretch& other : stretches) {
       if (&other == &s || !is_usable(other)) continue;
       if (other.last_ns < s.first_ns + tolerance_ns) continue;
       if (s.last_ns < other.first_ns + tolerance_ns) continue;
-      return Error::usage(formatted("the stretch moved to %.2f s to %.2f s", seconds(s.first_ns),
-                                    seconds(s.last_ns)) +
-                              formatted(" overlaps that from %.2f s to %.2f s",
-                                        seconds(other.first_ns), seconds(other.last_ns)),
-                          recording.path().string(), "move its edges so that both stay apart");
+      return Error::usage(
+          Message("the stretch moved to %1 s to %2 s overlaps that from %3 s to %4 s",
+                  seconds(s.first_ns), seconds(s.last_ns), seconds(other.first_ns),
+                  seconds(other.last_ns)),
+          recording.path().string(), Message("move its edges so that both stay apart"));
     }
   }
   return Done{};
@@ -72,8 +74,8 @@ class Surveyor {
   const RunContext& context_;
   std::size_t bad_images_ = 0;
   std::size_t bad_clouds_ = 0;
-  std::string first_image_complaint_;
-  std::string first_cloud_complaint_;
+  Message first_image_complaint_;
+  Message first_cloud_complaint_;
 };
 
 void Surveyor::take_image(const RecordedMessage& message, RecordingSurvey& out) {
@@ -82,7 +84,7 @@ void Surveyor::take_image(const RecordedMessage& message, RecordingSurvey& out) 
   const auto image = decode_image(image_topic(), message.data);
   auto look = image ? look_at_image(*image, image_topic().name) : Result<ImageLook>(image.error());
   if (!look) {
-    if (bad_images_++ == 0) first_image_complaint_ = look.error().text();
+    if (bad_images_++ == 0) first_image_complaint_ = look.error().sentence();
     return;
   }
   if (out.images.size() > 0 && (out.images.look(0).width_px != look->width_px ||
@@ -97,7 +99,7 @@ void Surveyor::take_cloud(const RecordedMessage& message, RecordingSurvey& out) 
   if (!out.clouds.wants(message.time_ns)) return;
   const auto cloud = decode_cloud(cloud_topic(), message.data);
   if (!cloud) {
-    if (bad_clouds_++ == 0) first_cloud_complaint_ = cloud.error().text();
+    if (bad_clouds_++ == 0) first_cloud_complaint_ = cloud.error().sentence();
     return;
   }
   out.intensity = out.intensity && cloud->cloud.has_intensity();
@@ -122,7 +124,7 @@ Result<RecordingSurvey> Surveyor::survey(const ImportOptions& options) {
           if (info) {
             out.camera = info->camera;
           } else if (out.camera_complaint.empty()) {
-            out.camera_complaint = info.error().text();
+            out.camera_complaint = info.error().sentence();
           }
         }
         return true;
@@ -130,18 +132,18 @@ Result<RecordingSurvey> Surveyor::survey(const ImportOptions& options) {
   if (!warnings) return warnings.error();
   out.warnings = std::move(*warnings);
   if (out.images.size() == 0) {
-    return Error::input("none of its images can be read: " + first_image_complaint_,
+    return Error::input(Message("none of its images can be read: %1", first_image_complaint_),
                         recording_.path().string());
   }
   if (out.clouds.size() == 0) {
-    return Error::input("none of its clouds can be read: " + first_cloud_complaint_,
+    return Error::input(Message("none of its clouds can be read: %1", first_cloud_complaint_),
                         recording_.path().string());
   }
-  const auto warn_of_bad = [&](std::size_t bad, const Topic& topic, const std::string& first) {
+  const auto warn_of_bad = [&](std::size_t bad, const Topic& topic, const Message& first) {
     if (bad == 0) return;
     out.warnings.push_back(
-        topic.name + ": " + std::to_string(bad) +
-        " messages cannot be read and are left out, the first because: " + first);
+        Message("%1: %2 messages cannot be read and are left out, the first because: %3",
+                topic.name, bad, first));
   };
   warn_of_bad(bad_images_, image_topic(), first_image_complaint_);
   warn_of_bad(bad_clouds_, cloud_topic(), first_cloud_complaint_);
@@ -171,10 +173,10 @@ Result<std::vector<StillStretch>> choose_stretches(const Recording& recording,
     };
     const auto found = std::find_if(stretches.begin(), stretches.end(), holds);
     if (found == stretches.end()) {
-      return Error::input("nothing stands still at " + formatted("%.2f s", time_s),
+      return Error::input(Message("nothing stands still at %1 s", formatted("%.2f", time_s)),
                           recording.path().string(),
-                          "times count from the first message; without --scenes all still "
-                          "stretches are found");
+                          Message("times count from the first message; without --scenes all still "
+                                  "stretches are found"));
     }
     asked[static_cast<std::size_t>(found - stretches.begin())] = 1;
   }
@@ -209,33 +211,34 @@ ImportedStretch describe_stretch(const Recording& recording, const RecordingSurv
   out.image_ns = survey.images.time_ns(stretch.sharpest_image) - survey.image_offset_ns;
   out.taken = stretch.verdict == StretchVerdict::kTaken;
   out.usable = is_usable(stretch);
+  const std::string length = formatted("%.1f", stretch.length_s());
   switch (stretch.verdict) {
     case StretchVerdict::kTaken:
-      out.reason = stretch.by_hand
-                       ? formatted("its edges were set by hand: %.1f s", stretch.length_s())
-                       : formatted("rig and board stand still for %.1f s", stretch.length_s());
+      out.reason = stretch.by_hand ? Message("its edges were set by hand: %1 s", length)
+                                   : Message("rig and board stand still for %1 s", length);
       break;
     case StretchVerdict::kTooShort:
-      out.reason = formatted("stands still for %.1f s only; %.1f s are needed", stretch.length_s(),
-                             options.still.min_still_s);
+      out.reason = Message("stands still for %1 s only; %2 s are needed", length,
+                           formatted("%.1f", options.still.min_still_s));
       break;
     case StretchVerdict::kNoImage:
-      out.reason = "no image was taken in this time";
+      out.reason = Message("no image was taken in this time");
       break;
     case StretchVerdict::kNoCloud:
-      out.reason = "no sweep was recorded in this time";
+      out.reason = Message("no sweep was recorded in this time");
       break;
     case StretchVerdict::kCloudMoves:
-      out.reason = "the images stand still, but the clouds change meanwhile";
+      out.reason = Message("the images stand still, but the clouds change meanwhile");
       break;
     case StretchVerdict::kRepeat: {
       const StillStretch& other = stretches[stretch.repeat_of];
-      out.reason = formatted("the same pose as from %.1f s to %.1f s, which is longer",
-                             seconds(other.first_ns), seconds(other.last_ns));
+      out.reason = Message("the same pose as from %1 s to %2 s, which is longer",
+                           formatted("%.1f", seconds(other.first_ns)),
+                           formatted("%.1f", seconds(other.last_ns)));
       break;
     }
     case StretchVerdict::kNotAsked:
-      out.reason = "stands still, but was left out by its time";
+      out.reason = Message("stands still, but was left out by its time");
       break;
   }
   return out;
@@ -292,43 +295,49 @@ RecordedMotion motion_over_time(const Recording& recording, const RecordingSurve
           })};
 }
 
-std::vector<std::string> warnings_of(const Recording& recording, const RecordingSurvey& survey,
-                                     const ImportOptions& options) {
+std::vector<Message> warnings_of(const Recording& recording, const RecordingSurvey& survey,
+                                 const ImportOptions& options) {
   const auto name = [&](std::size_t topic) { return recording.topics()[topic].name; };
   const std::string image_topic = name(survey.topics.image);
   const std::string cloud_topic = name(survey.topics.cloud);
   const std::string info_topic = survey.topics.info ? name(*survey.topics.info) : std::string{};
-  std::vector<std::string> out = survey.warnings;
+  std::vector<Message> out = survey.warnings;
   if (!survey.intensity) {
-    out.push_back(cloud_topic +
-                  ": clouds have no intensity; the calibration will rest on planes and "
-                  "corners alone");
+    out.push_back(Message(
+        "%1: clouds have no intensity; the calibration will rest on planes and corners alone",
+        cloud_topic));
   }
   if (survey.sizes_change) {
-    out.push_back(image_topic +
-                  ": its images change their size; calibrate takes those "
-                  "of the camera's size");
+    out.push_back(
+        Message("%1: its images change their size; calibrate takes those of the camera's size",
+                image_topic));
   }
   if (options.camera) return out;
   if (!survey.camera) {
-    out.push_back((survey.topics.info
-                       ? info_topic + ": " +
-                             (survey.camera_complaint.empty() ? "holds no intrinsics"
-                                                              : survey.camera_complaint)
-                       : "no CameraInfo was recorded for " + image_topic) +
-                  "; put a camera.yaml into the dataset before it is calibrated");
+    if (!survey.topics.info) {
+      out.push_back(
+          Message("no CameraInfo was recorded for %1; put a camera.yaml into the dataset before it "
+                  "is calibrated",
+                  image_topic));
+      return out;
+    }
+    out.push_back(Message("%1; put a camera.yaml into the dataset before it is calibrated",
+                          survey.camera_complaint.empty()
+                              ? Message("%1: holds no intrinsics", info_topic)
+                              : Message("%1: %2", info_topic, survey.camera_complaint)));
     return out;
   }
   const ImageLook& image = survey.images.look(0);
   if (image.width_px != survey.camera->width_px || image.height_px != survey.camera->height_px) {
-    out.push_back(info_topic + ": is of images of " + std::to_string(survey.camera->width_px) +
-                  " × " + std::to_string(survey.camera->height_px) + " px, but they have " +
-                  std::to_string(image.width_px) + " × " + std::to_string(image.height_px));
+    out.push_back(Message("%1: is of images of %2 × %3 px, but they have %4 × %5", info_topic,
+                          survey.camera->width_px, survey.camera->height_px, image.width_px,
+                          image.height_px));
   }
   if (survey.topics.rectified) {
-    out.push_back(image_topic +
-                  ": is taken for rectified; camera.yaml holds the intrinsics of "
-                  "rectified images, without distortion");
+    out.push_back(
+        Message("%1: is taken for rectified; camera.yaml holds the intrinsics of rectified images, "
+                "without distortion",
+                image_topic));
   }
   return out;
 }
@@ -338,7 +347,7 @@ Result<Thumbnail> thumbnail_at(const Recording& recording, std::size_t image_top
   const Topic& topic = recording.topics()[image_topic];
   RunContext silent = context;
   silent.progress = nullptr;
-  Result<Thumbnail> out = Error::input("there is no image at this time", topic.name);
+  Result<Thumbnail> out = Error::input(Message("there is no image at this time"), topic.name);
   TimeSpan span;
   span.first_ns = time_ns;
   const auto read =
@@ -359,7 +368,7 @@ Result<StretchPicture> picture_of(const Recording& recording, const RecordingSur
   RunContext silent = context;
   silent.progress = nullptr;
   StretchPicture out;
-  Status taken = Error::input("its image cannot be read again", topic.name);
+  Status taken = Error::input(Message("its image cannot be read again"), topic.name);
   const auto take = [&](const RecordedMessage& message) -> Status {
     const auto image = decode_image(topic, message.data);
     if (!image) return image.error();

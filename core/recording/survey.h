@@ -26,10 +26,10 @@ struct RecordingSurvey {
   ImageTrack images;
   CloudTrack clouds;
   std::optional<Camera> camera;  ///< From CameraInfo.
-  std::string camera_complaint;
+  Message camera_complaint;
   bool intensity = true;
   bool sizes_change = false;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// Looks at both sensors, and for the camera's intrinsics. Errors: those of choose_topics(); no
@@ -56,8 +56,8 @@ Result<std::vector<ImportedStretch>> preview_stretches(const Recording& recordin
 
 /// What to know about an import with these options: messages left out, no intensity, intrinsics
 /// that are missing or of other images.
-std::vector<std::string> warnings_of(const Recording& recording, const RecordingSurvey& survey,
-                                     const ImportOptions& options);
+std::vector<Message> warnings_of(const Recording& recording, const RecordingSurvey& survey,
+                                 const ImportOptions& options);
 
 /// How much a sensor's view differs from what it was half a shortest stretch before, or will be
 /// after, whichever is less; in units of what is no motion yet: below 1 it stands still.

@@ -65,7 +65,7 @@ bool holds_messages(const Recording& recording) {
 
 Error not_recorded(const Recording& recording, MessageKind kind) {
   if (!holds_messages(recording)) {
-    return Error::input("holds no messages", recording.path().string());
+    return Error::input(Message("holds no messages"), recording.path().string());
   }
   const bool images = kind == MessageKind::kImage;
   const MessageKind raw = images ? MessageKind::kRawVideo : MessageKind::kRawPackets;
@@ -73,20 +73,22 @@ Error not_recorded(const Recording& recording, MessageKind kind) {
   for (const Topic& topic : recording.topics()) {
     if (topic.count > 0 && message_kind(topic.type) == raw) {
       return Error::input(
-          std::string("holds no ") + (images ? "images" : "clouds") +
-              " but raw packets: " + topic.name + " (" + topic.type + ")",
-          where, "play it through " + converter_of(topic.type) + " and record what comes out");
+          Message("holds no %1 but raw packets: %2", images ? Message("images") : Message("clouds"),
+                  topic.name + " (" + topic.type + ")"),
+          where, Message("play it through %1 and record what comes out", converter_of(topic.type)));
     }
   }
   for (const Topic& topic : recording.topics()) {
     if (topic.count > 0 && message_kind(topic.type) == kind) {
-      return Error::input("the messages of " + topic.name + " are serialized as '" +
-                              topic.encoding.substr(0, 40) + "'; ROS 1 and CDR are read",
-                          where);
+      return Error::input(
+          Message("the messages of %1 are serialized as '%2'; ROS 1 and CDR are read", topic.name,
+                  topic.encoding.substr(0, 40)),
+          where);
     }
   }
-  return Error::input(images ? "holds no images (sensor_msgs/Image or CompressedImage)"
-                             : "holds no clouds (sensor_msgs/PointCloud2 or Livox CustomMsg)",
+  return Error::input(images
+                          ? Message("holds no images (sensor_msgs/Image or CompressedImage)")
+                          : Message("holds no clouds (sensor_msgs/PointCloud2 or Livox CustomMsg)"),
                       where);
 }
 
@@ -99,13 +101,14 @@ Result<std::size_t> by_name(const Recording& recording, const std::string& name,
     recorded = true;
     if (message_kind(topic.type) != kind || !readable_encoding(topic.encoding)) continue;
     if (topic.count > 0) return i;
-    return Error::input("topic '" + name + "' holds no messages", recording.path().string());
+    return Error::input(Message("topic '%1' holds no messages", name), recording.path().string());
   }
   const Indices fitting = topics_of(recording, kind);
-  return Error::usage("topic '" + name.substr(0, 200) + "' " +
-                          (recorded ? "is of another type" : "was not recorded") +
-                          (fitting.empty() ? "" : "; there is " + names_of(recording, fitting)),
-                      option, "lvcalib import --list shows all topics");
+  const std::string shown = name.substr(0, 200);
+  Message what = recorded ? Message("topic '%1' is of another type", shown)
+                          : Message("topic '%1' was not recorded", shown);
+  if (!fitting.empty()) what += Message("; there is %1", names_of(recording, fitting));
+  return Error::usage(what, option, Message("lvcalib import --list shows all topics"));
 }
 
 // The only topic of a kind. A camera that was recorded twice, raw and compressed, is one: raw.
@@ -125,10 +128,10 @@ Result<std::size_t> the_only(const Recording& recording, MessageKind kind, const
   }
   if (found.size() == 1) return found.front();
   return Error::usage(
-      std::to_string(found.size()) +
-          (kind == MessageKind::kImage ? " topics hold images: " : " topics hold clouds: ") +
-          names_of(recording, found),
-      recording.path().string(), std::string("choose one with ") + option);
+      kind == MessageKind::kImage
+          ? Message("%1 topics hold images: %2", found.size(), names_of(recording, found))
+          : Message("%1 topics hold clouds: %2", found.size(), names_of(recording, found)),
+      recording.path().string(), Message("choose one with %1", option));
 }
 
 // CameraInfo of the images' own name space; of a recording with one camera, its only one.
@@ -159,7 +162,7 @@ std::string seconds_text(double seconds) {
 // What the first message of a topic tells: the sender's clock, and whether it can be read.
 struct FirstMessage {
   std::optional<double> clock_ahead_s;  // Sender's stamp minus the recorder's time.
-  std::string complaint;
+  Message complaint;
   bool intensity = true;
 };
 
@@ -177,18 +180,18 @@ Result<FirstMessage> look_at_first(const Recording& recording, std::size_t index
         switch (message_kind(topic.type)) {
           case MessageKind::kCloud: {
             const auto cloud = decode_cloud(topic, message.data);
-            if (!cloud) out.complaint = cloud.error().text();
+            if (!cloud) out.complaint = cloud.error().sentence();
             out.intensity = !cloud || cloud->cloud.has_intensity();
             break;
           }
           case MessageKind::kImage:
             if (const auto image = decode_image(topic, message.data); !image) {
-              out.complaint = image.error().text();
+              out.complaint = image.error().sentence();
             }
             break;
           case MessageKind::kCameraInfo:
             if (const auto info = decode_camera_info(topic, message.data, false); !info) {
-              out.complaint = info.error().text();
+              out.complaint = info.error().sentence();
             }
             break;
           default:
@@ -235,20 +238,21 @@ TopicCandidates list_candidates(const Recording& recording) {
   return out;
 }
 
-Result<std::vector<std::string>> check_recording(const Recording& recording,
-                                                 const RunContext& context) {
-  std::vector<std::string> out;
+Result<std::vector<Message>> check_recording(const Recording& recording,
+                                             const RunContext& context) {
+  std::vector<Message> out;
   if (!holds_messages(recording)) {
-    out.push_back(recording.path().string() + ": holds no messages");
+    out.push_back(Message("%1: holds no messages", recording.path().string()));
     return out;
   }
   const Indices images = topics_of(recording, MessageKind::kImage);
   const Indices clouds = topics_of(recording, MessageKind::kCloud);
   const Indices infos = topics_of(recording, MessageKind::kCameraInfo);
-  if (images.empty()) out.push_back(not_recorded(recording, MessageKind::kImage).text());
-  if (clouds.empty()) out.push_back(not_recorded(recording, MessageKind::kCloud).text());
+  if (images.empty()) out.push_back(not_recorded(recording, MessageKind::kImage).sentence());
+  if (clouds.empty()) out.push_back(not_recorded(recording, MessageKind::kCloud).sentence());
   if (infos.empty()) {
-    out.push_back("no CameraInfo was recorded; give a camera file (--camera) for the intrinsics");
+    out.push_back(
+        Message("no CameraInfo was recorded; give a camera file (--camera) for the intrinsics"));
   }
   std::optional<double> image_clock;
   std::optional<double> cloud_clock;
@@ -259,16 +263,16 @@ Result<std::vector<std::string>> check_recording(const Recording& recording,
       if (!first) return first.error();
       if (!first->complaint.empty()) out.push_back(first->complaint);
       if (!first->intensity) {
-        out.push_back(topic.name +
-                      ": clouds have no intensity; the calibration will rest on planes and corners "
-                      "alone");
+        out.push_back(Message(
+            "%1: clouds have no intensity; the calibration will rest on planes and corners alone",
+            topic.name));
       }
       if (group != &infos && topic.count < 3) {
-        out.push_back(topic.name + ": " + std::to_string(topic.count) +
-                      (topic.count == 1 ? " message only" : " messages only"));
+        out.push_back(topic.count == 1 ? Message("%1: %2 message only", topic.name, topic.count)
+                                       : Message("%1: %2 messages only", topic.name, topic.count));
       } else if (group != &infos && topic.rate_hz() < 1.0) {
-        out.push_back(topic.name + ": " + formatted("%.2f messages a second", topic.rate_hz()) +
-                      "; motion between them cannot be seen");
+        out.push_back(Message("%1: %2 messages a second; motion between them cannot be seen",
+                              topic.name, formatted("%.2f", topic.rate_hz())));
       }
       if (group == &images && !image_clock) image_clock = first->clock_ahead_s;
       if (group == &clouds && !cloud_clock) cloud_clock = first->clock_ahead_s;
@@ -276,15 +280,16 @@ Result<std::vector<std::string>> check_recording(const Recording& recording,
   }
   // Within half a second it is what messages take to arrive.
   if (image_clock && cloud_clock && std::abs(*image_clock - *cloud_clock) > 0.5) {
-    out.push_back("the clocks of camera and LiDAR differ by " +
-                  seconds_text(*image_clock - *cloud_clock) +
-                  "; the times at which messages were recorded are used instead");
+    out.push_back(
+        Message("the clocks of camera and LiDAR differ by %1; the times at which messages were "
+                "recorded are used instead",
+                seconds_text(*image_clock - *cloud_clock)));
   }
   if (images.size() == 1 && clouds.size() == 1) {
     const Topic& a = recording.topics()[images.front()];
     const Topic& b = recording.topics()[clouds.front()];
     if (a.first_ns > b.last_ns || b.first_ns > a.last_ns) {
-      out.push_back("images and clouds were never recorded at the same time");
+      out.push_back(Message("images and clouds were never recorded at the same time"));
     }
   }
   return out;

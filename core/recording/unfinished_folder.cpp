@@ -16,7 +16,7 @@ Result<UnfinishedFolder> UnfinishedFolder::create(const fs::path& destination, b
   fs::path path = fs::absolute(destination, code).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   if (destination.empty() || !path.has_filename()) {
-    return Error::output("is no name for a dataset folder", destination.string());
+    return Error::output(Message("is no name for a dataset folder"), destination.string());
   }
   const bool exists = fs::exists(fs::symlink_status(path, code));
   const bool empty = fs::is_directory(path, code) && fs::is_empty(path, code);
@@ -24,8 +24,10 @@ Result<UnfinishedFolder> UnfinishedFolder::create(const fs::path& destination, b
     const bool imported = fs::is_regular_file(path / "import.json", code);
     if (!replace || !imported) {
       return Error::output(
-          imported ? "exists already" : "exists already and is no import", destination.string(),
-          imported ? "choose another name, or replace it with --force" : "choose another name");
+          imported ? Message("exists already") : Message("exists already and is no import"),
+          destination.string(),
+          imported ? Message("choose another name, or replace it with --force")
+                   : Message("choose another name"));
     }
   }
   if (Status s = check_folder_usable(path.parent_path()); !s) return s.error();
@@ -36,7 +38,7 @@ Result<UnfinishedFolder> UnfinishedFolder::create(const fs::path& destination, b
   for (int i = 0; out.temporary_.empty(); ++i) {
     const fs::path place = path.parent_path() / (name + "-" + std::to_string(i));
     const bool created = fs::create_directory(place, code);
-    if (code) return Error::output("cannot be made: " + code.message(), place.string());
+    if (code) return Error::output(Message("cannot be made: %1", code.message()), place.string());
     if (created) out.temporary_ = place;
   }
   if (Status s = create_folder(out.temporary_ / "scenes"); !s) return s.error();
@@ -63,7 +65,7 @@ Status UnfinishedFolder::finish() {
   if (code) {
     const std::string why = code.message();
     if (replaces && !fs::exists(path_, code)) fs::rename(old, path_, code);
-    return Error::output("cannot be put in place: " + why, path_.string());
+    return Error::output(Message("cannot be put in place: %1", why), path_.string());
   }
   temporary_.clear();
   if (replaces) fs::remove_all(old, code);

@@ -287,20 +287,20 @@ RefinementOptions as_in_paper(RefinementOptions options) {
   return options;
 }
 
-std::string describe(BinState state) {
+Message describe(BinState state) {
   switch (state) {
     case BinState::kUsed:
-      return "used";
+      return Message("used");
     case BinState::kTooFewSamples:
-      return "too few samples";
+      return Message("too few samples");
     case BinState::kWeakContrast:
-      return "contrast too weak for the noise";
+      return Message("contrast too weak for the noise");
     case BinState::kOneSided:
-      return "samples on one side of the edge only";
+      return Message("samples on one side of the edge only");
     case BinState::kNoCrossing:
-      return "no crossing of the mid-level";
+      return Message("no crossing of the mid-level");
     case BinState::kOutlier:
-      return "contradicts the other bins";
+      return Message("contradicts the other bins");
   }
   return {};
 }
@@ -328,9 +328,10 @@ Result<BoardPlane> fit_board_plane(const Cloud& board_points, const Target& targ
     const Eigen::Vector3d middle =
         out.lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0);
     if (!plane || std::abs(plane->normal.dot(middle)) < 1e-9) {
-      return Error::input("no plane fits the board's " + std::to_string(out.board_points) +
-                              " LiDAR points; at least ten, not all on one scan line, are needed",
-                          {}, "let the scanner dwell longer or bring the board nearer");
+      return Error::input(Message("no plane fits the board's %1 LiDAR points; at least ten, not "
+                                  "all on one scan line, are needed",
+                                  out.board_points),
+                          {}, Message("let the scanner dwell longer or bring the board nearer"));
     }
     out.plane = *plane;
     // The pose follows the plane: same place and turn, new normal.
@@ -371,7 +372,7 @@ Result<BoardRefinement> refine_nodes(const Cloud& board_points, const Target& ta
   NodeRefiner refiner(board_points, target, options, result);
   if (!refiner.run(context, on_iteration)) return Error::cancelled();
   if (!result.converged)
-    result.warnings.push_back("refinement did not settle within its iterations");
+    result.warnings.push_back(Message("refinement did not settle within its iterations"));
   return result;
 }
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "base/message.h"
 #include "base/progress.h"
 #include "base/rigid3.h"
 #include "cloud/cloud.h"
@@ -58,7 +58,7 @@ enum class BinState {
 };
 
 /// One line of plain words for a bin's state.
-std::string describe(BinState state);
+Message describe(BinState state);
 
 /// One angular bin of one node in one iteration.
 struct BinRecord {
@@ -78,7 +78,7 @@ struct NodeRecord {
   double outer_level = 0.0;
   std::vector<BinRecord> bins;
   bool valid = false;
-  std::string reason;  ///< Why it is not valid.
+  Message reason;  ///< Why it is not valid.
 };
 
 /// One iteration over all nodes.
@@ -92,7 +92,7 @@ struct IterationRecord {
 struct RefinedNode {
   int id = 0;
   bool valid = false;
-  std::string reason;
+  Message reason;
   Eigen::Vector2d board_m = Eigen::Vector2d::Zero();  ///< Where the model has it.
   Eigen::Vector2d center_uv_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();  ///< Of center_uv_m.
@@ -118,7 +118,7 @@ struct BoardRefinement {
   double scale = 1.0;  ///< Size of the node layout measured by the LiDAR over the model's.
   double scale_sigma = 0.0;
   std::size_t board_points = 0;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 
   [[nodiscard]] int valid_nodes() const;
 };

@@ -127,7 +127,7 @@ NodeFit fit_midpoints(const std::vector<UnwrappedSample>& samples, NodeRecord re
                          fit.record.bins[k]);
   }
   if (!solve_wave(fit)) {
-    fit.record.reason = "too few usable bins around the circle";
+    fit.record.reason = Message("too few usable bins around the circle");
     return fit;
   }
   const double unit_m = std::max(kLeastUnit_m, std::sqrt(fit.chi_square / fit.degrees_of_freedom));
@@ -177,9 +177,9 @@ std::vector<UnwrappedSample> unwrap_node(const std::vector<PlaneSample>& samples
     out.push_back({d.x() / radius, d.y() / radius, distance, sample.intensity, 0});
   }
   if (inner.size() < kMinLevelSamples || outer.size() < kMinLevelSamples) {
-    record.reason = "too few samples: " + std::to_string(inner.size()) + " inside and " +
-                    std::to_string(outer.size()) + " outside the circle, at least " +
-                    std::to_string(kMinLevelSamples) + " each needed";
+    record.reason =
+        Message("too few samples: %1 inside and %2 outside the circle, at least %3 each needed",
+                inner.size(), outer.size(), kMinLevelSamples);
     return {};
   }
   const double noise = std::max(mad_sigma(inner), mad_sigma(outer));
@@ -187,7 +187,7 @@ std::vector<UnwrappedSample> unwrap_node(const std::vector<PlaneSample>& samples
   record.outer_level = median(std::move(outer));
   const double contrast = record.outer_level - record.inner_level;
   if (!(contrast > noise) || contrast <= 0) {
-    record.reason = "no contrast between circle and paper";
+    record.reason = Message("no contrast between circle and paper");
     return {};
   }
   for (UnwrappedSample& s : out) s.level = (s.level - record.inner_level) / contrast;
@@ -219,7 +219,7 @@ NodeFit fit_node(const std::vector<UnwrappedSample>& samples, NodeRecord record,
     solved = solve_wave(fit);
   }
   if (!solved) {
-    fit.record.reason = "too few usable bins around the circle";
+    fit.record.reason = Message("too few usable bins around the circle");
     return fit;
   }
   // A centre known no better than a quarter of the radius is no measurement.
@@ -227,7 +227,7 @@ NodeFit fit_node(const std::vector<UnwrappedSample>& samples, NodeRecord record,
   fit.weight = 1.0 / variance;
   const double sigma = std::sqrt(variance);
   fit.record.valid = sigma < 0.25 * window.radius_m;
-  if (!fit.record.valid) fit.record.reason = "centre too uncertain";
+  if (!fit.record.valid) fit.record.reason = Message("centre too uncertain");
   return fit;
 }
 

@@ -88,19 +88,21 @@ std::string body(const json& response) {
 Result<std::string> export_boundary_response(const ExportInput& input) {
   const json j = parse_json(input.result_json);
   if (j.is_discarded() || !j.is_object() || !j.contains("boundary_response")) {
-    return Error::untrusted("this result holds no boundary response", {},
-                            "calibrate again with this version");
+    return Error::untrusted(Message("this result holds no boundary response"), {},
+                            Message("calibrate again with this version"));
   }
   try {
     const json& response = j.at("boundary_response");
     if (!response.at("all").contains("covariance")) {
-      const std::string reason = response.value("reason", "not enough samples");
-      return Error::untrusted("there is no boundary response to export: " + reason);
+      const auto stated = response.find("reason");
+      const Message reason = stated == response.end()
+                                 ? Message("not enough samples")
+                                 : Message::verbatim(stated->get<std::string>());
+      return Error::untrusted(Message("there is no boundary response to export: %1", reason));
     }
     return "# LV-Calib " + version() + "\n" + kExplanation + body(response);
   } catch (const json::exception& e) {
-    return Error::input(std::string("the boundary response of this result is malformed: ") +
-                        e.what());
+    return Error::input(Message("the boundary response of this result is malformed: %1", e.what()));
   }
 }
 

@@ -147,15 +147,15 @@ Result<ColoredCloud> write_colored_ply(const ExportInput& input, const std::stri
     for (const ExportScene& s : input.scenes) known += (known.empty() ? "" : ", ") + s.name;
     return Error::usage(
         scene.empty()
-            ? std::string("the result names no image and cloud of a scene in use")
-            : "there is no scene '" + scene + "' with image and cloud, known are " + known,
+            ? Message("the result names no image and cloud of a scene in use")
+            : Message("there is no scene '%1' with image and cloud, known are %2", scene, known),
         "--scene");
   }
   const std::filesystem::path dataset = input.dataset;
   const auto image = read_color_image(dataset / found->image);
   if (!image) return image.error();
   if (image->width_px != input.camera.width_px || image->height_px != input.camera.height_px)
-    return Error::input("is of another size than the camera's images",
+    return Error::input(Message("is of another size than the camera's images"),
                         (dataset / found->image).string());
   const auto cloud = read_cloud(dataset / found->cloud, context.stop);
   if (!cloud) return cloud.error();

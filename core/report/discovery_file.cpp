@@ -201,12 +201,12 @@ std::string discovery_summary(const Discovery& d) {
   }
   for (const std::string& id : d.selected) {
     for (const EffectFinding& f : d.effects) {
-      if (f.id == id) out += id + ": " + f.explanation + "\n";
+      if (f.id == id) out += id + ": " + f.explanation.text() + "\n";
     }
   }
   if (!d.selected.empty() && !d.history.empty())
     out += "\nWith them\n" + head + channel_lines(d.history.back().channels);
-  for (const std::string& w : d.warnings) out += "\nWarning: " + w + "\n";
+  for (const Message& w : d.warnings) out += "\nWarning: " + w.text() + "\n";
   if (!d.unknown.empty()) {
     out += "\nStructure that no effect of the catalogue explains\n";
     for (const StructureScore& s : d.unknown) {
@@ -224,11 +224,11 @@ std::string discovery_summary(const Discovery& d) {
   for (const EffectFinding& f : d.effects) {
     bool chosen = false;
     for (const std::string& id : d.selected) chosen = chosen || id == f.id;
-    if (!chosen) out += "  " + f.id + ": " + f.explanation + "\n";
+    if (!chosen) out += "  " + f.id + ": " + f.explanation.text() + "\n";
   }
   out += budget_lines(d);
   if (!d.advice.empty()) out += "\nAdvice\n";
-  for (const std::string& a : d.advice) out += "  " + a + "\n";
+  for (const Message& a : d.advice) out += "  " + a.text() + "\n";
   return out;
 }
 

@@ -17,15 +17,15 @@ using nlohmann::json;
 Result<double> number_at(const json& j, const char* key, const std::string& where) {
   const auto found = j.find(key);
   if (found == j.end() || !found->is_number())
-    return Error::input(std::string("camera.") + key + " is missing or not a number", where);
+    return Error::input(Message("camera.%1 is missing or not a number", key), where);
   return found->get<double>();
 }
 
 Result<Camera> camera_of(const json& j, const std::string& where) {
   const auto found = j.find("camera");
   if (found == j.end() || !found->is_object()) {
-    return Error::input("there is no camera in this result", where,
-                        "calibrate again with this version, which stores the intrinsics");
+    return Error::input(Message("there is no camera in this result"), where,
+                        Message("calibrate again with this version, which stores the intrinsics"));
   }
   Camera camera;
   const std::array<std::pair<const char*, double*>, 4> fields = {
@@ -41,7 +41,7 @@ Result<Camera> camera_of(const json& j, const std::string& where) {
   if (!height) return height.error();
   const auto whole = [](double v) { return v >= 1.0 && v <= 1e6; };
   if (!whole(*width) || !whole(*height))
-    return Error::input("camera.width and camera.height are no image size", where);
+    return Error::input(Message("camera.width and camera.height are no image size"), where);
   camera.width_px = static_cast<int>(*width);
   camera.height_px = static_cast<int>(*height);
   const auto model = found->find("distortion_model");
@@ -55,18 +55,17 @@ Result<Camera> camera_of(const json& j, const std::string& where) {
     camera.model = DistortionModel::kEquidistant;
   } else {
     return Error::input(
-        "camera.distortion_model is none of plumb_bob, rational_polynomial, "
-        "equidistant",
+        Message("camera.distortion_model is none of plumb_bob, rational_polynomial, equidistant"),
         where);
   }
   const auto distortion = found->find("distortion");
   if (distortion == found->end() || !distortion->is_array() ||
       distortion->size() != static_cast<std::size_t>(camera.distortion_count()))
-    return Error::input("camera.distortion is missing or of another length than its model's",
-                        where);
+    return Error::input(
+        Message("camera.distortion is missing or of another length than its model's"), where);
   for (std::size_t k = 0; k < distortion->size(); ++k) {
     if (!(*distortion)[k].is_number())
-      return Error::input("camera.distortion holds something that is no number", where);
+      return Error::input(Message("camera.distortion holds something that is no number"), where);
     camera.distortion(static_cast<Eigen::Index>(k)) = (*distortion)[k].get<double>();
   }
   if (Status status = check(camera); !status) {
@@ -110,7 +109,7 @@ std::vector<ExportScene> scenes_of(const json& j) {
 
 Result<Camera> camera_from_json_text(const std::string& result_json, const std::string& where) {
   const json j = parse_json(result_json);
-  if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", where);
+  if (j.is_discarded() || !j.is_object()) return Error::input(Message("not a JSON object"), where);
   return camera_of(j, where);
 }
 

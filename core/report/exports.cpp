@@ -394,8 +394,8 @@ Result<std::vector<ExportFile>> write_colmap(const ExportInput& input) {
               scene.cloud + "\n";
   }
   if (number == 0)
-    return Error::untrusted("the result names no image of a scene in use", "--format colmap",
-                            "calibrate again with this version");
+    return Error::untrusted(Message("the result names no image of a scene in use"),
+                            "--format colmap", Message("calibrate again with this version"));
   return std::vector<ExportFile>{
       {"cameras.txt",
        notes + "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n" + colmap_camera(input.camera)},
@@ -462,10 +462,10 @@ Status check_frame_name(const std::string& name) {
   if (!name.empty() && name.front() != '-' && name.size() <= 100 &&
       std::all_of(name.begin(), name.end(), allowed) && name.find("--") == std::string::npos)
     return Done{};
-  return Error::usage("'" + name.substr(0, 100) +
-                          "' is no name of a frame; expected letters, digits and _ - . /, not "
-                          "beginning with - and without --",
-                      {}, "as the robot's description calls it: velodyne, camera_left");
+  return Error::usage(Message("'%1' is no name of a frame; expected letters, digits and _ - . /, "
+                              "not beginning with - and without --",
+                              name.substr(0, 100)),
+                      {}, Message("as the robot's description calls it: velodyne, camera_left"));
 }
 
 Result<std::string> export_result(const ExportInput& input, const std::string& format) {
@@ -477,11 +477,12 @@ Result<std::string> export_result(const ExportInput& input, const std::string& f
     names.push_back(f.name);
     if (f.name != format) continue;
     if (f.needs_imu && !input.imu_from_lidar) {
-      return Error::usage("the format " + format +
-                              " holds the camera's pose in the IMU frame and needs T_imu_lidar",
-                          "--format",
-                          "give a YAML file with T_imu_lidar (takes a LiDAR point to the IMU "
-                          "frame) by --imu");
+      return Error::usage(
+          Message("the format %1 holds the camera's pose in the IMU frame and needs T_imu_lidar",
+                  format),
+          "--format",
+          Message(
+              "give a YAML file with T_imu_lidar (takes a LiDAR point to the IMU frame) by --imu"));
     }
     if (f.is_cloud) return colored_ply_header(input, Cloud{});
     if (f.write_files == nullptr) return f.write(input);
@@ -494,8 +495,8 @@ Result<std::string> export_result(const ExportInput& input, const std::string& f
   std::string known;
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
   const std::string near = nearest_word(format, names);
-  return Error::usage("there is no format '" + format + "', known are " + known, "--format",
-                      near.empty() ? "" : "did you mean " + near + "?");
+  return Error::usage(Message("there is no format '%1', known are %2", format, known), "--format",
+                      near.empty() ? Message() : Message("did you mean %1?", near));
 }
 
 Status write_export(const ExportInput& input, const std::string& format,
@@ -505,7 +506,8 @@ Status write_export(const ExportInput& input, const std::string& format,
   if (!text) return text.error();
   for (const ExportFormat& f : export_formats()) {
     if (f.name != format) continue;
-    if (f.is_cloud) return Error::usage("a cloud is written of one scene", "--format " + format);
+    if (f.is_cloud)
+      return Error::usage(Message("a cloud is written of one scene"), "--format " + format);
     if (f.write_files == nullptr) continue;
     const auto files = f.write_files(input);
     if (!files) return files.error();

@@ -66,9 +66,9 @@ Status check_inputs(const json& result, const std::string& where, const RunConte
     const std::string hash = file["sha256"].get<std::string>();
     InputFile now;
     if (hash.empty() || !hash_file(path, context, now) || now.sha256 == hash) continue;
-    return Error::input("the file is not the one that the result was made of: its content changed",
-                        path.string(),
-                        "calibrate again (" + where + " is of the file as it was before)");
+    return Error::input(
+        Message("the file is not the one that the result was made of: its content changed"),
+        path.string(), Message("calibrate again (%1 is of the file as it was before)", where));
   }
   return context.stopped() ? Status(Error::cancelled()) : Status(Done{});
 }
@@ -77,7 +77,8 @@ Status check_inputs(const json& result, const std::string& where, const RunConte
 Result<HtmlReport> report_of(const std::string& text, const std::string& where,
                              const json& discovery, const RunContext& context) {
   const json result = parse_json(text);
-  if (result.is_discarded() || !result.is_object()) return Error::input("not a JSON object", where);
+  if (result.is_discarded() || !result.is_object())
+    return Error::input(Message("not a JSON object"), where);
   if (Status s = check_inputs(result, where, context); !s) return s.error();
   HtmlReport report;
   try {
@@ -87,17 +88,17 @@ Result<HtmlReport> report_of(const std::string& text, const std::string& where,
     for (std::size_t s = 0; s < scenes.size(); ++s) {
       if (context.stopped()) return Error::cancelled();
       context.report("report", static_cast<double>(s) / static_cast<double>(scenes.size()),
-                     "scene " + scenes[s].value("name", ""));
+                     Message("scene %1", scenes[s].value("name", "")));
       body += scene_section(result, scenes[s], report.warnings);
     }
     body +=
         response_section(result) + model_section(result, discovery) + provenance_section(result);
     report.html = page(result, body);
   } catch (const json::exception& e) {
-    return Error::input(std::string("this result lacks what a report shows: ") + e.what(), where,
-                        "calibrate again with this version");
+    return Error::input(Message("this result lacks what a report shows: %1", e.what()), where,
+                        Message("calibrate again with this version"));
   }
-  context.report("report", 1.0, "done");
+  context.report("report", 1.0, Message("done"));
   return report;
 }
 
@@ -115,8 +116,8 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
     if (!found) return found.error();
     discovery = parse_json(*found);
     if (!discovery.is_object()) {
-      return Error::input("not a JSON object", beside.string(),
-                          "run lvcalib discover again, or remove the file");
+      return Error::input(Message("not a JSON object"), beside.string(),
+                          Message("run lvcalib discover again, or remove the file"));
     }
   }
   return report_of(*text, path.string(), discovery, context);

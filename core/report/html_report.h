@@ -16,7 +16,7 @@ struct Discovery;
 /// A report, and what it had to do without (images that are gone).
 struct HtmlReport {
   std::string html;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// One self-contained HTML file of a calibration: verdict and reasons, pose, uncertainty, methods,

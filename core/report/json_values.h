@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Matrices and vectors as JSON. For source files only: nlohmann's header stays out of the API.
+// Matrices, vectors and messages as JSON. For source files only: nlohmann's header stays out of the
+// API.
 
 #include <cstddef>
 #include <string>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/memory.h"
+#include "base/message.h"
 
 namespace lvcalib {
 
@@ -39,6 +41,12 @@ inline nlohmann::json parse_json(const std::string& text) {
   constexpr std::size_t kPerByte = 24;
   require_memory(kPerByte * text.size() + (std::size_t{1} << 20U));
   return nlohmann::json::parse(text, nullptr, false);
+}
+
+/// Files are English.
+template <class Json>
+void to_json(Json& j, const Message& message) {
+  j = message.text();
 }
 
 /// Rows of numbers.

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/message.h"
+
 namespace lvcalib {
 
 // Sections of the HTML report, each from the result file alone (the scene's also from its image).
@@ -17,7 +19,7 @@ std::string pose_section(const nlohmann::json& result);
 std::string uncertainty_section(const nlohmann::json& result);
 std::string methods_section(const nlohmann::json& result);
 std::string scene_section(const nlohmann::json& result, const nlohmann::json& scene,
-                          std::vector<std::string>& warnings);
+                          std::vector<Message>& warnings);
 std::string response_section(const nlohmann::json& result);
 /// Effects in use and, if `discovery` (a discovery file) is not null, error before and after,
 /// verdicts and what the scenes cannot show.

@@ -159,8 +159,9 @@ Result<StatedResult> read_stated_result(const std::filesystem::path& path) {
     return out;
   }
   if (!j.is_object() || !j.contains("T_camera_lidar")) {
-    return Error::input("holds no extrinsic; expected T_camera_lidar (a result) or T_CL (a truth)",
-                        path.string(), "give the result.json or result.yaml of a calibration");
+    return Error::input(
+        Message("holds no extrinsic; expected T_camera_lidar (a result) or T_CL (a truth)"),
+        path.string(), Message("give the result.json or result.yaml of a calibration"));
   }
   const auto result =
       result_from_json(j.dump(-1, ' ', false, Json::error_handler_t::replace), path);

@@ -298,7 +298,8 @@ std::string yaml_rows(const Matrix& m) {
 
 Result<nlohmann::json> json_object(const std::string& text, const std::filesystem::path& path) {
   auto j = parse_json(text);
-  if (j.is_discarded() || !j.is_object()) return Error::input("not a JSON object", path.string());
+  if (j.is_discarded() || !j.is_object())
+    return Error::input(Message("not a JSON object"), path.string());
   return j;
 }
 
@@ -314,7 +315,7 @@ Result<Rigid3> rigid(const Eigen::MatrixXd& rows, const std::string& key,
   const Eigen::Matrix3d rotation = rows.topLeftCorner<3, 3>();
   const double error = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm();
   if (error > 1e-3 || rotation.determinant() < 0) {
-    return Error::input("the left 3×3 part of " + key + " is not a rotation", path.string());
+    return Error::input(Message("the left 3×3 part of %1 is not a rotation", key), path.string());
   }
   return Rigid3::from_matrix(rotation, Eigen::Vector3d(rows.col(3).head<3>()));
 }
@@ -361,11 +362,11 @@ std::string result_as_yaml(const CalibrationResult& result) {
   out += std::string("verified: ") + (result.verified ? "true" : "false") + "\n";
   out += "quality: " + name_of(result.quality) + "\nwarnings:";
   out += result.warnings.empty() ? " []\n" : "\n";
-  for (const std::string& w : result.warnings) out += "  - " + yaml_quoted(w) + "\n";
+  for (const Message& w : result.warnings) out += "  - " + yaml_quoted(w.text()) + "\n";
   out += "rms_px: " + yaml_number(x.rms_px) + "\nrms_mm: " + yaml_number(x.rms_mm) + "\nscenes:\n";
   for (const SceneResult& scene : result.scenes) {
     out += "  - {name: " + yaml_quoted(scene.name) + ", used: " + (scene.used ? "true" : "false") +
-           ", reason: " + yaml_quoted(scene.reason);
+           ", reason: " + yaml_quoted(scene.reason.text());
     const SceneSolution* solution = solution_of(result, scene.name);
     if (solution != nullptr) {
       out += ", rms_px: " + yaml_number(solution->rms_px) +
@@ -396,7 +397,7 @@ Result<StoredExtrinsic> result_from_json(const std::string& text,
   Eigen::MatrixXd m;
   if (pose == j->end() || !pose->is_object() || !pose->contains("matrix") ||
       !read_rows((*pose)["matrix"], 4, 4, m)) {
-    return Error::input("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers",
+    return Error::input(Message("T_camera_lidar.matrix is missing or not 4 rows of 4 numbers"),
                         path.string());
   }
   auto transform = rigid(m, "T_camera_lidar.matrix", path);
@@ -424,12 +425,13 @@ Result<std::vector<StoredStep>> read_ablation(const std::filesystem::path& path)
   const auto list = j->find("ablation");
   if (list == j->end()) return steps;
   const auto bad = [&](std::size_t k) {
-    return Error::input("ablation[" + std::to_string(k) +
-                            "] must hold name, rms_px, rms_mm and T_camera_lidar (4 rows of 4 "
-                            "numbers)",
-                        path.string());
+    return Error::input(
+        Message(
+            "ablation[%1] must hold name, rms_px, rms_mm and T_camera_lidar (4 rows of 4 numbers)",
+            k),
+        path.string());
   };
-  if (!list->is_array()) return Error::input("ablation is not a list", path.string());
+  if (!list->is_array()) return Error::input(Message("ablation is not a list"), path.string());
   for (std::size_t k = 0; k < list->size(); ++k) {
     const auto& entry = (*list)[k];
     Eigen::MatrixXd m;
@@ -452,7 +454,7 @@ Result<Rigid3> read_truth(const std::filesystem::path& path) {
   if (!j) return j.error();
   Eigen::MatrixXd m;
   if (!j->contains("T_CL") || !read_rows((*j)["T_CL"], 3, 4, m)) {
-    return Error::input("T_CL is missing or not 3 rows of 4 numbers", path.string());
+    return Error::input(Message("T_CL is missing or not 3 rows of 4 numbers"), path.string());
   }
   return rigid(m, "T_CL", path);
 }

@@ -102,7 +102,7 @@ std::optional<std::filesystem::path> image_of(const json& result, const std::str
   return std::nullopt;
 }
 
-std::string photograph(const json& result, const json& scene, std::vector<std::string>& warnings) {
+std::string photograph(const json& result, const json& scene, std::vector<Message>& warnings) {
   const std::string name = scene.at("name").get<std::string>();
   const auto camera = camera_from_json_text(result.dump());
   if (!camera || !scene.contains("T_lidar_board")) return "";
@@ -110,8 +110,9 @@ std::string photograph(const json& result, const json& scene, std::vector<std::s
   const auto outline = overlay.outline();
   const auto path = image_of(result, name);
   if (outline.size() < 3 || !path) {
-    warnings.push_back("scene " + name + ": its image is no longer at the dataset's place; the " +
-                       "report goes without it");
+    warnings.push_back(Message(
+        "scene %1: its image is no longer at the dataset's place; the report goes without it",
+        name));
     return "<p class=\"note\">The image is no longer where it was.</p>\n";
   }
   Eigen::Vector2d low = outline.front();
@@ -123,7 +124,7 @@ std::string photograph(const json& result, const json& scene, std::vector<std::s
   const Eigen::Vector2d room = 0.12 * (high - low);
   const auto image = page_image(*path, low - room, high + room, 1000);
   if (!image) {
-    warnings.push_back("scene " + name + ": its image cannot be read");
+    warnings.push_back(Message("scene %1: its image cannot be read", name));
     return "<p class=\"note\">The image cannot be read.</p>\n";
   }
   char box[160];
@@ -207,8 +208,7 @@ std::string node_table(const json& nodes) {
 
 }  // namespace
 
-std::string scene_section(const json& result, const json& scene,
-                          std::vector<std::string>& warnings) {
+std::string scene_section(const json& result, const json& scene, std::vector<Message>& warnings) {
   std::string out = "<section class=\"scene\"><h2>Scene " +
                     html_escaped(scene.at("name").get<std::string>()) + "</h2>\n";
   const std::string reason = scene.at("reason").get<std::string>();

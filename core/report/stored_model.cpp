@@ -35,7 +35,7 @@ class Reader {
   Result<StoredModel> run() {
     const auto effects = model_.find("effects");
     if (effects == model_.end() || !effects->is_array())
-      return error("model.effects", "is missing or not a list");
+      return error("model.effects", Message("is missing or not a list"));
     if (effects->empty()) return out_;
     if (Status s = read_scales(); !s) return s.error();
     for (std::size_t k = 0; k < effects->size(); ++k) {
@@ -46,8 +46,8 @@ class Reader {
   }
 
  private:
-  [[nodiscard]] Error error(const std::string& key, const std::string& what) const {
-    return Error::input(key + " " + what, file_, "run lvcalib discover again");
+  [[nodiscard]] Error error(const std::string& key, const Message& what) const {
+    return Error::input(Message("%1 %2", key, what), file_, Message("run lvcalib discover again"));
   }
 
   static std::optional<double> number(const nlohmann::json& j, const char* key) {
@@ -60,36 +60,38 @@ class Reader {
   Status read_scales() {
     const auto scales = model_.find("scales");
     if (scales == model_.end() || !scales->is_object())
-      return error("model.scales", "is missing: the file tells values but not what they refer to");
+      return error("model.scales",
+                   Message("is missing: the file tells values but not what they refer to"));
     const char* const keys[] = {"white_level", "black_level", "log_contrast",
                                 "largest_incidence_rad"};
     double* const values[] = {&out_.scales.level[0], &out_.scales.level[1],
                               &out_.scales.log_contrast, &out_.scales.incidence_high_rad};
     for (std::size_t k = 0; k < std::size(keys); ++k) {
       const auto value = number(*scales, keys[k]);
-      if (!value) return error(std::string("model.scales.") + keys[k], "is no number");
+      if (!value) return error(std::string("model.scales.") + keys[k], Message("is no number"));
       *values[k] = *value;
     }
     const auto darkness = scales->find("darkness");
     if (darkness == scales->end() || !darkness->is_array() || darkness->size() != 2 ||
         !(*darkness)[0].is_number() || !(*darkness)[1].is_number())
-      return error("model.scales.darkness", "is not two numbers");
+      return error("model.scales.darkness", Message("is not two numbers"));
     out_.scales.darkness_low = (*darkness)[0];
     out_.scales.darkness_high = (*darkness)[1];
     if (!(out_.scales.darkness_low <= out_.scales.darkness_high))
-      return error("model.scales.darkness", "is not in ascending order");
+      return error("model.scales.darkness", Message("is not in ascending order"));
     return read_lines(*scales);
   }
 
   Status read_lines(const nlohmann::json& scales) {
     const auto lines = scales.find("lines");
     if (lines == scales.end() || !lines->is_array())
-      return error("model.scales.lines", "is missing or not a list");
+      return error("model.scales.lines", Message("is missing or not a list"));
     for (const nlohmann::json& line : *lines) {
-      if (!line.is_number_integer()) return error("model.scales.lines", "is no list of numbers");
+      if (!line.is_number_integer())
+        return error("model.scales.lines", Message("is no list of numbers"));
       const int value = line.get<int>();
       if (!out_.scales.lines.empty() && value <= out_.scales.lines.back())
-        return error("model.scales.lines", "is not in ascending order");
+        return error("model.scales.lines", Message("is not in ascending order"));
       out_.scales.lines.push_back(value);
     }
     return Done{};
@@ -97,12 +99,13 @@ class Reader {
 
   Status read_effect(const nlohmann::json& j, const std::string& where) {
     if (!j.is_object() || !j.contains("id") || !j["id"].is_string())
-      return error(where + ".id", "is missing");
+      return error(where + ".id", Message("is missing"));
     const std::string id = j["id"].get<std::string>();
     EffectInUse use;
     if (j.contains("spec") && j["spec"].is_string()) {
       auto own = make_user_effect(j["spec"].get<std::string>());
-      if (!own) return error(where + ".spec", "is no formula or curve: " + own.error().message);
+      if (!own)
+        return error(where + ".spec", Message("is no formula or curve: %1", own.error().message));
       use.effect = *own;
     } else {
       use.effect = find_effect(id);
@@ -113,9 +116,8 @@ class Reader {
     use.values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
     if (!j.contains("parameters") || !j["parameters"].is_array() ||
         j["parameters"].size() != parameters.size())
-      return error(where + ".parameters", "is not the list of " +
-                                              std::to_string(parameters.size()) +
-                                              " parameters that '" + id + "' has");
+      return error(where + ".parameters", Message("is not the list of %1 parameters that '%2' has",
+                                                  parameters.size(), id));
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const nlohmann::json& p = j["parameters"][k];
       const EffectParameter& expected = parameters[k];
@@ -123,7 +125,7 @@ class Reader {
       if (!value || p.value("name", nlohmann::json()) != expected.name ||
           p.value("unit", nlohmann::json()) != expected.unit) {
         return error(where + ".parameters[" + std::to_string(k) + "]",
-                     "is not a value of '" + expected.name + "' in " + expected.unit);
+                     Message("is not a value of '%1' in %2", expected.name, expected.unit));
       }
       use.values(static_cast<Eigen::Index>(k)) = *value * expected.unit_in_si;
     }
@@ -135,10 +137,13 @@ class Reader {
     std::vector<std::string> known;
     for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
     const std::string nearest = nearest_word(id, known);
-    return Error::input(where + ".id is '" + id + "', which is no effect that this version knows" +
-                            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"),
-                        file_,
-                        "use the version that wrote the file, or run lvcalib discover again");
+    return Error::input(
+        nearest.empty()
+            ? Message("%1.id is '%2', which is no effect that this version knows", where, id)
+            : Message(
+                  "%1.id is '%2', which is no effect that this version knows; did you mean '%3'?",
+                  where, id, nearest),
+        file_, Message("use the version that wrote the file, or run lvcalib discover again"));
   }
 
   const nlohmann::json& model_;
@@ -179,12 +184,12 @@ Result<StoredModel> read_model(const std::filesystem::path& path) {
   if (!text) return text.error();
   const auto j = parse_json(*text);
   if (j.is_discarded() || !j.is_object())
-    return Error::input("not a JSON object", path.string(),
-                        "give the result.json of a calibration");
+    return Error::input(Message("not a JSON object"), path.string(),
+                        Message("give the result.json of a calibration"));
   const auto model = j.find("model");
   if (model == j.end() || !model->is_object()) {
-    return Error::input("holds no model", path.string(),
-                        "give the result.json that lvcalib discover wrote");
+    return Error::input(Message("holds no model"), path.string(),
+                        Message("give the result.json that lvcalib discover wrote"));
   }
   return Reader(*model, path.string()).run();
 }

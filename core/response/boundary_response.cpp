@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -42,14 +43,14 @@ std::vector<Point> thinned(const std::vector<Point>& points, std::size_t most) {
   return out;
 }
 
-std::string no_node_reason(const SceneResponse& scene) {
-  std::map<std::string, int> counts;
-  for (const NodeResponse& node : scene.nodes) ++counts[describe(node.state)];
-  std::string text = "no circle gives boundary samples:";
-  for (const auto& [why, count] : counts) text += " " + std::to_string(count) + " × " + why + ",";
-  text.pop_back();
-  if (!scene.nodes.empty()) text += " (the first: " + scene.nodes.front().reason + ")";
-  return text;
+Message no_node_reason(const SceneResponse& scene) {
+  if (scene.nodes.empty()) return Message("no circle gives boundary samples");
+  std::map<NodeResponseState, int, std::greater<>> counts;
+  for (const NodeResponse& node : scene.nodes) ++counts[node.state];
+  std::vector<Message> words;
+  for (const auto& [why, count] : counts) words.push_back(Message("%1 × %2", count, describe(why)));
+  return Message("no circle gives boundary samples: %1 (the first: %2)", joined(words, ", "),
+                 scene.nodes.front().reason);
 }
 
 // Gives every sample the width that the transition has in its direction.
@@ -92,7 +93,7 @@ SceneResponse respond(const ResponseInput& input, const Target& target,
   SceneResponse scene;
   scene.name = input.name;
   if (!input.board_points->has_intensity()) {
-    scene.reason = "the cloud has no intensity";
+    scene.reason = Message("the cloud has no intensity");
     return scene;
   }
   scene.samples = collect_edge_samples(input, target);
@@ -110,12 +111,13 @@ SceneResponse respond(const ResponseInput& input, const Target& target,
   scene.transition = fit_transition(thinned(points_of(scene, target, 0.0, 1.0), kMostFitPoints),
                                     median(std::move(widths)));
   if (!scene.transition) {
-    scene.reason = "the intensities about the circles show no transition from black to white";
+    scene.reason =
+        Message("the intensities about the circles show no transition from black to white");
     return scene;
   }
   if (!widen(scene, target)) {
     scene.transition.reset();
-    scene.reason = "the transitions about the circles have no common width";
+    scene.reason = Message("the transitions about the circles have no common width");
     return scene;
   }
   scene.nodes =
@@ -137,9 +139,10 @@ OverlapSet overlap_of(const SceneResponse& scene, const Target& target,
   return set;
 }
 
-std::string too_few(std::size_t n, int needed) {
-  return "not enough samples for statistics: " + std::to_string(n) +
-         " in the overlap region, needed " + std::to_string(needed) + " around the circles";
+Message too_few(std::size_t n, int needed) {
+  return Message(
+      "not enough samples for statistics: %1 in the overlap region, needed %2 around the circles",
+      n, needed);
 }
 
 // Levels differ from scene to scene: the common fit is of levels scaled to each scene's own.
@@ -239,7 +242,9 @@ void summarize(BoundaryResponse& response, const Target& target, const ResponseO
   if (!response.all) {
     response.reason = too_few(all.samples.size(), options.min_samples);
     for (const SceneResponse& scene : response.scenes) {
-      if (!scene.reason.empty()) response.reason += "; scene " + scene.name + ": " + scene.reason;
+      if (!scene.reason.empty())
+        response.reason +=
+            Message::verbatim("; ") + Message("scene %1: %2", scene.name, scene.reason);
     }
     return;
   }
@@ -250,18 +255,18 @@ void summarize(BoundaryResponse& response, const Target& target, const ResponseO
 
 }  // namespace
 
-std::string describe(NodeResponseState state) {
+Message describe(NodeResponseState state) {
   switch (state) {
     case NodeResponseState::kUsed:
-      return "used";
+      return Message("used");
     case NodeResponseState::kNotRefined:
-      return "not refined";
+      return Message("not refined");
     case NodeResponseState::kTooFewSamples:
-      return "not enough samples";
+      return Message("not enough samples");
     case NodeResponseState::kNoContrast:
-      return "no contrast";
+      return Message("no contrast");
     case NodeResponseState::kClipped:
-      return "intensity clipped";
+      return Message("intensity clipped");
   }
   return {};
 }
@@ -272,11 +277,11 @@ Result<BoundaryResponse> calibrate_boundary_response(const std::vector<ResponseI
                                                      const RunContext& context) {
   BoundaryResponse response;
   if (!target.has_circles()) {
-    response.reason = "this board has no circles";
+    response.reason = Message("this board has no circles");
     return response;
   }
   if (scenes.empty()) {
-    response.reason = "not enough scenes for a boundary response: none is in use";
+    response.reason = Message("not enough scenes for a boundary response: none is in use");
     return response;
   }
   response.scenes.resize(scenes.size());

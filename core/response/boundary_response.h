@@ -47,14 +47,14 @@ enum class NodeResponseState {
   kClipped,        ///< A plateau lies at the end of the intensity scale.
 };
 /// One line of plain words.
-std::string describe(NodeResponseState state);
+Message describe(NodeResponseState state);
 
 struct NodeResponse {
   int id = 0;
   NodeResponseState state = NodeResponseState::kNotRefined;
-  std::string reason;  ///< Plain words with numbers; empty when used.
-  int samples = 0;     ///< In the region of interest.
-  int overlap = 0;     ///< Of these in the overlap region.
+  Message reason;   ///< Plain words with numbers; empty when used.
+  int samples = 0;  ///< In the region of interest.
+  int overlap = 0;  ///< Of these in the overlap region.
 };
 
 /// A LiDAR point near a circle and its nearest ideal boundary point.
@@ -110,7 +110,7 @@ struct SceneResponse {
   /// Standard deviation of the overlap region's width over that width.
   double relative_width_sigma = 0.0;
   std::optional<ResponseStatistics> statistics;
-  std::string reason;  ///< Why there are none; empty otherwise.
+  Message reason;  ///< Why there are none; empty otherwise.
 };
 
 struct BoundaryResponse {
@@ -124,7 +124,7 @@ struct BoundaryResponse {
   /// jitter of the beam's axis, 0 when all of it is footprint. Sigma 0: the scenes cannot tell.
   double jitter_share = 0.0;
   double jitter_share_sigma = 0.0;
-  std::string reason;  ///< Why there are no statistics; empty otherwise.
+  Message reason;  ///< Why there are no statistics; empty otherwise.
 };
 
 /// What the calibration needs of one scene; both must outlive the call.

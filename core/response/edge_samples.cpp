@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <tuple>
+#include <utility>
 
 #include "base/statistics.h"
+#include "base/text.h"
 #include "refinement/node_fit.h"
 
 namespace lvcalib {
@@ -175,54 +175,56 @@ std::string percent(double share) {
 
 // A plateau is clipped if much of it lies at the end of the scale while the rest, or the other
 // plateau, shows noise: an intensity without any noise is no sign of clipping.
-std::string clipped_reason(const NodePlateaus& node, const ResponseOptions& options) {
+Message clipped_reason(const NodePlateaus& node, const ResponseOptions& options) {
   const auto clipped = [&](const Plateau& p, const Plateau& other, double share) {
     const bool noisy = p.highest > p.lowest || other.noise > 0.0;
     return share > options.max_clipped_share && noisy;
   };
-  for (const auto& [plateau, other, name] :
-       {std::tuple(&node.out, &node.in, "paper"), std::tuple(&node.in, &node.out, "circle")}) {
-    if (clipped(*plateau, *other, plateau->at_highest))
-      return "intensity clipped: " + percent(plateau->at_highest) + " of the " + name +
-             "'s samples at the highest value";
-    if (clipped(*plateau, *other, plateau->at_lowest))
-      return "intensity clipped: " + percent(plateau->at_lowest) + " of the " + name +
-             "'s samples at the lowest value";
-  }
+  if (clipped(node.out, node.in, node.out.at_highest))
+    return Message("intensity clipped: %1 of the paper's samples at the highest value",
+                   percent(node.out.at_highest));
+  if (clipped(node.out, node.in, node.out.at_lowest))
+    return Message("intensity clipped: %1 of the paper's samples at the lowest value",
+                   percent(node.out.at_lowest));
+  if (clipped(node.in, node.out, node.in.at_highest))
+    return Message("intensity clipped: %1 of the circle's samples at the highest value",
+                   percent(node.in.at_highest));
+  if (clipped(node.in, node.out, node.in.at_lowest))
+    return Message("intensity clipped: %1 of the circle's samples at the lowest value",
+                   percent(node.in.at_lowest));
   return {};
 }
 
 void judge(NodeResponse& node, NodePlateaus& plateaus, float low, float high,
            const ResponseOptions& options) {
   constexpr std::size_t kLevelSamples = 8;
-  const auto refuse = [&](NodeResponseState state, const std::string& detail) {
+  const auto refuse = [&](NodeResponseState state, Message reason) {
     node.state = state;
-    node.reason = describe(state) + (detail.empty() ? "" : ": " + detail);
+    node.reason = std::move(reason);
   };
   if (plateaus.in.values.size() < kLevelSamples || plateaus.out.values.size() < kLevelSamples ||
       node.overlap < options.min_node_samples) {
-    return refuse(NodeResponseState::kTooFewSamples,
-                  std::to_string(node.overlap) + " in the overlap region, " +
-                      std::to_string(plateaus.in.values.size()) + " on the circle, " +
-                      std::to_string(plateaus.out.values.size()) + " on the paper; needed " +
-                      std::to_string(options.min_node_samples) + ", " +
-                      std::to_string(kLevelSamples) + " and " + std::to_string(kLevelSamples));
+    return refuse(
+        NodeResponseState::kTooFewSamples,
+        Message("not enough samples: %1",
+                Message("%1 in the overlap region, %2 on the circle, %3 on the paper; needed %4, "
+                        "%5 and %6",
+                        node.overlap, plateaus.in.values.size(), plateaus.out.values.size(),
+                        options.min_node_samples, kLevelSamples, kLevelSamples)));
   }
   measure(plateaus.in, low, high);
   measure(plateaus.out, low, high);
   const double contrast = plateaus.out.level - plateaus.in.level;
   const double noise = std::max(plateaus.in.noise, plateaus.out.noise);
   if (!(contrast > options.min_contrast * noise) || !(contrast > 0.0)) {
-    char text[96];
-    std::snprintf(text, sizeof text, "black %.4g, white %.4g, noise %.3g", plateaus.in.level,
-                  plateaus.out.level, noise);
-    return refuse(NodeResponseState::kNoContrast, text);
+    return refuse(
+        NodeResponseState::kNoContrast,
+        Message("no contrast: %1",
+                Message("black %1, white %2, noise %3", formatted("%.4g", plateaus.in.level),
+                        formatted("%.4g", plateaus.out.level), formatted("%.3g", noise))));
   }
-  if (const std::string reason = clipped_reason(plateaus, options); !reason.empty()) {
-    node.state = NodeResponseState::kClipped;
-    node.reason = reason;
-    return;
-  }
+  if (Message reason = clipped_reason(plateaus, options); !reason.empty())
+    return refuse(NodeResponseState::kClipped, std::move(reason));
   node.state = NodeResponseState::kUsed;
 }
 
@@ -293,9 +295,8 @@ std::vector<NodeResponse> judge_nodes(const BoardRefinement& refinement,
     nodes[n].id = refinement.nodes[n].id;
     if (!refinement.nodes[n].valid) {
       nodes[n].state = NodeResponseState::kNotRefined;
-      nodes[n].reason =
-          describe(nodes[n].state) +
-          (refinement.nodes[n].reason.empty() ? "" : ": " + refinement.nodes[n].reason);
+      const Message& why = refinement.nodes[n].reason;
+      nodes[n].reason = why.empty() ? describe(nodes[n].state) : Message("not refined: %1", why);
       // Why the refinement had no use for it is often found here too, and then said more exactly.
       NodeResponse probe = nodes[n];
       judge(probe, plateaus[n], low, high, options);

@@ -19,25 +19,43 @@ std::string curve_spec(const StructureScore& s) {
   return spec;
 }
 
-std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unknown) {
-  std::vector<std::string> out;
+std::string values_text(const std::vector<ParameterEstimate>& parameters) {
+  constexpr std::size_t kShown = 4;
+  std::vector<std::string> parts;
+  for (const ParameterEstimate& p : parameters) {
+    if (parts.size() == kShown) {
+      parts.emplace_back("…");
+      break;
+    }
+    parts.push_back(p.name + " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) +
+                    behind_number(p.unit));
+  }
+  return joined(parts, ", ");
+}
+
+Message not_told_apart(const EffectFinding& finding, const EffectInfo& info, const char* between) {
+  return Message(" These scenes cannot tell it from %1; to tell: %2.",
+                 joined(finding.aliases, between), Message::listed(info.discriminating_pose));
+}
+
+std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown) {
+  std::vector<Message> out;
   std::set<Channel> said;
   for (const StructureScore& s : unknown) {
     // The strongest covariate of a channel: others mostly see the same.
     if (!said.insert(s.channel).second) continue;
-    std::string text =
-        std::string("No effect of the catalogue explains what the ") + name_of(s.channel) +
-        " channel does over " + s.covariates() +
-        formatted(" (%.2g %% of its held-out variance, %.2g ", 100.0 * s.score, s.amplitude) +
-        unit_of(s.channel) + "); to take it out anyway: --with " + curve_spec(s);
-    if (!s.formula.empty()) text += ", or as a closed form: --with '" + s.formula + "'";
-    out.push_back(text);
+    out.push_back(
+        Message("No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its "
+                "held-out variance, %4 %5); to take it out anyway: --with %6",
+                word_for(s.channel), s.covariates(), formatted("%.2g", 100.0 * s.score),
+                formatted("%.2g", s.amplitude), unit_of(s.channel), curve_spec(s)));
+    if (!s.formula.empty()) out.back() += Message(", or as a closed form: --with '%1'", s.formula);
   }
   return out;
 }
 
-std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
-  std::vector<std::string> out;
+std::vector<Message> advise(const std::vector<EffectFinding>& findings) {
+  std::vector<Message> out;
   constexpr std::size_t kMost = 5;
   // First what is in doubt in the model, then what could spoil the extrinsic most unseen.
   for (const EffectFinding& f : findings) {
@@ -45,9 +63,8 @@ std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
     if (f.parameters.empty()) continue;
     const EffectPtr effect = find_effect(f.id);
     if (effect == nullptr) continue;  // the user's own
-    const std::string text = "To tell " + f.id + " from " + joined(f.aliases, " and ") +
-                             ", take: " + effect->info().discriminating_pose;
-    out.push_back(text);
+    out.push_back(Message("To tell %1 from %2, take: %3", f.id, joined(f.aliases, " and "),
+                          Message::listed(effect->info().discriminating_pose)));
   }
   std::vector<const EffectFinding*> unseen;
   for (const EffectFinding& f : findings) {
@@ -60,9 +77,10 @@ std::vector<std::string> advise(const std::vector<EffectFinding>& findings) {
   for (const EffectFinding* f : unseen) {
     if (out.size() >= kMost) break;
     if (f->extrinsic_move_mm < 1.0) continue;
-    out.push_back("To see whether " + f->id + " is there (it could move the extrinsic by " +
-                  formatted("%.1f mm and %.2f mrad", f->extrinsic_move_mm, f->extrinsic_move_mrad) +
-                  "), take: " + find_effect(f->id)->info().discriminating_pose);
+    out.push_back(Message(
+        "To see whether %1 is there (it could move the extrinsic by %2 mm and %3 mrad), take: %4",
+        f->id, formatted("%.1f", f->extrinsic_move_mm), formatted("%.2f", f->extrinsic_move_mrad),
+        Message::listed(find_effect(f->id)->info().discriminating_pose)));
   }
   return out;
 }

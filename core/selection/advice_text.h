@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "diagnostics/structure_scan.h"
+#include "model/effect.h"
 #include "selection/effect_finding.h"
 
 namespace lvcalib {
@@ -12,11 +14,17 @@ namespace lvcalib {
 /// The curve that takes structure out, as one asks for it with `--with`.
 std::string curve_spec(const StructureScore& structure);
 
+/// "a = 1.20 ± 0.10 mm, b = …": parameters with their standard deviations, the first four.
+std::string values_text(const std::vector<ParameterEstimate>& parameters);
+
+/// " These scenes cannot tell it from a or b; to tell: …": what a found effect may be as well.
+Message not_told_apart(const EffectFinding& finding, const EffectInfo& info, const char* between);
+
 /// What to do about structure that no effect explains: the curve, and the closed form if there is
 /// one, to ask for with `--with`; the strongest few, one covariate per channel.
-std::vector<std::string> advise_unknown(const std::vector<StructureScore>& unknown);
+std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown);
 
 /// Scenes worth taking, in words.
-std::vector<std::string> advise(const std::vector<EffectFinding>& findings);
+std::vector<Message> advise(const std::vector<EffectFinding>& findings);
 
 }  // namespace lvcalib

@@ -25,7 +25,7 @@ RunContext part_of(const RunContext& context, double from, double to) {
 struct WantedModel {
   std::vector<ModelStepPtr> steps;     // The base model first.
   std::vector<EffectFinding> refused;  // The user's own that these data cannot bear.
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 Result<WantedModel> add_wanted(const ModelStepPtr& start, const RunContext& context) {
@@ -34,7 +34,7 @@ Result<WantedModel> add_wanted(const ModelStepPtr& start, const RunContext& cont
     const bool own = is_user_effect(text);
     const std::string id = own ? parse_user_effect(text)->id : text;
     if (out.steps.back()->find(id)) {
-      out.warnings.push_back("the effect '" + id + "' was asked for twice; it is taken once");
+      out.warnings.push_back(Message("the effect '%1' was asked for twice; it is taken once", id));
       continue;
     }
     auto next = add_effect(out.steps.back(), text, std::nullopt, context);
@@ -44,12 +44,12 @@ Result<WantedModel> add_wanted(const ModelStepPtr& start, const RunContext& cont
     }
     const Error& error = next.error();
     if (error.kind == ErrorKind::kUsage || error.kind == ErrorKind::kCancelled) return error;
-    out.warnings.push_back(error.text() + "; it is left out");
+    out.warnings.push_back(Message("%1; it is left out", error.sentence()));
     if (!own) continue;  // The catalogue's verdict says so anyway.
     EffectFinding f;
     f.id = id;
     f.verdict = EffectVerdict::kNotTestable;
-    f.explanation = "Not testable: " + error.text() + ".";
+    f.explanation = Message("Not testable: %1.", error.sentence());
     out.refused.push_back(std::move(f));
   }
   return out;
@@ -94,8 +94,9 @@ Status check_wanted(const std::vector<std::string>& with) {
     if (find_effect(id) != nullptr) continue;
     const std::string near = nearest_word(id, known);
     return Error::usage(
-        "there is no effect '" + id + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"),
-        {}, "your own: formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE");
+        near.empty() ? Message("there is no effect '%1'", id)
+                     : Message("there is no effect '%1'; did you mean '%2'?", id, near),
+        {}, Message("your own: formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE"));
   }
   return Done{};
 }

@@ -31,9 +31,9 @@ struct Discovery {
   std::vector<std::string> selected;      ///< In the order added.
   std::vector<StructureScore> unknown;    ///< Left when the catalogue stopped.
   std::vector<HistoryStep> history;
-  std::vector<std::string> advice;
-  std::vector<std::string> warnings;  ///< Effects asked for that could not be used, and why.
-  std::vector<BudgetItem> budget;     ///< Sensitivity budget, largest movement first.
+  std::vector<Message> advice;
+  std::vector<Message> warnings;   ///< Effects asked for that could not be used, and why.
+  std::vector<BudgetItem> budget;  ///< Sensitivity budget, largest movement first.
   /// `covariance` plus the moments of the budget: what is not in the model counted as well.
   Matrix6d covariance_with_budget = Matrix6d::Zero();
   /// The final model.

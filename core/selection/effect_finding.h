@@ -68,7 +68,7 @@ struct EffectFinding {
   std::vector<Criterion> criteria;
   /// Share of its squared effect that pose and levels cannot absorb.
   double unabsorbed_share = 0.0;
-  std::string explanation;
+  Message explanation;
   std::string spec;  ///< Of a user's own effect: makes it again (EffectInfo::spec).
   FoundCurve curve;
 };

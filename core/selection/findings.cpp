@@ -18,30 +18,12 @@
 namespace lvcalib {
 namespace {
 
-std::string value_text(const ParameterEstimate& p) {
-  return p.name + " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) +
-         behind_number(p.unit);
-}
-
 std::string lowest_text(const EffectColumns& columns) {
   std::vector<std::string> parts;
   for (const EffectParameter& p : columns.parameters) {
     if (std::isfinite(p.lowest))
       parts.push_back(p.name + " = " + formatted("%.3g", p.lowest / p.unit_in_si) +
                       behind_number(p.unit));
-  }
-  return joined(parts, ", ");
-}
-
-std::string values_text(const EffectFinding& finding) {
-  constexpr std::size_t kShown = 4;
-  std::vector<std::string> parts;
-  for (const ParameterEstimate& p : finding.parameters) {
-    if (parts.size() == kShown) {
-      parts.emplace_back("…");
-      break;
-    }
-    parts.push_back(value_text(p));
   }
   return joined(parts, ", ");
 }
@@ -59,10 +41,6 @@ void set_parameters(const EffectColumns& columns, const Eigen::VectorXd& values,
 void set_move(const ExtrinsicMove& move, EffectFinding& finding) {
   finding.extrinsic_move_mm = 1e3 * move.translation_m;
   finding.extrinsic_move_mrad = 1e3 * move.rotation_rad;
-}
-
-std::string move_text(const EffectFinding& finding) {
-  return formatted("%.1f mm and %.2f mrad", finding.extrinsic_move_mm, finding.extrinsic_move_mrad);
 }
 
 // The curve over its intervals, with its standard deviation.
@@ -97,8 +75,8 @@ FoundCurve found_curve(const EffectInUse& use, const Eigen::MatrixXd& covariance
 }
 
 // What was found of an effect: its values, or of a curve how far it reaches.
-std::string found_text(const EffectFinding& f) {
-  if (f.curve.points.empty()) return values_text(f);
+Message found_text(const EffectFinding& f) {
+  if (f.curve.points.empty()) return Message::verbatim(values_text(f.parameters));
   const auto& p = f.curve.points;
   const auto [low, high] = std::minmax_element(
       p.begin(), p.end(),
@@ -106,11 +84,12 @@ std::string found_text(const EffectFinding& f) {
   double squares = 0.0;
   for (const CurvePoint& point : p) squares += point.sigma * point.sigma;
   const double factor = display_factor(f.curve.channel);
-  return formatted("it runs from %.3g to %.3g ", factor * low->value, factor * high->value) +
-         unit_of(f.curve.channel) + " over " + joined(f.curve.covariates, " and ") +
-         formatted(", known to %.2g ",
-                   factor * std::sqrt(squares / static_cast<double>(p.size()))) +
-         unit_of(f.curve.channel);
+  const std::string unit = std::string(" ") + unit_of(f.curve.channel);
+  const double sigma = std::sqrt(squares / static_cast<double>(p.size()));
+  return Message("it runs from %1 to %2 over %3, known to %4",
+                 formatted("%.3g", factor * low->value),
+                 formatted("%.3g", factor * high->value) + unit,
+                 joined(f.curve.covariates, " and "), formatted("%.2g", factor * sigma) + unit);
 }
 
 // Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene
@@ -143,7 +122,7 @@ class Judge {
       if (seen.insert(id).second) add_other(c);
     }
     for (const EffectPtr& effect : effect_catalogue()) {
-      const std::string reason = why_not_testable(*effect, search_.table());
+      const Message reason = why_not_testable(*effect, search_.table());
       if (reason.empty()) continue;
       const auto blur = effect->is_in_base_model() ? search_.measured_blur() : std::nullopt;
       if (blur) {
@@ -207,19 +186,27 @@ class Judge {
     return {move.head<3>().norm(), move.segment<3>(3).norm()};
   }
 
+  static std::string mm(const EffectFinding& f) { return formatted("%.1f", f.extrinsic_move_mm); }
+  static std::string mrad(const EffectFinding& f) {
+    return formatted("%.2f", f.extrinsic_move_mrad);
+  }
+
   void explain_selected(const Effect& effect, EffectFinding& f) const {
     const EffectInfo& info = effect.info();
-    f.explanation = info.physics + " Found: " + found_text(f);
-    if (!effect.shape_name().empty()) {
-      f.explanation += "; " + effect.shape_name() +
-                       (f.shape_sigma > 0.0 ? formatted(" = %.4g ± %.2g", f.shape, f.shape_sigma)
-                                            : formatted(" = %.3g", f.shape));
+    const Message physics = Message::listed(info.physics);
+    if (effect.shape_name().empty()) {
+      f.explanation =
+          Message("%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad.",
+                  physics, found_text(f), mm(f), mrad(f));
+    } else {
+      f.explanation = Message(
+          "%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and %6 mrad.",
+          physics, found_text(f), Message::listed(effect.shape_name()),
+          f.shape_sigma > 0.0 ? formatted("%.4g ± %.2g", f.shape, f.shape_sigma)
+                              : formatted("%.3g", f.shape),
+          mm(f), mrad(f));
     }
-    f.explanation += "; leaving it out would move the extrinsic by " + move_text(f) + ".";
-    if (!f.aliases.empty()) {
-      f.explanation += " These scenes cannot tell it from " + joined(f.aliases, " or ") +
-                       "; to tell: " + info.discriminating_pose + ".";
-    }
+    if (!f.aliases.empty()) f.explanation += not_told_apart(f, info, " or ");
   }
 
   void add_other(const Candidate& c) {
@@ -241,10 +228,10 @@ class Judge {
       if (std::find(s.aliases.begin(), s.aliases.end(), f.id) == s.aliases.end()) continue;
       f.verdict = EffectVerdict::kAliased;
       f.aliases.assign(1, s.id);
-      f.explanation = "Explains the same as " + s.id +
-                      ", which is in the model: these scenes cannot "
-                      "tell the two apart. To tell: " +
-                      columns.effect->info().discriminating_pose + ".";
+      f.explanation = Message(
+          "Explains the same as %1, which is in the model: these scenes cannot tell the two apart. "
+          "To tell: %2.",
+          s.id, Message::listed(columns.effect->info().discriminating_pose));
     }
     out_.push_back(std::move(f));
   }
@@ -264,55 +251,65 @@ class Judge {
     f.unabsorbed_share = unabsorbed_share(c.fit, c.fit.solution.tail(columns.count()));
     set_move(c.limit.most, f);
     const bool told = is_told(columns, f);
+    const std::string values = values_text(f.parameters);
+    const Message pose = Message::listed(columns.effect->info().discriminating_pose);
+    const bool sure = is_sure(c, search_.candidates().size(), options_);
     if (!f.matters && told) {
       f.verdict = EffectVerdict::kAbsent;
       f.explanation =
-          (is_sure(c, search_.candidates().size(), options_) ? "Too small to matter: "
-                                                             : "Not there as far as it matters: ") +
-          values_text(f) + "; it moves the extrinsic by " + move_text(f) + " at most.";
+          sure ? Message(
+                     "Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at "
+                     "most.",
+                     values, mm(f), mrad(f))
+               : Message(
+                     "Not there as far as it matters: %1; it moves the extrinsic by %2 mm and "
+                     "%3 mrad at most.",
+                     values, mm(f), mrad(f));
       return;
     }
     f.verdict = EffectVerdict::kNotTestable;
     if (c.contradiction == Contradiction::kLevels) {
-      f.explanation =
-          "White and black return unlike shares of light as range and incidence "
-          "change, which no effect explains; edges are found in these intensities and "
-          "cannot tell: " +
-          values_text(f) + ".";
+      f.explanation = Message(
+          "White and black return unlike shares of light as range and incidence change, which no "
+          "effect explains; edges are found in these intensities and cannot tell: %1.",
+          values);
     } else if (c.contradiction == Contradiction::kScenes) {
-      f.explanation =
-          "Where it fits best it predicts scenes held out worse: " + values_text(f) +
-          "; too few of them show it. To decide: " + columns.effect->info().discriminating_pose +
-          ".";
+      f.explanation = Message(
+          "Where it fits best it predicts scenes held out worse: %1; too few of them show it. To "
+          "decide: %2.",
+          values, pose);
     } else if (c.contradiction == Contradiction::kPrints) {
-      f.explanation = "White and black print contradict each other about it: " + values_text(f) +
-                      " of both together; something that depends on the print is at work.";
+      f.explanation = Message(
+          "White and black print contradict each other about it: %1 of both together; something "
+          "that depends on the print is at work.",
+          values);
     } else if (!c.possible()) {
-      f.explanation = "What fits best is impossible: " + values_text(f) +
-                      ", while no device has less than " + lowest_text(columns) +
-                      "; something else is at work.";
-    } else if (c.explained_share < options_.min_explained &&
-               is_sure(c, search_.candidates().size(), options_)) {
-      f.explanation = formatted("It explains %.0f %% of what is wrong in the ",
-                                100.0 * std::max(0.0, c.explained_share)) +
-                      std::string(name_of(c.explained_in)) + " channel: " + values_text(f) +
-                      "; something else is at work there.";
+      f.explanation = Message(
+          "What fits best is impossible: %1, while no device has less than %2; something else is "
+          "at work.",
+          values, lowest_text(columns));
+    } else if (c.explained_share < options_.min_explained && sure) {
+      f.explanation = Message(
+          "It explains %1 % of what is wrong in the %2 channel: %3; something else is at work "
+          "there.",
+          formatted("%.0f", 100.0 * std::max(0.0, c.explained_share)), word_for(c.explained_in),
+          values);
     } else if (!told || c.limit.unknown.exceeds(c.tolerance)) {
-      f.explanation = "Cannot be told from these scenes: " + values_text(f) +
-                      "; it may move the extrinsic by " + move_text(f) +
-                      ". To see it: " + columns.effect->info().discriminating_pose + ".";
+      f.explanation = Message(
+          "Cannot be told from these scenes: %1; it may move the extrinsic by %2 mm and %3 mrad. "
+          "To see it: %4.",
+          values, mm(f), mrad(f), pose);
     } else {
-      f.explanation = "Undecided: " + values_text(f) +
-                      " is neither excluded nor confirmed by scenes held out; it may move the "
-                      "extrinsic by " +
-                      move_text(f) + ". To decide: " + columns.effect->info().discriminating_pose +
-                      ".";
+      f.explanation = Message(
+          "Undecided: %1 is neither excluded nor confirmed by scenes held out; it may move the "
+          "extrinsic by %2 mm and %3 mrad. To decide: %4.",
+          values, mm(f), mrad(f), pose);
     }
   }
 
   // Part of the beam's blur, which every model holds: the least squares of what the effect adds to
   // the three numbers of the blur. Measured, so there is nothing to test; the value is told.
-  void add_measured(const Effect& effect, const MeasuredBlur& blur, const std::string& reason) {
+  void add_measured(const Effect& effect, const MeasuredBlur& blur, const Message& reason) {
     const std::vector<EffectParameter> parameters = effect.parameters(search_.table());
     std::vector<Eigen::Vector3d> by(parameters.size(), Eigen::Vector3d::Zero());
     effect.blur({}, search_.table(), 0.0, by);
@@ -329,15 +326,15 @@ class Judge {
                               values(i), std::sqrt(std::max(0.0, covariance(i, i)))});
     }
     f.verdict = EffectVerdict::kNotTestable;
-    f.explanation = "Not testable: " + reason + ".";
+    f.explanation = Message("Not testable: %1.", reason);
     out_.push_back(std::move(f));
   }
 
-  void add_untestable(const Effect& effect, const std::string& reason) {
+  void add_untestable(const Effect& effect, const Message& reason) {
     EffectFinding f;
     f.id = effect.info().id;
     f.verdict = EffectVerdict::kNotTestable;
-    f.explanation = "Not testable: " + reason + ".";
+    f.explanation = Message("Not testable: %1.", reason);
     out_.push_back(std::move(f));
   }
 

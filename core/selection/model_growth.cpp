@@ -22,7 +22,7 @@ class Growth {
   void run() {
     for (int step = 0;; ++step) {
       context_.report("rank", std::min(1.0, found() / (options_.max_effects + 1.0)),
-                      "ranking effects, " + std::to_string(selections_.size()) + " in the model");
+                      Message("ranking effects, %1 in the model", selections_.size()));
       search_.rank();
       // Steps are counted as well: what is dropped may come back.
       if (context_.stopped() || found() >= options_.max_effects || step >= 2 * options_.max_effects)

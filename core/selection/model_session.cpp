@@ -55,9 +55,9 @@ void read_back(const EffectSearch& search, std::vector<ModelTerm>& terms) {
 Status enough_scenes(std::size_t scenes) {
   if (scenes >= 3) return Done{};
   return Error::untrusted(
-      "not enough scenes to look for effects: " + std::to_string(scenes) +
-          (scenes == 1 ? " scene" : " scenes") + ", three or more are needed to hold one out",
-      {}, "take scenes at other distances and with the board turned differently");
+      Message("not enough scenes to look for effects: %1, three or more are needed to hold one out",
+              scenes == 1 ? Message("1 scene") : Message("%1 scenes", scenes)),
+      {}, Message("take scenes at other distances and with the board turned differently"));
 }
 
 // The step at which a search stands whose shape numbers are refined.
@@ -80,7 +80,7 @@ Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunCont
   const EveryResidual residuals = every_residual(search.table(), search.state(), model, context);
   if (context.stopped()) return Error::cancelled();
   step.channels = summarize_channels(residuals, model, search.reference().heldout);
-  context.report("structure", 0.7, "looking for structure");
+  context.report("structure", 0.7, Message("looking for structure"));
   StructureScan scan = scan_structure(search.table(), residuals, context);
   if (context.stopped()) return Error::cancelled();
   step.structure = std::move(scan.curves);
@@ -91,7 +91,7 @@ Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunCont
 }
 
 Result<ModelStepPtr> fitted(ModelStep step, const RunContext& context) {
-  context.report("model", 0.1, "fitting the model");
+  context.report("model", 0.1, Message("fitting the model"));
   const auto basis = step.basis;
   EffectSearch search(basis->table, step.state, switched_on(step.terms), basis->options, context);
   search.remake();
@@ -110,7 +110,7 @@ ModelStep changed(const ModelStepPtr& from, ModelChange change, const std::strin
 }
 
 // What the effect that was added last cannot be told from; empty if the data determine it.
-std::string singular_with(const EffectSearch& search) {
+Message singular_with(const EffectSearch& search) {
   // Less of an effect than this is left by rounding alone.
   constexpr double kSingular = 1e-6;
   const auto& in_use = search.in_use();
@@ -120,10 +120,12 @@ std::string singular_with(const EffectSearch& search) {
   for (std::size_t k = 0; k + 1 < in_use.size(); ++k) first += in_use[k].values.size();
   if (fit.solution.size() < first + count || determined_share(fit, first, count) >= kSingular)
     return {};
-  std::string others = "the extrinsic and the board poses";
-  for (std::size_t k = 0; k + 1 < in_use.size(); ++k)
-    others += (k + 2 == in_use.size() ? " and " : ", ") + in_use[k].effect->info().id;
-  return others;
+  std::vector<Message> others = {Message("the extrinsic and the board poses")};
+  const std::size_t before = in_use.size() - 1;
+  for (std::size_t k = 0; k + 1 < before; ++k)
+    others.push_back(Message::verbatim(in_use[k].effect->info().id));
+  if (before == 0) return others.front();
+  return Message("%1 and %2", joined(others, ", "), in_use[before - 1].effect->info().id);
 }
 
 std::vector<Selection> selections_of(const std::vector<ModelTerm>& terms) {
@@ -198,8 +200,9 @@ Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& t
   std::vector<std::string> known;
   for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
   const std::string near = nearest_word(spec, known);
-  return Error::usage("there is no effect '" + spec + "'" +
-                      (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  return Error::usage(near.empty()
+                          ? Message("there is no effect '%1'", spec)
+                          : Message("there is no effect '%1'; did you mean '%2'?", spec, near));
 }
 
 Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state,
@@ -216,10 +219,10 @@ Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOpt
   if (Status s = enough_scenes(input.scenes.size()); !s) return s.error();
   if (!input.print) {
     return Error::untrusted(
-        "the joint solve over every return failed: nothing to look for effects with", {},
-        "see the warnings of the calibration");
+        Message("the joint solve over every return failed: nothing to look for effects with"), {},
+        Message("see the warnings of the calibration"));
   }
-  context.report("table", 0.0, "collecting measurements");
+  context.report("table", 0.0, Message("collecting measurements"));
   return start_model(table_of(input, options.table), input.state, options, context);
 }
 
@@ -230,18 +233,19 @@ Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spe
   const std::string& id = (*effect)->info().id;
   if (const auto there = from->find(id)) {
     if (!from->terms[*there].on) return switch_effect(from, *there, true, context);
-    return Error::usage("the effect '" + id + "' is in the model already");
+    return Error::usage(Message("the effect '%1' is in the model already", id));
   }
-  if (const std::string why = why_not_testable(**effect, from->table()); !why.empty())
-    return Error::input("the effect '" + spec + "' cannot be used: " + why);
-  context.report("model", 0.0, "fitting the model");
+  if (const Message why = why_not_testable(**effect, from->table()); !why.empty())
+    return Error::input(Message("the effect '%1' cannot be used: %2", spec, why));
+  context.report("model", 0.0, Message("fitting the model"));
   EffectSearch search(*from->search);
   search.set_context(context);
   search.add(*effect, shape ? *shape : search.preferred_shape(*effect));
   if (context.stopped()) return Error::cancelled();
-  if (const std::string others = singular_with(search); !others.empty()) {
-    return Error::input("the effect '" + spec + "' cannot be used: it acts just as " + others +
-                        " do, which makes the solve singular");
+  if (const Message others = singular_with(search); !others.empty()) {
+    return Error::input(Message(
+        "the effect '%1' cannot be used: it acts just as %2 do, which makes the solve singular",
+        spec, others));
   }
   search.remake();
   search.refine_shapes();
@@ -274,8 +278,8 @@ Result<ModelStepPtr> hold_effect(const ModelStepPtr& from, std::size_t k,
   step.terms[k].use.held = values.has_value();
   if (values) {
     if (values->size() != term.use.values.size() || !values->allFinite()) {
-      return Error::usage("the effect '" + term.spec + "' takes " +
-                          std::to_string(term.use.values.size()) + " finite values");
+      return Error::usage(
+          Message("the effect '%1' takes %2 finite values", term.spec, term.use.values.size()));
     }
     step.terms[k].use.values = *values;
   }
@@ -288,7 +292,7 @@ Result<ModelStepPtr> apply_decision(const ModelStepPtr& from, const ModelDecisio
   if (decision.change == ModelChange::kAdd)
     return add_effect(from, decision.spec, std::nullopt, context);
   const auto k = from->find(decision.spec);
-  if (!k) return Error::usage("the effect '" + decision.spec + "' is not in the model");
+  if (!k) return Error::usage(Message("the effect '%1' is not in the model", decision.spec));
   switch (decision.change) {
     case ModelChange::kRemove:
       return remove_effect(from, *k, context);

@@ -16,18 +16,6 @@
 namespace lvcalib {
 namespace {
 
-std::string values_text(const std::vector<ParameterEstimate>& parameters) {
-  constexpr std::size_t kShown = 4;
-  std::string out;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    if (k == kShown) return out + ", …";
-    const ParameterEstimate& p = parameters[k];
-    out += (out.empty() ? "" : ", ") + p.name + " = " +
-           with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + behind_number(p.unit);
-  }
-  return out;
-}
-
 class Proposer {
  public:
   Proposer(const EffectSearch& search, const DiscoveryOptions& options)
@@ -76,20 +64,15 @@ class Proposer {
     f.explanation = explain(columns_of(c).effect->info(), c.main_channel(), proposal);
   }
 
-  static std::string explain(const EffectInfo& info, Channel best, const EffectProposal& proposal) {
-    std::string out = info.physics + " Found: " + values_text(proposal.finding.parameters) +
-                      ". With it, scenes held out have " +
-                      formatted("%.0f %% less squared error in the ",
-                                100.0 * proposal.heldout_fall[static_cast<std::size_t>(best)]) +
-                      name_of(best) + " channel and the extrinsic moves by " +
-                      formatted("%.1f mm and %.2f mrad.", proposal.gained_mm, proposal.gained_mrad);
-    if (!proposal.finding.aliases.empty()) {
-      std::string others;
-      for (const std::string& id : proposal.finding.aliases)
-        others += (others.empty() ? "" : ", ") + id;
-      out += " These scenes cannot tell it from " + others +
-             "; to tell: " + info.discriminating_pose + ".";
-    }
+  static Message explain(const EffectInfo& info, Channel best, const EffectProposal& proposal) {
+    Message out = Message(
+        "%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and "
+        "the extrinsic moves by %5 mm and %6 mrad.",
+        Message::listed(info.physics), values_text(proposal.finding.parameters),
+        formatted("%.0f", 100.0 * proposal.heldout_fall[static_cast<std::size_t>(best)]),
+        word_for(best), formatted("%.1f", proposal.gained_mm),
+        formatted("%.2f", proposal.gained_mrad));
+    if (!proposal.finding.aliases.empty()) out += not_told_apart(proposal.finding, info, ", ");
     return out;
   }
 
@@ -128,8 +111,10 @@ EffectFinding finding_in_model(const ModelTerm& term) {
   f.verdict = EffectVerdict::kPresent;
   f.parameters = term.estimates();
   f.shape = term.use.shape;
-  f.explanation = term.use.effect->info().physics + " In the model" +
-                  (term.use.held ? ", held" : "") + ": " + values_text(f.parameters) + ".";
+  const Message physics = Message::listed(term.use.effect->info().physics);
+  const std::string values = values_text(f.parameters);
+  f.explanation = term.use.held ? Message("%1 In the model, held: %2.", physics, values)
+                                : Message("%1 In the model: %2.", physics, values);
   return f;
 }
 
@@ -142,12 +127,12 @@ bool ModelRanking::nothing_missing() const {
 
 Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& context) {
   const DiscoveryOptions& options = step.basis->options;
-  context.report("rank", 0.1, "ranking effects");
+  context.report("rank", 0.1, Message("ranking effects"));
   EffectSearch search(*step.search);
   search.set_context(context);
   search.rank();
   if (context.stopped()) return Error::cancelled();
-  context.report("verdicts", 0.7, "judging effects");
+  context.report("verdicts", 0.7, Message("judging effects"));
   std::vector<Selection> selected;
   for (const ModelTerm& term : step.terms) {
     if (term.on) selected.push_back(term.selection);
@@ -172,7 +157,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
                          options.closed_forms, context, out.unknown);
   }
   if (context.stopped()) return Error::cancelled();
-  context.report("advice", 0.85, "looking for the next scene");
+  context.report("advice", 0.85, Message("looking for the next scene"));
   out.advice = options.advise_scenes
                    ? advise_scenes(scenes_taken(search), open_questions(search, findings),
                                    options.grid, context)
@@ -181,7 +166,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   out.advice.insert(out.advice.end(), about_unknown.begin(), about_unknown.end());
   out.budget = sensitivity_budget(search);
   if (context.stopped()) return Error::cancelled();
-  context.report("verdicts", 1.0, "done");
+  context.report("verdicts", 1.0, Message("done"));
   return out;
 }
 

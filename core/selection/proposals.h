@@ -30,7 +30,7 @@ struct ModelRanking {
   std::vector<EffectProposal> proposals;
   /// Structure that is left although nothing is suggested: no known effect explains it.
   std::vector<StructureScore> unknown;
-  std::vector<std::string> advice;  ///< Scenes worth taking, and what else would tell.
+  std::vector<Message> advice;  ///< Scenes worth taking, and what else would tell.
   /// What effects that are not in the model could still do to the extrinsic, largest first.
   std::vector<BudgetItem> budget;
 

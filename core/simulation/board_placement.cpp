@@ -43,12 +43,11 @@ class Placer {
       if (fits(lidar_from_board)) return lidar_from_board;
     }
     return Error::usage(
-        options_.partial
-            ? "no place was found where the board is in the image but partly outside the LiDAR's "
-              "field of view"
-            : "no place was found where the whole board is in the image and in the LiDAR's field "
-              "of view",
-        "board placement", "change the distances, the board's size or the image size");
+        options_.partial ? Message("no place was found where the board is in the image but partly "
+                                   "outside the LiDAR's field of view")
+                         : Message("no place was found where the whole board is in the image and "
+                                   "in the LiDAR's field of view"),
+        "board placement", Message("change the distances, the board's size or the image size"));
   }
 
  private:

@@ -72,16 +72,16 @@ Status check_destination(const fs::path& dataset, const fs::path& truth, bool fo
   if (exists && !empty) {
     const bool simulated = is_simulated_dataset(dataset, truth);
     if (!simulated) {
-      return Error::output("exists already and is not a simulated dataset", dataset.string(),
-                           "choose another name");
+      return Error::output(Message("exists already and is not a simulated dataset"),
+                           dataset.string(), Message("choose another name"));
     }
     if (!force) {
-      return Error::output("exists already", dataset.string(),
-                           "choose another name, or replace it with --force");
+      return Error::output(Message("exists already"), dataset.string(),
+                           Message("choose another name, or replace it with --force"));
     }
   } else if (!force && fs::exists(fs::symlink_status(truth, code))) {
-    return Error::output("exists already", truth.string(),
-                         "choose another name, or replace it with --force");
+    return Error::output(Message("exists already"), truth.string(),
+                         Message("choose another name, or replace it with --force"));
   }
   return Done{};
 }
@@ -92,7 +92,7 @@ Result<std::string> encode_png(const SimulatedImage& image) {
   const auto expected =
       static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
   if (image.pixels.empty() || image.pixels.size() != expected) {
-    return Error::output("the image has no pixels, so no PNG can be made of it");
+    return Error::output(Message("the image has no pixels, so no PNG can be made of it"));
   }
   return lvcalib::encode_png(PixelView{image.width_px, image.height_px, 1, 8, image.pixels.data(),
                                        static_cast<std::size_t>(image.width_px)});
@@ -125,7 +125,7 @@ Result<DatasetWriter> DatasetWriter::create(const SimulatedRig& rig, const fs::p
                                             bool force) {
   const fs::path path = clean(dataset);
   if (dataset.empty() || !path.has_filename()) {
-    return Error::output("is no name for a dataset folder", dataset.string());
+    return Error::output(Message("is no name for a dataset folder"), dataset.string());
   }
   fs::path truth = path;
   truth += "-truth.json";
@@ -181,7 +181,7 @@ std::string DatasetWriter::truth_text() const {
 
 Status DatasetWriter::finish() {
   const auto fail = [&](const std::error_code& code) -> Status {
-    return Error::output("cannot be put in place: " + code.message(), dataset_.string());
+    return Error::output(Message("cannot be put in place: %1", code.message()), dataset_.string());
   };
   fs::path new_truth = temporary_;
   new_truth += "-truth.json";

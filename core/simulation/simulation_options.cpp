@@ -18,9 +18,9 @@ class RangeCheck {
     if (!message_.empty()) return;
     std::ostringstream text;
     text << name << " is " << value << ", expected " << low << " to " << high;
-    message_ = text.str();
+    message_ = Message::verbatim(text.str());
   }
-  void that(bool holds, const char* message) {
+  void that(bool holds, const Message& message) {
     if (!holds && message_.empty()) message_ = message;
   }
   [[nodiscard]] Status status() const {
@@ -29,13 +29,13 @@ class RangeCheck {
   }
 
  private:
-  std::string message_;
+  Message message_;
 };
 
 void check_lidar(const LidarOptions& o, RangeCheck& check) {
   check.in("number of points", o.points, 0, 10'000'000);
   check.that(o.kind != LidarKind::kSpinning || o.lines == 64 || o.lines == 128,
-             "a spinning LiDAR has 64 or 128 lines");
+             Message("a spinning LiDAR has 64 or 128 lines"));
   check.in("field of view [deg]", o.fov_deg, 10, 120);
   check.in("range noise [m]", o.range_sigma_m, 0, 1);
   check.in("growth of the range noise on dark", o.range_dark_exponent, 0, 1);
@@ -63,11 +63,11 @@ void check_placement(const PlacementOptions& o, RangeCheck& check) {
   check.in("smallest distance [m]", o.min_distance_m, 0.5, 20);
   check.in("largest distance [m]", o.max_distance_m, 0.5, 20);
   check.that(!(o.min_distance_m > o.max_distance_m),
-             "the smallest distance is larger than the largest");
+             Message("the smallest distance is larger than the largest"));
   check.in("tilt [deg]", o.max_tilt_deg, 0, 70);
   check.in("roll [deg]", o.max_roll_deg, 0, 180);
   check.that(o.board || !(o.partial || o.flush_on_wall),
-             "a board that is absent can be neither partly visible nor on a wall");
+             Message("a board that is absent can be neither partly visible nor on a wall"));
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ Status check(const SimulationOptions& options) {
   if (Status status = range.status(); !status) return status;
   if (Status status = check(options.target); !status) return status;
   if (options.effects.contains("corner_bias") && !options.target.has_tags()) {
-    return Error::usage("effect 'corner_bias' acts on tags, but this board has none",
+    return Error::usage(Message("effect 'corner_bias' acts on tags, but this board has none"),
                         "simulation options");
   }
   return check_effects(options.effects, line_count(options.lidar));

@@ -43,8 +43,8 @@ std::string Simulator::scene_name(int scene) const {
 Result<SimulatedScene> Simulator::simulate_scene(int scene, const RunContext& context) const {
   const SimulationOptions& options = rig_.options;
   if (scene < 0 || scene >= options.scenes) {
-    return Error::usage("scene " + std::to_string(scene) + " does not exist, expected 0 to " +
-                        std::to_string(options.scenes - 1));
+    return Error::usage(
+        Message("scene %1 does not exist, expected 0 to %2", scene, options.scenes - 1));
   }
   const auto random = [&](Purpose purpose) { return random_for(options.seed, scene, purpose); };
   const ScanPattern pattern(options.lidar, random(Purpose::kScan));
@@ -99,7 +99,7 @@ Status simulate_each(const Simulator& simulator, const RunContext& context,
       return;
     }
     ++done;
-    context.report("simulate", static_cast<double>(done) / count, "scene " + name);
+    context.report("simulate", static_cast<double>(done) / count, Message("scene %1", name));
   };
   parallel_for(static_cast<std::size_t>(count), context.thread_count(), work);
   if (failure) return *failure;

@@ -13,12 +13,13 @@ namespace {
 Status enough_scenes(const std::vector<SceneObservations>& scenes, const Target& target) {
   const auto used =
       std::count_if(scenes.begin(), scenes.end(), [](const SceneObservations& s) { return s.use; });
-  if (used == 0) return Error::untrusted("no usable scene is left");
+  if (used == 0) return Error::untrusted(Message("no usable scene is left"));
   if (!target.has_circles() && used < 3) {
     return Error::untrusted(
-        std::to_string(used) +
-            " usable scenes; a target without circles needs three or more, differently turned",
-        {}, "take scenes with the board tilted left, right, up and down");
+        Message(
+            "%1 usable scenes; a target without circles needs three or more, differently turned",
+            used),
+        {}, Message("take scenes with the board tilted left, right, up and down"));
   }
   return Done{};
 }
@@ -32,8 +33,9 @@ Status corners_in_view(const std::vector<SceneObservations>& scenes, const Camer
                          Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0)))
         continue;
       return Error::untrusted(
-          "the board's start pose puts some of its corners where the camera cannot see them",
-          scene.name, "leave this scene out");
+          Message(
+              "the board's start pose puts some of its corners where the camera cannot see them"),
+          scene.name, Message("leave this scene out"));
     }
   }
   return Done{};

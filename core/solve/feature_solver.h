@@ -66,7 +66,7 @@ struct NodeResidual {
 struct SceneSolution {
   std::string name;
   bool used = false;
-  std::string reason;  ///< Why it is not used.
+  Message reason;  ///< Why it is not used.
   Rigid3 camera_from_board;
   double rms_px = 0.0;
   double rms_mm = 0.0;  ///< Of the node residuals; of the plane's heights without nodes.
@@ -93,7 +93,7 @@ struct ExtrinsicSolution {
   double node_scale = 1.0;   ///< Factor on the nodes' stated σ that the residuals ask for (≥ 1).
   double plane_scale = 1.0;  ///< The same for the planes.
   int rank = 6;              ///< Directions of the extrinsic that the scenes determine.
-  std::vector<std::string> weak_directions;  ///< In words; empty when none is.
+  std::vector<Message> weak_directions;  ///< In words; empty when none is.
   int used_scenes = 0;
   int iterations = 0;
 };

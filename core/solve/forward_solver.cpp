@@ -46,18 +46,18 @@ class ForwardSolver {
   Result<ForwardSolution> run(const Rigid3& start, double corner_sigma_px) {
     prepare(start, corner_sigma_px);
     if (!select()) {
-      return Error::untrusted("no LiDAR return lies on the board where the start puts it", {},
-                              "give a rough extrinsic with --init");
+      return Error::untrusted(Message("no LiDAR return lies on the board where the start puts it"),
+                              {}, Message("give a rough extrinsic with --init"));
     }
     if (solution_.uses_intensity) {
       prepare_print();
       match();
     }
     if (context_.stopped()) return Error::cancelled();
-    if (!select()) return Error::untrusted("no LiDAR return lies on the board");
+    if (!select()) return Error::untrusted(Message("no LiDAR return lies on the board"));
     first_levels();
     if (!coarse()) return failure();
-    if (!select(true)) return Error::untrusted("no LiDAR return lies on the board");
+    if (!select(true)) return Error::untrusted(Message("no LiDAR return lies on the board"));
     if (!fine()) return failure();
     if (context_.stopped()) return Error::cancelled();
     last_step();
@@ -71,7 +71,7 @@ class ForwardSolver {
 
   Error failure() const {
     if (context_.stopped()) return Error::cancelled();
-    return Error::untrusted("the joint solve fails on these observations");
+    return Error::untrusted(Message("the joint solve fails on these observations"));
   }
 
   void prepare(const Rigid3& start, double corner_sigma_px) {
@@ -733,7 +733,7 @@ Result<ForwardSolution> solve_forward(const std::vector<ForwardScene>& scenes,
                                       const BlurredPrint& print, const Camera& camera,
                                       const Rigid3& camera_from_lidar, double corner_sigma_px,
                                       const ForwardOptions& options, const RunContext& context) {
-  if (scenes.empty()) return Error::untrusted("no usable scene is left");
+  if (scenes.empty()) return Error::untrusted(Message("no usable scene is left"));
   return ForwardSolver(scenes, print, camera, options, context)
       .run(camera_from_lidar, corner_sigma_px);
 }

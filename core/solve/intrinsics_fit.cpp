@@ -446,9 +446,9 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
   return out;
 }
 
-std::string describe(const IntrinsicsContrast& contrast, const Camera& given,
-                     const std::vector<CornerView>& views) {
-  std::vector<std::string> words;
+Message describe(const IntrinsicsContrast& contrast, const Camera& given,
+                 const std::vector<CornerView>& views) {
+  std::vector<Message> words;
   for (const IntrinsicsPart part : contrast.parts) {
     switch (part) {
       case IntrinsicsPart::kFocalLength: {
@@ -456,16 +456,16 @@ std::string describe(const IntrinsicsContrast& contrast, const Camera& given,
         const double truth = given.fx + contrast.difference(0);
         const double off = 50.0 * (-contrast.difference(0) / truth -
                                    contrast.difference(1) / (given.fy + contrast.difference(1)));
-        words.push_back(
-            "the focal length is " +
-            formatted("%.2f ± %.2f %% ", std::abs(off), 100.0 * contrast.sigma(0) / given.fx) +
-            (off > 0 ? "too long" : "too short"));
+        const std::string size = formatted("%.2f", std::abs(off));
+        const std::string sigma = formatted("%.2f", 100.0 * contrast.sigma(0) / given.fx);
+        words.push_back(off > 0 ? Message("the focal length is %1 ± %2 % too long", size, sigma)
+                                : Message("the focal length is %1 ± %2 % too short", size, sigma));
         break;
       }
       case IntrinsicsPart::kPrincipalPoint:
-        words.push_back("the principal point is off by " +
-                        formatted("%.1f px across and %.1f px down", -contrast.difference(2),
-                                  -contrast.difference(3)));
+        words.push_back(Message("the principal point is off by %1 px across and %2 px down",
+                                formatted("%.1f", -contrast.difference(2)),
+                                formatted("%.1f", -contrast.difference(3))));
         break;
       case IntrinsicsPart::kDistortion: {
         Camera other = given;
@@ -480,12 +480,15 @@ std::string describe(const IntrinsicsContrast& contrast, const Camera& given,
             if (a && b) most = std::max(most, (*a - *b).norm());
           }
         }
-        words.push_back(formatted("the distortion is off by up to %.1f px on the boards", most));
+        words.push_back(
+            Message("the distortion is off by up to %1 px on the boards", formatted("%.1f", most)));
         break;
       }
     }
   }
-  return joined(words, " and ");
+  Message out;
+  for (const Message& part : words) out = out.empty() ? part : Message("%1 and %2", out, part);
+  return out;
 }
 
 }  // namespace lvcalib

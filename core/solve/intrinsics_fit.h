@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "base/message.h"
 #include "base/rigid3.h"
 #include "camera/camera.h"
 #include "detection/board_view.h"
@@ -100,7 +100,7 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
 
 /// "the focal length is 10.02 ± 0.04 % too long", "the principal point is off by 5.1 px", …; the
 /// distortion's size is how far it moves the corners of `views` at most.
-std::string describe(const IntrinsicsContrast& contrast, const Camera& given,
-                     const std::vector<CornerView>& views);
+Message describe(const IntrinsicsContrast& contrast, const Camera& given,
+                 const std::vector<CornerView>& views);
 
 }  // namespace lvcalib

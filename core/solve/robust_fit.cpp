@@ -36,7 +36,7 @@ class RobustFitter {
 
   Result<RobustFit> run() {
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (!scenes_[s].use) reasons_[s] = "not used";
+      if (!scenes_[s].use) reasons_[s] = Message("not used");
     }
     CornerFit corners = fit_corners(scenes_, camera_, mask_, options_);
     JointState start;
@@ -49,7 +49,7 @@ class RobustFitter {
     if (options_.reject_bad_scenes) reject_bad_scenes(fit, scales);
     if (reject_outliers(fit, scales)) fit = settle(fit.state, scales, mask_);
     if (!fit.state.camera_from_lidar.translation.allFinite() || fit.information.isZero(0.0))
-      return Error::untrusted("the joint solve fails on these observations");
+      return Error::untrusted(Message("the joint solve fails on these observations"));
     return RobustFit{std::move(fit), scales, std::move(mask_), std::move(reasons_)};
   }
 
@@ -156,11 +156,11 @@ class RobustFitter {
       const Rigid3 own =
           scenes_[worst].camera_from_board * scenes_[worst].lidar_from_board.inverse();
       const Rigid3& rest = best_fit.state.camera_from_lidar;
-      reasons_[worst] =
-          "contradicts the other scenes by " +
-          std::to_string(std::lround(1e3 * translation_distance_m(own.inverse(), rest.inverse()))) +
-          " mm and " + std::to_string(std::lround(1e3 * rotation_distance_rad(own, rest))) +
-          " mrad: did the board or the rig move between cloud and image?";
+      reasons_[worst] = Message(
+          "contradicts the other scenes by %1 mm and %2 mrad: did the board or the rig move "
+          "between cloud and image?",
+          std::lround(1e3 * translation_distance_m(own.inverse(), rest.inverse())),
+          std::lround(1e3 * rotation_distance_rad(own, rest)));
       mask_.scene[worst] = false;
       fit = best_fit;
       scales = best_scales;
@@ -223,7 +223,7 @@ class RobustFitter {
   const Target& target_;
   const ExtrinsicOptions& options_;
   ObservationMask mask_;
-  std::vector<std::string> reasons_;
+  std::vector<Message> reasons_;
 };
 
 }  // namespace

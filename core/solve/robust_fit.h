@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "solve/feature_problem.h"
 
 namespace lvcalib {
@@ -13,7 +13,7 @@ struct RobustFit {
   JointFit fit;
   NoiseScales scales;
   ObservationMask mask;
-  std::vector<std::string> reasons;  ///< Per scene: why it is not used; empty if it is.
+  std::vector<Message> reasons;  ///< Per scene: why it is not used; empty if it is.
 };
 
 /// Number of scenes in use.

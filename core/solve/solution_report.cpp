@@ -12,26 +12,29 @@
 namespace lvcalib {
 namespace {
 
-std::string describe_direction(const Vector6d& direction, double ratio, bool determined) {
-  static const char* const kNames[] = {
-      "translation along the camera's x axis", "translation along the camera's y axis",
-      "translation along the camera's z axis", "rotation about the camera's x axis",
-      "rotation about the camera's y axis",    "rotation about the camera's z axis"};
+Message describe_direction(const Vector6d& direction, double ratio, bool determined) {
+  const Message names[] = {Message("translation along the camera's x axis"),
+                           Message("translation along the camera's y axis"),
+                           Message("translation along the camera's z axis"),
+                           Message("rotation about the camera's x axis"),
+                           Message("rotation about the camera's y axis"),
+                           Message("rotation about the camera's z axis")};
   // Sideways moves and turns hide in each other at one distance; depth shows in tilted boards;
   // a turn about the view shows far from its middle.
-  static const char* const kAdvice[] = {
-      "add a scene much nearer or farther, to part it from the turn about y",
-      "add a scene much nearer or farther, to part it from the turn about x",
-      "add a scene with the board nearer and tilted",
-      "add a scene much nearer or farther, or high or low in the image",
-      "add a scene much nearer or farther, or far left or right in the image",
-      "add a scene with the board near the image's edge"};
+  const Message advice[] = {
+      Message("add a scene much nearer or farther, to part it from the turn about y"),
+      Message("add a scene much nearer or farther, to part it from the turn about x"),
+      Message("add a scene with the board nearer and tilted"),
+      Message("add a scene much nearer or farther, or high or low in the image"),
+      Message("add a scene much nearer or farther, or far left or right in the image"),
+      Message("add a scene with the board near the image's edge")};
   Eigen::Index main = 0;
   direction.cwiseAbs().maxCoeff(&main);
-  std::string text = kNames[main];
-  if (!determined) return text + " is not determined: add scenes with the board turned differently";
-  return text + " is known " + std::to_string(std::lround(ratio)) +
-         " times worse than the typical direction: " + kAdvice[main];
+  if (!determined)
+    return Message("%1 is not determined: add scenes with the board turned differently",
+                   names[main]);
+  return Message("%1 is known %2 times worse than the typical direction: %3", names[main],
+                 std::lround(ratio), advice[main]);
 }
 
 class SolutionReport {

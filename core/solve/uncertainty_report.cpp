@@ -41,7 +41,7 @@ class Splitter {
   }
 
   // Halves by the order of `key`: small values first.
-  std::optional<SplitHalf> split(const std::string& name,
+  std::optional<SplitHalf> split(const Message& name,
                                  const std::function<double(std::size_t)>& key) const {
     std::vector<std::size_t> order;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
@@ -121,24 +121,24 @@ void compare_halves(const std::vector<SceneObservations>& scenes, const Camera& 
   const int needed = target.has_circles() ? 4 : 6;
   if (joint.used_scenes < needed) {
     report.splits_reason =
-        "not enough scenes for a comparison of halves: " + std::to_string(joint.used_scenes) +
-        " in use, " + std::to_string(needed) + " needed";
+        Message("not enough scenes for a comparison of halves: %1 in use, %2 needed",
+                joint.used_scenes, needed);
     return;
   }
   const Splitter splitter(scenes, camera, target, joint, options, subset);
-  const auto add = [&](const char* name, const std::function<double(std::size_t)>& key) {
+  const auto add = [&](const Message& name, const std::function<double(std::size_t)>& key) {
     if (auto split = splitter.split(name, key)) report.splits.push_back(std::move(*split));
   };
-  add("near/far", [&](std::size_t s) { return splitter.board_center(s).norm(); });
-  add("left/right", [&](std::size_t s) {
+  add(Message("near/far"), [&](std::size_t s) { return splitter.board_center(s).norm(); });
+  add(Message("left/right"), [&](std::size_t s) {
     const Eigen::Vector3d c = splitter.board_center(s);
     return c.x() / c.z();
   });
-  add("flat/tilted", [&](std::size_t s) { return splitter.tilt_rad(s); });
+  add(Message("flat/tilted"), [&](std::size_t s) { return splitter.tilt_rad(s); });
   if (report.splits.empty())
-    report.splits_reason =
-        "not enough scenes for a comparison of halves: neither half alone "
-        "determines the extrinsic";
+    report.splits_reason = Message(
+        "not enough scenes for a comparison of halves: neither half alone determines the "
+        "extrinsic");
 }
 
 ProjectedUncertainty map_over_image(const Camera& camera, const Matrix6d& covariance,

@@ -12,7 +12,7 @@ namespace lvcalib {
 
 /// The extrinsic from one half of the scenes against that from the other.
 struct SplitHalf {
-  std::string name;                ///< "near/far", "left/right", "flat/tilted"
+  Message name;                    ///< "near/far", "left/right", "flat/tilted"
   std::vector<std::string> first;  ///< Scenes of the first half (near, left, flat).
   std::vector<std::string> second;
   double translation_mm = 0.0;  ///< Difference, of the LiDAR's origin in the camera frame.
@@ -42,7 +42,7 @@ struct RangeUncertainty {
 
 struct UncertaintyReport {
   std::vector<SplitHalf> splits;
-  std::string splits_reason;               ///< Why there are none: "not enough scenes for …".
+  Message splits_reason;                   ///< Why there are none: "not enough scenes for …".
   std::vector<ProjectedUncertainty> maps;  ///< One per range.
   std::vector<RangeUncertainty> by_range;
 };

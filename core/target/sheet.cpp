@@ -53,7 +53,7 @@ cairo_status_t append(void* closure, const unsigned char* data, unsigned int len
 
 Error failure(cairo_status_t status, const RunContext& context) {
   if (context.stopped()) return Error::cancelled();
-  return Error::output(std::string("the sheet cannot be drawn: ") + cairo_status_to_string(status));
+  return Error::output(Message("the sheet cannot be drawn: %1", cairo_status_to_string(status)));
 }
 
 // Cairo writes text as outlines; a description keeps the parameters readable for programs. None of
@@ -83,9 +83,8 @@ Result<std::string> draw_vector(const Target& target, SheetFormat format, const 
   cairo_set_tolerance(cairo.get(), kCurveTolerance);
   cairo_scale(cairo.get(), kPointsPerMm, kPointsPerMm);
   for (int page = 0; page < layout.page_count(); ++page) {
-    context.report(
-        "draw", static_cast<double>(page) / layout.page_count(),
-        "page " + std::to_string(page + 1) + " of " + std::to_string(layout.page_count()));
+    context.report("draw", static_cast<double>(page) / layout.page_count(),
+                   Message("page %1 of %2", page + 1, layout.page_count()));
     cairo_set_source_rgb(cairo.get(), 1, 1, 1);
     cairo_paint(cairo.get());
     cairo_set_source_rgb(cairo.get(), 0, 0, 0);
@@ -144,22 +143,22 @@ bool paint_white(cairo_t* cairo, double width_px, double height_px, const RunCon
 Result<std::string> draw_image(const Target& target, const SheetLayout& layout, double dpi,
                                const RunContext& context) {
   if (!(dpi >= 1.0 && dpi <= 10'000.0)) {
-    return Error::usage("the resolution must be between 1 and 10000 dpi");
+    return Error::usage(Message("the resolution must be between 1 and 10000 dpi"));
   }
   const double scale = dpi / 25.4;
   // A millionth of a pixel is rounding, not content.
   const Eigen::Vector2d size_px = ((scale * layout.page_mm).array() - 1e-6).ceil();
   if (size_px.maxCoeff() > kLongestImage_px) {
     const double fits = kLongestImage_px * 25.4 / layout.page_mm.maxCoeff();
-    return Error::usage("the image would be " + std::to_string(std::lround(size_px.maxCoeff())) +
-                            " pixels long, more than 32767",
-                        {}, "use --dpi " + std::to_string(static_cast<int>(fits)) + " or a PDF");
+    return Error::usage(Message("the image would be %1 pixels long, more than 32767",
+                                std::lround(size_px.maxCoeff())),
+                        {}, Message("use --dpi %1 or a PDF", static_cast<int>(fits)));
   }
   // One byte a pixel: the alpha channel alone, written as grey. Ink takes alpha away.
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, static_cast<int>(size_px.x()),
                                                    static_cast<int>(size_px.y())));
   const Cairo cairo(cairo_create(surface.get()));
-  context.report("draw", 0.0, "drawing");
+  context.report("draw", 0.0, Message("drawing"));
   cairo_set_source_rgba(cairo.get(), 0, 0, 0, 1);
   if (!paint_white(cairo.get(), size_px.x(), size_px.y(), context)) return Error::cancelled();
   cairo_set_operator(cairo.get(), CAIRO_OPERATOR_DEST_OUT);
@@ -169,7 +168,7 @@ Result<std::string> draw_image(const Target& target, const SheetLayout& layout, 
   if (cairo_status(cairo.get()) != CAIRO_STATUS_SUCCESS) {
     return failure(cairo_status(cairo.get()), context);
   }
-  context.report("write", 0.5, "encoding");
+  context.report("write", 0.5, Message("encoding"));
   Sink sink{{}, &context};
   const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &sink);
   if (status != CAIRO_STATUS_SUCCESS) return failure(status, context);
@@ -185,9 +184,9 @@ Result<std::string> draw_sheet(const Target& target, SheetFormat format,
   if (!layout) return layout.error();
   if (context.stopped()) return Error::cancelled();
   if (format != SheetFormat::kPdf && layout->page_count() > 1) {
-    return Error::usage("the board takes " + std::to_string(layout->page_count()) + " pages of " +
-                            options.paper + ", but only a PDF has several pages",
-                        {}, "write a PDF, or leave the paper at 'board'");
+    return Error::usage(Message("the board takes %1 pages of %2, but only a PDF has several pages",
+                                layout->page_count(), options.paper),
+                        {}, Message("write a PDF, or leave the paper at 'board'"));
   }
   return format == SheetFormat::kPng ? draw_image(target, *layout, options.dpi, context)
                                      : draw_vector(target, format, *layout, context);

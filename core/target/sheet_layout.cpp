@@ -84,25 +84,26 @@ SheetLayout lay_out_tiles(const Eigen::Vector2d& board_mm, const Eigen::Vector2d
 Result<SheetLayout> lay_out_paper(const Eigen::Vector2d& board_mm, const SheetOptions& options) {
   const auto paper = paper_size(options.paper);
   if (!paper) {
-    return Error::usage("paper '" + options.paper +
-                        "' is not known; expected board, A0, A1, A2, A3, A4, Letter or WxH in mm");
+    return Error::usage(
+        Message("paper '%1' is not known; expected board, A0, A1, A2, A3, A4, Letter or WxH in mm",
+                options.paper));
   }
   const double smallest = kNarrowestFooter_mm + 2 * options.page_border_mm;
   const double tile = paper->minCoeff() - 2 * options.page_border_mm - kFooter_mm;
   if (!(paper->minCoeff() >= smallest) || !(tile >= 2 * options.overlap_mm) ||
       !(paper->maxCoeff() <= kLongestPage_mm)) {
-    return Error::usage("paper '" + options.paper + "' has no room; expected sides of " +
-                        std::to_string(static_cast<int>(std::ceil(smallest))) + " to " +
-                        std::to_string(static_cast<int>(kLongestPage_mm)) + " mm");
+    return Error::usage(Message("paper '%1' has no room; expected sides of %2 to %3 mm",
+                                options.paper, static_cast<int>(std::ceil(smallest)),
+                                static_cast<int>(kLongestPage_mm)));
   }
   const SheetLayout upright = lay_out_tiles(board_mm, *paper, options);
   const SheetLayout turned = lay_out_tiles(board_mm, {paper->y(), paper->x()}, options);
   const auto pages = [](const SheetLayout& s) { return 1.0 * s.rows * s.columns; };
   const SheetLayout& best = pages(turned) < pages(upright) ? turned : upright;
   if (pages(best) > options.max_pages) {
-    return Error::usage("the board would take more than " + std::to_string(options.max_pages) +
-                            " pages of " + options.paper,
-                        {}, "choose a larger paper; is the board's size in metres?");
+    return Error::usage(
+        Message("the board would take more than %1 pages of %2", options.max_pages, options.paper),
+        {}, Message("choose a larger paper; is the board's size in metres?"));
   }
   return best;
 }
@@ -112,15 +113,15 @@ Result<SheetLayout> lay_out_paper(const Eigen::Vector2d& board_mm, const SheetOp
 Result<SheetLayout> lay_out_sheet(const Target& target, const SheetOptions& options) {
   if (Status status = check(target); !status) return status.error();
   if (!(options.overlap_mm >= 0) || !(options.page_border_mm >= 0)) {
-    return Error::usage("overlap and page border must not be negative");
+    return Error::usage(Message("overlap and page border must not be negative"));
   }
   const Eigen::Vector2d board_mm = 1000.0 * target.outline().size_m();
   if (options.paper != "board") return lay_out_paper(board_mm, options);
   const SheetLayout out = lay_out_one_page(board_mm);
   if (!(out.page_mm.maxCoeff() <= kLongestPage_mm)) {
-    return Error::usage("the board is larger than a PDF page can be (" +
-                            std::to_string(static_cast<int>(kLongestPage_mm)) + " mm)",
-                        {}, "tile it over several pages with --paper A0");
+    return Error::usage(Message("the board is larger than a PDF page can be (%1 mm)",
+                                static_cast<int>(kLongestPage_mm)),
+                        {}, Message("tile it over several pages with --paper A0"));
   }
   return out;
 }

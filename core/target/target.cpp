@@ -222,37 +222,41 @@ std::optional<double> Target::albedo(const Eigen::Vector2d& p) const {
 
 namespace {
 
-Status bad(std::string message, std::string hint = {}) {
+Status bad(Message message, Message hint = {}) {
   return Error::input(std::move(message), {}, std::move(hint));
 }
 
 Status check_squares(const Target& t) {
   if (t.corner_columns < 3 || t.corner_rows < 3)
-    return bad("a checkerboard needs at least 3 × 3 inner corners");
+    return bad(Message("a checkerboard needs at least 3 × 3 inner corners"));
   if (!(t.column_spacing_m > 0) || !(t.row_spacing_m > 0))
-    return bad("square sizes must be positive");
+    return bad(Message("square sizes must be positive"));
   if (t.board_width_m < (t.corner_columns - 1) * t.column_spacing_m ||
       t.board_height_m < (t.corner_rows - 1) * t.row_spacing_m) {
-    return bad("the board outline is smaller than its pattern",
-               "measure boardWidth and boardHeight");
+    return bad(Message("the board outline is smaller than its pattern"),
+               Message("measure boardWidth and boardHeight"));
   }
   return Done{};
 }
 
 // Ids first … first + count − 1 must be in the family.
-Status check_ids(const Target& t, const char* what) {
+Status check_ids(const Target& t) {
   const int family = tag_family_size(t.tag_family);
   const int last = t.first_tag_id + t.tag_count() - 1;
   if (t.first_tag_id >= 0 && last < family) return Done{};
-  return bad(std::string(what) + " ids " + std::to_string(t.first_tag_id) + " to " +
-             std::to_string(last) + " do not exist in " + t.tag_family + ", which has " +
-             std::to_string(family));
+  if (t.type == TargetType::kCharuco) {
+    return bad(Message("marker ids %1 to %2 do not exist in %3, which has %4", t.first_tag_id, last,
+                       t.tag_family, family));
+  }
+  return bad(Message("tag ids %1 to %2 do not exist in %3, which has %4", t.first_tag_id, last,
+                     t.tag_family, family));
 }
 
 Status check_outline_size(const Target& t) {
   constexpr double kLargestBoard_m = 100.0;
   if (t.board_width_m > kLargestBoard_m || t.board_height_m > kLargestBoard_m) {
-    return bad("the board is larger than 100 m", "spacings and outline are in metres");
+    return bad(Message("the board is larger than 100 m"),
+               Message("spacings and outline are in metres"));
   }
   return Done{};
 }
@@ -265,22 +269,23 @@ Status check_on_board(const Target& t, const Eigen::Vector2d& pattern_m) {
   const Eigen::Vector2d board(t.board_width_m, t.board_height_m);
   const Eigen::Vector2d room = 0.5 * (board - pattern_m) - t.board_offset_m.cwiseAbs();
   if (room.minCoeff() >= -kSameLength_m) return Done{};
-  return bad("the pattern reaches beyond the board's outline",
-             "measure boardWidth, boardHeight and boardOffset");
+  return bad(Message("the pattern reaches beyond the board's outline"),
+             Message("measure boardWidth, boardHeight and boardOffset"));
 }
 
 Status check_charuco(const Target& t) {
   if (!is_marker_dictionary(t.tag_family)) {
     const std::string near = nearest_word(t.tag_family, marker_dictionaries());
-    return bad("dictionary '" + t.tag_family +
-                   "' is not known; expected one of OpenCV's, DICT_4X4_50 to DICT_APRILTAG_36h11",
-               near.empty() ? "" : "did you mean " + near + "?");
+    return bad(Message("dictionary '%1' is not known; expected one of OpenCV's, DICT_4X4_50 to "
+                       "DICT_APRILTAG_36h11",
+                       t.tag_family),
+               near.empty() ? Message() : Message("did you mean %1?", near));
   }
   if (t.corner_columns < 2 || t.corner_rows < 2)
-    return bad("a ChArUco board needs at least 3 × 3 squares");
+    return bad(Message("a ChArUco board needs at least 3 × 3 squares"));
   if (!(t.column_spacing_m > 0) || !(t.tag_size_m > 0) || !(t.tag_size_m < t.column_spacing_m))
-    return bad("squareSize must be positive and markerSize smaller than it");
-  if (Status s = check_ids(t, "marker"); !s) return s;
+    return bad(Message("squareSize must be positive and markerSize smaller than it"));
+  if (Status s = check_ids(t); !s) return s;
   if (Status s = check_outline_size(t); !s) return s;
   return check_on_board(
       t, t.column_spacing_m * Eigen::Vector2d(t.corner_columns + 1, t.corner_rows + 1));
@@ -288,33 +293,37 @@ Status check_charuco(const Target& t) {
 
 Status check_family(const Target& t) {
   if (tag_family_size(t.tag_family) > 0 && !is_marker_dictionary(t.tag_family)) return Done{};
-  return bad("tag family '" + t.tag_family +
-             "' is not known; expected tag36h11, tag36h10, tag25h9 or tag16h5");
+  return bad(
+      Message("tag family '%1' is not known; expected tag36h11, tag36h10, tag25h9 or tag16h5",
+              t.tag_family));
 }
 
 Status check_single_tag(const Target& t) {
   if (Status s = check_family(t); !s) return s;
-  if (Status s = check_ids(t, "tag"); !s) return s;
-  if (!(t.tag_size_m > 0)) return bad("tagSize must be positive");
-  if (t.tag_border_bits < 1 || t.tag_border_bits > 2) return bad("tagBorder must be 1 or 2");
+  if (Status s = check_ids(t); !s) return s;
+  if (!(t.tag_size_m > 0)) return bad(Message("tagSize must be positive"));
+  if (t.tag_border_bits < 1 || t.tag_border_bits > 2)
+    return bad(Message("tagBorder must be 1 or 2"));
   if (Status s = check_outline_size(t); !s) return s;
   return check_on_board(t, {t.tag_size_m, t.tag_size_m});
 }
 
 Status check_grid(const Target& t) {
   if (Status s = check_family(t); !s) return s;
-  if (t.tag_columns < 1 || t.tag_rows < 1) return bad("tagCols and tagRows must be at least 1");
-  if (Status s = check_ids(t, "tag"); !s) return s;
+  if (t.tag_columns < 1 || t.tag_rows < 1)
+    return bad(Message("tagCols and tagRows must be at least 1"));
+  if (Status s = check_ids(t); !s) return s;
   if (!(t.tag_size_m > 0) || !(t.tag_spacing > 0) || t.margin_m < 0)
-    return bad("tagSize and tagSpacing must be positive, margin not negative");
-  if (t.tag_border_bits < 1 || t.tag_border_bits > 2) return bad("tagBorder must be 1 or 2");
+    return bad(Message("tagSize and tagSpacing must be positive, margin not negative"));
+  if (t.tag_border_bits < 1 || t.tag_border_bits > 2)
+    return bad(Message("tagBorder must be 1 or 2"));
   if (!t.has_circles()) return Done{};
-  if (t.tag_columns < 2 || t.tag_rows < 2) return bad("circles need at least 2 × 2 tags");
+  if (t.tag_columns < 2 || t.tag_rows < 2) return bad(Message("circles need at least 2 × 2 tags"));
   // From a gap crossing's centre to the nearest tag corner: gap/2·√2.
   const double room = 0.5 * t.tag_spacing * t.tag_size_m * std::sqrt(2.0);
   if (!(t.circle_radius_m > 0) || t.circle_radius_m >= room) {
-    return bad("circleRadius must be positive and below " + std::to_string(room) +
-               " m, or circles run into the tags");
+    return bad(Message("circleRadius must be positive and below %1 m, or circles run into the tags",
+                       std::to_string(room)));
   }
   return Done{};
 }

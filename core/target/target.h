@@ -148,7 +148,7 @@ const std::vector<std::string>& marker_dictionaries();
 /// A target read from a file, with warnings about unknown keys.
 struct TargetFile {
   Target target;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// Reads target.yaml (Kalibr's AprilGrid and checkerboard keys, and ours).

@@ -42,9 +42,9 @@ class Reader {
     } else if (word && (*word == "false" || *word == "False" || *word == "no" || *word == "0")) {
       out = false;
     } else if (!error_) {
-      error_ = word ? file_.error_at(
-                          *file_.root().find(key),
-                          std::string(key) + ": expected true or false, found '" + *word + "'")
+      error_ = word ? file_.error_at(*file_.root().find(key),
+                                     Message("%1: expected true or false, found '%2'",
+                                             std::string(key), *word))
                     : word.error();
     }
   }
@@ -149,9 +149,9 @@ std::optional<Error> read_measured_length(Reader& reader, const YamlFile& file, 
   constexpr double kMost = 0.1;
   if (!(measured_m > 0.0) || !(drawn_m > 0.0) || std::abs(measured_m / drawn_m - 1.0) > kMost) {
     return file.error_at(*file.root().find(measured_m > 0.0 ? "measuredLength" : "drawnLength"),
-                         "measuredLength and drawnLength belong together, both in metres, and no "
-                         "print is off by more than a tenth; found " +
-                             text(measured_m) + " and " + text(drawn_m));
+                         Message("measuredLength and drawnLength belong together, both in metres, "
+                                 "and no print is off by more than a tenth; found %1 and %2",
+                                 text(measured_m), text(drawn_m)));
   }
   // A steel rule is read to half a millimetre at best.
   constexpr double kRule_m = 0.0005;
@@ -196,14 +196,13 @@ Result<TargetFile> target_of(const Result<YamlFile>& file) {
     known = {"target_type", "tagFamily",  "tagId",       "tagSize",
              "tagBorder",   "boardWidth", "boardHeight", "boardOffset"};
   } else {
-    return file->error_at(
-        *file->root().find("target_type"),
-        "target_type '" + *type +
-            "' is not known; expected aprilgrid_circles, aprilgrid, checkerboard, charuco or "
-            "apriltag");
+    return file->error_at(*file->root().find("target_type"),
+                          Message("target_type '%1' is not known; expected aprilgrid_circles, "
+                                  "aprilgrid, checkerboard, charuco or apriltag",
+                                  *type));
   }
   known.insert(known.end(), {"measuredLength", "drawnLength", "measuredSigma"});
-  std::vector<std::string> warnings = file->unknown_keys(known);
+  std::vector<Message> warnings = file->unknown_keys(known);
   if (const auto wrong = read_measured_length(reader, *file, target)) return *wrong;
   if (reader.error()) {
     // A key that is missing may be there under a misspelt name.

@@ -321,11 +321,9 @@ EdgeVerdict judge(const EdgeCheck& check, double tolerance_px) {
 Result<EdgeView> edge_view(std::string name, const GrayImage& image, const Cloud& cloud,
                            const Camera& camera, const Rigid3& rough_camera_from_lidar) {
   if (image.width_px != camera.width_px || image.height_px != camera.height_px) {
-    return Error::input("its image has " + std::to_string(image.width_px) + " × " +
-                            std::to_string(image.height_px) + " px, the camera's have " +
-                            std::to_string(camera.width_px) + " × " +
-                            std::to_string(camera.height_px),
-                        name, "take an image of this camera, not cropped or scaled");
+    return Error::input(Message("its image has %1 × %2 px, the camera's have %3 × %4",
+                                image.width_px, image.height_px, camera.width_px, camera.height_px),
+                        name, Message("take an image of this camera, not cropped or scaled"));
   }
   EdgeView view;
   view.name = std::move(name);
@@ -333,10 +331,11 @@ Result<EdgeView> edge_view(std::string name, const GrayImage& image, const Cloud
       lidar_edges(cloud, rough_camera_from_lidar.rotation.conjugate() * Eigen::Vector3d::UnitZ());
   view.image_edges = std::make_shared<const ImageEdges>(image);
   if (view.lidar_edges.empty())
-    return Error::input("the cloud shows no edge", view.name,
-                        "take a place with things before others");
+    return Error::input(Message("the cloud shows no edge"), view.name,
+                        Message("take a place with things before others"));
   if (view.image_edges->edges().empty())
-    return Error::input("the image shows no edge", view.name, "see whether it is black or blurred");
+    return Error::input(Message("the image shows no edge"), view.name,
+                        Message("see whether it is black or blurred"));
   return view;
 }
 
@@ -356,7 +355,7 @@ std::vector<ProjectedEdge> projected_edges(const EdgeView& view, const Camera& c
 Result<EdgeCheck> check_edges(const std::vector<EdgeView>& views, const Camera& camera,
                               const Rigid3& camera_from_lidar, const EdgeCheckOptions& options,
                               const RunContext& context) {
-  if (views.empty()) return Error::usage("there is no image with a cloud to check");
+  if (views.empty()) return Error::usage(Message("there is no image with a cloud to check"));
   EdgeCheck check;
   const auto placed = place(views, camera, camera_from_lidar);
   check.given = score_of(placed);
@@ -368,7 +367,7 @@ Result<EdgeCheck> check_edges(const std::vector<EdgeView>& views, const Camera& 
   std::vector<Placed> reached;
   constexpr int kStarts = 3;
   for (int start = 0; start < kStarts; ++start) {
-    context.report("check", static_cast<double>(start) / kStarts, "comparing edges");
+    context.report("check", static_cast<double>(start) / kStarts, Message("comparing edges"));
     Fit fit(views, camera, camera_from_lidar, options);
     double width = start == 0 ? 1.0 : options.reach_rad * camera.fx / (start == 1 ? 4.0 : 1.0);
     for (; width > 0.5; width *= 0.5) fit.draw(width, context);
@@ -414,26 +413,31 @@ std::string name_of(EdgeVerdict verdict) {
   }
 }
 
-std::string reason_of(const EdgeCheck& check) {
+Message reason_of(const EdgeCheck& check) {
   switch (check.verdict) {
     case EdgeVerdict::kAgrees:
-      return formatted("edges agree to %.1f ± %.1f px", check.offset_px, check.offset_sigma_px);
+      return Message("edges agree to %1 ± %2 px", formatted("%.1f", check.offset_px),
+                     formatted("%.1f", check.offset_sigma_px));
     case EdgeVerdict::kContradicts:
-      return formatted("edges agree better after a turn by %.2g mrad and a shift by %.2g mm",
-                       1e3 * check.offset.tail<3>().norm(), 1e3 * check.offset.head<3>().norm()) +
-             formatted(": they are %.2g px off", check.offset_px);
+      return Message(
+          "edges agree better after a turn by %1 mrad and a shift by %2 mm: they are %3 px off",
+          formatted("%.2g", 1e3 * check.offset.tail<3>().norm()),
+          formatted("%.2g", 1e3 * check.offset.head<3>().norm()),
+          formatted("%.2g", check.offset_px));
     case EdgeVerdict::kNoMeeting:
-      return "the edges of LiDAR and image meet no better than by chance, here and nearby: the "
-             "pose is wrong by more than what is searched, or the two do not show the same";
+      return Message(
+          "the edges of LiDAR and image meet no better than by chance, here and nearby: the pose "
+          "is wrong by more than what is searched, or the two do not show the same");
     case EdgeVerdict::kUncertain:
-      return formatted(
-          "where the edges agree is known to %.2g px only: take a place with more "
-          "edges, near and far and all over the picture",
-          check.offset_sigma_px);
+      return Message(
+          "where the edges agree is known to %1 px only: take a place with more edges, near and "
+          "far and all over the picture",
+          formatted("%.2g", check.offset_sigma_px));
     default:
-      return "too few edges of the LiDAR are in the picture: " + std::to_string(check.given.edges) +
-             " in " + std::to_string(check.parts) + " parts of it, where " +
-             std::to_string(kLeastEdges) + " in " + std::to_string(kLeastEdgeParts) + " are needed";
+      return Message(
+          "too few edges of the LiDAR are in the picture: %1 in %2 parts of it, where %3 in %4 are "
+          "needed",
+          check.given.edges, check.parts, kLeastEdges, kLeastEdgeParts);
   }
 }
 

@@ -124,6 +124,6 @@ inline constexpr std::size_t kLeastEdgeParts = 8;
 /// "agrees", "contradicts", "cannot tell".
 std::string name_of(EdgeVerdict verdict);
 /// The verdict's reason in a sentence.
-std::string reason_of(const EdgeCheck& check);
+Message reason_of(const EdgeCheck& check);
 
 }  // namespace lvcalib

@@ -118,7 +118,7 @@ void leave_one_out(benchmark::State& state) {
     auto solution = solve_extrinsic(scenes, camera, target, {});
     if (!solution) give_up(solution.error());
     if (solution->leave_one_out.size() != scenes.size())
-      give_up(Error::untrusted("not every scene was left out"));
+      give_up(Error::untrusted(Message("not every scene was left out")));
   }
 }
 

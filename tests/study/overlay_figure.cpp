@@ -241,11 +241,12 @@ Status draw_overlay(const Dataset& dataset, const CalibrationResult& result,
       best_solution = &solution;
     }
   }
-  if (best == nullptr) return Error::untrusted("no used scene to draw", dataset.path.string());
+  if (best == nullptr)
+    return Error::untrusted(Message("no used scene to draw"), dataset.path.string());
   const auto files = std::find_if(dataset.scenes.begin(), dataset.scenes.end(),
                                   [&](const SceneFiles& f) { return f.name == best->name; });
   if (files == dataset.scenes.end())
-    return Error::input("no such scene: " + best->name, dataset.path.string());
+    return Error::input(Message("no such scene: %1", best->name), dataset.path.string());
   const auto image = read_image(files->image);
   if (!image) return image.error();
 

@@ -156,7 +156,7 @@ void draw_legend(Canvas& canvas, bool refused) {
 
 Status draw_refinement(const CalibrationResult& result, const std::filesystem::path& path) {
   const Choice choice = choose_node(result);
-  if (choice.scene == nullptr) return Error::untrusted("no refined node to draw");
+  if (choice.scene == nullptr) return Error::untrusted(Message("no refined node to draw"));
   const auto& history = choice.scene->refinement->history;
   const NodeRecord& first = history.front().nodes[choice.node];
   const NodeRecord& last = history.back().nodes[choice.node];

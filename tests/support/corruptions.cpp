@@ -15,8 +15,8 @@ using simulation::SimulatedRig;
 
 std::string all_said(const CalibrationResult& result) {
   std::string text;
-  for (const std::string& reason : result.quality_reasons) text += reason + " | ";
-  for (const std::string& warning : result.warnings) text += warning + " | ";
+  for (const Message& reason : result.quality_reasons) text += reason.text() + " | ";
+  for (const Message& warning : result.warnings) text += warning.text() + " | ";
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include <QStyle>
 
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

@@ -19,6 +19,7 @@
 #include "pipeline/dataset.h"
 #include "report/colored_cloud.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 
@@ -36,8 +37,8 @@ ExportPane::ExportPane(ExportInput input, Choices& choices, QString folder, QWid
   connect(formats_, &QListWidget::currentRowChanged, this, &ExportPane::preview);
   connect(&runner_, &Runner::finished, this, &ExportPane::preview);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(
-        Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+    Q_EMIT failed(Error::untrusted(
+        Message("an unexpected error stopped the work: %1", message.toStdString())));
     preview();
   });
   follow_language(this, [this] { retranslate(); });
@@ -48,7 +49,7 @@ void ExportPane::retranslate() {
   formats_->setAccessibleName(tr("Formats"));
   for (int row = 0; row < formats_->count(); ++row) {
     const ExportFormat& format = export_formats()[static_cast<std::size_t>(row)];
-    formats_->item(row)->setToolTip(core_text(format.description));
+    formats_->item(row)->setToolTip(core_text(Message::listed(format.description)));
   }
   text_->setAccessibleName(tr("Preview"));
   imu_->setToolTip(
@@ -140,7 +141,7 @@ void ExportPane::preview() {
   const bool lacks_imu = format.needs_imu && !input_.imu_from_lidar;
   const auto text =
       lacks_imu ? Result<std::string>(std::string()) : export_result(input_, format.name);
-  QString about = core_text(format.description);
+  QString about = core_text(Message::listed(format.description));
   if (lacks_imu) {
     about += QLatin1Char('\n') + tr("Needs T_imu_lidar: choose the YAML file that holds it.");
   } else if (!text) {

@@ -22,6 +22,7 @@
 #include "report/result_file.h"
 #include "style/texts.h"
 #include "style/theme.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -60,9 +61,9 @@ QString pose_table(const UncertainRigid3& pose) {
   return out + QStringLiteral("</table>");
 }
 
-QString list(const std::vector<std::string>& lines) {
+QString list(const std::vector<Message>& lines) {
   QString out = QStringLiteral("<ul>");
-  for (const std::string& line : lines)
+  for (const Message& line : lines)
     out += QStringLiteral("<li>%1</li>").arg(core_text(line).toHtmlEscaped());
   return out + QStringLiteral("</ul>");
 }

@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -222,7 +223,7 @@ void ParametersDock::retranslate() {
       return QString::number(value * field.display.factor, 'g', 6) +
              (field.display.unit.isEmpty() ? QString() : QLatin1Char(' ') + field.display.unit);
     };
-    const QString description = core_text(option.description);
+    const QString description = core_text(Message::listed(option.description));
     const QString range =
         is_switch(option)
             ? tr("Default: %1.").arg(option.default_value() != 0.0 ? tr("on") : tr("off"))
@@ -231,10 +232,10 @@ void ParametersDock::retranslate() {
     const QString tip = QStringLiteral("<p>%1</p><p>%2</p><p><code>%3</code></p>")
                             .arg(description.toHtmlEscaped(), range.toHtmlEscaped(),
                                  QString::fromStdString(option.key));
-    field.label->setText(core_text(label_of(option)));
+    field.label->setText(core_text(Message::listed(label_of(option).toStdString())));
     field.label->setToolTip(tip);
     field.editor->setToolTip(tip);
-    field.editor->setAccessibleName(core_text(label_of(option)));
+    field.editor->setAccessibleName(core_text(Message::listed(label_of(option).toStdString())));
     field.reset->setToolTip(tr("Back to the default %1").arg(shown(option.default_value())));
   }
 }

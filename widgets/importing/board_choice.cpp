@@ -8,6 +8,7 @@
 
 #include "style/texts.h"
 #include "tools/target_camera_dialog.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

@@ -23,6 +23,7 @@
 #include "style/marks.h"
 #include "style/texts.h"
 #include "tools/target_camera_dialog.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -192,7 +193,7 @@ void FilesDialog::connectParts() {
   connect(&work_, &FilesWork::cancelled, this, &FilesDialog::refresh);
   connect(&work_, &FilesWork::progressed, this, [this](double fraction, const QString& text) {
     progress_->setValue(static_cast<int>(1000 * fraction));
-    progress_text_->setText(core_text(text));
+    progress_text_->setText(text);
   });
 }
 
@@ -340,7 +341,7 @@ void FilesDialog::showPictures() {
 }
 
 void FilesDialog::showPicture(int pair, const QImage& thumbnail, bool checked,
-                              const QString& complaint) {
+                              const Message& complaint) {
   QTreeWidgetItem* item = pairs_->topLevelItem(pair);
   if (item == nullptr) return;
   seen_[static_cast<std::size_t>(pair)] = {checked, complaint};
@@ -355,13 +356,13 @@ void FilesDialog::showPicture(int pair, const QImage& thumbnail, bool checked,
 void FilesDialog::showRow(QTreeWidgetItem* item) {
   const Seen& seen = seen_[static_cast<std::size_t>(pairs_->indexOfTopLevelItem(item))];
   const QString complaint = core_text(seen.complaint);
-  item->setText(kPairBoard, !seen.checked              ? QString()
-                            : seen.complaint.isEmpty() ? tr("seen")
-                                                       : tr("not seen: %1").arg(complaint));
+  item->setText(kPairBoard, !seen.checked            ? QString()
+                            : seen.complaint.empty() ? tr("seen")
+                                                     : tr("not seen: %1").arg(complaint));
   item->setToolTip(kPairBoard, item->text(kPairBoard));
   item->setData(kPairBoard, Qt::DecorationRole, {});
   if (!seen.checked) return;
-  const QIcon mark = mark_icon(seen.complaint.isEmpty() ? Mark::kGood : Mark::kDoubtful, palette());
+  const QIcon mark = mark_icon(seen.complaint.empty() ? Mark::kGood : Mark::kDoubtful, palette());
   item->setData(kPairBoard, Qt::DecorationRole, mark.pixmap(QSize(16, 16), devicePixelRatioF()));
 }
 
@@ -425,12 +426,12 @@ void FilesDialog::refresh() {
   layout_text_->setText(summaryText());
   QStringList unmatched;
   if (files_) {
-    for (const std::string& line : files_->unmatched) unmatched << core_text(line);
+    for (const UnmatchedFile& file : files_->unmatched) unmatched << core_text(file.sentence());
   }
   layout_text_->setToolTip(unmatched.join(QLatin1Char('\n')));
   warnings_->clear();
   if (files_) {
-    for (const std::string& warning : files_->warnings)
+    for (const Message& warning : files_->warnings)
       new QListWidgetItem(mark_icon(Mark::kDoubtful, palette()), core_text(warning), warnings_);
   }
   warnings_->setVisible(warnings_->count() > 0);
@@ -439,7 +440,7 @@ void FilesDialog::refresh() {
   for (int i = 0; i < pairs_->topLevelItemCount(); ++i) {
     if (pairs_->topLevelItem(i)->checkState(kPairScene) != Qt::Checked) continue;
     ++ticked;
-    if (seen_[static_cast<std::size_t>(i)].complaint.isEmpty()) ++expected;
+    if (seen_[static_cast<std::size_t>(i)].complaint.empty()) ++expected;
   }
   QString problem = error_ ? core_text(*error_) : board_->problem();
   if (problem.isEmpty() && !busy && !files_)

@@ -53,7 +53,7 @@ class FilesDialog : public QDialog {
   void takeFound(const PairedFiles& files);
   void takeImported(const PairImportSummary& summary, const QString& dataset);
   void showPictures();
-  void showPicture(int pair, const QImage& thumbnail, bool checked, const QString& complaint);
+  void showPicture(int pair, const QImage& thumbnail, bool checked, const Message& complaint);
   void showRow(QTreeWidgetItem* item);
   void startImport();
   void refresh();
@@ -65,7 +65,7 @@ class FilesDialog : public QDialog {
 
   struct Seen {
     bool checked = false;
-    QString complaint;
+    Message complaint;
   };
   Choices& choices_;
   std::optional<PairedFiles> files_;

@@ -20,6 +20,7 @@
 #include "importing/topic_list.h"
 #include "style/marks.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 
@@ -195,7 +196,7 @@ void ImportDialog::connectParts() {
           [this](const QString& stage, double fraction, const QString& text) {
             progress_->setValue(static_cast<int>(1000 * fraction));
             progress_text_->setText(stage == QLatin1String("look")    ? tr("Looking for motion…")
-                                    : stage == QLatin1String("write") ? core_text(text)
+                                    : stage == QLatin1String("write") ? text
                                                                       : tr("Reading…"));
           });
 }
@@ -343,8 +344,8 @@ void ImportDialog::showTaken() {
 void ImportDialog::showWarnings() {
   warnings_->clear();
   QStringList texts;
-  const auto add = [&](const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) {
+  const auto add = [&](const std::vector<Message>& warnings) {
+    for (const Message& warning : warnings) {
       const QString text = core_text(warning);
       if (!texts.contains(text)) texts << text;
     }

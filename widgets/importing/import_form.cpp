@@ -16,6 +16,7 @@
 #include "importing/board_choice.h"
 #include "style/texts.h"
 #include "tools/target_camera_dialog.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "style/marks.h"
-#include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -73,7 +73,7 @@ void StretchList::setStretches(const std::vector<ImportedStretch>& stretches) {
 }
 
 void StretchList::setPicture(int stretch, const QImage& thumbnail, bool checked,
-                             const QString& complaint) {
+                             const Message& complaint) {
   if (stretch < 0 || stretch >= topLevelItemCount()) return;
   {
     const QSignalBlocker quiet(this);
@@ -132,7 +132,7 @@ int StretchList::expectedScenes() const {
   const std::vector<bool> wanted = taken();
   int out = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i] && boards_[i].complaint.isEmpty()) ++out;
+    if (wanted[i] && boards_[i].complaint.empty()) ++out;
   }
   return out;
 }
@@ -164,7 +164,7 @@ void StretchList::showRow(int stretch) {
     item->setData(kBoard, Qt::DecorationRole, {});
     item->setToolTip(kBoard, QString());
   } else {
-    const bool seen = board.complaint.isEmpty();
+    const bool seen = board.complaint.empty();
     const QString complaint = core_text(board.complaint);
     item->setText(kBoard, seen ? tr("seen") : tr("not seen"));
     // A pixmap: an icon would grow to the thumbnails' size.

@@ -19,7 +19,7 @@ class StretchList : public QTreeWidget {
   /// stay.
   void setStretches(const std::vector<ImportedStretch>& stretches);
   [[nodiscard]] const std::vector<ImportedStretch>& stretches() const { return stretches_; }
-  void setPicture(int stretch, const QImage& thumbnail, bool checked, const QString& complaint);
+  void setPicture(int stretch, const QImage& thumbnail, bool checked, const Message& complaint);
   /// Those that can be used and of whose image nothing is known yet.
   [[nodiscard]] std::vector<int> withoutPicture() const;
   /// The board or the camera is another one: whether it is seen is open again.
@@ -44,7 +44,7 @@ class StretchList : public QTreeWidget {
   struct Board {
     bool pictured = false;
     bool checked = false;
-    QString complaint;
+    Message complaint;
   };
   [[nodiscard]] QString fate(int stretch) const;
   void retranslate();

@@ -21,6 +21,7 @@
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -29,7 +30,7 @@ QString searched_text(const EffectInfo& info) {
   // Found by its English words too: they stand in files and papers.
   return QString::fromStdString(info.id + ' ' + info.title + ' ' + info.group + ' ' + info.physics +
                                 ' ' + info.formula + ' ') +
-         core_text(info.title) + core_text(info.physics);
+         core_text(Message::listed(info.title)) + core_text(Message::listed(info.physics));
 }
 
 // Each parameter at the size that matters.
@@ -257,9 +258,9 @@ void AddEffectDialog::describe() {
   }
   const EffectInfo& info = effect->info();
   const auto line = [](const QString& name, const std::string& text) {
-    return text.empty()
-               ? QString()
-               : QStringLiteral("<p><b>%1</b> %2</p>").arg(name, core_text(text).toHtmlEscaped());
+    return text.empty() ? QString()
+                        : QStringLiteral("<p><b>%1</b> %2</p>")
+                              .arg(name, core_text(Message::listed(text)).toHtmlEscaped());
   };
   text_->setHtml(QStringLiteral("<h3>%1</h3>").arg(effect_title(info.id).toHtmlEscaped()) +
                  line({}, info.physics) + line(tr("Formula:"), info.formula) +
@@ -331,7 +332,8 @@ void AddEffectDialog::check() {
     }
   } else if (usable) {
     const EffectPtr effect = find_effect(text);
-    const std::string why = effect ? why_not_testable(*effect, step_->table()) : "unknown";
+    const Message why =
+        effect ? why_not_testable(*effect, step_->table()) : Message::verbatim("unknown");
     if (!why.empty()) problem = tr("Cannot be used here: %1").arg(core_text(why));
     usable = why.empty();
   }

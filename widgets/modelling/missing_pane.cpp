@@ -21,8 +21,8 @@
 
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
-#include "style/texts.h"
 #include "style/theme.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

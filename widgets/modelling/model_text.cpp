@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/text.h"
-#include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -125,7 +125,7 @@ QString verdict_name(EffectVerdict verdict) {
 QString effect_title(const std::string& spec) {
   const EffectPtr effect = find_effect(spec);
   if (!effect || effect->info().title.empty()) return QString::fromStdString(spec);
-  return core_text(effect->info().title);
+  return core_text(Message::listed(effect->info().title));
 }
 
 QString value_text(const ParameterEstimate& p, bool held) {

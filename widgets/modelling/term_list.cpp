@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "modelling/model_text.h"
-#include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -128,8 +128,8 @@ void TermList::addTerm(int k) {
   item->setData(kName, kTerm, k);
   item->setData(kName, kParameter, estimates.size() == 1 ? 0 : -1);
   const EffectInfo& info = term.use.effect->info();
-  item->setToolTip(
-      kName, core_text(info.physics) + QLatin1Char('\n') + QString::fromStdString(info.formula));
+  item->setToolTip(kName, core_text(Message::listed(info.physics)) + QLatin1Char('\n') +
+                              QString::fromStdString(info.formula));
   auto flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
   if (changeable_) flags |= Qt::ItemIsUserCheckable;
   item->setCheckState(kName, term.on ? Qt::Checked : Qt::Unchecked);

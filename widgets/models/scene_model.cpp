@@ -9,8 +9,8 @@
 
 #include "pipeline/refusals.h"
 #include "style/edits_text.h"
-#include "style/texts.h"
 #include "style/theme.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -109,8 +109,8 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     row.can_be_insisted_on = lvcalib::can_be_insisted_on(scene);
     row.edited = edits_text(scene);
     row.refused = refusals_text(result, scene.name);
-    row.objection = QString::fromStdString(scene.objection);
-    row.reason = QString::fromStdString(scene.reason);
+    row.objection = scene.objection;
+    row.reason = scene.reason;
     row.rejected = scene.rejected;
     if (scene.view && result.target.has_tags()) row.tags = scene.view->tag_count;
     if (scene.refinement) row.points = static_cast<int>(scene.refinement->board_points);
@@ -146,9 +146,9 @@ void SceneModel::set_thumbnail_width(int width_px) {
     Q_EMIT dataChanged(index(0, kName), index(rowCount() - 1, kName), {Qt::DecorationRole});
 }
 
-void SceneModel::set_problem(const QString& scene, const QString& problem) {
+void SceneModel::set_problem(const QString& scene, const Message& problem) {
   if (problems_.value(scene) == problem) return;
-  if (problem.isEmpty()) {
+  if (problem.empty()) {
     problems_.remove(scene);
   } else {
     problems_[scene] = problem;
@@ -277,11 +277,11 @@ QString SceneModel::state_words(const Row& row) const {
   if (!row.ran && problems_.contains(row.name)) return core_text(problems_.value(row.name));
   if (!row.ran) return tr("not run");
   const QString crop = row.cropped ? tr(" (cropped)") : QString();
-  if (row.used && !row.objection.isEmpty())
+  if (row.used && !row.objection.empty())
     return tr("used all the same: %1").arg(core_text(row.objection)) + crop;
   if (row.used) return tr("used") + crop;
   // A scene just taken back in still has the reason of the last run.
-  if (row.reason.isEmpty() || row.rejected) return tr("to be run") + crop;
+  if (row.reason.empty() || row.rejected) return tr("to be run") + crop;
   return core_text(row.reason) + crop;
 }
 
@@ -290,7 +290,7 @@ Mark SceneModel::mark_of(const Row& row) const {
   if (!row.use) return Mark::kLeftOut;
   if (!row.ran && problems_.contains(row.name)) return Mark::kBad;
   if (!row.ran || row.rejected) return Mark::kIdle;
-  if (row.used && !row.objection.isEmpty()) return Mark::kDoubtful;
+  if (row.used && !row.objection.empty()) return Mark::kDoubtful;
   return row.used ? Mark::kGood : Mark::kBad;
 }
 

@@ -40,7 +40,7 @@ class SceneModel : public QAbstractTableModel {
   void set_thumbnail_width(int width_px);
   [[nodiscard]] int thumbnail_width() const { return thumbnail_width_; }
   /// A file of the scene is missing or cannot be read, in words; empty: no longer.
-  void set_problem(const QString& scene, const QString& problem);
+  void set_problem(const QString& scene, const Message& problem);
 
   /// Row 0…; −1 if there is no such scene.
   [[nodiscard]] int row_of(const QString& scene) const;
@@ -92,11 +92,11 @@ class SceneModel : public QAbstractTableModel {
     bool used = false;
     bool insisted = false;
     bool can_be_insisted_on = false;
-    QString reason;
+    Message reason;
     bool rejected = false;  // By the user, in the last run.
     QString edited;         // What is left out by hand, in words.
     QString refused;        // What the program refused of it, in words.
-    QString objection;      // What speaks against a scene that the user insists on.
+    Message objection;      // What speaks against a scene that the user insists on.
   };
   void fill_result(Row& row, const CalibrationResult& result) const;
   void refill();
@@ -113,7 +113,7 @@ class SceneModel : public QAbstractTableModel {
   std::filesystem::path dataset_;  // Whose scenes these are.
   QHash<QString, QPixmap> thumbnails_;
   int thumbnail_width_ = 48;
-  QHash<QString, QString> problems_;
+  QHash<QString, Message> problems_;
 };
 
 }  // namespace lvcalib::widgets

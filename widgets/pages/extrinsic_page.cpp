@@ -24,6 +24,7 @@
 #include "views/category_plots.h"
 #include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

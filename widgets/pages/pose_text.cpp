@@ -6,8 +6,8 @@
 #include "base/roll_pitch_yaw.h"
 #include "base/units.h"
 #include "pages/page_tr.h"
-#include "style/texts.h"
 #include "style/theme.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -104,9 +104,9 @@ QString quaternion_line(const Rigid3& pose) {
          "&nbsp; " + number(q.z(), 6) + "&nbsp; " + number(q.w(), 6) + "</p>";
 }
 
-QString list(const std::vector<std::string>& lines) {
+QString list(const std::vector<Message>& lines) {
   QString out = "<ul style='margin-left:-22px'>";
-  for (const std::string& line : lines) {
+  for (const Message& line : lines) {
     out += "<li>" + core_text(line).toHtmlEscaped() + "</li>";
   }
   return out + "</ul>";

@@ -21,6 +21,7 @@
 #include "views/angle_distance_plot.h"
 #include "views/board_map_plot.h"
 #include "views/convergence_plot.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

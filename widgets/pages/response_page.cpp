@@ -17,6 +17,7 @@
 #include "pages/response_table.h"
 #include "style/texts.h"
 #include "views/sample_map_plot.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 
@@ -217,11 +218,11 @@ ResponseScope ResponsePage::scopeOf(int row) const {
   if (all) {
     scope.transition = address(response.transition);
     scope.statistics = address(response.all);
-    scope.reason = QString::fromStdString(response.reason);
+    scope.reason = response.reason;
   } else if (!scope.scenes.empty()) {
     scope.transition = address(scope.scenes.front()->transition);
     scope.statistics = address(scope.scenes.front()->statistics);
-    scope.reason = QString::fromStdString(scope.scenes.front()->reason);
+    scope.reason = scope.scenes.front()->reason;
   }
   return scope;
 }

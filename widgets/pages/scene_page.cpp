@@ -20,6 +20,7 @@
 #include "views/cloud_view.h"
 #include "views/image_view.h"
 #include "views/lasso.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -155,8 +156,8 @@ void ScenePage::setScene(int index) {
   scene_ = index;
   full_cloud_.reset();
   picture_ = {};
-  cloud_problem_.clear();
-  image_problem_.clear();
+  cloud_problem_ = {};
+  image_problem_ = {};
   cloud_->setCrop(std::nullopt);
   image_->view()->setImage({});
   clearSelection();
@@ -171,7 +172,7 @@ void ScenePage::setSceneData(std::shared_ptr<const Cloud> full_cloud, QImage ima
   refresh();
 }
 
-void ScenePage::setProblems(const QString& cloud, const QString& image) {
+void ScenePage::setProblems(const Message& cloud, const Message& image) {
   cloud_problem_ = cloud;
   image_problem_ = image;
   refresh();
@@ -191,7 +192,7 @@ void ScenePage::refresh() {
   input.full = full_cloud_;
   input.board = board_points(result_, scene);
   input.image = picture_;
-  input.problem = cloud_problem_.isEmpty() ? QString() : core_text(cloud_problem_);
+  input.problem = core_text(cloud_problem_);
   std::vector<CloudLine> lines;
   if (scene != nullptr) {
     input.target = result_->target;
@@ -210,9 +211,9 @@ void ScenePage::refresh() {
   cloud_->setSuggestedBox(box_about_board(result_.get(), scene, middle));
   cloud_->setInput(std::move(input), std::move(lines));
   image_->view()->setMessage(scene_ < 0 ? tr("Choose a scene in the list.")
-                             : !image_problem_.isEmpty() && image_problem_ == cloud_problem_
+                             : !image_problem_.empty() && image_problem_ == cloud_problem_
                                  ? core_text(image_problem_)  // The scene as such is incomplete.
-                             : image_problem_.isEmpty()
+                             : image_problem_.empty()
                                  ? tr("The image is being loaded …")
                                  : tr("There is no image: %1").arg(core_text(image_problem_)));
   refreshOverlay();

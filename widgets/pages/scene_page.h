@@ -44,7 +44,7 @@ class ScenePage : public QWidget {
   /// Cloud and image of the current scene, once they are loaded; either may be missing.
   void setSceneData(std::shared_ptr<const Cloud> full_cloud, QImage image);
   /// Why the cloud or the image of the current scene is missing: shown in its place.
-  void setProblems(const QString& cloud, const QString& image);
+  void setProblems(const Message& cloud, const Message& image);
   /// The crop box in force for the current scene, or none.
   void setCropBox(const std::optional<CropBox>& box);
 
@@ -98,8 +98,8 @@ class ScenePage : public QWidget {
   ModelStepPtr model_;
   std::shared_ptr<const Cloud> full_cloud_;
   QImage picture_;
-  QString cloud_problem_;
-  QString image_problem_;
+  Message cloud_problem_;
+  Message image_problem_;
   std::vector<Eigen::Vector3d> sample_points_m_;  // Selected elsewhere; LiDAR frame.
   std::vector<Eigen::Vector2d> sample_pixels_;
   int scene_ = -1;

@@ -12,6 +12,7 @@
 #include "report/result_comparison.h"
 #include "style/texts.h"
 #include "views/threshold_plot.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

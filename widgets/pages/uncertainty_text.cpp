@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "pages/page_tr.h"
-#include "style/texts.h"
 #include "style/theme.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -47,7 +47,7 @@ QString weak_directions(const CalibrationResult& result) {
   const auto& lines = result.extrinsic.weak_directions;
   if (lines.empty()) return paragraph(tr("None: the scenes determine all six."));
   QString out = "<ul>";
-  for (const std::string& line : lines) out += "<li>" + core_text(line).toHtmlEscaped() + "</li>";
+  for (const Message& line : lines) out += "<li>" + core_text(line).toHtmlEscaped() + "</li>";
   return out + "</ul>";
 }
 

@@ -73,8 +73,8 @@ ComparisonWork::ComparisonWork(QObject* parent) : QObject(parent) {
   connect(&runner_, &Runner::finished, this, &ComparisonWork::ended);
   connect(&runner_, &Runner::cancelled, this, &ComparisonWork::ended);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(
-        Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+    Q_EMIT failed(Error::untrusted(
+        Message("an unexpected error stopped the work: %1", message.toStdString())));
     Q_EMIT ended();
   });
 }

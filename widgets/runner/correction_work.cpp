@@ -21,8 +21,8 @@ struct CloudJob {
   fs::path to;
 };
 
-std::string said(const QString& text) {
-  return text.toStdString();
+Message said(const QString& text) {
+  return Message::verbatim(text.toStdString());
 }
 
 bool is_cloud_name(const fs::path& path) {
@@ -118,7 +118,7 @@ Result<CorrectedClouds> correct_all(const CalibrationResult& result, const fs::p
   for (std::size_t i = 0; i < jobs->size(); ++i) {
     const CloudJob& job = (*jobs)[i];
     context.report("correct", static_cast<double>(i) / static_cast<double>(jobs->size()),
-                   job.from.filename().string());
+                   Message::verbatim(job.from.filename().string()));
     RunContext silent = context;
     silent.progress = nullptr;
     const auto one = correct_one(job, *model, options, silent);
@@ -129,7 +129,7 @@ Result<CorrectedClouds> correct_all(const CalibrationResult& result, const fs::p
     } else if (jobs->size() == 1) {
       return one.error();
     } else {
-      out.problems.push_back(one.error().text());
+      out.problems.push_back(one.error().sentence());
     }
   }
   if (out.clouds == 0) return Error::input(out.problems.front());
@@ -145,7 +145,7 @@ CorrectionWork::CorrectionWork(QObject* parent) : QObject(parent) {
           });
   connect(&runner_, &Runner::cancelled, this, &CorrectionWork::cancelled);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::output(message.toStdString()));
+    Q_EMIT failed(Error::output(Message::verbatim(message.toStdString())));
   });
 }
 

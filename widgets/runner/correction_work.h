@@ -16,8 +16,8 @@ namespace lvcalib::widgets {
 /// What became of the clouds of one run.
 struct CorrectedClouds {
   std::size_t clouds = 0;
-  std::vector<std::string> problems;  ///< Clouds that could not be corrected, and why.
-  CorrectionSummary total;            ///< Of all clouds together.
+  std::vector<Message> problems;  ///< Clouds that could not be corrected, and why.
+  CorrectionSummary total;        ///< Of all clouds together.
 };
 
 /// Takes the effects of a calibration's model out of a cloud, or of all clouds in a folder, in a

@@ -17,7 +17,7 @@ simulation::SimulationOptions demo_options() {
 
 Status make_demo(const std::filesystem::path& folder, const simulation::SimulationOptions& options,
                  const RunContext& context) {
-  context.report("simulate", 0.0, "");
+  context.report("simulate", 0.0, Message());
   const auto simulator = simulation::Simulator::create(options);
   if (!simulator) return simulator.error();
   if (Status s = create_folder(folder.parent_path()); !s) return s;
@@ -27,7 +27,8 @@ Status make_demo(const std::filesystem::path& folder, const simulation::Simulati
   const Status simulated = simulation::simulate_each(
       *simulator, context, [&](int, const simulation::SimulatedScene& scene) -> Status {
         Status added = writer->add(scene);
-        context.report("simulate", static_cast<double>(++done) / options.scenes, scene.name);
+        context.report("simulate", static_cast<double>(++done) / options.scenes,
+                       Message::verbatim(scene.name));
         return added;
       });
   if (!simulated) return simulated.error();

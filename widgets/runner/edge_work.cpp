@@ -42,8 +42,8 @@ EdgeWork::EdgeWork(QObject* parent) : QObject(parent) {
   connect(&runner_, &Runner::cancelled, this, &EdgeWork::ended);
   for (const Runner* runner : {&runner_, &looker_}) {
     connect(runner, &Runner::failed, this, [this](quint64, const QString& message) {
-      Q_EMIT failed(
-          Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+      Q_EMIT failed(Error::untrusted(
+          Message("an unexpected error stopped the work: %1", message.toStdString())));
       Q_EMIT ended();
     });
   }

@@ -35,7 +35,7 @@ FilesWork::FilesWork(QObject* parent) : QObject(parent) {
     if (!replacing_) Q_EMIT cancelled();
   });
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::input(message.toStdString()));
+    Q_EMIT failed(Error::input(Message::verbatim(message.toStdString())));
   });
 }
 
@@ -67,11 +67,11 @@ void FilesWork::show_pictures(const std::vector<FilePair>& pairs,
       const int index = static_cast<int>(i);
       const QImage image = thumbnail_of(*bytes);
       const bool checked = target && camera;
-      const std::string complaint =
-          checked ? board_complaint(*bytes, *target, *camera, context) : std::string();
+      const Message complaint =
+          checked ? board_complaint(*bytes, *target, *camera, context) : Message();
       if (context.stopped()) break;
       post([this, index, image, checked, complaint] {
-        Q_EMIT pictured(index, image, checked, QString::fromStdString(complaint));
+        Q_EMIT pictured(index, image, checked, complaint);
       });
     }
     return {};

@@ -38,7 +38,7 @@ class FilesWork : public QObject {
   void progressed(double fraction, const QString& text);
   void found(const lvcalib::PairedFiles& files);
   /// `complaint`: why the board is not seen; empty if it is. `checked`: whether it was looked for.
-  void pictured(int pair, const QImage& thumbnail, bool checked, const QString& complaint);
+  void pictured(int pair, const QImage& thumbnail, bool checked, const lvcalib::Message& complaint);
   void imported(const lvcalib::PairImportSummary& summary, const QString& dataset);
   void failed(const lvcalib::Error& error);
   void cancelled();

@@ -7,6 +7,7 @@
 
 #include "pipeline/model_discovery.h"
 #include "runner/workspace.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -56,8 +57,9 @@ ModelWork::ModelWork(Workspace& workspace, QObject* parent)
   connect(&runner_, &Runner::finished, this, [this] { Q_EMIT ended(QString()); });
   connect(&runner_, &Runner::cancelled, this, [this] { Q_EMIT ended(tr("Cancelled")); });
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::untrusted("an unexpected error stopped the work: " + message.toStdString(),
-                                   {}, "the model is as it was; try again"));
+    Q_EMIT failed(
+        Error::untrusted(Message("an unexpected error stopped the work: %1", message.toStdString()),
+                         {}, Message("the model is as it was; try again")));
     Q_EMIT ended(tr("Failed"));
   });
 }
@@ -173,7 +175,7 @@ void ModelWork::run(Place goal, const QString& text) {
     const auto fail = [this](const Error& error) -> Runner::Deliver {
       if (error.kind == ErrorKind::kCancelled) return {};
       return [this, error] {
-        Q_EMIT logged(QString::fromStdString(error.text()));
+        Q_EMIT logged(core_text(error));
         Q_EMIT failed(error);
       };
     };

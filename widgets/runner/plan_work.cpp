@@ -13,14 +13,15 @@ namespace {
 // by a whole cloud.
 Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunContext& context) {
   const CalibrationResult& result = *request.result;
-  context.report("plan", 0.0, "collecting measurements");
+  context.report("plan", 0.0, Message("collecting measurements"));
   const DiscoveryInput input = discovery_input(result);
   if (!input.print) {
     return Error::untrusted(
-        PlanWork::tr("the scenes do not tell enough of the LiDAR: the joint solve over every "
-                     "return failed")
-            .toStdString(),
-        {}, PlanWork::tr("choose a description of the LiDAR").toStdString());
+        Message::verbatim(
+            PlanWork::tr("the scenes do not tell enough of the LiDAR: the joint solve over every "
+                         "return failed")
+                .toStdString()),
+        {}, Message::verbatim(PlanWork::tr("choose a description of the LiDAR").toStdString()));
   }
   const MeasurementTable table = table_of(input, discovery_options(result.options).table);
   LidarDescription out = lidar_of(table, result.extrinsic.camera_from_lidar.transform);
@@ -62,8 +63,8 @@ PlanWork::PlanWork(QObject* parent) : QObject(parent) {
     Q_EMIT ended();
   });
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(
-        Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+    Q_EMIT failed(Error::untrusted(
+        Message("an unexpected error stopped the work: %1", message.toStdString())));
     Q_EMIT ended();
   });
 }

@@ -14,8 +14,8 @@ PreviewWork::PreviewWork(Workspace& workspace, QObject* parent)
   // Another result answers other questions.
   connect(&workspace_, &Workspace::result_changed, this, &PreviewWork::cancel);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(
-        Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+    Q_EMIT failed(Error::untrusted(
+        Message("an unexpected error stopped the work: %1", message.toStdString())));
   });
 }
 

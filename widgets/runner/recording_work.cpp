@@ -65,7 +65,7 @@ RecordingWork::RecordingWork(QObject* parent) : QObject(parent) {
     if (!replacing_) Q_EMIT cancelled();
   });
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::input(message.toStdString()));
+    Q_EMIT failed(Error::input(Message::verbatim(message.toStdString())));
   });
 }
 
@@ -138,11 +138,9 @@ void RecordingWork::show_pictures(const std::shared_ptr<const Recording>& record
         post([this, index, image] { Q_EMIT pictured(index, image, false, {}); });
         continue;
       }
-      const std::string complaint = board_complaint(picture->file.bytes, target, *camera, context);
+      const Message complaint = board_complaint(picture->file.bytes, target, *camera, context);
       if (context.stopped()) break;
-      post([this, index, image, complaint] {
-        Q_EMIT pictured(index, image, true, QString::fromStdString(complaint));
-      });
+      post([this, index, image, complaint] { Q_EMIT pictured(index, image, true, complaint); });
     }
     return {};
   });

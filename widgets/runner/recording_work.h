@@ -23,7 +23,7 @@ struct OpenedRecording {
   TopicCandidates candidates;
   /// The CameraInfo that belongs to each candidate of images, if any.
   std::vector<std::optional<std::size_t>> info_of_images;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// What one pass over the recording showed.
@@ -31,7 +31,7 @@ struct RecordingLook {
   std::shared_ptr<const RecordingSurvey> survey;
   std::vector<ImportedStretch> stretches;
   RecordedMotion motion;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 /// Opens a recording, looks through it and imports it, one at a time, in a worker thread; and shows
@@ -73,7 +73,8 @@ class RecordingWork : public QObject {
   void glimpsed(double time_s, const QImage& thumbnail);
   void looked(const lvcalib::widgets::RecordingLook& look);
   /// `complaint`: why the board is not seen; empty if it is. `checked`: whether it was looked for.
-  void pictured(int stretch, const QImage& thumbnail, bool checked, const QString& complaint);
+  void pictured(int stretch, const QImage& thumbnail, bool checked,
+                const lvcalib::Message& complaint);
   void imported(const lvcalib::ImportSummary& summary, const QString& dataset);
   void failed(const lvcalib::Error& error);
   void cancelled();

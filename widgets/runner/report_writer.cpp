@@ -6,6 +6,7 @@
 
 #include "base/file_io.h"
 #include "report/html_report.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 
@@ -16,7 +17,7 @@ ReportWriter::ReportWriter(QObject* parent) : QObject(parent) {
           });
   connect(&runner_, &Runner::cancelled, this, &ReportWriter::cancelled);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::output(message.toStdString()));
+    Q_EMIT failed(Error::output(Message::verbatim(message.toStdString())));
   });
 }
 
@@ -30,8 +31,7 @@ void ReportWriter::write(std::shared_ptr<const CalibrationResult> result,
     if (const Status s = write_file_atomically(path.toStdString(), report->html); !s)
       return [this, error = s.error()] { Q_EMIT failed(error); };
     QStringList warnings;
-    for (const std::string& warning : report->warnings)
-      warnings.push_back(QString::fromStdString(warning));
+    for (const Message& warning : report->warnings) warnings.push_back(core_text(warning));
     return [this, path, warnings] { Q_EMIT written(path, warnings); };
   });
 }

@@ -9,6 +9,8 @@
 #include <mutex>
 #include <utility>
 
+#include "words/core_text.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -87,30 +89,29 @@ quint64 Runner::start(Work work) {
   }
   task_ = std::make_shared<Task>();
   task_->id = ++id_;
-  auto* worker = new Worker(
-      task_->stop, [mailbox = mailbox_, task = task_, work = std::move(work), this]() mutable {
-        RunContext context;
-        context.stop = task->stop.get_token();
-        context.progress = [mailbox, task, this](const Progress& p) {
-          if (task->stop.stop_requested()) return;
-          mailbox->post([this, task, p] {
-            if (task != task_) return;
-            Q_EMIT progressed(task->id, QString::fromStdString(p.stage), p.fraction,
-                              QString::fromStdString(p.text));
-          });
-        };
-        const Post post = [mailbox, task, this](Deliver call) {
-          if (task->stop.stop_requested()) return;
-          mailbox->post([this, task, call = std::move(call)] {
-            if (task == task_) call();
-          });
-        };
-        Deliver deliver;
-        const QString error = complaint_of([&] { deliver = work(context, post); });
-        work = {};  // What the job held goes before its results are handed over.
-        mailbox->post(
-            [this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
+  auto* worker = new Worker(task_->stop, [mailbox = mailbox_, task = task_, work = std::move(work),
+                                          this]() mutable {
+    RunContext context;
+    context.stop = task->stop.get_token();
+    context.progress = [mailbox, task, this](const Progress& p) {
+      if (task->stop.stop_requested()) return;
+      mailbox->post([this, task, p] {
+        if (task != task_) return;
+        Q_EMIT progressed(task->id, QString::fromStdString(p.stage), p.fraction, core_text(p.text));
       });
+    };
+    const Post post = [mailbox, task, this](Deliver call) {
+      if (task->stop.stop_requested()) return;
+      mailbox->post([this, task, call = std::move(call)] {
+        if (task == task_) call();
+      });
+    };
+    Deliver deliver;
+    const QString error = complaint_of([&] { deliver = work(context, post); });
+    work = {};  // What the job held goes before its results are handed over.
+    mailbox->post(
+        [this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
+  });
   worker->start();
   // Without a thread nobody else would say that nothing comes of it.
   if (!worker->isRunning() && !worker->isFinished()) {

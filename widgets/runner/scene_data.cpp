@@ -19,7 +19,7 @@ Result<QImage> read_scene_image(const std::filesystem::path& path) {
 Result<SceneData> read_scene_data(const SceneFiles& files, std::stop_token stop) {
   SceneData data;
   if (files.problem) {
-    data.cloud_problem = data.image_problem = QString::fromStdString(files.problem->text());
+    data.cloud_problem = data.image_problem = files.problem->sentence();
     return data;
   }
   // One without the other still shows what the scene is.
@@ -27,7 +27,7 @@ Result<SceneData> read_scene_data(const SceneFiles& files, std::stop_token stop)
   if (image) {
     data.image = std::move(*image);
   } else {
-    data.image_problem = QString::fromStdString(image.error().text());
+    data.image_problem = image.error().sentence();
   }
   auto cloud = read_cloud(files.cloud, std::move(stop));
   if (cloud) {
@@ -35,7 +35,7 @@ Result<SceneData> read_scene_data(const SceneFiles& files, std::stop_token stop)
   } else if (cloud.error().kind == ErrorKind::kCancelled) {
     return cloud.error();
   } else {
-    data.cloud_problem = QString::fromStdString(cloud.error().text());
+    data.cloud_problem = cloud.error().sentence();
   }
   return data;
 }
@@ -50,8 +50,8 @@ void SceneLoader::load(const SceneFiles& files) {
     if (!data) return {};  // Cancelled.
     return [this, name, data = std::move(*data)] {
       Q_EMIT loaded(name, data);
-      for (const QString& problem : {data.image_problem, data.cloud_problem}) {
-        if (problem.isEmpty()) continue;
+      for (const Message& problem : {data.image_problem, data.cloud_problem}) {
+        if (problem.empty()) continue;
         Q_EMIT failed(name, problem);
         break;
       }
@@ -68,7 +68,7 @@ void SceneLoader::load_thumbnails(const std::vector<SceneFiles>& scenes) {
               files.problem ? Result<QImage>(*files.problem) : read_scene_image(files.image);
           if (!image) {
             const QString name = QString::fromStdString(files.name);
-            const QString message = QString::fromStdString(image.error().text());
+            const Message message = image.error().sentence();
             post([this, name, message] { Q_EMIT failed(name, message); });
             continue;
           }

@@ -18,8 +18,8 @@ namespace lvcalib::widgets {
 struct SceneData {
   std::shared_ptr<const Cloud> cloud;  ///< All points, in the LiDAR frame.
   QImage image;                        ///< Colour, 8 bit.
-  QString cloud_problem;               ///< Why there is no cloud; empty if there is one.
-  QString image_problem;               ///< Why there is no image; empty if there is one.
+  Message cloud_problem;               ///< Why there is no cloud; empty if there is one.
+  Message image_problem;               ///< Why there is no image; empty if there is one.
 };
 
 /// Reads cloud and image of a scene; either may be missing, with its reason. Error: kCancelled.
@@ -50,7 +50,7 @@ class SceneLoader : public QObject {
   void loaded(const QString& scene, const lvcalib::widgets::SceneData& data);
   /// A file of the scene is missing or cannot be read; said of every such scene once thumbnails
   /// are asked for, and again when its data are.
-  void failed(const QString& scene, const QString& message);
+  void failed(const QString& scene, const lvcalib::Message& message);
   void thumbnail(const QString& scene, const QImage& image);
 
  private:

@@ -24,8 +24,8 @@ WatchWork::WatchWork(Workspace& workspace, QObject* parent)
   timer_.setInterval(kLook_ms);
   connect(&timer_, &QTimer::timeout, this, &WatchWork::look);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(
-        Error::untrusted("an unexpected error stopped the work: " + message.toStdString()));
+    Q_EMIT failed(Error::untrusted(
+        Message("an unexpected error stopped the work: %1", message.toStdString())));
     if (watching()) timer_.start();
   });
   connect(&workspace_, &Workspace::run_started, this, [this] { ran_last_ = false; });
@@ -130,10 +130,10 @@ void WatchWork::take(Found found) {
   pending_ = std::move(found.pending);
   if (found.error && !in_trouble_) Q_EMIT failed(*found.error);
   in_trouble_ = found.error.has_value();
-  if (found.error) pending_.push_back({"", found.error->text()});
+  if (found.error) pending_.push_back({"", found.error->sentence()});
   waiting_.insert(waiting_.end(), found.folders.begin(), found.folders.end());
   for (const ImportedPair& pair : found.refused)
-    Q_EMIT refused(QString::fromStdString(pair.files.name), QString::fromStdString(pair.reason));
+    Q_EMIT refused(QString::fromStdString(pair.files.name), pair.reason);
   Q_EMIT looked();
   timer_.start();
   QTimer::singleShot(0, this, &WatchWork::handOver);

@@ -55,7 +55,7 @@ class WatchWork : public QObject {
   /// These scenes are being solved.
   void arrived(const QStringList& scenes);
   /// A pair was left for good.
-  void refused(const QString& name, const QString& reason);
+  void refused(const QString& name, const lvcalib::Message& reason);
   /// The folder cannot be listed; told once until it can again.
   void failed(const lvcalib::Error& error);
 

@@ -7,6 +7,7 @@
 
 #include "runner/demo.h"
 #include "runner/run_story.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -23,7 +24,7 @@ struct Workspace::Opening {
   OpenedProject opened;
   QString project_path;
   bool unsaved = false;
-  std::vector<std::string> warnings;
+  std::vector<Message> warnings;
 };
 
 Workspace::Workspace(const QString& data_folder, QObject* parent)
@@ -41,10 +42,10 @@ Workspace::Workspace(const QString& data_folder, QObject* parent)
   });
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
     Q_EMIT run_ended(tr("Failed"));
-    Q_EMIT failed(
-        Error::untrusted("an unexpected error stopped the work: " + message.toStdString(),
-                         dataset_.path.string(), "what was open is still there; try again"),
-        false);
+    Q_EMIT failed(Error::untrusted(
+                      Message("an unexpected error stopped the work: %1", message.toStdString()),
+                      dataset_.path.string(), Message("what was open is still there; try again")),
+                  false);
   });
   // After the stack has moved: while a command runs, it still has its old index.
   connect(&undo_, &QUndoStack::indexChanged, this, [this] {
@@ -172,7 +173,7 @@ void Workspace::open_demo(const simulation::SimulationOptions& options) {
 void Workspace::take_opened(Opening opening) {
   for (const auto* list :
        {&opening.warnings, &opening.opened.warnings, &opening.opened.dataset.warnings}) {
-    for (const std::string& warning : *list) Q_EMIT logged(QString::fromStdString(warning));
+    for (const Message& warning : *list) Q_EMIT logged(core_text(warning));
   }
   if (opening.opened.dataset_moved) {
     const QString path = QString::fromStdString(opening.project.dataset.string());
@@ -436,8 +437,8 @@ void Workspace::take_run(SessionRun run) {
   state_ = std::move(run.state);
   if (cancelled) return;  // The runner says so.
   if (run.error) {
-    Q_EMIT logged(QString::fromStdString(run.error->text()));
-    Q_EMIT run_ended(tr("No result: %1").arg(QString::fromStdString(run.error->message)));
+    Q_EMIT logged(core_text(*run.error));
+    Q_EMIT run_ended(tr("No result: %1").arg(core_text(run.error->message)));
     Q_EMIT failed(*run.error, run.solved_only);
     return;
   }
@@ -454,7 +455,7 @@ void Workspace::take_run(SessionRun run) {
                            .arg(r.extrinsic.rms_mm, 0, 'f', 3);
   Q_EMIT logged(story);
   Q_EMIT logged(line);
-  for (const std::string& warning : r.warnings) Q_EMIT logged(QString::fromStdString(warning));
+  for (const Message& warning : r.warnings) Q_EMIT logged(core_text(warning));
   Q_EMIT result_changed();
   Q_EMIT run_ended(line);
 }

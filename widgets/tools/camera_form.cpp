@@ -14,6 +14,7 @@
 #include "style/texts.h"
 #include "tools/camera_preview.h"
 #include "tools/key_form.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -180,20 +181,6 @@ void CameraForm::chooseModel() {
   check();
 }
 
-// What the core says of lists and of their plausibility names no field of this form.
-QString CameraForm::keyOf(const Error& error) const {
-  const QString text = QString::fromStdString(error.message);
-  if (text.contains(QLatin1String("focal length"))) {
-    const QString fy = form_->value(QStringLiteral("fy"));
-    const bool of_fy = text.contains(QString::fromStdString(std::to_string(fy.toDouble())));
-    const QString fx = form_->value(QStringLiteral("fx"));
-    const bool of_fx = text.contains(QString::fromStdString(std::to_string(fx.toDouble())));
-    return of_fy && !of_fx ? QStringLiteral("fy") : QStringLiteral("fx");
-  }
-  if (text.contains(QLatin1String("principal point"))) return QStringLiteral("cx");
-  return form_->keyNamedIn(error);
-}
-
 void CameraForm::check() {
   form_->clearComplaints();
   camera_.reset();
@@ -211,7 +198,7 @@ void CameraForm::check() {
     }
     if (error) {
       error->where.clear();  // The line of a text that nobody sees helps nobody.
-      const QString key = keyOf(*error);
+      const QString key = form_->keyNamedIn(*error);
       problem = core_text(*error);
       if (!key.isEmpty()) {
         form_->complain(key, problem);

@@ -39,7 +39,6 @@ class CameraForm : public QWidget {
   void chooseModel();
   void check();
   [[nodiscard]] QStringList coefficients() const;
-  [[nodiscard]] QString keyOf(const Error& error) const;
 
   std::optional<Camera> camera_;
   QLabel* model_label_;

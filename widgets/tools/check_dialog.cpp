@@ -22,6 +22,7 @@
 #include "style/texts.h"
 #include "views/color_map.h"
 #include "views/image_view.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -237,7 +238,7 @@ void CheckDialog::connectParts() {
   connect(image_, &ImageView::dragged, this, &CheckDialog::drag);
   connect(&work_, &EdgeWork::progressed, this, [this](double fraction, const QString& text) {
     progress_->setValue(static_cast<int>(1000.0 * fraction));
-    progress_->setFormat(core_text(text));
+    progress_->setFormat(text);
   });
   connect(&work_, &EdgeWork::loaded, this, &CheckDialog::takeLoaded);
   connect(&work_, &EdgeWork::looked, this, [this](const std::shared_ptr<const EdgeLook>& look) {

@@ -22,6 +22,7 @@
 #include "style/texts.h"
 #include "tools/projection_overlay.h"
 #include "views/image_view.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -207,7 +208,7 @@ void CompareDialog::connectParts() {
   });
   connect(&work_, &ComparisonWork::progressed, this, [this](double fraction, const QString& text) {
     progress_->setValue(static_cast<int>(1000.0 * fraction));
-    progress_->setFormat(core_text(text));
+    progress_->setFormat(text);
   });
   connect(&work_, &ComparisonWork::ended, this, &CompareDialog::showState);
   connect(scenes_, &QTreeWidget::currentItemChanged, this, &CompareDialog::chooseScene);

@@ -17,6 +17,7 @@
 
 #include "model/effect.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -28,7 +29,7 @@ QString mm_text(double metres) {
 // An effect's title in the present language; its id where the catalogue does not know it.
 QString title_of(const std::string& id) {
   for (const EffectPtr& effect : effect_catalogue()) {
-    if (effect->info().id == id) return core_text(effect->info().title);
+    if (effect->info().id == id) return core_text(Message::listed(effect->info().title));
   }
   return QString::fromStdString(id);
 }
@@ -235,7 +236,7 @@ QString CorrectDialog::summaryText() const {
                 "correction at its limits.")
                  .arg(all.held);
   }
-  for (const std::string& problem : done_->problems) lines << core_text(problem);
+  for (const Message& problem : done_->problems) lines << core_text(problem);
   return lines.join(QLatin1Char('\n'));
 }
 

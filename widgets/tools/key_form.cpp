@@ -194,7 +194,7 @@ QString KeyForm::complaint(const QString& key) const {
 }
 
 QString KeyForm::keyNamedIn(const Error& error) const {
-  for (const std::string& text : {error.message, error.hint}) {
+  for (const std::string& text : {error.field, error.message.text(), error.hint.text()}) {
     for (const Row& r : rows_) {
       if (!r.in_view) continue;
       const QString name = QString::fromLatin1(r.key.name).section(QLatin1Char(' '), 0, 0);

@@ -27,6 +27,7 @@
 #include "style/texts.h"
 #include "tools/plan_text.h"
 #include "views/board_sketch.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -211,7 +212,7 @@ void PlanDialog::connectParts() {
   });
   connect(&work_, &PlanWork::progressed, this, [this](double fraction, const QString& text) {
     progress_->setValue(static_cast<int>(1000.0 * fraction));
-    progress_->setFormat(core_text(text));
+    progress_->setFormat(text);
   });
   connect(&work_, &PlanWork::cancelled, this, [this] { note_ = tr("Cancelled"); });
   connect(&work_, &PlanWork::ended, this, &PlanDialog::refresh);
@@ -304,8 +305,7 @@ void PlanDialog::chooseLidar(int index) {
     fillLidars();
     lidars_->setCurrentIndex(lidars_->findData(kPlanFile));
     note_.clear();
-    for (const std::string& warning : file->warnings)
-      note_ += core_text(warning) + QLatin1Char(' ');
+    for (const Message& warning : file->warnings) note_ += core_text(warning) + QLatin1Char(' ');
   } else {
     error_ = file.error();
   }
@@ -458,7 +458,7 @@ void PlanDialog::refresh() {
   if (text.isEmpty() && plan_) {
     text = tr("Chosen one after the other from %1 poses that camera and LiDAR both see.")
                .arg(plan_->poses_tried);
-    for (const std::string& warning : plan_->warnings) {
+    for (const Message& warning : plan_->warnings) {
       QString words = core_text(warning);
       // Effects by their names on the page, not by their ids in files.
       for (const EffectVisibility& e : plan_->scenes.back().effects) {
@@ -543,7 +543,7 @@ void PlanDialog::retranslate() {
     QListWidgetItem* item = effects_->item(i);
     const std::string id = item->data(Qt::UserRole).toString().toStdString();
     item->setText(effect_title(id));
-    item->setToolTip(core_text(find_effect(id)->info().physics));
+    item->setToolTip(core_text(Message::listed(find_effect(id)->info().physics)));
   }
   start_->setText(tr("&Plan"));
   cancel_->setText(tr("&Cancel"));

@@ -16,6 +16,7 @@
 #include "base/file_io.h"
 #include "style/texts.h"
 #include "target/sheet.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -60,7 +61,7 @@ PrintDialog::PrintDialog(const std::optional<Target>& present, Choices& choices,
   connect(close_, &QPushButton::clicked, this, &QDialog::close);
   connect(&runner_, &Runner::finished, this, &PrintDialog::refresh);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    error_ = Error::output(message.toStdString());
+    error_ = Error::output(Message::verbatim(message.toStdString()));
     refresh();
   });
   follow_language(this, [this] { retranslate(); });

@@ -13,6 +13,7 @@
 #include "style/texts.h"
 #include "tools/camera_form.h"
 #include "tools/target_form.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

@@ -16,6 +16,7 @@
 #include "target/sheet.h"
 #include "target/target_text.h"
 #include "tools/key_form.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {

@@ -16,6 +16,7 @@
 #include "tools/plan_text.h"
 #include "views/board_sketch.h"
 #include "views/large_text.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -27,13 +28,22 @@ namespace {
 constexpr double kMost_pt = 96.0;
 constexpr double kMostOfState_pt = 49.0;
 
+// What is said of a file, without its name: see Error::sentence().
+std::optional<Message> without_place(const Message& sentence, const std::filesystem::path& file) {
+  const std::vector<Message>& parts = sentence.arguments();
+  if (parts.size() != 2) return std::nullopt;
+  if (parts[0] == Message::verbatim(file.string())) return parts[1];
+  const auto placed = without_place(parts[0], file);
+  if (!placed) return std::nullopt;
+  return Message("%1 (%2)", *placed, parts[1]);
+}
+
 // A reason without the file that it begins with: the scene is named already, and the words count.
-QString short_reason(const std::string& reason, const Dataset& dataset, const std::string& scene) {
+QString short_reason(const Message& reason, const Dataset& dataset, const std::string& scene) {
   for (const SceneFiles& files : dataset.scenes) {
     if (files.name != scene) continue;
     for (const std::filesystem::path& file : {files.image, files.cloud}) {
-      const std::string place = file.string() + ": ";
-      if (reason.starts_with(place)) return core_text(reason.substr(place.size()));
+      if (const auto words = without_place(reason, file)) return core_text(*words);
     }
   }
   return core_text(reason);
@@ -114,7 +124,7 @@ void WatchWindow::connectParts() {
     plan_.cancel();
     showAll();
   });
-  connect(&watch_, &WatchWork::refused, this, [this](const QString& name, const QString& reason) {
+  connect(&watch_, &WatchWork::refused, this, [this](const QString& name, const Message& reason) {
     last_ = Last::kRefused;
     last_name_ = name;
     last_reason_ = reason;

@@ -60,7 +60,7 @@ class WatchWindow : public QWidget {
   WatchWork& watch_;
   Last last_ = Last::kNone;
   QString last_name_;
-  QString last_reason_;             // Why a pair was left, as the core says it.
+  Message last_reason_;             // Why a pair was left, as the core says it.
   std::optional<Error> no_result_;  // Of the last run.
   std::optional<Error> no_plan_;
   std::optional<GridPose> next_;

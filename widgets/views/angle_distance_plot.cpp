@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -251,7 +252,7 @@ void AngleDistancePlot::fillTable() {
                     csv_number(kMmPerM * bin.midpoint_m),
                     csv_number(kMmPerM * bin.sigma_m),
                     QString::number(bin.samples),
-                    QString::fromStdString(describe(bin.state)),
+                    core_text(describe(bin.state)),
                     {}});
   }
   for (const NodeSample& s : data_.samples) {

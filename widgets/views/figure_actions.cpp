@@ -71,11 +71,11 @@ Status FigureActions::save(const QString& path) const {
   } else if (suffix == "csv" && figure_.csv) {
     bytes = figure_.csv();
   } else {
-    return Error::usage("figures cannot be saved as '" + suffix.toStdString() + "'",
-                        path.toStdString(), "use a name that ends in .png, .pdf or .csv");
+    return Error::usage(Message("figures cannot be saved as '%1'", suffix.toStdString()),
+                        path.toStdString(), Message("use a name that ends in .png, .pdf or .csv"));
   }
   if (bytes.isEmpty()) {
-    return Error::output("there is nothing in this figure to save", path.toStdString());
+    return Error::output(Message("there is nothing in this figure to save"), path.toStdString());
   }
   return write_file_atomically(path.toStdString(),
                                {bytes.constData(), static_cast<std::size_t>(bytes.size())});

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "response/response_curves.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -123,7 +124,7 @@ void TransitionPlot::rebuild() {
     drawMeans(*scope_.scenes[k], alone ? colors().mark : colors().series(scope_.colors[k]), rows);
   }
   if (scope_.transition != nullptr) drawFit();
-  if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
+  if (rows.empty()) showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
   drawCaption();
   setTable({"scene", "distance_mm", "mean_intensity", "sigma", "samples"}, std::move(rows));
   replot(rpQueuedReplot);
@@ -250,7 +251,7 @@ void AnglePlot::rebuild() {
             .arg(plus_minus(std_dev.x(), sigma.x(), 4), plus_minus(std_dev.y(), sigma.y(), 4)),
         colors().text);
   } else {
-    showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
+    showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
   }
   setTable({"pitch_deg", "yaw_deg", "range_mm"}, std::move(rows));
   replot(rpQueuedReplot);
@@ -315,7 +316,7 @@ void RangePlot::rebuild() {
   if (scope_.statistics != nullptr) {
     drawSigma();
   } else {
-    showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
+    showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
   }
   setTable({"low_mm", "high_mm", "samples"}, std::move(rows));
   replot(rpQueuedReplot);

@@ -16,7 +16,7 @@ struct ResponseScope {
   std::vector<int> colors;  ///< Of each scene: its place in PlotColors::series().
   const TransitionFit* transition = nullptr;
   const ResponseStatistics* statistics = nullptr;
-  QString reason;  ///< Why there are no statistics; empty otherwise.
+  Message reason;  ///< Why there are no statistics; empty otherwise.
 
   /// Samples of the scenes about circles in use, at most `most` of them, evenly thinned.
   [[nodiscard]] std::vector<const BoundarySample*> samples(bool overlap_only,

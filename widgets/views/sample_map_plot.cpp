@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -75,7 +76,7 @@ void SampleMapPlot::rebuild() {
                     csv_number(kMmPerM * static_cast<double>(s->distance_m)),
                     csv_number(static_cast<double>(s->intensity)), s->overlap ? "1" : "0"});
   }
-  if (rows.empty()) showMessage(scope_.reason.isEmpty() ? tr("no data") : core_text(scope_.reason));
+  if (rows.empty()) showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
   setTable({"x_mm", "y_mm", "distance_mm", "intensity", "overlap"}, std::move(rows));
   replot(rpQueuedReplot);
 }

@@ -103,10 +103,10 @@ Error unknown_effect(const std::string& id) {
     known += (known.empty() ? "" : ", ") + disturbance.id;
   }
   const std::string nearest = nearest_word(id, ids);
-  return Error::usage("effect '" + id + "' cannot be planted" +
-                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
-                          "; known effects: " + known,
-                      "simulation options");
+  return Error::usage(
+      Message("effect '%1' cannot be planted%2; known effects: %3", id,
+              nearest.empty() ? Message() : Message("; did you mean '%1'?", nearest), known),
+      "simulation options");
 }
 
 }  // namespace
@@ -140,15 +140,15 @@ Status check_effects(const std::map<std::string, double>& effects, int lines) {
     if (disturbance == nullptr) return unknown_effect(id);
     const std::string unit = disturbance->unit == "1" ? "" : " " + disturbance->unit;
     if (!std::isfinite(value) || value < disturbance->lowest || value > disturbance->highest) {
-      return Error::usage("effect '" + id + "' is " + number(value) + unit + ", expected " +
-                              number(disturbance->lowest) + " to " + number(disturbance->highest) +
-                              unit,
-                          "simulation options");
+      return Error::usage(
+          Message("effect '%1' is %2%3, expected %4 to %5%6", id, number(value), unit,
+                  number(disturbance->lowest), number(disturbance->highest), unit),
+          "simulation options");
     }
     if (disturbance->needs_lines && lines < 2) {
       return Error::usage(
-          "effect '" + id + "' acts between lines, but this LiDAR has one line only",
-          "simulation options", "choose another LiDAR");
+          Message("effect '%1' acts between lines, but this LiDAR has one line only", id),
+          "simulation options", Message("choose another LiDAR"));
     }
   }
   return Done{};

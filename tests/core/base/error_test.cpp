@@ -9,18 +9,19 @@ namespace lvcalib {
 namespace {
 
 TEST(Error, TextNamesPlaceMessageAndHint) {
-  EXPECT_EQ(Error::input("no tags").text(), "no tags");
-  EXPECT_EQ(Error::input("no tags", "scene A").text(), "scene A: no tags");
-  EXPECT_EQ(Error::input("no tags", "scene A", "check the family").text(),
+  EXPECT_EQ(Error::input(Message("no tags")).text(), "no tags");
+  EXPECT_EQ(Error::input(Message("no tags"), "scene A").text(), "scene A: no tags");
+  EXPECT_EQ(Error::input(Message("no tags"), "scene A", Message("check the family")).text(),
             "scene A: no tags (check the family)");
-  EXPECT_EQ(Error::input("no tags", {}, "check the family").text(), "no tags (check the family)");
+  EXPECT_EQ(Error::input(Message("no tags"), {}, Message("check the family")).text(),
+            "no tags (check the family)");
 }
 
 TEST(Error, FactoriesSetTheKind) {
-  EXPECT_EQ(Error::input("x").kind, ErrorKind::kInput);
-  EXPECT_EQ(Error::untrusted("x").kind, ErrorKind::kUntrusted);
-  EXPECT_EQ(Error::output("x").kind, ErrorKind::kOutput);
-  EXPECT_EQ(Error::usage("x").kind, ErrorKind::kUsage);
+  EXPECT_EQ(Error::input(Message("x")).kind, ErrorKind::kInput);
+  EXPECT_EQ(Error::untrusted(Message("x")).kind, ErrorKind::kUntrusted);
+  EXPECT_EQ(Error::output(Message("x")).kind, ErrorKind::kOutput);
+  EXPECT_EQ(Error::usage(Message("x")).kind, ErrorKind::kUsage);
   EXPECT_EQ(Error::cancelled().kind, ErrorKind::kCancelled);
   EXPECT_FALSE(Error::cancelled().text().empty());
 }
@@ -32,9 +33,9 @@ TEST(Result, HoldsEitherAValueOrAnError) {
   EXPECT_EQ(*value, 7);
   *value = 8;
   EXPECT_EQ(value.value(), 8);
-  const Result<int> error(Error::usage("bad"));
+  const Result<int> error(Error::usage(Message("bad")));
   EXPECT_FALSE(error.ok());
-  EXPECT_EQ(error.error().message, "bad");
+  EXPECT_EQ(error.error().message.text(), "bad");
 }
 
 TEST(Result, MovesItsValueOut) {

@@ -90,7 +90,7 @@ TEST(ImageCodec, WhatCannotBeReadSaysSo) {
   const std::string rows(64, '\0');
   const auto coded = decode_image(bitmap(8, 2, std::string(1024, '\0'), rows, 1));
   ASSERT_FALSE(coded.ok());
-  EXPECT_NE(coded.error().message.find("compressed bmp"), std::string::npos);
+  EXPECT_NE(coded.error().message.text().find("compressed bmp"), std::string::npos);
   EXPECT_FALSE(decode_image(bitmap(24, 2, "", "short")).ok());
   EXPECT_FALSE(decode_image("").ok());
   EXPECT_FALSE(encode_png({}).ok());

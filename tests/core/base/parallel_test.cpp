@@ -87,9 +87,9 @@ TEST(RunContext, ReportsStopsAndCountsThreads) {
   std::vector<std::string> stages;
   RunContext context;
   context.stop = stop.get_token();
-  context.report("load", 0.1, "nobody listens");
-  context.progress = [&](const Progress& p) { stages.push_back(p.stage + " " + p.text); };
-  context.report("load", 0.5, "half");
+  context.report("load", 0.1, Message("nobody listens"));
+  context.progress = [&](const Progress& p) { stages.push_back(p.stage + " " + p.text.text()); };
+  context.report("load", 0.5, Message("half"));
   EXPECT_EQ(stages, std::vector<std::string>{"load half"});
   EXPECT_FALSE(context.stopped());
   stop.request_stop();

@@ -107,9 +107,11 @@ TEST(YamlFile, AcceptsOpenCvsFirstLine) {
 
 TEST(YamlFile, UnknownKeysAreNamedWithTheNearestKnownOne) {
   const YamlFile file = parsed("tagSise: 1\nzzz: 2\ntagCols: 3\n");
-  EXPECT_THAT(file.unknown_keys({"tagSize", "tagCols"}),
-              ElementsAre("f.yaml:1: unknown key 'tagSise' ignored; did you mean 'tagSize'?",
-                          "f.yaml:2: unknown key 'zzz' ignored"));
+  std::vector<std::string> said;
+  for (const Message& warning : file.unknown_keys({"tagSize", "tagCols"}))
+    said.push_back(warning.text());
+  EXPECT_THAT(said, ElementsAre("f.yaml:1: unknown key 'tagSise' ignored; did you mean 'tagSize'?",
+                                "f.yaml:2: unknown key 'zzz' ignored"));
 }
 
 TEST(NearestWord, IsNearOrNothing) {

@@ -46,8 +46,11 @@ TEST(TOptimality, NoncentralityIsWhatIsLeftOfTheEffect) {
 std::vector<std::string> advice_for(const EffectSearch& search,
                                     const std::vector<EffectFinding>& findings,
                                     const DiscoveryOptions& options, const RunContext& context) {
-  return advise_scenes(scenes_taken(search), open_questions(search, findings), options.grid,
-                       context);
+  std::vector<std::string> out;
+  for (const Message& advice :
+       advise_scenes(scenes_taken(search), open_questions(search, findings), options.grid, context))
+    out.push_back(advice.text());
+  return out;
 }
 
 TEST(AdviseScenes, NamesAPoseThatShowsWhatIsUnseen) {

@@ -54,8 +54,8 @@ TEST(BoardView, DifferentImageSizeIsAnErrorNamingBoth) {
   const auto view = find_board_in_image(image, target, camera, {}, {});
   ASSERT_FALSE(view.ok());
   EXPECT_EQ(view.error().kind, ErrorKind::kInput);
-  EXPECT_NE(view.error().message.find("200 × 150"), std::string::npos);
-  EXPECT_NE(view.error().message.find("400 × 300"), std::string::npos);
+  EXPECT_NE(view.error().message.text().find("200 × 150"), std::string::npos);
+  EXPECT_NE(view.error().message.text().find("400 × 300"), std::string::npos);
 }
 
 TEST(BoardView, PixelsThatAreNotNumbersDoNoHarm) {

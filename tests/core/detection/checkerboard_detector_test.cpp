@@ -76,7 +76,7 @@ TEST(Checkerboard, MissingBoardIsAnError) {
   const GrayImage image{200, 150, std::vector<float>(200 * 150, 80.0F)};
   const auto corners = find_checkerboard(image, target, {});
   ASSERT_FALSE(corners.ok());
-  EXPECT_NE(corners.error().message.find("5 × 7"), std::string::npos);
+  EXPECT_NE(corners.error().message.text().find("5 × 7"), std::string::npos);
 }
 
 // 5 × 7 squares' corners look the same after half a turn: only the image knows which are black.
@@ -114,7 +114,7 @@ TEST(Checkerboard, TwoOfThemAreAnError) {
   EXPECT_TRUE(find_checkerboard(second, target, {}).ok());
   const auto corners = find_checkerboard(both, target, {});
   ASSERT_FALSE(corners.ok());
-  EXPECT_NE(corners.error().message.find("two checkerboards"), std::string::npos);
+  EXPECT_NE(corners.error().message.text().find("two checkerboards"), std::string::npos);
 }
 
 TEST(Checkerboard, AllRealImagesAreFound) {

@@ -152,7 +152,7 @@ TEST_F(ImageFile, FlippedBitsNeverCrash) {
 TEST_F(ImageFile, OtherContentIsNamedAsSuch) {
   const auto text = read_image(write("text.png", "not an image at all"));
   ASSERT_FALSE(text.ok());
-  EXPECT_NE(text.error().message.find("expected png, jpg, bmp or tiff"), std::string::npos);
+  EXPECT_NE(text.error().message.text().find("expected png, jpg, bmp or tiff"), std::string::npos);
   EXPECT_FALSE(read_image(path("missing.png")).ok());
   EXPECT_FALSE(read_image(folder_).ok());
 }

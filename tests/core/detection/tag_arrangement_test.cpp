@@ -38,17 +38,17 @@ TEST_F(OtherTagGrid, AnotherCountIsNamed) {
   const auto tags = seen(board_);
   Target said = board_;
   said.first_tag_id = 4;
-  EXPECT_EQ(other_grid(tags, said, camera_, {}), "firstTagId: 0");
+  EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "firstTagId: 0");
   said.first_tag_id = 100;
-  EXPECT_EQ(other_grid(tags, said, camera_, {}), "firstTagId: 0");
+  EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "firstTagId: 0");
   said = board_;
   said.tag_columns = 5;
-  EXPECT_EQ(other_grid(tags, said, camera_, {}), "tagCols: 4");
+  EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "tagCols: 4");
   said.tag_columns = 3;
-  EXPECT_EQ(other_grid(tags, said, camera_, {}), "tagCols: 4");
+  EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "tagCols: 4");
   said = board_;
   said.tag_rows = 3;
-  EXPECT_EQ(other_grid(tags, said, camera_, {}), "tagRows: 4");
+  EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "tagRows: 4");
 }
 
 TEST_F(OtherTagGrid, AnotherSpacingIsNamed) {
@@ -57,7 +57,8 @@ TEST_F(OtherTagGrid, AnotherSpacingIsNamed) {
   const auto grid = other_grid(seen(board_), said, camera_, {});
   ASSERT_TRUE(grid.has_value());
   double spacing = 0.0;
-  ASSERT_EQ(std::sscanf(grid->c_str(), "tagSpacing: about %lf", &spacing), 1) << *grid;
+  ASSERT_EQ(std::sscanf(grid->text().c_str(), "tagSpacing: about %lf", &spacing), 1)
+      << grid->text();
   EXPECT_NEAR(spacing, board_.tag_spacing, 0.03);
 }
 

@@ -52,9 +52,9 @@ TEST(Registry, WhatATableLacksIsNamed) {
   };
   const auto full = test::synthetic_table({}).table;
   for (const EffectPtr& effect : effect_catalogue()) {
-    const std::string reason = why_not_testable(*effect, full);
+    const Message reason = why_not_testable(*effect, full);
     EXPECT_EQ(!reason.empty(), effect->is_gauge() || effect->is_in_base_model())
-        << effect->info().id << ": " << reason;
+        << effect->info().id << ": " << reason.text();
     if (effect->is_gauge()) {
       EXPECT_THAT(reason, HasSubstr("not defined"));
     }

@@ -228,7 +228,7 @@ TEST_P(BadBoard, IsNamedAndNeverAConfidentWrongPose) {
   const auto result = calibrate(*dataset, {}, {});
   std::string said;
   if (result) {
-    for (const std::string& w : result->warnings) said += w + "\n";
+    for (const Message& w : result->warnings) said += w.text() + "\n";
   } else {
     said = result.error().text();
   }

@@ -29,15 +29,15 @@ TEST(BoardCheck, SaysWhyAnImageDoesNotShowTheBoard) {
     if (entry.path().stem() == "image") image = entry.path();
   }
   ASSERT_FALSE(image.empty());
-  EXPECT_EQ(make_board_check(rig->target, {})(image, rig->camera), "");
+  EXPECT_EQ(make_board_check(rig->target, {})(image, rig->camera), Message());
   std::ifstream file(image, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(board_complaint(bytes, rig->target, rig->camera, {}), "");
-  EXPECT_NE(board_complaint(bytes.substr(0, 100), rig->target, rig->camera, {}), "");
+  EXPECT_EQ(board_complaint(bytes, rig->target, rig->camera, {}), Message());
+  EXPECT_NE(board_complaint(bytes.substr(0, 100), rig->target, rig->camera, {}), Message());
   Target other = rig->target;
   other.first_tag_id = 300;
   EXPECT_THAT(make_board_check(other, {})(image, rig->camera), ::testing::HasSubstr("tag"));
-  EXPECT_NE(make_board_check(rig->target, {})(folder.path() / "none.png", rig->camera), "");
+  EXPECT_NE(make_board_check(rig->target, {})(folder.path() / "none.png", rig->camera), Message());
 }
 
 }  // namespace

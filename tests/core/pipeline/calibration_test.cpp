@@ -36,14 +36,14 @@ TEST(Calibrate, FindsTheTruthOnASimulatedDatasetWithoutAnyGuess) {
   const auto result = calibrate(data.open(), {}, context);
   ASSERT_TRUE(result.ok()) << result.error().text();
   EXPECT_EQ(name_of(result->quality), "good")
-      << (result->warnings.empty() ? "" : result->warnings.front());
+      << (result->warnings.empty() ? "" : result->warnings.front().text());
   expect_within_four_sigma(*result, data.rig().camera_from_lidar);
   EXPECT_THAT(result->extrinsic.camera_from_lidar.transform,
               test::IsNearPose(data.rig().camera_from_lidar, 5.0, 2.0));
   ASSERT_EQ(result->scenes.size(), 4U);
   for (std::size_t s = 0; s < 4; ++s) {
     const SceneResult& scene = result->scenes[s];
-    EXPECT_TRUE(scene.used) << scene.reason;
+    EXPECT_TRUE(scene.used) << scene.reason.text();
     EXPECT_TRUE(scene.reason.empty());
     ASSERT_TRUE(scene.view && scene.refinement);
     EXPECT_GT(scene.board_points.size(), 500U);
@@ -91,7 +91,7 @@ TEST(Calibrate, RejectedScenesTakeNoPartAndLeavingThemOutLaterIsTheSame) {
   const auto rejected = calibrate(data.open(), request, {});
   ASSERT_TRUE(all.ok() && rejected.ok());
   EXPECT_FALSE(rejected->scenes[1].used);
-  EXPECT_EQ(rejected->scenes[1].reason, "rejected by the user");
+  EXPECT_EQ(rejected->scenes[1].reason.text(), "rejected by the user");
   EXPECT_FALSE(rejected->scenes[1].view.has_value());
   EXPECT_EQ(rejected->extrinsic.used_scenes, 2);
   expect_within_four_sigma(*rejected, data.rig().camera_from_lidar);
@@ -208,7 +208,7 @@ TEST(Calibrate, AnImageOfAnotherSceneIsFoundOutAndNamed) {
   ASSERT_TRUE(result.ok()) << result.error().text();
   EXPECT_EQ(name_of(result->quality), "doubtful");
   EXPECT_FALSE(result->scenes[2].used);
-  EXPECT_TRUE(result->scenes[2].contradicts) << result->scenes[2].reason;
+  EXPECT_TRUE(result->scenes[2].contradicts) << result->scenes[2].reason.text();
   ASSERT_FALSE(result->quality_reasons.empty());
   EXPECT_THAT(result->quality_reasons.front(), HasSubstr("scene C"));
   EXPECT_EQ(result->extrinsic.used_scenes, 4);
@@ -259,7 +259,7 @@ TEST(Calibrate, EvidenceFollowsTheScenesInUse) {
   EXPECT_TRUE(all->forward->uses_intensity);
   EXPECT_EQ(all->extrinsic.leave_one_out.size(), 4U);
   EXPECT_EQ(all->uncertainty.splits.size(), 3U);
-  ASSERT_TRUE(all->response.all.has_value()) << all->response.reason;
+  ASSERT_TRUE(all->response.all.has_value()) << all->response.reason.text();
   EXPECT_EQ(all->response.scenes.size(), 4U);
   EXPECT_EQ(all->inputs.size(), 10U);
   const auto less = resolve_calibration(*all, {true, false, true, true}, {});

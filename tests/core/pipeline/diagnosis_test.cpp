@@ -48,7 +48,7 @@ TEST(DiagnoseBump, ScenesAfterABumpAreGivenAsAGroup) {
     result.scenes[s].used = s < 3;
     result.scenes[s].contradicts = s >= 3;
   }
-  const std::string text = diagnose_bump(result);
+  const std::string text = diagnose_bump(result).text();
   EXPECT_THAT(text, HasSubstr("scenes A, B, C give t = [0.000 0.000 0.000] m"));
   EXPECT_THAT(text, HasSubstr("scenes D, E give t = [0.030"));
   EXPECT_THAT(text, HasSubstr("10.0 mrad apart"));
@@ -68,12 +68,12 @@ TEST(DiagnoseBump, OtherContradictionsAreNone) {
     between.scenes[s].used = s != 1;
     between.scenes[s].contradicts = s == 1;
   }
-  EXPECT_EQ(diagnose_bump(scattered), "");
-  EXPECT_EQ(diagnose_bump(between), "");
+  EXPECT_EQ(diagnose_bump(scattered), Message());
+  EXPECT_EQ(diagnose_bump(between), Message());
   CalibrationResult clean = with_extrinsics({before, before, before});
   for (SceneResult& scene : clean.scenes) scene.used = true;
-  EXPECT_EQ(diagnose_bump(clean), "");
-  EXPECT_EQ(diagnose_bump(CalibrationResult()), "");
+  EXPECT_EQ(diagnose_bump(clean), Message());
+  EXPECT_EQ(diagnose_bump(CalibrationResult()), Message());
 }
 
 TEST(DiagnoseUnseenTags, WholeRowsThatNoImageShowsAreNamed) {
@@ -81,12 +81,12 @@ TEST(DiagnoseUnseenTags, WholeRowsThatNoImageShowsAreNamed) {
   for (SceneResult& scene : result.scenes) {
     for (const TargetTag& tag : result.target.tags()) scene.view->corners.push_back({tag.id});
   }
-  EXPECT_EQ(diagnose_unseen_tags(result), "");
+  EXPECT_EQ(diagnose_unseen_tags(result), Message());
   result.target.tag_rows = 5;
   EXPECT_THAT(diagnose_unseen_tags(result), HasSubstr("tagRows: 4 would fit"));
   // One image may show a part of the board only.
   result.scenes.pop_back();
-  EXPECT_EQ(diagnose_unseen_tags(result), "");
+  EXPECT_EQ(diagnose_unseen_tags(result), Message());
 }
 
 TEST(SameContent, ImagesAndCloudsAreComparedEachForItself) {

@@ -34,7 +34,7 @@ CalibrationResult flawless() {
 
 std::string all_warnings(const CalibrationResult& result) {
   std::string text;
-  for (const std::string& w : result.warnings) text += w + "\n";
+  for (const Message& w : result.warnings) text += w.text() + "\n";
   return text;
 }
 
@@ -65,7 +65,7 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
       {"± 80.0 mrad", Quality::kFailed,
        [](auto& r) { r.extrinsic.camera_from_lidar.covariance(4, 4) = 0.0064; }},
       {"weak as weak", Quality::kDoubtful,
-       [](auto& r) { r.extrinsic.weak_directions = {"weak as weak"}; }},
+       [](auto& r) { r.extrinsic.weak_directions = {Message("weak as weak")}; }},
       {"the joint solve puts the LiDAR 220 mm and 0.0 mrad from where the localized boards put it",
        Quality::kDoubtful,
        [](auto& r) {
@@ -94,19 +94,19 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
       {"scene B is not used: elsewhere", Quality::kDoubtful,
        [](auto& r) {
          r.scenes[1].used = false;
-         r.scenes[1].reason = "elsewhere";
+         r.scenes[1].reason = Message("elsewhere");
          r.scenes[1].contradicts = true;
        }},
       {"scene B is not used: no tags", Quality::kGood,
        [](auto& r) {
          r.scenes[1].used = false;
-         r.scenes[1].reason = "no tags";
+         r.scenes[1].reason = Message("no tags");
        }},
       {"(near/far) differ by 9.0 mm and 2.0 mrad, more than noise explains (χ² 90",
        Quality::kDoubtful,
        [](auto& r) {
          SplitHalf split;
-         split.name = "near/far";
+         split.name = Message("near/far");
          split.translation_mm = 9.0;
          split.rotation_mrad = 2.0;
          split.expected_translation_mm = 1.0;
@@ -127,9 +127,10 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
       {"scene B is not used: too dark", Quality::kGood,
        [](auto& r) {
          r.scenes[1].used = false;
-         r.scenes[1].reason = "too dark";
+         r.scenes[1].reason = Message("too dark");
        }},
-      {"scene C: odd", Quality::kGood, [](auto& r) { r.scenes[2].refinement->warnings = {"odd"}; }},
+      {"scene C: odd", Quality::kGood,
+       [](auto& r) { r.scenes[2].refinement->warnings = {Message("odd")}; }},
   };
   for (const Case& c : cases) {
     CalibrationResult result = flawless();
@@ -146,11 +147,11 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
 
 TEST(JudgeQuality, KeepsWarningsOfOthersAndTheUsersChoicesToItself) {
   CalibrationResult result = flawless();
-  result.warnings = {"camera.yaml: unknown key"};
+  result.warnings = {Message("camera.yaml: unknown key")};
   result.scenes[1].used = false;
   reject(result.scenes[1]);
   judge_quality(result, {});
-  EXPECT_EQ(result.warnings, std::vector<std::string>{"camera.yaml: unknown key"});
+  EXPECT_EQ(result.warnings, std::vector<Message>{Message("camera.yaml: unknown key")});
 }
 
 TEST(JudgeQuality, AScaleWithinItsUncertaintyIsNoDifference) {
@@ -184,8 +185,8 @@ TEST(SizeMismatch, OfAPerCentAndAHalfFailsAndNamesIt) {
   ASSERT_TRUE(result.ok()) << result.error().text();
   EXPECT_EQ(result->quality, Quality::kFailed);
   std::string text;
-  for (const std::string& w : result->warnings) {
-    if (w.find("board's size") != std::string::npos) text = w;
+  for (const Message& w : result->warnings) {
+    if (w.text().find("board's size") != std::string::npos) text = w.text();
   }
   EXPECT_THAT(text, HasSubstr("larger"));
   EXPECT_NEAR(percentage_in(text), 1.5, 0.5) << text;

@@ -62,7 +62,9 @@ Vector6d by(double x_m) {
 std::vector<std::string> said_of(CalibrationResult result) {
   Verdict verdict(result);
   judge_bump(result, verdict);
-  return result.quality_reasons;
+  std::vector<std::string> out;
+  for (const Message& reason : result.quality_reasons) out.push_back(reason.text());
+  return out;
 }
 
 TEST(SceneAgreement, ABumpIsToldWithBothGroups) {

@@ -75,7 +75,7 @@ TEST_F(Session, TakingOutAndBackInOnlySolves) {
   const CalibrationResult& result = *out.run.state.latest;
   EXPECT_FALSE(result.scenes[1].used);
   EXPECT_TRUE(result.scenes[1].rejected);
-  EXPECT_EQ(result.scenes[1].reason, "rejected by the user");
+  EXPECT_EQ(result.scenes[1].reason.text(), "rejected by the user");
   EXPECT_EQ(result.extrinsic.used_scenes, 2);
   CalibrationRequest request;
   request.rejected = {"B"};
@@ -157,12 +157,12 @@ TEST_F(Session, WhatIsLeftOutByHandTakesNoPart) {
   EXPECT_GT(scene.left_out_points.size(), 30U);
   EXPECT_EQ(scene.board_points.size() + scene.left_out_points.size(), before.board_points.size());
   for (const RefinedNode& node : scene.refinement->nodes)
-    EXPECT_EQ(node.reason == kLeftOutByUser, node.id == circle.id) << node.id << node.reason;
+    EXPECT_EQ(node.reason == kLeftOutByUser, node.id == circle.id) << node.id << node.reason.text();
   // It is the user's decision, not the program's.
   for (const Refusal& refusal : refusals(result)) {
     EXPECT_FALSE(refusal.scene == "B" && refusal.id == circle.id &&
                  refusal.what != Refusal::What::kTag)
-        << refusal.reason;
+        << refusal.reason.text();
   }
   EXPECT_NE(pose(out.run), pose(first_));
   EXPECT_THAT(result.extrinsic.camera_from_lidar.transform,
@@ -298,7 +298,7 @@ TEST_F(Session, OneBadFileCostsOneScene) {
   empty.image = folder.write("empty.png", "");
   SceneFiles gone;
   gone.name = "gone";
-  gone.problem = Error::input("no cloud in this scene", "scenes/gone");
+  gone.problem = Error::input(Message("no cloud in this scene"), "scenes/gone");
   dataset.scenes.insert(dataset.scenes.end(), {cut, empty, gone});
   const SessionRun run = run_session(dataset, {}, {}, {});
   ASSERT_FALSE(run.error) << run.error->text();
@@ -330,7 +330,7 @@ TEST_F(Session, ARefusedSceneIsUsedAllTheSameIfTheUserInsists) {
   const SessionRun run = run_session(dataset, decisions, refused.state, {});
   ASSERT_FALSE(run.error) << run.error->text();
   const SceneResult& scene = run.state.latest->scenes[2];
-  EXPECT_TRUE(scene.used) << scene.reason;
+  EXPECT_TRUE(scene.used) << scene.reason.text();
   EXPECT_THAT(scene.objection, HasSubstr("contradicts the other scenes"));
   EXPECT_NE(run.state.latest->quality, Quality::kGood);
   EXPECT_THAT(run.state.latest->quality_reasons,

@@ -14,12 +14,12 @@ TEST(StageCache, KeepsOnlyTheScenesOfTheDataset) {
   dataset.scenes = {{"A", {}, {}, {}}, {"B", {}, {}, {}}};
   StageCache cache;
   cache.prepare(dataset);
-  cache.scene("A").seen.keep("key", {{}, "no tags"});
-  cache.scene("B").seen.keep("key", {{}, "no tags"});
+  cache.scene("A").seen.keep("key", {{}, Message("no tags")});
+  cache.scene("B").seen.keep("key", {{}, Message("no tags")});
   dataset.scenes.erase(dataset.scenes.begin() + 1);
   cache.prepare(dataset);
   ASSERT_NE(cache.scene("A").seen.find("key"), nullptr);
-  EXPECT_EQ(cache.scene("A").seen.find("key")->reason, "no tags");
+  EXPECT_EQ(cache.scene("A").seen.find("key")->reason.text(), "no tags");
   EXPECT_EQ(cache.scene("A").seen.find("other"), nullptr);
   EXPECT_THROW(cache.scene("B"), std::out_of_range);
   cache.forget("A");

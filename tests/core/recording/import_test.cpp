@@ -177,10 +177,10 @@ TEST_F(Import, RepeatsAndBoardsThatAreNotSeenAreLeft) {
   const Recording recording = record(test::simulated_walk(rig, {}));
   ImportOptions options;
   int asked = 0;
-  options.board_check = [&](const fs::path& image, const Camera& camera) -> std::string {
+  options.board_check = [&](const fs::path& image, const Camera& camera) -> Message {
     EXPECT_TRUE(fs::exists(image));
     EXPECT_EQ(camera.width_px, 480);
-    return ++asked == 2 ? "no tags" : "";
+    return ++asked == 2 ? Message("no tags") : Message();
   };
   const auto summary = import(recording, options);
   ASSERT_TRUE(summary.ok()) << summary.error().text();
@@ -189,7 +189,7 @@ TEST_F(Import, RepeatsAndBoardsThatAreNotSeenAreLeft) {
   EXPECT_EQ(asked, 3);
   int repeats = 0;
   for (const ImportedStretch& s : summary->stretches) {
-    repeats += s.reason.find("the same pose") != std::string::npos ? 1 : 0;
+    repeats += s.reason.text().find("the same pose") != std::string::npos ? 1 : 0;
   }
   EXPECT_EQ(repeats, 1);
   EXPECT_FALSE(summary->stretches[1].taken);
@@ -203,15 +203,17 @@ TEST_F(Import, GuessedBoardDecidesOnlyWhereItIsSeen) {
   options.force = true;
   options.board_is_certain = false;
   int asked = 0;
-  options.board_check = [&](const fs::path&, const Camera&) -> std::string {
-    return ++asked == 1 ? "" : "no tags";
+  options.board_check = [&](const fs::path&, const Camera&) -> Message {
+    return ++asked == 1 ? Message() : Message("no tags");
   };
   const auto one = import(recording, options);
   ASSERT_TRUE(one.ok()) << one.error().text();
   EXPECT_EQ(one->scene_count(), 1U);
   EXPECT_THAT(one->stretches[2].reason, HasSubstr("no tags"));
   EXPECT_FALSE(fs::exists(dataset_ / "scenes" / "002"));
-  options.board_check = [](const fs::path&, const Camera&) -> std::string { return "no tags"; };
+  options.board_check = [](const fs::path&, const Camera&) -> Message {
+    return Message("no tags");
+  };
   const auto none = import(recording, options);
   ASSERT_TRUE(none.ok());
   EXPECT_EQ(none->scene_count(), 3U);
@@ -248,7 +250,7 @@ TEST_F(Import, WhatCannotBeImportedLeavesNothing) {
   for (auto& m : only) m.data.resize(m.data.size() / 2);
   expect_refused(record(only), "can be read");
   ImportOptions none;
-  none.board_check = [](const fs::path&, const Camera&) { return std::string("no tags"); };
+  none.board_check = [](const fs::path&, const Camera&) { return Message("no tags"); };
   expect_refused(record(messages), "no tags", none);
 }
 

@@ -148,7 +148,7 @@ TEST_F(PairImport, AddingWatchesTheCameraTheBoardAndTheStop) {
   ASSERT_TRUE(added.ok());
   EXPECT_THAT(added->pairs[0].reason, HasSubstr("the camera's have"));
   PairImportOptions checked = options();
-  checked.board_check = [](const fs::path&, const Camera&) { return "too dark"; };
+  checked.board_check = [](const fs::path&, const Camera&) { return Message("too dark"); };
   added = add_pairs({all.pairs[1]}, checked, dataset(), {});
   ASSERT_TRUE(added.ok());
   EXPECT_THAT(added->pairs[0].reason, HasSubstr("too dark"));

@@ -51,7 +51,7 @@ Result<std::vector<Read>> read_all(const Recording& recording,
         return true;
       });
   if (!done) return done.error();
-  EXPECT_TRUE(done->empty()) << done->front();
+  EXPECT_TRUE(done->empty()) << done->front().text();
   return out;
 }
 
@@ -143,7 +143,7 @@ class ARecording : public ::testing::Test {
                    std::size_t at_least, const std::string& warning) const {
     const auto recording = Recording::open(path, {});
     ASSERT_TRUE(recording.ok()) << recording.error().text();
-    std::vector<std::string> warnings = recording->warnings();
+    std::vector<Message> warnings = recording->warnings();
     std::vector<std::size_t> topics;
     for (std::size_t i = 0; i < recording->topics().size(); ++i) topics.push_back(i);
     const auto expected = sorted(messages);

@@ -275,7 +275,7 @@ TEST(BinStates, AreDescribedDifferently) {
   for (const BinState state : {BinState::kUsed, BinState::kTooFewSamples, BinState::kWeakContrast,
                                BinState::kOneSided, BinState::kNoCrossing, BinState::kOutlier}) {
     EXPECT_FALSE(describe(state).empty());
-    texts.insert(describe(state));
+    texts.insert(describe(state).text());
   }
   EXPECT_EQ(texts.size(), 6U);
 }

@@ -116,7 +116,7 @@ TEST_F(NodeFitTest, WaveIsTheCentresShiftAndTheRadiusChangeWithTrueCovariance) {
   for (int draw = 0; draw < kDraws; ++draw) {
     const NodeFit result =
         fit(circle.draw(window_, random_), circle.center, circle.radius_change_m);
-    ASSERT_TRUE(result.record.valid) << result.record.reason;
+    ASSERT_TRUE(result.record.valid) << result.record.reason.text();
     const Eigen::Vector3d error = result.record.wave_m - truth;
     mean += error / kDraws;
     const Eigen::Vector3d white = result.covariance_m2.llt().matrixL().solve(error);
@@ -240,7 +240,7 @@ TEST_F(NodeFitTest, MidpointsGiveTheWaveToo) {
   circle.center = {0.0005, -0.0003};
   circle.samples = 5000;
   const NodeFit result = fit(circle.draw(window_, random_), circle.center);
-  ASSERT_TRUE(result.record.valid) << result.record.reason;
+  ASSERT_TRUE(result.record.valid) << result.record.reason.text();
   EXPECT_LT((result.record.wave_m.head<2>() - circle.center).norm(), 6e-4);
   // The unit of the weights is the one in which the midpoints scatter as they say.
   EXPECT_NEAR(result.chi_square, result.degrees_of_freedom, 1e-6);

@@ -35,7 +35,7 @@ Discovery sample_discovery() {
   d.budget = {{"range_offset", "a", "mm", 12.0, 9.5, 0.8, Matrix6d::Identity()}};
   d.covariance = 1e-6 * Matrix6d::Identity();
   d.covariance_with_budget = 4e-6 * Matrix6d::Identity();
-  d.warnings = {"something was left out"};
+  d.warnings = {Message("something was left out")};
   return d;
 }
 

@@ -77,14 +77,14 @@ Discovery example_discovery() {
   found.verdict = EffectVerdict::kPresent;
   found.parameters = {{"a", "mm", 1e-3, 0.00812, 0.00013}};
   found.heldout_gain = 0.42;
-  found.explanation = "Dark print reads far & wide.";
+  found.explanation = Message("Dark print reads far & wide.");
   EffectFinding unseen;
   unseen.id = "range_offset";
   unseen.verdict = EffectVerdict::kNotTestable;
   unseen.parameters = {{"a", "mm", 1e-3, 0.0, 0.004}};
   unseen.extrinsic_move_mm = 8.765;
   unseen.unabsorbed_share = 0.006;
-  unseen.explanation = "These scenes could not show it.";
+  unseen.explanation = Message("These scenes could not show it.");
   d.effects = {found, unseen};
   d.selected = {"range_walk"};
   BudgetItem limit;
@@ -95,7 +95,7 @@ Discovery example_discovery() {
   limit.translation_mm = 8.765;
   limit.rotation_mrad = 0.125;
   d.budget = {limit};
-  d.advice = {"Take one more scene at 60 degrees."};
+  d.advice = {Message("Take one more scene at 60 degrees.")};
   return d;
 }
 
@@ -166,7 +166,7 @@ TEST_F(HtmlReportTest, IsTheSameOfAStoredAndOfAFreshResult) {
 TEST_F(HtmlReportTest, TextIsEscapedAndAMissingDatasetIsSaid) {
   CalibrationResult result = *result_;
   result.dataset = "/nowhere/<b>&\"";
-  result.warnings.push_back("5 < 6 & <script>");
+  result.warnings.push_back(Message("5 < 6 & <script>"));
   ASSERT_TRUE(write_results(result, out_.path()).ok());
   const auto report = html_report(out_.path(), {});
   ASSERT_TRUE(report.ok()) << report.error().text();

@@ -21,7 +21,7 @@ ScenePlan sample() {
   scene.covariance = 1e-6 * Matrix6d::Identity();
   scene.effects = {{"range_walk", 4.5}};
   plan.scenes.push_back(scene);
-  plan.warnings = {"beware"};
+  plan.warnings = {Message("beware")};
   return plan;
 }
 

@@ -115,7 +115,7 @@ CalibrationResult three_scenes() {
       solution.rms_mm = name[0] == 'A' ? 1.5 : 2.5;
       result.extrinsic.scenes.push_back(solution);
     } else {
-      scene.reason = "no board in the image";
+      scene.reason = Message("no board in the image");
     }
     result.scenes.push_back(scene);
   }

@@ -52,13 +52,13 @@ CalibrationResult sample_result() {
     result.scenes.push_back(scene);
   }
   result.scenes[1].refinement->nodes[4].valid = false;
-  result.scenes[1].refinement->nodes[4].reason = "too few samples";
+  result.scenes[1].refinement->nodes[4].reason = Message("too few samples");
   SceneResult left_out;
   left_out.name = "Z: \"odd\"\n#name";
-  left_out.reason = "no tags: image\tis 'black' \x80";
+  left_out.reason = Message("no tags: image\tis 'black' \x80");
   result.scenes.push_back(left_out);
   result.quality = Quality::kDoubtful;
-  result.warnings = {"result: one", "two: \"quoted\" — 3 %"};
+  result.warnings = {Message("result: one"), Message("two: \"quoted\" — 3 %")};
   result.times.total_ms = 12.5;
   return result;
 }
@@ -156,7 +156,7 @@ TEST(ResultYaml, ParsesAndSaysTheSame) {
   ASSERT_EQ(scenes->list.size(), 4U);
   EXPECT_EQ(scenes->list[3].find("name")->scalar, result.scenes[3].name);
   ASSERT_EQ(yaml->root().find("warnings")->list.size(), 2U);
-  EXPECT_EQ(yaml->root().find("warnings")->list[1].scalar, result.warnings[1]);
+  EXPECT_EQ(yaml->root().find("warnings")->list[1].scalar, result.warnings[1].text());
 }
 
 TEST(ResultYaml, IsAcceptedAsARoughExtrinsic) {

@@ -44,7 +44,7 @@ BoundaryResponse respond(const SimulationOptions& options, const ResponseOptions
 }
 
 void expect_truth(const BoundaryResponse& response, const Truth& truth) {
-  ASSERT_TRUE(response.all.has_value()) << response.reason;
+  ASSERT_TRUE(response.all.has_value()) << response.reason.text();
   const ResponseStatistics& all = *response.all;
   const Eigen::Vector3d std_dev = all.std_dev();
   EXPECT_NEAR(std_dev(0), truth.pitch_rad, 0.05 * truth.pitch_rad);
@@ -90,11 +90,11 @@ TEST(BoundaryResponse, RecoversAnEllipticFootprint) {
 TEST(BoundaryResponse, EverySceneAndClassHasItsOwnNumbers) {
   auto options = test::cloud_only_options(6, LidarKind::kAvia);
   const BoundaryResponse response = respond(options);
-  ASSERT_TRUE(response.all.has_value()) << response.reason;
+  ASSERT_TRUE(response.all.has_value()) << response.reason.text();
   ASSERT_EQ(response.scenes.size(), 3U);
   int n = 0;
   for (const SceneResponse& scene : response.scenes) {
-    ASSERT_TRUE(scene.statistics.has_value()) << scene.reason;
+    ASSERT_TRUE(scene.statistics.has_value()) << scene.reason.text();
     ASSERT_TRUE(scene.transition.has_value());
     EXPECT_EQ(scene.nodes.size(), 9U);
     n += scene.statistics->n;
@@ -127,7 +127,7 @@ TEST(BoundaryResponse, TransitionHoldsItsStatedErrors) {
     options.placement.max_tilt_deg = 1.0;  // The blur on the board is then the beam's own.
     const auto truth = test::simulated_scene(options);
     const BoundaryResponse response = respond(options);
-    ASSERT_TRUE(response.scenes[0].transition.has_value()) << response.scenes[0].reason;
+    ASSERT_TRUE(response.scenes[0].transition.has_value()) << response.scenes[0].reason.text();
     const TransitionFit& fit = *response.scenes[0].transition;
     const Eigen::Vector2d c = options.target.outline().center_m();
     const double range = (truth.lidar_from_board * Eigen::Vector3d(c.x(), c.y(), 0.0)).norm();
@@ -157,7 +157,7 @@ TEST(BoundaryResponse, SaysWhyANodeGivesNothing) {
     EXPECT_FALSE(response.reason.empty());
     ASSERT_EQ(response.scenes[0].nodes.size(), 9U);
     for (const NodeResponse& node : response.scenes[0].nodes) {
-      EXPECT_EQ(node.state, state) << node.reason;
+      EXPECT_EQ(node.state, state) << node.reason.text();
       EXPECT_THAT(node.reason, HasSubstr(describe(state)));
     }
   };
@@ -175,7 +175,7 @@ TEST(BoundaryResponse, SaysWhyANodeGivesNothing) {
 
   scenes[0].cloud = good;
   scenes[0].refinement.nodes[4].valid = false;
-  scenes[0].refinement.nodes[4].reason = "too few usable bins around the circle";
+  scenes[0].refinement.nodes[4].reason = Message("too few usable bins around the circle");
   const BoundaryResponse one_less = states();
   EXPECT_TRUE(one_less.all.has_value());
   EXPECT_EQ(one_less.scenes[0].nodes[4].state, NodeResponseState::kNotRefined);

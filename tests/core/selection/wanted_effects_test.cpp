@@ -64,7 +64,7 @@ TEST(Wanted, FieldsThatAreMissingAreSaid) {
   const auto out = with({"scan_motion", "curve:range:time_in_scan"}, test::synthetic_table(recipe));
   EXPECT_THAT(out.selected, IsEmpty());
   EXPECT_THAT(out.warnings, SizeIs(2));
-  for (const std::string& w : out.warnings) EXPECT_THAT(w, HasSubstr("no time"));
+  for (const Message& w : out.warnings) EXPECT_THAT(w, HasSubstr("no time"));
 }
 
 TEST(WantedFormula, RecoversTheCoefficientWithinItsDeviation) {

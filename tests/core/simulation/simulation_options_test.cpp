@@ -62,8 +62,8 @@ TEST(SimulationOptions, RefusesUnknownEffectsByName) {
   const Status status = check(options);
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().kind, ErrorKind::kUsage);
-  EXPECT_NE(status.error().message.find("warp_drive"), std::string::npos);
-  EXPECT_NE(status.error().message.find("known effects"), std::string::npos);
+  EXPECT_NE(status.error().message.text().find("warp_drive"), std::string::npos);
+  EXPECT_NE(status.error().message.text().find("known effects"), std::string::npos);
 }
 
 TEST(SimulationOptions, RefusesEffectsOutOfRangeOrWithoutLines) {

@@ -154,10 +154,10 @@ TEST(Simulator, ReportsProgressAndStopsAtTheReceiversError) {
   EXPECT_EQ(last, 1.0);
   const Status status = simulate_each(*simulator, context, [&](int, const SimulatedScene&) {
     ++taken;
-    return Status(Error::output("disk full"));
+    return Status(Error::output(Message("disk full")));
   });
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().message, "disk full");
+  EXPECT_EQ(status.error().message.text(), "disk full");
   EXPECT_EQ(taken, 3);
 }
 

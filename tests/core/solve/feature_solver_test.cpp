@@ -255,7 +255,7 @@ TEST_F(ExtrinsicSolver, ParallelBoardsWithoutNodesLeaveDirectionsOpenAndNamesThe
   // feigns a little more, so that the rank may be full; but no weak direction goes unnamed.
   ASSERT_FALSE(solution->weak_directions.empty());
   std::string all;
-  for (const std::string& direction : solution->weak_directions) all += direction + "\n";
+  for (const Message& direction : solution->weak_directions) all += direction.text() + "\n";
   EXPECT_THAT(all, HasSubstr("translation along the camera's x axis"));
   EXPECT_THAT(all, HasSubstr("translation along the camera's y axis"));
   // An open direction never looks certain.

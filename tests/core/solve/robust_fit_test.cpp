@@ -39,7 +39,7 @@ TEST_F(RobustFitting, CleanScenesKeepEverythingAndTheirStatedNoise) {
   EXPECT_EQ(count_used(result.mask), 4);
   EXPECT_EQ(result.scales.node, 1.0);
   EXPECT_EQ(result.scales.plane, 1.0);
-  for (const std::string& reason : result.reasons) EXPECT_TRUE(reason.empty());
+  for (const Message& reason : result.reasons) EXPECT_TRUE(reason.empty());
 }
 
 // A bad scene cannot hide behind corner noise, wherever the boards' poses start.

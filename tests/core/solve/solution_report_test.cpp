@@ -71,10 +71,10 @@ TEST_F(SolutionReporting, RmsIsOfUsedScenesAndObservations) {
   }
   EXPECT_NEAR(all.rms_px, std::sqrt(sum / count), 1e-9);
   fit_.mask.scene[0] = false;
-  fit_.reasons[0] = "for a reason";
+  fit_.reasons[0] = Message("for a reason");
   const ExtrinsicSolution rest = report();
   EXPECT_FALSE(rest.scenes[0].used);
-  EXPECT_EQ(rest.scenes[0].reason, "for a reason");
+  EXPECT_EQ(rest.scenes[0].reason.text(), "for a reason");
   EXPECT_NE(rest.rms_px, all.rms_px);
   EXPECT_EQ(rest.leave_one_out.size(), 3U);
 }

@@ -68,7 +68,7 @@ TEST_F(Uncertainty, AHiddenEffectShowsBetweenHalves) {
   }
   const UncertaintyReport report = assess(observations);
   ASSERT_EQ(report.splits.size(), 3U);
-  EXPECT_EQ(report.splits[0].name, "near/far");
+  EXPECT_EQ(report.splits[0].name.text(), "near/far");
   EXPECT_FALSE(report.splits[0].agrees()) << report.splits[0].chi_square;
   EXPECT_GT(report.splits[0].translation_mm, report.splits[0].expected_translation_mm);
 }

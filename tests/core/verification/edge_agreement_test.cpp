@@ -64,7 +64,7 @@ TEST(EdgeAgreement, IsBestAtTheTruePoseAndChanceFarAway) {
 
 TEST(EdgeAgreement, ATruePoseIsNotAccused) {
   const EdgeCheck right = check(place().camera_from_lidar);
-  EXPECT_EQ(right.verdict, EdgeVerdict::kAgrees) << reason_of(right);
+  EXPECT_EQ(right.verdict, EdgeVerdict::kAgrees) << reason_of(right).text();
   EXPECT_LT(right.offset_px, 3.5 * right.offset_sigma_px);
   EXPECT_THAT(reason_of(right), HasSubstr("edges agree to"));
   // Two rooms tell a turn by a degree about any axis.
@@ -74,7 +74,7 @@ TEST(EdgeAgreement, ATruePoseIsNotAccused) {
 TEST(EdgeAgreement, ATurnedPoseIsFoundOutAndMended) {
   for (const Rigid3& pose : {turned(10.0, 0.0, 0.0), turned(0.0, -12.0, 0.0)}) {
     const EdgeCheck wrong = check(pose);
-    EXPECT_EQ(wrong.verdict, EdgeVerdict::kContradicts) << reason_of(wrong);
+    EXPECT_EQ(wrong.verdict, EdgeVerdict::kContradicts) << reason_of(wrong).text();
     EXPECT_GT(wrong.best.score, wrong.given.score + 0.1);
     EXPECT_GT(wrong.gain, wrong.gain_that_matters);
     // Most of it is taken back; what is left is within what is stated.
@@ -87,9 +87,9 @@ TEST(EdgeAgreement, ATurnedPoseIsFoundOutAndMended) {
 
 TEST(EdgeAgreement, APoseThatIsElsewhereCannotBeJudged) {
   const EdgeCheck lost = check(turned(300.0, 400.0, 100.0));
-  EXPECT_EQ(name_of(lost.verdict), "cannot tell") << reason_of(lost);
+  EXPECT_EQ(name_of(lost.verdict), "cannot tell") << reason_of(lost).text();
   const EdgeCheck behind = check(turned(0.0, 3141.0, 0.0));
-  EXPECT_EQ(behind.verdict, EdgeVerdict::kFewEdges) << reason_of(behind);
+  EXPECT_EQ(behind.verdict, EdgeVerdict::kFewEdges) << reason_of(behind).text();
   EXPECT_THAT(reason_of(behind), HasSubstr("too few edges"));
 }
 

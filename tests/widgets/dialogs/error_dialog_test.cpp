@@ -13,7 +13,8 @@ namespace lvcalib::widgets::error_dialog_test {
 namespace {
 
 TEST(ErrorDialog, NamesFileAndWayOutAndCopiesTheCommandLinesMessage) {
-  const Error error = Error::input("has no intensity <b>", "/d/cloud.pcd", "record it with it");
+  const Error error =
+      Error::input(Message("has no intensity <b>"), "/d/cloud.pcd", Message("record it with it"));
   auto* dialog = new ErrorDialog(error, nullptr);
   dialog->show();
   QString shown;

@@ -16,9 +16,9 @@ CalibrationResult example() {
   pose.transform.rotation = so3_exp({0, 0, 0.25 * std::numbers::pi});
   pose.covariance.diagonal() << 1e-6, 4e-6, 9e-6, 1e-8, 4e-8, 9e-8;
   result.quality = Quality::kDoubtful;
-  result.quality_reason = "only <one> scene";
-  result.warnings = {"result: take more"};
-  result.extrinsic.weak_directions = {"rotation about x is weak"};
+  result.quality_reason = Message("only <one> scene");
+  result.warnings = {Message("result: take more")};
+  result.extrinsic.weak_directions = {Message("rotation about x is weak")};
   return result;
 }
 

@@ -162,7 +162,7 @@ TEST_F(ScenesDockTest, ARefusedSceneCanBeInsistedOn) {
     result->scenes[s].refinement.emplace();
     result->scenes[s].used = s != 1;
   }
-  result->scenes[1].reason = "contradicts the others";
+  result->scenes[1].reason = Message("contradicts the others");
   model_.set_result(result);
   dock_.select("A");
   EXPECT_FALSE(action("use_all_the_same")->isVisible());

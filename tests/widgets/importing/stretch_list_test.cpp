@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 ImportedStretch stretch(double first_s, double last_s, bool taken, bool usable,
-                        const char* reason) {
+                        const Message& reason) {
   ImportedStretch out;
   out.first_s = first_s;
   out.last_s = last_s;
@@ -24,10 +24,11 @@ ImportedStretch stretch(double first_s, double last_s, bool taken, bool usable,
 }
 
 std::vector<ImportedStretch> examples() {
-  return {stretch(0, 2, true, true, "rig and board stand still for 2.0 s"),
-          stretch(3, 4, false, true, "the same pose as from 0.0 s to 2.0 s, which is longer"),
-          stretch(5, 5.5, false, false, "stands still for 0.5 s only; 0.8 s are needed"),
-          stretch(6, 8, true, true, "rig and board stand still for 2.0 s")};
+  return {
+      stretch(0, 2, true, true, Message("rig and board stand still for 2.0 s")),
+      stretch(3, 4, false, true, Message("the same pose as from 0.0 s to 2.0 s, which is longer")),
+      stretch(5, 5.5, false, false, Message("stands still for 0.5 s only; 0.8 s are needed")),
+      stretch(6, 8, true, true, Message("rig and board stand still for 2.0 s"))};
 }
 
 class StretchListTest : public ::testing::Test {
@@ -66,9 +67,9 @@ TEST_F(StretchListTest, WhatCannotBeASceneCannotBeTicked) {
 TEST_F(StretchListTest, AStretchWithoutTheBoardIsNotCountedAndSaysSo) {
   QImage picture(40, 30, QImage::Format_RGB888);
   picture.fill(Qt::gray);
-  list_.setPicture(0, picture, true, "");
-  list_.setPicture(3, picture, true, "no tags in the image");
-  list_.setPicture(9, picture, true, "");
+  list_.setPicture(0, picture, true, {});
+  list_.setPicture(3, picture, true, Message("no tags in the image"));
+  list_.setPicture(9, picture, true, {});
   EXPECT_EQ(list_.expectedScenes(), 1);
   EXPECT_EQ(list_.topLevelItem(0)->text(3), "seen");
   EXPECT_EQ(list_.topLevelItem(3)->text(3), "not seen");

@@ -28,8 +28,8 @@ class SceneModelTest : public ::testing::Test {
       r->scenes[s].refinement.emplace().board_points = 900 + 200 * s;
     }
     r->scenes[0].used = true;
-    r->scenes[1].reason = "contradicts the other scenes";
-    r->scenes[2].reason = "no tags";
+    r->scenes[1].reason = Message("contradicts the other scenes");
+    r->scenes[2].reason = Message("no tags");
     SceneSolution solved;
     solved.name = "A";
     solved.used = true;

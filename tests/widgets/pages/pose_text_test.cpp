@@ -38,9 +38,9 @@ TEST(PoseText, NamesPoseAndStandardDeviations) {
 TEST(PoseText, WeakDirectionsAndWarningsAreTextNotMarkup) {
   CalibrationResult result = example();
   result.quality = Quality::kDoubtful;
-  result.quality_reason = "two scenes <only>";
-  result.extrinsic.weak_directions = {"rotation about the camera's y axis is weak"};
-  result.warnings = {"a & b"};
+  result.quality_reason = Message("two scenes <only>");
+  result.extrinsic.weak_directions = {Message("rotation about the camera's y axis is weak")};
+  result.warnings = {Message("a & b")};
   const QString text = plain(result);
   EXPECT_TRUE(text.contains("doubtful"));
   EXPECT_TRUE(text.contains("two scenes <only>"));

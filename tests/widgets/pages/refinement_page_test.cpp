@@ -66,7 +66,7 @@ TEST_F(RefinementPageTest, AClickEnlargesANodeAndListsItsBins) {
   ASSERT_EQ(bins()->rowCount(), static_cast<int>(record.bins.size()));
   for (int row = 0; row < bins()->rowCount(); ++row) {
     const BinRecord& bin = record.bins[static_cast<std::size_t>(row)];
-    EXPECT_EQ(bins()->item(row, 4)->text().toStdString(), describe(bin.state));
+    EXPECT_EQ(bins()->item(row, 4)->text().toStdString(), describe(bin.state).text());
     EXPECT_EQ(bins()->item(row, 3)->text().toInt(), bin.samples);
   }
   EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("bins used"));
@@ -143,7 +143,7 @@ TEST_F(RefinementPageTest, RefusedBinsTellWhy) {
   NodeRecord& node = changed->scenes[0].refinement->history.back().nodes[2];
   node.bins[1].state = BinState::kOneSided;
   node.valid = false;
-  node.reason = "too few usable bins around the circle";
+  node.reason = Message("too few usable bins around the circle");
   page_.setResult(changed);
   page_.setScene(0);
   page_.chooseNode(2);
@@ -217,7 +217,7 @@ TEST_F(RefinementPageTest, LiveWithoutPointsAndNodes) {
 TEST_F(RefinementPageTest, SaysWhyThereIsNothing) {
   auto changed = std::make_shared<CalibrationResult>(*demo_.result);
   changed->scenes[0].refinement.reset();
-  changed->scenes[0].reason = "the board is not found in the cloud";
+  changed->scenes[0].reason = Message("the board is not found in the cloud");
   page_.setResult(changed);
   page_.setScene(0);
   EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("not found in the cloud"));

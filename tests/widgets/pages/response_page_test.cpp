@@ -36,7 +36,7 @@ class ResponsePageTest : public ::testing::Test {
 TEST_F(ResponsePageTest, TheTableCarriesTheResultsNumbers) {
   page_.setResult(demo_.result);
   const BoundaryResponse& response = demo_.result->response;
-  ASSERT_TRUE(response.all) << response.reason;
+  ASSERT_TRUE(response.all) << response.reason.text();
   ASSERT_EQ(table()->rowCount(), 4);
   EXPECT_EQ(table()->item(0, 1)->text().toInt(), response.all->n);
   const double sigma_range_mm = 1e3 * response.all->std_dev().z();
@@ -93,11 +93,11 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
   auto changed = std::make_shared<CalibrationResult>(*demo_.result);
   BoundaryResponse& response = changed->response;
   response.all.reset();
-  response.reason = "not enough samples: 12 of <200>";
+  response.reason = Message("not enough samples: 12 of <200>");
   response.scenes[0].statistics.reset();
-  response.scenes[0].reason = "3 circles in use";
+  response.scenes[0].reason = Message("3 circles in use");
   response.scenes[0].nodes[0].state = NodeResponseState::kClipped;
-  response.scenes[0].nodes[0].reason = "40 % of its white is at the end of the scale";
+  response.scenes[0].nodes[0].reason = Message("40 % of its white is at the end of the scale");
   page_.setResult(changed);
   EXPECT_EQ(table()->item(0, 2)->text(), "not enough samples: 12 of <200>");
   EXPECT_EQ(page_.findChild<QLabel*>("response-message")->text(),
@@ -109,7 +109,7 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
   changed = std::make_shared<CalibrationResult>(*changed);
   changed->extrinsic.scenes[1].nodes[2].used = false;
   changed->scenes[2].used = false;
-  changed->scenes[2].reason = "contradicts the others";
+  changed->scenes[2].reason = Message("contradicts the others");
   page_.setResult(changed);
   auto* list = page_.findChild<QTextBrowser*>("response-reasons");
   EXPECT_TRUE(list->toPlainText().contains("Scene B, circle 2: misses"));

@@ -172,7 +172,7 @@ TEST_F(ScenePageTest, ARefusedSceneSaysSoAndCanBeUsedAllTheSame) {
   EXPECT_FALSE(label->isVisible());
   auto refused = std::make_shared<CalibrationResult>(*demo_.result);
   refused->scenes[1].used = false;
-  refused->scenes[1].reason = "contradicts the others";
+  refused->scenes[1].reason = Message("contradicts the others");
   page_.setResult(refused);
   EXPECT_TRUE(label->isVisible());
   EXPECT_TRUE(label->text().contains("contradicts the others"));

@@ -17,9 +17,9 @@ QString text_of(const CalibrationResult& result) {
 
 TEST(UncertaintyText, HalvesInfluenceAndProjectionWithTheirNumbers) {
   CalibrationResult result;
-  result.extrinsic.weak_directions = {"translation along <z> is known ten times worse"};
+  result.extrinsic.weak_directions = {Message("translation along <z> is known ten times worse")};
   SplitHalf split;
-  split.name = "near/far";
+  split.name = Message("near/far");
   split.first = {"A"};
   split.second = {"B", "C"};
   split.translation_mm = 4.321;
@@ -47,7 +47,7 @@ TEST(UncertaintyText, HalvesInfluenceAndProjectionWithTheirNumbers) {
 
 TEST(UncertaintyText, TooFewScenesAreSaid) {
   CalibrationResult result;
-  result.uncertainty.splits_reason = "not enough scenes for halves: 3 of 4";
+  result.uncertainty.splits_reason = Message("not enough scenes for halves: 3 of 4");
   const QString text = text_of(result);
   EXPECT_TRUE(text.contains("not enough scenes for halves: 3 of 4"));
   EXPECT_TRUE(text.contains("Not enough scenes: three are needed"));

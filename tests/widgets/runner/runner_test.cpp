@@ -26,7 +26,7 @@ TEST(Runner, DeliversInTheInterfaceThreadAndReportsProgress) {
   int posted = 0;
   const auto id = runner.start([&](const RunContext& context, const Post& post) -> Deliver {
     worked = std::this_thread::get_id();
-    context.report("load", 0.5, "half");
+    context.report("load", 0.5, Message("half"));
     post([&] { ++posted; });
     return [&] { delivered = std::this_thread::get_id(); };
   });
@@ -129,7 +129,7 @@ TEST(Runner, MayGoAwayWhileItsJobRuns) {
     Runner runner;
     runner.start([&](const RunContext& context, const Post& post) -> Deliver {
       while (!release) std::this_thread::sleep_for(1ms);
-      context.report("load", 1.0, "late");
+      context.report("load", 1.0, Message("late"));
       post([&] { delivered = true; });
       return [&] { delivered = true; };
     });

@@ -61,11 +61,12 @@ TEST_F(SceneData, TheLoaderGivesDataThumbnailsAndMessages) {
   EXPECT_EQ(qvariant_cast<QImage>(thumbnails.last().at(1)).size(), QSize(45, 30));
   loader.load(broken);
   ASSERT_TRUE(failed.wait(5000));
-  EXPECT_TRUE(failed.last().at(1).toString().contains("nowhere.png"));
+  EXPECT_TRUE(QString::fromStdString(qvariant_cast<Message>(failed.last().at(1)).text())
+                  .contains("nowhere.png"));
   // The cloud is shown without its image.
   const auto data = qvariant_cast<widgets::SceneData>(loaded.last().at(1));
   EXPECT_TRUE(data.image.isNull());
-  EXPECT_TRUE(data.image_problem.contains("nowhere.png"));
+  EXPECT_TRUE(QString::fromStdString(data.image_problem.text()).contains("nowhere.png"));
   ASSERT_TRUE(data.cloud);
   EXPECT_EQ(data.cloud->size(), 2U);
 }

@@ -7,6 +7,7 @@
 
 #include "widgets/views/plots_test.h"
 #include "widgets/views/response_example.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets::response_plots_test {
 namespace {
@@ -96,13 +97,13 @@ TYPED_TEST(EveryResponsePlot, SaysWhyThereIsNothing) {
   TypeParam plot;
   plot.resize(360, 260);
   ResponseScope scope;
-  scope.reason = "not enough samples: 12 of 200";
+  scope.reason = Message("not enough samples: 12 of 200");
   plot.setScope(scope);
   plot.show();
   bool said = false;
   for (int k = 0; k < plot.itemCount(); ++k) {
     const auto* item = qobject_cast<QCPItemText*>(plot.item(k));
-    said = said || (item != nullptr && item->text() == scope.reason);
+    said = said || (item != nullptr && item->text() == core_text(scope.reason));
   }
   EXPECT_TRUE(said);
   EXPECT_TRUE(plot.csv().isEmpty());

@@ -5,6 +5,7 @@
 
 #include "widgets/views/plots_test.h"
 #include "widgets/views/response_example.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets::sample_map_plot_test {
 namespace {
@@ -54,12 +55,12 @@ TEST(SampleMapPlot, MarksCirclesThatAreLeftOut) {
 TEST(SampleMapPlot, WithoutSamplesItSaysWhy) {
   SampleMapPlot plot;
   ResponseScope scope;
-  scope.reason = "this board has no circles";
+  scope.reason = Message("this board has no circles");
   plot.setScope(scope);
   EXPECT_TRUE(plot.csv().isEmpty());
   const auto* text = qobject_cast<QCPItemText*>(plot.item(plot.itemCount() - 1));
   ASSERT_NE(text, nullptr);
-  EXPECT_EQ(text->text(), scope.reason);
+  EXPECT_EQ(text->text(), core_text(scope.reason));
 }
 
 }  // namespace

@@ -17,13 +17,13 @@
 #include "model/user_effect.h"
 #include "report/result_file.h"
 #include "runner/demo.h"
-#include "style/texts.h"
 #include "tools/watch_window.h"
 #include "views/color_bar.h"
 #include "widgets/importing/recorded_walk.h"
 #include "widgets/modelling/model_example.h"
 #include "widgets/support/visible_texts.h"
 #include "widgets/workbench/main_window_fixture.h"
+#include "words/core_text.h"
 #include "workbench/language.h"
 
 namespace lvcalib::retranslation_test {
@@ -134,8 +134,9 @@ class RetranslationTest : public ::testing::Test {
     }));
     const auto* result = window_->workspace().result().get();
     auto* error = new widgets::ErrorDialog(
-        Error::untrusted("the scenes determine only 5 of 6 directions of the extrinsic",
-                         result->dataset, "add a scene with the board nearer and tilted"),
+        Error::untrusted(
+            Message("the scenes determine only %1 of 6 directions of the extrinsic", 5),
+            result->dataset, Message("add a scene with the board nearer and tilted")),
         window_.get());
     error->show();
     QTest::qWait(20);
@@ -191,7 +192,7 @@ TEST_F(RetranslationTest, BackToEnglishNoChineseIsLeft) {
 // What the Model page says of effects: suggestions, verdicts, the model itself.
 TEST(ModelSentences, AreChineseInChinese) {
   const test::ModelExample& example = test::model_example();
-  std::vector<std::string> said;
+  std::vector<Message> said;
   for (const EffectProposal& p : example.missing->proposals) said.push_back(p.finding.explanation);
   const auto after = rank_effects(*example.mended, {});
   ASSERT_TRUE(after.ok());
@@ -213,8 +214,9 @@ TEST(ModelSentences, AreChineseInChinese) {
   // What the user typed or may type, and the names of parameters and units.
   static const QRegularExpression quoted(
       "“[^”]*”|：print |corner、range、boundary 或 intensity|ppm|nats|[\\w²′ψ]+ = ");
-  for (const std::string& english : said) {
-    const QString chinese = widgets::core_text(english);
+  for (const Message& sentence : said) {
+    const std::string english = sentence.text();
+    const QString chinese = widgets::core_text(sentence);
     EXPECT_TRUE(chinese.contains(QRegularExpression("\\p{Han}"))) << english;
     EXPECT_THAT(english_words(QString(chinese).remove(quoted)), ::testing::IsEmpty())
         << english << "\n  is said as: " << chinese.toStdString();

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "words/core_text.h"
+
+#include <QCoreApplication>
+#include <QHash>
+#include <QTranslator>
+
+#include <gtest/gtest.h>
+
+namespace lvcalib::widgets::core_text_test {
+namespace {
+
+// A catalogue of the test's own.
+class Upside : public QTranslator {
+ public:
+  [[nodiscard]] QString translate(const char* context, const char* source, const char*,
+                                  int) const override {
+    if (qstrcmp(context, "Core") != 0) return {};
+    return words_.value(QString::fromUtf8(source));
+  }
+  [[nodiscard]] bool isEmpty() const override { return false; }
+
+ private:
+  QHash<QString, QString> words_ = {
+      {"scene %1: %2", "<%2> in %1"},
+      {"%1 is known %2 times worse than the typical direction: %3", "%2-fold: %1 (%3)"},
+      {"rotation about the camera's x axis", "RX"},
+      {"file not found", "NO FILE"},
+      {"used", "in use"}};
+};
+
+class CoreTextTest : public ::testing::Test {
+ protected:
+  void SetUp() override { QCoreApplication::installTranslator(&upside_); }
+  void TearDown() override { QCoreApplication::removeTranslator(&upside_); }
+  Upside upside_;
+};
+
+TEST_F(CoreTextTest, SentencesAndWhatFillsThem) {
+  EXPECT_EQ(core_text(Message("used")), "in use");
+  EXPECT_EQ(core_text(Message("nothing like it")), "nothing like it");
+  EXPECT_EQ(core_text(Message()), "");
+  EXPECT_EQ(core_text(Message("scene %1: %2", "A", Message("used"))), "<in use> in A");
+  EXPECT_EQ(
+      core_text(Message("%1 is known %2 times worse than the typical direction: %3",
+                        Message("rotation about the camera's x axis"), 7, Message("add a scene"))),
+      "7-fold: RX (add a scene)");
+  EXPECT_EQ(core_text(Message::listed("used")), "in use");
+}
+
+TEST_F(CoreTextTest, NamesAreNobodysToTranslate) {
+  EXPECT_EQ(core_text(Message::verbatim("used")), "used");
+  EXPECT_EQ(core_text(Message("scene %1: %2", "used", Message("used"))), "<in use> in used");
+}
+
+TEST_F(CoreTextTest, AnErrorSaysWhereAndWhatToDo) {
+  EXPECT_EQ(core_text(Error::input(Message("file not found"), "/a/b.pcd", Message("used"))),
+            "/a/b.pcd: NO FILE (in use)");
+}
+
+TEST_F(CoreTextTest, WhatIsFilledInIsNotReadAsAPlace) {
+  EXPECT_EQ(core_text(Message("scene %1: %2", "%2", "100 %1")), "<100 %1> in %2");
+}
+
+TEST(CoreText, WithoutACatalogueTheCoreSpeaks) {
+  EXPECT_EQ(core_text(Message("scene %1: %2", "A", Message("used"))), "scene A: used");
+}
+
+}  // namespace
+}  // namespace lvcalib::widgets::core_text_test
