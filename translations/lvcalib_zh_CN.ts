@@ -4613,6 +4613,26 @@ were saved. Take them up again?</source>
         <source>your own: formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE</source>
         <translation>您自己的：formula:CHANNEL:EXPRESSION 或 curve:CHANNEL:COVARIATE</translation>
     </message>
+    <message>
+        <source>Echoes above a certain power are clipped: bright print near the LiDAR reads darker than it is, its edges lie off, and its range is wrong.</source>
+        <translation>超过一定功率的回波被截断：靠近激光雷达的明亮印刷面读数偏暗，其边缘偏移，距离也有误差。</translation>
+    </message>
+    <message>
+        <source>Receiver saturation</source>
+        <translation>接收器饱和</translation>
+    </message>
+    <message>
+        <source>boards from close by to far away, square to the beam</source>
+        <translation>由近到远、正对光束的标定板</translation>
+    </message>
+    <message>
+        <source>ln Ps, of white at 3 m</source>
+        <translation>ln Ps，相对于 3 m 处的白色</translation>
+    </message>
+    <message>
+        <source>Beside a curve over what is left in the %1 channel it is not there: %2; something that no effect explains is at work.</source>
+        <translation>与描述%1通道残余的曲线并列时，该效应不存在：%2；起作用的是没有任何效应能解释的其他因素。</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>

@@ -119,6 +119,7 @@ class ScenePredictor {
   // A return that weighs as `root` squared of them.
   void add_return(const ReturnPrediction& p, BeamPoint beam, double root) {
     set_darkness(p.intensity, beam);
+    beam.white = p.white;
     const PrintView view = view_print(p, levels_, beam_);
     if (view.slope > 0.0) {
       beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m,
@@ -372,6 +373,7 @@ std::vector<Eigen::MatrixXd> predicted_information(
   empty.has_intensity = like.has_intensity;
   empty.level = like.level;
   empty.log_contrast = like.log_contrast;
+  empty.usual_log_power = like.usual_log_power;
   std::vector<Eigen::MatrixXd> out(poses.size());
   for (std::size_t first = 0; first < poses.size() && !context.stopped(); first += kChunk) {
     const std::size_t count = std::min(kChunk, poses.size() - first);

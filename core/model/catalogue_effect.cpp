@@ -9,6 +9,13 @@
 
 namespace lvcalib {
 
+double log_power(double range_m, double incidence_rad) {
+  constexpr double kReference_m = 3.0;
+  constexpr double kLeastCosine = 0.05;
+  return std::log(std::max(kLeastCosine, std::cos(incidence_rad))) -
+         2.0 * std::log(range_m / kReference_m);
+}
+
 AngleAxes angle_axes(const BeamPoint& beam) {
   const double ca = std::cos(beam.azimuth_rad);
   const double sa = std::sin(beam.azimuth_rad);

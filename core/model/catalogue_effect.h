@@ -35,6 +35,10 @@ AngleAxes angle_axes(const BeamPoint& beam);
 /// an edge, as a unit vector: the polar angle ψ′ against the LiDAR's axes.
 Eigen::Vector2d lidar_angle_of(const BoundaryRow& row);
 
+/// ln of the power that print sends back, cos θ/r², beside the same print seen squarely at three
+/// metres.
+double log_power(double range_m, double incidence_rad);
+
 /// The same parameter once per laser line, named "a3" for line 3.
 std::vector<EffectParameter> one_per_line(const MeasurementTable& table,
                                           const EffectParameter& parameter);

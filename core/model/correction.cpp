@@ -48,6 +48,7 @@ class Probe {
       out.line |= differs([](BeamPoint& b) { b.line += 1000; });
       out.board |= differs([](BeamPoint& b) { b.board_m += Eigen::Vector2d(0.13, 0.21); });
       out.board |= differs([](BeamPoint& b) { b.slope_rad += 0.7; });
+      out.board |= differs([](BeamPoint& b) { b.white -= 0.5; });
       out.board |= differs([](BeamPoint& b) { b.edge = NearEdge{0.002, 0.3, 0.01}; });
       table_.scenes.front().clock = 0.6;
       const Eigen::Vector3d later = movement_of(base);

@@ -81,6 +81,8 @@ class Effect {
   [[nodiscard]] virtual bool has_smooth_shape() const { return !shape_name().empty(); }
   /// True for what the base model measures already, so that it cannot be added.
   [[nodiscard]] virtual bool is_in_base_model() const { return false; }
+  /// True for what tells the prints apart by itself, so that it may show on one alone.
+  [[nodiscard]] virtual bool is_about_prints() const { return false; }
   /// True for what no data can tell from the extrinsic itself.
   [[nodiscard]] virtual bool is_gauge() const { return false; }
 

@@ -77,8 +77,10 @@ double dark_offset_m(const ModelledMovements& movements) {
   BeamPoint beam;
   beam.range_m = 3.0;
   beam.darkness = 1.0;
+  beam.white = 0.0;
   const double black = beam.direction.dot(movements.point(beam));
   beam.darkness = 0.0;
+  beam.white = 1.0;
   return black - beam.direction.dot(movements.point(beam));
 }
 
@@ -118,6 +120,7 @@ BeamPoint beam_towards(const Eigen::Vector3d& point_m, const Rigid3& lidar_from_
   BeamPoint beam;
   static_cast<void>(SceneGeometry(Rigid3(), lidar_from_board).describe(point_m.normalized(), beam));
   beam.darkness = darkness;
+  beam.white = 1.0 - darkness;
   beam.line = -1;
   return beam;
 }

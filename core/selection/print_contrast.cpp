@@ -2,13 +2,24 @@
 #include "selection/print_contrast.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <Eigen/Cholesky>
+
+#include "model/catalogue_effect.h"
 
 namespace lvcalib {
 namespace {
 
-constexpr const char* kWalk = "range_walk";  // It is about prints itself.
+// A constant by which black print reads farther than white.
+class PrintDifference final : public CatalogueEffect {
+ public:
+  PrintDifference() : CatalogueEffect({}, {{"a", "mm", 1e-3, 2e-3, 0.05}}) {}
+  void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
+             std::span<Eigen::Vector3d> by) const override {
+    by[0] = beam.darkness * beam.direction;
+  }
+};
 
 // A candidate, its print contrast and a constant difference between the prints beside the model.
 class PrintContrast {
@@ -22,18 +33,18 @@ class PrintContrast {
         at_(model.columns.list().size()) {
     with_.add(candidate.effect, candidate.shape, model.table);
     with_.add_print_contrast(candidate.effect, candidate.shape, model.table);
-    with_.add(find_effect(kWalk), 0.0, model.table);
+    with_.add(std::make_shared<PrintDifference>(), 0.0, model.table);
     linear_ = linearize(model.table, model.state, model.effects, with_, context);
   }
 
   [[nodiscard]] bool disagrees() const {
-    const bool walks =
+    const bool told =
         std::any_of(model_.effects.begin(), model_.effects.end(),
-                    [](const EffectInUse& use) { return use.effect->info().id == kWalk; });
-    ModelFit fit = fitted(!walks && channel_ == Channel::kRange);
-    // A constant between the prints is the contrast of an offset itself: who is it? The walk comes
-    // first, and the offset is asked again beside it.
-    if (!walks && !is_determined(fit)) fit = fitted(false);
+                    [](const EffectInUse& use) { return use.effect->is_about_prints(); });
+    ModelFit fit = fitted(!told && channel_ == Channel::kRange);
+    // A constant between the prints is the contrast of an offset itself: who is it? What is about
+    // prints comes first, and the offset is asked again beside it.
+    if (!told && !is_determined(fit)) fit = fitted(false);
     if (!is_determined(fit) || f_test(fit, count()) > alarm()) return false;
     return one_shows_nothing(fit);
   }
@@ -45,9 +56,9 @@ class PrintContrast {
   }
   [[nodiscard]] Eigen::Index count() const { return with_.list()[at_].count(); }
 
-  [[nodiscard]] ModelFit fitted(bool beside_walk) const {
+  [[nodiscard]] ModelFit fitted(bool beside_difference) const {
     ColumnSubset all = model_.subset;
-    if (beside_walk) append_columns(with_.list()[at_ + 2], nullptr, all);
+    if (beside_difference) append_columns(with_.list()[at_ + 2], nullptr, all);
     append_columns(with_.list()[at_], nullptr, all);
     append_columns(with_.list()[at_ + 1], nullptr, all);
     return fit_model(linear_, all, model_.variances, {.rounds = 3});
@@ -87,7 +98,7 @@ class PrintContrast {
   Channel channel_;
   const DiscoveryOptions& options_;
   EffectColumnsList with_;
-  std::size_t at_;  // of the candidate among the columns; its contrast and the walk follow
+  std::size_t at_;  // of the candidate among the columns; its contrast and the difference follow
   Linearization linear_;
 };
 
@@ -95,7 +106,7 @@ class PrintContrast {
 
 bool prints_disagree(const ModelInUse& model, const EffectColumns& candidate, Channel channel,
                      const DiscoveryOptions& options, const RunContext& context) {
-  if (candidate.effect->info().id == kWalk) return false;
+  if (candidate.effect->is_about_prints()) return false;
   const PrintContrast contrast(model, candidate, channel, options, context);
   return !context.stopped() && contrast.disagrees();
 }

@@ -93,8 +93,8 @@ class ShotSimulator {
     if (radiometry.saturates()) error += radiometry.saturation_error_m(hit.power);
     if (error != 0.0) hit.range_m += error;
     if (radiometry.changes_intensity()) {
-      hit.intensity =
-          radiometry.intensity(hit.intensity, hit.power, shot.line, options_.intensity_scale);
+      hit.intensity = radiometry.intensity(hit.intensity, hit.power, shot.direction, shot.line,
+                                           options_.intensity_scale);
     }
   }
 

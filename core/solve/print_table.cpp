@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "model/catalogue_effect.h"
 #include "model/effect_rows.h"
 #include "model/noise_floor.h"
 #include "model/scan_velocity.h"
@@ -235,6 +236,7 @@ class SceneRows {
       if (cloud.has_line()) r.beam.line = cloud.line[i];
       if (!velocities_.empty()) r.beam.scan_rad_s = velocities_[i];
       const PrintView view = view_print(*p, levels_, beam);
+      r.beam.white = p->white;
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
                                                 edge_of(*p, view), log_contrast(levels_));
       r.ranged = r.moved = r.seen;
@@ -248,7 +250,7 @@ class SceneRows {
         p = predictor.predict(direction, sum.light, &r.moved, &r.moved);
       }
       r.range_residual_m = r.measured_m - ranged->range_m - sum.range_m;
-      r.white = p->white;
+      r.white = r.beam.white = p->white;
       r.plain_level = p->intensity;
       if (has_intensity_)
         describe_print(*p, beam, kept.intensity(k), std::exp(sum.log_intensity), r);
@@ -445,6 +447,13 @@ void append(const std::vector<Row>& rows, std::vector<Row>& to) {
   to.insert(to.end(), rows.begin(), rows.end());
 }
 
+double usual_log_power(const std::vector<TableScene>& scenes) {
+  std::vector<double> middles;
+  for (const TableScene& scene : scenes)
+    middles.push_back(log_power(scene.middle_range_m, scene.middle_incidence_rad));
+  return median(middles);
+}
+
 // `like`: the first table if another replaces it. `first`: where the first one is kept.
 MeasurementTable make_table(const std::vector<KeptScene>& scenes,
                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
@@ -479,6 +488,7 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
     table.level = like->table.level;
     table.log_contrast = like->table.log_contrast;
     table.lines = like->table.lines;
+    table.usual_log_power = like->table.usual_log_power;
     table.has_intensity = like->table.has_intensity;
   }
   std::vector<std::optional<SceneRows>> rows(scenes.size());
@@ -501,6 +511,7 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
     if (table.has_intensity) {
       table.level = {median(white), median(black)};
       table.log_contrast = std::log(table.level[0] / table.level[1]);
+      table.usual_log_power = usual_log_power(table.scenes);
     }
   }
   std::vector<TableRows> lidar(scenes.size());

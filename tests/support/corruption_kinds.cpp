@@ -851,6 +851,7 @@ void add_planted(Kinds& all) {
       {"intensity_geometry", {0.6}},
       {"intensity_nonlinearity", {0.7}},
       {"specular_lobe", {0.3, 1}},
+      {"receiver_saturation", {10}},
       {"board_bow", {2, 5}},
       {"print_scale", {2000, 5000}},
       {"ink_gain", {0.4, 1}},
@@ -861,7 +862,7 @@ void add_planted(Kinds& all) {
       {"x_board_bump", {3}},
       {"x_azimuth_ripple", {3}},
       {"x_lens_flaw", {1}},
-      {"x_saturation", {10}},
+      {"x_window_smudge", {0.3}},
   };
   for (const auto& [id, values] : effects) {
     for (const double value : values) {

@@ -163,6 +163,8 @@ std::map<std::string, double> true_parameters(const std::string& id,
   if (id == "boundary_range_pull") return {{"a", si - 1.0}};
   if (id == "beam_divergence") return {{"γ²", si * si + kJitterRad * kJitterRad}};
   if (id == "intensity_geometry") return {{"n", si}};
+  // Planted as the error where the power is 1/0.6 of the limit; the effect's is that of e times it.
+  if (id == "receiver_saturation") return {{"a", si / std::log(1.0 / 0.6)}, {"c", 1.0}};
   if (id == "intrinsics_error") {
     return {{"δf", si * rig.camera.fx},
             {"δcx", detail(rig, id, "principal_point_px", 0)},
@@ -181,9 +183,10 @@ Channel main_channel(const std::string& id) {
   static const std::map<std::string, Channel> outside = {{"x_board_bump", Channel::kRange},
                                                          {"x_azimuth_ripple", Channel::kRange},
                                                          {"x_lens_flaw", Channel::kCorner},
-                                                         {"x_saturation", Channel::kRange}};
+                                                         {"x_window_smudge", Channel::kIntensity}};
   if (const auto at = outside.find(id); at != outside.end()) return at->second;
-  if (id == "board_bow" || id == "scan_motion") return Channel::kRange;
+  if (id == "board_bow" || id == "scan_motion" || id == "receiver_saturation")
+    return Channel::kRange;
   if (id == "print_scale" || id == "rolling_shutter") return Channel::kCorner;
   const EffectPtr effect = find_effect(id);
   const std::string group = effect ? effect->info().group : "";
@@ -204,8 +207,8 @@ std::optional<Signature> signature_of(const std::string& outside_id) {
   if (outside_id == "x_azimuth_ripple") return Signature{Channel::kRange, {"azimuth"}};
   if (outside_id == "x_lens_flaw")
     return Signature{Channel::kCorner, {"image x", "image y", "image radius"}};
-  if (outside_id == "x_saturation")
-    return Signature{Channel::kRange, {"intensity", "log intensity", "print", "range", "1/range"}};
+  if (outside_id == "x_window_smudge")
+    return Signature{Channel::kIntensity, {"azimuth", "elevation"}};
   return std::nullopt;
 }
 

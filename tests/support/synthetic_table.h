@@ -156,6 +156,7 @@ inline void add_table_return(SyntheticTable& out, int scene, const SceneGeometry
            !is_plain_place(table.target, row.beam.board_m, reach));
   row.print = black ? Print::kBlack : Print::kWhite;
   row.beam.darkness = black ? 1.0 : 0.0;
+  row.beam.white = black ? 0.0 : 1.0;
   row.sigma_m = recipe.range_sigma_m;
   row.measured_m = row.beam.range_m + row.sigma_m * random.normal();
   if (wrong.range_m) row.measured_m += wrong.range_m(row.beam);
@@ -209,6 +210,7 @@ inline void add_table_edge(SyntheticTable& out, int scene, const SceneGeometry& 
   const double nudge = 0.02 * row.transition_m;
   const double slope = (seen(radius - nudge) - seen(radius + nudge)) / (2.0 * nudge);
   row.beam.darkness = std::log(white / seen(radius)) / table.log_contrast;
+  row.beam.white = spot.white_share(radius);
   // An edge that lies farther outward makes the return darker.
   const double outward_m = wrong.edge_m ? wrong.edge_m(row) : 0.0;
   double measured = seen(radius + outward_m) + row.sigma_m * slope * random.normal();

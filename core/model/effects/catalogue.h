@@ -30,6 +30,7 @@
   X(intensity_geometry)     \
   X(intensity_nonlinearity) \
   X(specular_lobe)          \
+  X(receiver_saturation)    \
   X(board_bow)              \
   X(print_scale)            \
   X(ink_gain)               \

@@ -33,13 +33,13 @@ class RangeWalk final : public CatalogueEffect {
     return "exponent (2 more: power by range and incidence)";
   }
 
+  [[nodiscard]] bool is_about_prints() const override { return true; }
+
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {
     double darkness = beam.darkness;
     if (shape >= kByGeometry && table.log_contrast > 0.0) {
-      const double weaker = 2.0 * std::log(beam.range_m / kReference_m) -
-                            std::log(std::max(0.05, std::cos(beam.incidence_rad)));
-      darkness += weaker / table.log_contrast;
+      darkness -= log_power(beam.range_m, beam.incidence_rad) / table.log_contrast;
       shape -= kByGeometry;
     }
     const double exponent = shape * table.log_contrast;
@@ -50,7 +50,6 @@ class RangeWalk final : public CatalogueEffect {
 
  private:
   static constexpr double kByGeometry = 2.0;
-  static constexpr double kReference_m = 3.0;
 };
 
 }  // namespace

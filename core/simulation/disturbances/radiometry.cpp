@@ -9,6 +9,7 @@ namespace lvcalib::simulation {
 namespace {
 
 constexpr double kRoughness = 0.15;
+constexpr double kSmudgeRad = 0.1;  // One σ.
 constexpr double kSaturationShare = 0.6;
 constexpr double kWhitePower = PrintedBoard::kWhite / 9.0;  // At 3 m.
 constexpr double kSaturationPower = kSaturationShare * kWhitePower;
@@ -18,7 +19,8 @@ constexpr double kSaturationPower = kSaturationShare * kWhitePower;
 RadiometryDisturbance::RadiometryDisturbance(EffectPlan& plan, int lines)
     : exponent_(plan.si("intensity_nonlinearity", 1.0)),
       gloss_(plan.si("specular_lobe")),
-      saturation_m_(plan.si("x_saturation")) {
+      saturation_m_(plan.si("receiver_saturation")),
+      smudge_(plan.si("x_window_smudge")) {
   if (plan.has("intensity_geometry")) {
     incidence_exponent_ = plan.si("intensity_geometry");
     range_exponent_ = 0.5 * *incidence_exponent_;
@@ -28,8 +30,16 @@ RadiometryDisturbance::RadiometryDisturbance(EffectPlan& plan, int lines)
         plan.per_line("intensity_geometry", "line_gain_percent", 0.03, 0.01, lines, random);
     for (const double deviation : deviations) line_gain_.push_back(1.0 + deviation);
   }
+  if (plan.has("x_window_smudge")) {
+    Random random = plan.random("x_window_smudge");
+    const double azimuth = random.uniform(-0.17, 0.17);
+    const double elevation = random.uniform(-0.1, 0.1);
+    smudge_at_ = {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+                  std::sin(elevation)};
+    plan.note("x_window_smudge", "center_rad", {azimuth, elevation});
+  }
   plan.note("specular_lobe", "roughness", kRoughness);
-  plan.note("x_saturation", "saturation_power", kSaturationPower);
+  plan.note("receiver_saturation", "saturation_power", kSaturationPower);
 }
 
 double RadiometryDisturbance::gloss(double cos_incidence) const {
@@ -38,9 +48,14 @@ double RadiometryDisturbance::gloss(double cos_incidence) const {
   return gloss_ * std::exp(-tan_square / (kRoughness * kRoughness)) / (square * square);
 }
 
-double RadiometryDisturbance::intensity(double intended, double power, std::uint16_t line,
+double RadiometryDisturbance::intensity(double intended, double power,
+                                        const Eigen::Vector3d& direction, std::uint16_t line,
                                         double scale) const {
   double value = intended;
+  if (smudge_ != 0.0) {
+    const double off = (direction - smudge_at_).norm() / kSmudgeRad;
+    value *= 1.0 - smudge_ * std::exp(-0.5 * off * off);
+  }
   if (!line_gain_.empty()) value *= line_gain_[line];
   if (saturates() && power > kSaturationPower) value *= kSaturationPower / power;
   if (exponent_ != 1.0) value = scale * std::pow(std::max(0.0, value) / scale, exponent_);

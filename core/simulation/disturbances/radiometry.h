@@ -17,6 +17,7 @@ namespace lvcalib::simulation {
 /// board's reflectivity, so to power, range and intensity alike.
 /// Saturation: above 60 % of the power of white at 3 m the receiver's output is clipped; the
 /// overload bends the timing with the logarithm of the excess.
+/// Smudge: a place on the LiDAR's window keeps back a share of the light, most in its middle.
 class RadiometryDisturbance {
  public:
   RadiometryDisturbance() = default;
@@ -35,11 +36,12 @@ class RadiometryDisturbance {
   [[nodiscard]] double gloss(double cos_incidence) const;
 
   [[nodiscard]] bool changes_intensity() const {
-    return exponent_ != 1.0 || !line_gain_.empty() || saturates();
+    return exponent_ != 1.0 || !line_gain_.empty() || saturates() || smudge_ != 0.0;
   }
-  /// The intensity reported for what an undisturbed device would report, before noise.
-  [[nodiscard]] double intensity(double intended, double power, std::uint16_t line,
-                                 double scale) const;
+  /// The intensity reported for what an undisturbed device would report along `direction` (unit,
+  /// LiDAR frame), before noise.
+  [[nodiscard]] double intensity(double intended, double power, const Eigen::Vector3d& direction,
+                                 std::uint16_t line, double scale) const;
 
   [[nodiscard]] bool saturates() const { return saturation_m_ != 0.0; }
   /// Reported − true range of a saturated receiver.
@@ -52,6 +54,8 @@ class RadiometryDisturbance {
   double exponent_ = 1.0;
   double gloss_ = 0.0;
   double saturation_m_ = 0.0;
+  double smudge_ = 0.0;
+  Eigen::Vector3d smudge_at_ = Eigen::Vector3d::UnitX();
 };
 
 }  // namespace lvcalib::simulation

@@ -59,6 +59,8 @@ std::vector<Disturbance> lidar_disturbances() {
        "exponent g of I' = I^g, a white reflector's intensity kept"},
       {"specular_lobe", "1", 0, 5, 0.3, false,
        "reflectivity that a glossy board adds at normal incidence"},
+      {"receiver_saturation", "mm", -100, 100, 10, false,
+       "range error of white at 3 m where the receiver saturates; intensity is clipped with it"},
   };
 }
 
@@ -84,8 +86,8 @@ std::vector<Disturbance> scene_disturbances() {
        "amplitude of a range ripple with 15 to 25 periods in a turn"},
       {"x_lens_flaw", "px", -10, 10, 1, false,
        "largest displacement of the image behind a flawed patch of the lens"},
-      {"x_saturation", "mm", -100, 100, 10, false,
-       "range error of white at 3 m where the receiver saturates; intensity is clipped with it"},
+      {"x_window_smudge", "1", 0, 0.9, 0.3, false,
+       "share of the light that a smudge 12° wide on the LiDAR's window keeps back"},
   };
 }
 

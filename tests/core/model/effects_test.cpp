@@ -163,6 +163,22 @@ std::vector<HandCase> range_cases() {
        "channel_range_offset",
        Hook::kLidar,
        {along_x(0.0), along_x(1.0), along_x(0.0)}},
+      // White at 3 m and 60° sends half of what it does squarely: twice the limit, black nothing.
+      {"Saturated",
+       "receiver_saturation",
+       Hook::kLidar,
+       {along_x(std::log(2.0)), along_x(0.0)},
+       std::log(0.25),
+       [](Place& p) { p.beam.range_m = 3.0; }},
+      {"NotSaturated",
+       "receiver_saturation",
+       Hook::kLidar,
+       {along_x(0.0), along_x(0.0)},
+       std::log(0.25),
+       [](Place& p) {
+         p.beam.range_m = 3.0;
+         p.beam.white = 0.0;
+       }},
       // ½ · 0.01 m · pdf(0) · (20/20).
       {"RangePull",
        "boundary_range_pull",
@@ -240,6 +256,29 @@ std::vector<HandCase> intensity_cases() {
        {along_x(std::exp(-0.5))},
        M_PI / 3.0,
        white},
+      // Where the middle of the board is clipped to one half, print that sends half is not.
+      {"SaturationWhite",
+       "receiver_saturation",
+       Hook::kIntensity,
+       {along_x(0.0), along_x(std::log(2.0))},
+       std::log(0.5),
+       [](Place& p) {
+         p.table.scenes[0].middle_range_m = 3.0;
+         p.intensity.beam.range_m = 3.0;
+       }},
+      // Black sends 1/32 (half of what the contrast of clipped white says), so half of it 33/64,
+      // clipped to 1/2 too; the straight line between the levels is at 17/64.
+      {"SaturationMixture",
+       "receiver_saturation",
+       Hook::kIntensity,
+       {along_x(0.0), along_x(std::log(32.0 / 17.0))},
+       std::log(0.5),
+       [](Place& p) {
+         p.table.scenes[0].middle_range_m = 3.0;
+         p.intensity.beam.range_m = 3.0;
+         p.intensity.beam.incidence_rad = 0.0;
+         p.intensity.beam.white = 0.5;
+       }},
   };
 }
 

@@ -79,7 +79,7 @@ TEST_P(HiddenOutsider, IsNamedByChannelAndCovariateNotByAnEffect) {
 
 INSTANTIATE_TEST_SUITE_P(Sets, HiddenOutsider,
                          ::testing::Values("x_board_bump", "x_azimuth_ripple", "x_lens_flaw",
-                                           "x_saturation"),
+                                           "x_window_smudge"),
                          [](const auto& info) { return info.param; });
 
 class HiddenNothing : public ::testing::TestWithParam<int> {};

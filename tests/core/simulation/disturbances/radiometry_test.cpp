@@ -55,9 +55,10 @@ TEST(Radiometry, NonlinearityIsAPowerThatKeepsWhite) {
   const double undisturbed = level({}, 3.0, 0.5);
   EXPECT_NEAR(level({{"intensity_nonlinearity", 0.7}}, 3.0, 0.5), std::pow(undisturbed, 0.7), 1e-3);
   const RadiometryDisturbance radiometry = plant({{"intensity_nonlinearity", 0.7}}).radiometry;
-  EXPECT_NEAR(radiometry.intensity(150.0, 0.1, 0, 150.0), 150.0, 1e-9);
-  EXPECT_NEAR(radiometry.intensity(15.0, 0.1, 0, 150.0), 150.0 * std::pow(0.1, 0.7), 1e-9);
-  EXPECT_EQ(radiometry.intensity(0.0, 0.1, 0, 150.0), 0.0);
+  EXPECT_NEAR(radiometry.intensity(150.0, 0.1, Eigen::Vector3d::UnitX(), 0, 150.0), 150.0, 1e-9);
+  EXPECT_NEAR(radiometry.intensity(15.0, 0.1, Eigen::Vector3d::UnitX(), 0, 150.0),
+              150.0 * std::pow(0.1, 0.7), 1e-9);
+  EXPECT_EQ(radiometry.intensity(0.0, 0.1, Eigen::Vector3d::UnitX(), 0, 150.0), 0.0);
 }
 
 TEST(Radiometry, GlossAddsAtNormalIncidenceOnBoardsOnly) {
@@ -83,7 +84,7 @@ TEST(Radiometry, GlossAddsAtNormalIncidenceOnBoardsOnly) {
 }
 
 TEST(Radiometry, SaturationClipsAndShifts) {
-  const Effects effects = {{"x_saturation", 10}};
+  const Effects effects = {{"receiver_saturation", 10}};
   // White at 3 m has 1/0.6 of the saturation power.
   EXPECT_NEAR(level(effects, 3.0, PrintedBoard::kWhite), 0.6 * level({}, 3.0, PrintedBoard::kWhite),
               2e-3);
@@ -96,6 +97,20 @@ TEST(Radiometry, SaturationClipsAndShifts) {
   EXPECT_NEAR(shift(3.0, PrintedBoard::kBlack), 0.0, 1e-3);
   // Twice as close, four times the power: 10 (1 + ln 4 / ln(1/0.6)) = 37.14 mm.
   EXPECT_NEAR(shift(1.5, PrintedBoard::kWhite), 37.14, 0.05);
+}
+
+TEST(Radiometry, ASmudgeOnTheWindowKeepsLightBackInItsPlace) {
+  const PlantedEffects planted = plant({{"x_window_smudge", 0.3}});
+  const auto& at = planted.details.at("x_window_smudge").at("center_rad");
+  const auto kept = [&](double azimuth, double elevation) {
+    const Eigen::Vector3d direction(std::cos(azimuth) * std::cos(elevation),
+                                    std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
+    return planted.radiometry.intensity(100.0, 1.0, direction, 0, 100.0);
+  };
+  EXPECT_TRUE(planted.radiometry.changes_intensity());
+  EXPECT_NEAR(kept(at[0], at[1]), 70.0, 1e-9);
+  EXPECT_NEAR(kept(at[0] + 0.1, at[1]), 100.0 - 30.0 * std::exp(-0.5), 0.1);
+  EXPECT_NEAR(kept(at[0] + 1.0, at[1]), 100.0, 1e-6);
 }
 
 }  // namespace
