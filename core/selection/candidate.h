@@ -17,6 +17,7 @@ enum class Contradiction {
   kPrints,  ///< White and black print tell different stories about it (see print_contrast.h).
   kScenes,  ///< With the shape number that fits best, scenes held out are predicted worse.
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
+  kCurve,   ///< Beside a curve over a covariate, which predicts far better, it says nothing.
 };
 
 /// One effect at one shape number, tried in addition to the model.

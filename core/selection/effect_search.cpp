@@ -11,7 +11,6 @@
 #include "model/beam_blur.h"
 #include "model/residuals.h"
 #include "model/sensor_errors.h"
-#include "selection/print_contrast.h"
 
 namespace lvcalib {
 namespace {
@@ -499,57 +498,8 @@ void EffectSearch::rank() {
   }
   refit_promising();
   ask_both_prints();
+  ask_curves();
   ranked_ = !context_.stopped();
-}
-
-void EffectSearch::ask_both_prints() {
-  const bool told = find_effect("range_walk") != nullptr &&
-                    why_not_testable(*find_effect("range_walk"), table()).empty();
-  if (!told) return;
-  constexpr auto kRangeChannel = static_cast<std::size_t>(Channel::kRange);
-  const std::vector<EffectInUse> effects = model();
-  const EffectColumnsList own = own_columns();
-  const ColumnSubset subset = own_subset(own);
-  const auto disagree = [&](const Candidate& c) {
-    return prints_disagree({table(), state_, effects, own, subset, variances_},
-                           linear_.columns.list()[c.columns], c.must_show.value_or(Channel::kRange),
-                           options_, context_);
-  };
-  doubt_levels(disagree);
-  while (!context_.stopped()) {
-    const auto chosen = best();
-    if (!chosen || !(candidates_[*chosen].acting_share[kRangeChannel] > 0.0)) return;
-    if (!disagree(candidates_[*chosen])) return;
-    contradict(candidates_[*chosen], Contradiction::kPrints);
-  }
-}
-
-// Edges are found in intensities. Where the two prints tell different stories about what these do,
-// as where a receiver saturates, edges are not to be trusted either.
-void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& disagree) {
-  bool doubted = false;
-  for (const Candidate& c : candidates_) {
-    if (context_.stopped()) return;
-    const bool asked = c.must_show && c.contradiction == Contradiction::kNone &&
-                       is_accepted(c, candidates_.size(), table().scenes.size(), options_);
-    if (!asked || !disagree(c)) continue;
-    contradict(c, Contradiction::kPrints);
-    doubted = true;
-  }
-  if (!doubted) return;
-  for (Candidate& c : candidates_) {
-    if (c.acts_on_edges_alone()) c.contradiction = Contradiction::kLevels;
-  }
-}
-
-void EffectSearch::contradict(const Candidate& candidate, Contradiction by) {
-  const auto id_of = [&](const Candidate& c) {
-    return linear_.columns.list()[c.columns].effect->info().id;
-  };
-  const std::string id = id_of(candidate);
-  for (Candidate& c : candidates_) {
-    if (id_of(c) == id) c.contradiction = by;
-  }
 }
 
 // A strong effect has moved poses so far that the linearisation about them misjudges single scenes.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnostics/structure_scan.h"
 #include "selection/candidate.h"
 
 namespace lvcalib {
@@ -129,6 +130,10 @@ class EffectSearch {
   // Takes accepted candidates off the list that white and black print contradict.
   void ask_both_prints();
   void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
+  // And those that stand in for structure which no effect explains.
+  void ask_curves();
+  [[nodiscard]] bool stands_in(const Candidate& candidate, Channel channel,
+                               const StructureScore& curve) const;
   void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
   // The model and the sensor's errors: what the rows are fitted with.
   [[nodiscard]] std::vector<EffectInUse> fitted() const;

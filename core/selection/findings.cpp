@@ -278,6 +278,12 @@ class Judge {
           "Where it fits best it predicts scenes held out worse: %1; too few of them show it. To "
           "decide: %2.",
           values, pose);
+    } else if (c.contradiction == Contradiction::kCurve) {
+      f.explanation = Message(
+          "Beside a curve over what is left in the %1 channel it is not there: %2; something that "
+          "no "
+          "effect explains is at work.",
+          word_for(c.main_channel()), values);
     } else if (c.contradiction == Contradiction::kPrints) {
       f.explanation = Message(
           "White and black print contradict each other about it: %1 of both together; something "

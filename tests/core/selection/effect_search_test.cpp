@@ -228,10 +228,10 @@ TEST_F(SearchState, WhatOnlyWhitePrintShowsIsNoEffectThatKnowsNoPrint) {
   EffectSearch search(made.table, made.truth, options_, context_);
   search.rank();
   const auto best = search.best();
-  if (best) {
-    EXPECT_EQ(id_of(search, search.candidates()[*best]), "range_walk");
-  }
-  search.add(find_effect("range_walk"), 0.0);
+  ASSERT_TRUE(best.has_value());
+  const EffectColumns& found = search.linear().columns.list()[search.candidates()[*best].columns];
+  EXPECT_EQ(found.effect->info().id, "receiver_saturation");
+  search.add(found.effect, found.shape);
   search.rank();
   bool seen = false;
   for (const Candidate& c : search.candidates()) {
@@ -240,6 +240,43 @@ TEST_F(SearchState, WhatOnlyWhitePrintShowsIsNoEffectThatKnowsNoPrint) {
     EXPECT_FALSE(is_accepted(c, search.candidates().size(), made.table.scenes.size(), options_));
   }
   EXPECT_TRUE(seen);
+}
+
+// A ripple over the azimuth, which no effect of the catalogue follows, and boards on which a ripple
+// over the range happens to vary with it.
+TEST_F(SearchState, WhatACurveTellsBetterIsNoEffect) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.003 * std::sin(20.0 * beam.azimuth_rad); };
+  test::TableRecipe recipe;
+  recipe.range_rows = 4000;
+  for (const std::uint64_t seed : {3, 4}) {
+    recipe.seed = seed;
+    const auto made = test::synthetic_table(recipe, wrong);
+    EffectSearch search(made.table, made.truth, options_, context_);
+    search.rank();
+    EXPECT_FALSE(search.best().has_value());
+    EXPECT_TRUE(std::any_of(
+        search.candidates().begin(), search.candidates().end(), [&](const Candidate& c) {
+          return id_of(search, c) == "range_cyclic" && c.contradiction == Contradiction::kCurve;
+        }));
+  }
+}
+
+// A ripple over the range is told as well by a curve over the range, and is what it is.
+TEST_F(SearchState, WhatACurveTellsAsWellStays) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.003 * std::sin(20.0 * beam.range_m); };
+  test::TableRecipe recipe;
+  recipe.range_rows = 4000;
+  for (const std::uint64_t seed : {3, 4}) {
+    recipe.seed = seed;
+    const auto made = test::synthetic_table(recipe, wrong);
+    EffectSearch search(made.table, made.truth, options_, context_);
+    search.rank();
+    const auto best = search.best();
+    ASSERT_TRUE(best.has_value());
+    EXPECT_EQ(id_of(search, search.candidates()[*best]), "range_cyclic");
+  }
 }
 
 TEST_F(SearchState, WhatBothPrintsShowIsNotContradicted) {
@@ -330,7 +367,10 @@ TEST_F(SearchState, EdgesFoundInDoubtfulIntensitiesTellNothing) {
     EXPECT_EQ(c.contradiction, Contradiction::kLevels);
   }
   EXPECT_TRUE(seen);
-  EXPECT_FALSE(search.best().has_value());
+  // What clips white moves its edges with it.
+  const auto best = search.best();
+  ASSERT_TRUE(best.has_value());
+  EXPECT_EQ(id_of(search, search.candidates()[*best]), "receiver_saturation");
 }
 
 TEST_F(SearchState, WhatBothPrintsLoseIsNoContradiction) {

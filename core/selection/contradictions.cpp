@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What speaks against candidates of a search although scenes held out are predicted better.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "diagnostics/structure_scan.h"
+#include "selection/advice_text.h"
+#include "selection/effect_search.h"
+#include "selection/findings.h"
+#include "selection/print_contrast.h"
+
+namespace lvcalib {
+
+void EffectSearch::ask_both_prints() {
+  if (!table().has_intensity) return;  // Nobody knows which print a return is on.
+  constexpr auto kRangeChannel = static_cast<std::size_t>(Channel::kRange);
+  const std::vector<EffectInUse> effects = model();
+  const EffectColumnsList own = own_columns();
+  const ColumnSubset subset = own_subset(own);
+  const auto disagree = [&](const Candidate& c) {
+    return prints_disagree({table(), state_, effects, own, subset, variances_},
+                           linear_.columns.list()[c.columns], c.must_show.value_or(Channel::kRange),
+                           options_, context_);
+  };
+  doubt_levels(disagree);
+  while (!context_.stopped()) {
+    const auto chosen = best();
+    if (!chosen || !(candidates_[*chosen].acting_share[kRangeChannel] > 0.0)) return;
+    if (!disagree(candidates_[*chosen])) return;
+    contradict(candidates_[*chosen], Contradiction::kPrints);
+  }
+}
+
+// Edges are found in intensities. Where the two prints tell different stories about what these do,
+// as where a receiver saturates, edges are not to be trusted either.
+void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& disagree) {
+  bool doubted = false;
+  for (const Candidate& c : candidates_) {
+    if (context_.stopped()) return;
+    const bool asked = c.must_show && c.contradiction == Contradiction::kNone &&
+                       is_accepted(c, candidates_.size(), table().scenes.size(), options_);
+    if (!asked || !disagree(c)) continue;
+    contradict(c, Contradiction::kPrints);
+    doubted = true;
+  }
+  if (!doubted) return;
+  for (Candidate& c : candidates_) {
+    if (c.acts_on_edges_alone()) c.contradiction = Contradiction::kLevels;
+  }
+}
+
+void EffectSearch::contradict(const Candidate& candidate, Contradiction by) {
+  const auto id_of = [&](const Candidate& c) {
+    return linear_.columns.list()[c.columns].effect->info().id;
+  };
+  const std::string id = id_of(candidate);
+  for (Candidate& c : candidates_) {
+    if (id_of(c) == id) c.contradiction = by;
+  }
+}
+
+// What shows over a covariate that no effect of the catalogue follows is explained in part by
+// effects that happen to vary with it on these boards. Such a one has nothing left to say beside
+// the curve.
+void EffectSearch::ask_curves() {
+  // A channel's residuals are the same whichever candidate is asked.
+  std::array<std::optional<std::vector<StructureScore>>, kChannels> found;
+  while (!context_.stopped()) {
+    const auto chosen = best();
+    if (!chosen) return;
+    const Channel channel = candidates_[*chosen].main_channel();
+    auto& scores = found[static_cast<std::size_t>(channel)];
+    if (!scores) {
+      EveryResidual residuals;
+      residuals[static_cast<std::size_t>(channel)] =
+          residuals_of(table(), state_, model(), channel);
+      scores = notable_of(scan_structure(table(), residuals, context_), options_);
+    }
+    if (context_.stopped() || scores->empty()) return;
+    if (!stands_in(candidates_[*chosen], channel, scores->front())) return;
+    contradict(candidates_[*chosen], Contradiction::kCurve);
+  }
+}
+
+bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
+                             const StructureScore& curve) const {
+  // A curve that holds the effect predicts what the effect predicts, noise aside; one that predicts
+  // twice as much holds something else.
+  constexpr double kMore = 2.0;
+  if (curve.score < kMore * candidate.heldout_gain[static_cast<std::size_t>(channel)]) return false;
+  const auto effect = make_user_effect(curve_spec(curve), table(), options_.user);
+  if (!effect) return false;
+  EffectColumnsList columns = own_columns();
+  ColumnSubset subset = own_subset(columns);
+  const EffectColumns& tried = linear_.columns.list()[candidate.columns];
+  const double shape = preferred_shape(*effect);
+  if (context_.stopped()) return false;
+  columns.add(*effect, shape, table());
+  columns.add(tried.effect, tried.shape, table());
+  append_columns(columns.list()[own_count()], nullptr, subset);
+  append_columns(columns.list()[own_count() + 1], nullptr, subset);
+  const Linearization linear =
+      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  if (context_.stopped()) return false;
+  const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 3});
+  return f_test(fit, tried.count()) * static_cast<double>(candidates_.size()) >
+         options_.false_alarm;
+}
+
+}  // namespace lvcalib
