@@ -18,7 +18,7 @@ struct EffectParameter {
   std::string name;
   std::string unit;          ///< For people: "mm", "ppm", "mrad", "px", "1".
   double unit_in_si = 1.0;   ///< One unit in SI.
-  double material = 0.0;     ///< Size (SI) that matters to users; smaller is as good as absent.
+  double material = 0.0;     ///< Size (SI) that planned scenes shall show; no verdict asks it.
   double prior_sigma = 0.0;  ///< Standard deviation (SI) of what is believable.
   double lowest = -std::numeric_limits<double>::infinity();  ///< No device has less (SI).
 };

@@ -93,7 +93,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
 ///   explained         share of what its channel misses by
 ///   held_out          fall of held-out squares over the least that counts, or of the extrinsic's
 ///                     move
-///   not_contradicted  1 unless prints, levels or single scenes speak against it
+///   not_contradicted  1 unless prints, levels, single scenes or a curve speak against it
 /// How large it is, and what it does to the extrinsic, are no rules: what is there is there.
 std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried,
                                    std::size_t scenes, const DiscoveryOptions& options);
