@@ -9,7 +9,6 @@
 
 #include "runner/model_work.h"
 #include "runner/workspace.h"
-#include "start/coach_marks.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -28,6 +27,10 @@ DemoTour::DemoTour(QMainWindow& window, Workspace& workspace, ModelWork& work)
       work_(work),
       marks_(new CoachMarks(&window)) {
   connect(marks_, &CoachMarks::ended, marks_, &QWidget::hide);
+}
+
+DemoTour::~DemoTour() {
+  delete marks_;
 }
 
 void DemoTour::end() {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
+
+#include "start/coach_marks.h"
 
 class QMainWindow;
 
 namespace lvcalib::widgets {
 
-class CoachMarks;
 class ModelWork;
 class Workspace;
 
@@ -18,6 +20,8 @@ class DemoTour : public QObject {
  public:
   /// All must outlive it; the window owns it.
   DemoTour(QMainWindow& window, Workspace& workspace, ModelWork& work);
+  /// Takes its marks away: they ask it where they stand.
+  ~DemoTour() override;
   void start();
   void end();
   [[nodiscard]] CoachMarks& marks() { return *marks_; }
@@ -26,7 +30,7 @@ class DemoTour : public QObject {
   QMainWindow& window_;
   Workspace& workspace_;
   ModelWork& work_;
-  CoachMarks* marks_;
+  QPointer<CoachMarks> marks_;  // The window's, which may go first.
 };
 
 }  // namespace lvcalib::widgets

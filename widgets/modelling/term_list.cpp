@@ -87,7 +87,9 @@ void TermList::setStep(const ModelStepPtr& step, const ModelStepPtr& base) {
 void TermList::setChangeable(bool changeable) {
   if (changeable_ == changeable) return;
   changeable_ = changeable;
-  fill();
+  updateButtons();
+  // A tick that starts work comes from the row itself, which must not go before it is done.
+  QMetaObject::invokeMethod(this, &TermList::fill, Qt::QueuedConnection);
 }
 
 void TermList::updateButtons() {

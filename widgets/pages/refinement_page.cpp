@@ -346,7 +346,13 @@ void RefinementPage::updateReplay() {
 }
 
 void RefinementPage::rebuildGrid() {
-  qDeleteAll(plots_);
+  // One of them may be in a loop of its own, as while its figure is saved.
+  for (AngleDistancePlot* plot : plots_) {
+    plot->hide();
+    grid_layout_->removeWidget(plot);
+    plot->setObjectName({});
+    plot->deleteLater();
+  }
   plots_.clear();
   const int columns = target_.tag_columns - 1;
   const int rows = target_.tag_rows - 1;

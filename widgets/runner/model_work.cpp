@@ -89,7 +89,9 @@ void ModelWork::take_workspace() {
 }
 
 void ModelWork::forget() {
-  if (runner_.running()) runner_.cancel();
+  // What it makes belongs to what is forgotten, and another may start at once.
+  const bool ran = runner_.running();
+  runner_.abandon();
   source_ = nullptr;
   made_.clear();
   rankings_.clear();
@@ -98,6 +100,7 @@ void ModelWork::forget() {
   Q_EMIT changed();
   Q_EMIT ranking_changed();
   Q_EMIT result_changed();
+  if (ran) Q_EMIT ended(tr("Cancelled"));
 }
 
 void ModelWork::start() {
@@ -159,7 +162,7 @@ void ModelWork::push(Place place, const QString& text) {
 }
 
 void ModelWork::decide(ModelDecision decision, const QString& text) {
-  if (!step()) return;
+  if (!step() || !workspace_.result()) return;
   Place goal{place_.in_force(), place_.current + 1};
   goal.decisions.push_back(std::move(decision));
   run(std::move(goal), text);

@@ -103,7 +103,7 @@ quint64 Runner::start(Work work) {
     const Post post = [mailbox, task, this](Deliver call) {
       if (task->stop.stop_requested()) return;
       mailbox->post([this, task, call = std::move(call)] {
-        if (task == task_) call();
+        if (task == task_ && !task->stop.stop_requested()) call();
       });
     };
     Deliver deliver;

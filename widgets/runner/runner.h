@@ -42,6 +42,8 @@ class Runner : public QObject {
   /// Asks the running job to stop. cancelled() follows within kPatienceMs. What the job delivers
   /// in that time is still handed over (it may have kept finished stages).
   void cancel();
+  /// Drops the running job at once: nothing of it is handed over, and no signal follows.
+  void abandon();
   [[nodiscard]] bool running() const { return task_ != nullptr; }
   [[nodiscard]] quint64 current() const { return id_; }
 
@@ -63,7 +65,6 @@ class Runner : public QObject {
   struct Task;
   struct Mailbox;
   void take(const std::shared_ptr<Task>& task, const Deliver& deliver, const QString& error);
-  void abandon();
 
   std::shared_ptr<Mailbox> mailbox_;
   std::shared_ptr<Task> task_;

@@ -93,6 +93,8 @@ CheckDialog::CheckDialog(Camera camera, const CheckedPose& pose, std::vector<Fil
 
 CheckDialog::~CheckDialog() {
   work_.disconnect(this);
+  // A box that loses the focus takes over what was typed into it.
+  for (QDoubleSpinBox* box : boxes_) box->disconnect(this);
 }
 
 void CheckDialog::build() {

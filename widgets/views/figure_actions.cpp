@@ -9,6 +9,7 @@
 #include <QPageLayout>
 #include <QPainter>
 #include <QPdfWriter>
+#include <QPointer>
 
 #include "base/file_io.h"
 
@@ -51,8 +52,10 @@ void FigureActions::addTo(QMenu* menu) {
 }
 
 void FigureActions::choose(const QString& suffix, const QString& filter) {
-  QString path = chooser_(view_, figure_.name + "." + suffix, filter);
-  if (path.isEmpty()) return;
+  // The figure may go while the user looks for a place.
+  const QPointer<FigureActions> self(this);
+  QString path = chooser_(view_->window(), figure_.name + "." + suffix, filter);
+  if (self == nullptr || path.isEmpty()) return;
   if (QFileInfo(path).suffix().toLower() != suffix) path += "." + suffix;
   if (const Status saved = save(path); !saved) {
     Q_EMIT failed(QString::fromStdString(saved.error().text()));

@@ -74,6 +74,40 @@ TEST(Runner, APoliteJobHandsOverWhatItHasWhenCancelled) {
   EXPECT_TRUE(kept);
 }
 
+TEST(Runner, WhatWasPostedBeforeACancelIsNotHandedOverAfterIt) {
+  Runner runner;
+  QSignalSpy cancelled(&runner, &Runner::cancelled);
+  bool late = false;
+  std::atomic<bool> posted = false;
+  runner.start([&](const RunContext& context, const Post& post) -> Deliver {
+    post([&] { late = true; });
+    posted = true;
+    while (!context.stopped()) std::this_thread::sleep_for(1ms);
+    return {};
+  });
+  while (!posted) std::this_thread::sleep_for(1ms);  // Without a look at what is in the queue.
+  runner.cancel();
+  ASSERT_TRUE(cancelled.wait(5000));
+  EXPECT_FALSE(late);
+}
+
+TEST(Runner, AnAbandonedJobIsGoneAtOnceWithoutASignal) {
+  Runner runner;
+  QSignalSpy cancelled(&runner, &Runner::cancelled);
+  QSignalSpy finished(&runner, &Runner::finished);
+  bool late = false;
+  runner.start([&](const RunContext& context, const Post&) -> Deliver {
+    while (!context.stopped()) std::this_thread::sleep_for(1ms);
+    return [&] { late = true; };
+  });
+  runner.abandon();
+  EXPECT_FALSE(runner.running());
+  EXPECT_TRUE(Runner::wait_for_workers(5000));
+  QTest::qWait(150);
+  EXPECT_FALSE(late);
+  EXPECT_EQ(cancelled.count() + finished.count(), 0);
+}
+
 TEST(Runner, AJobThatDoesNotStopIsAbandonedInTimeAndItsResultDropped) {
   Runner runner;
   QSignalSpy cancelled(&runner, &Runner::cancelled);

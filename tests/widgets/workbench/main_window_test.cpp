@@ -29,6 +29,7 @@
 #include "pages/scene_page.h"
 #include "pipeline/project_file.h"
 #include "report/result_file.h"
+#include "start/coach_marks.h"
 #include "support/pose_matchers.h"
 #include "views/cloud_view.h"
 #include "views/image_view.h"
@@ -79,6 +80,18 @@ TEST_F(MainWindowTest, TheDemoIsSimulatedRunAndFoundRight) {
   const auto whole = calibrate(workspace().dataset(), {}, {});
   ASSERT_TRUE(whole.ok());
   EXPECT_EQ(pose(), whole->extrinsic.camera_from_lidar.transform.matrix());
+}
+
+// The marks of the tour ask the tour where they stand: they must not outlive it.
+TEST_F(MainWindowTest, ASecondDemoHasATourOfItsOwn) {
+  window_->set_demo(small_demo());
+  for (int time = 0; time < 2; ++time) {
+    QSignalSpy opened(&workspace(), &Workspace::opened);
+    ASSERT_TRUE(trigger(*window_, "demo"));
+    ASSERT_TRUE(wait_until([&] { return opened.count() > 0 && !workspace().busy(); }));
+    EXPECT_EQ(window_->findChildren<widgets::CoachMarks*>().size(), 1);
+  }
+  QTest::qWait(300);  // They look every fifth of a second.
 }
 
 TEST_F(MainWindowTest, UntickingSolvesAtOnceAndUndoBringsItBack) {
