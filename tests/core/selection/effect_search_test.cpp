@@ -242,16 +242,21 @@ TEST_F(SearchState, WhatOnlyWhitePrintShowsIsNoEffectThatKnowsNoPrint) {
   EXPECT_TRUE(seen);
 }
 
-// A ripple over the azimuth, which no effect of the catalogue follows, and boards on which a ripple
-// over the range happens to vary with it.
-TEST_F(SearchState, WhatACurveTellsBetterIsNoEffect) {
+// Ranges with a ripple over a covariate of the beam.
+test::SyntheticTable with_ripple(std::uint64_t seed, double BeamPoint::*over) {
   test::Disturbance wrong;
-  wrong.range_m = [](const BeamPoint& beam) { return 0.003 * std::sin(20.0 * beam.azimuth_rad); };
+  wrong.range_m = [over](const BeamPoint& beam) { return 0.003 * std::sin(20.0 * beam.*over); };
   test::TableRecipe recipe;
   recipe.range_rows = 4000;
+  recipe.seed = seed;
+  return test::synthetic_table(recipe, wrong);
+}
+
+// No effect of the catalogue follows the azimuth so; a ripple over the range happens to vary with
+// it on these boards.
+TEST_F(SearchState, WhatACurveTellsBetterIsNoEffect) {
   for (const std::uint64_t seed : {3, 4}) {
-    recipe.seed = seed;
-    const auto made = test::synthetic_table(recipe, wrong);
+    const auto made = with_ripple(seed, &BeamPoint::azimuth_rad);
     EffectSearch search(made.table, made.truth, options_, context_);
     search.rank();
     EXPECT_FALSE(search.best().has_value());
@@ -262,15 +267,10 @@ TEST_F(SearchState, WhatACurveTellsBetterIsNoEffect) {
   }
 }
 
-// A ripple over the range is told as well by a curve over the range, and is what it is.
+// A curve over the range tells it as well, and no better.
 TEST_F(SearchState, WhatACurveTellsAsWellStays) {
-  test::Disturbance wrong;
-  wrong.range_m = [](const BeamPoint& beam) { return 0.003 * std::sin(20.0 * beam.range_m); };
-  test::TableRecipe recipe;
-  recipe.range_rows = 4000;
   for (const std::uint64_t seed : {3, 4}) {
-    recipe.seed = seed;
-    const auto made = test::synthetic_table(recipe, wrong);
+    const auto made = with_ripple(seed, &BeamPoint::range_m);
     EffectSearch search(made.table, made.truth, options_, context_);
     search.rank();
     const auto best = search.best();
