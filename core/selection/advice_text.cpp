@@ -20,7 +20,7 @@ std::string curve_spec(const StructureScore& s) {
 }
 
 std::string values_text(const std::vector<ParameterEstimate>& parameters) {
-  constexpr std::size_t kShown = 4;
+  constexpr std::size_t kShown = 4;  // What a sentence bears; the others are in the table.
   std::vector<std::string> parts;
   for (const ParameterEstimate& p : parameters) {
     if (parts.size() == kShown) {

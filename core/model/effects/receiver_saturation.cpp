@@ -8,8 +8,11 @@
 namespace lvcalib {
 namespace {
 
-constexpr double kFewestSteps = 1e-3;  // Width of the band of powers that is worth a grid.
-constexpr int kKnees = 8;
+// Where all white print returns the same power, within 0.1 %, there is one limit to try.
+constexpr double kSamePower = 1e-3;
+// Limits tried over the powers that occur: a quarter apart at distances of 1.5 to 4 m (ln P spans
+// 2), and no more than are tried without a sieve. The best is refined.
+constexpr int kLimits = 8;
 
 class ReceiverSaturation final : public CatalogueEffect {
  public:
@@ -36,9 +39,9 @@ class ReceiverSaturation final : public CatalogueEffect {
       low = std::min(low, power);
       high = std::max(high, power);
     }
-    if (!(high - low > kFewestSteps)) return {0.0};
+    if (!(high - low > kSamePower)) return {0.0};
     std::vector<double> out;
-    for (int k = 0; k < kKnees; ++k) out.push_back(low + (high - low) * k / kKnees);
+    for (int k = 0; k < kLimits; ++k) out.push_back(low + (high - low) * k / kLimits);
     return out;
   }
   [[nodiscard]] std::string shape_name() const override { return "ln Ps, of white at 3 m"; }
@@ -47,7 +50,7 @@ class ReceiverSaturation final : public CatalogueEffect {
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {
     const double black = reflectivity_of_black(table, shape);
-    by[0] = excess(beam, reflectivity(beam.white, black), shape) * beam.direction;
+    by[0] = excess(beam, reflectivity(white_share(beam), black), shape) * beam.direction;
   }
 
   // Beside the scene's levels, which are those of clipped print in the board's middle: what a
@@ -59,16 +62,17 @@ class ReceiverSaturation final : public CatalogueEffect {
     const double black = reflectivity_of_black(table, shape);
     const double white_level = std::exp(-std::max(0.0, middle));
     const double black_level = black * std::exp(-std::max(0.0, middle + std::log(black)));
-    const double share = std::clamp(row.beam.white, 0.0, 1.0);
+    const double share = white_share(row.beam);
     const double seen = reflectivity(share, black);
     by[1] = std::log(seen) - excess(row.beam, seen, shape) -
             std::log(black_level + (white_level - black_level) * share);
   }
 
  private:
-  static double reflectivity(double white, double black) {
-    return black + (1.0 - black) * std::clamp(white, 0.0, 1.0);
-  }
+  // The prediction goes on from where the print was looked up, and may overshoot.
+  static double white_share(const BeamPoint& beam) { return std::clamp(beam.white, 0.0, 1.0); }
+
+  static double reflectivity(double white, double black) { return black + (1.0 - black) * white; }
 
   // Beside white. The usual levels are those of the usual scene, whose white may be clipped.
   static double reflectivity_of_black(const MeasurementTable& table, double shape) {
