@@ -70,8 +70,8 @@ bool swapped_image(simulation::SimulatedRig& rig) {
 bool found_out(const Result<CalibrationResult>& result, const std::string& name) {
   if (!result) return result.error().text().find("scene " + name) != std::string::npos;
   if (result->quality == Quality::kGood) return false;
-  for (const std::string& reason : result->quality_reasons) {
-    if (reason.find("scene " + name) != std::string::npos) return true;
+  for (const Message& reason : result->quality_reasons) {
+    if (reason.text().find("scene " + name) != std::string::npos) return true;
   }
   return false;
 }
@@ -103,8 +103,8 @@ void study_bad_scenes(int rigs, std::uint64_t first_seed, const std::filesystem:
       if (right) continue;
       std::fprintf(stderr, "seed %llu, %s: %s\n", static_cast<unsigned long long>(seed), kind.name,
                    result ? name_of(result->quality).c_str() : result.error().text().c_str());
-      for (const std::string& warning : result ? result->warnings : std::vector<std::string>{})
-        std::fprintf(stderr, "    %s\n", warning.c_str());
+      for (const Message& warning : result ? result->warnings : std::vector<Message>{})
+        std::fprintf(stderr, "    %s\n", warning.text().c_str());
     }
   }
   std::printf("| bad scene among five | found out: named and doubtful |\n| --- | --- |\n");

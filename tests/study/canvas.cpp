@@ -155,7 +155,8 @@ Status Canvas::save() {
   cairo_status_t status = cairo_status(cairo_);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png(surface_, path_.c_str());
   if (status == CAIRO_STATUS_SUCCESS) return Done{};
-  return Error::output(cairo_status_to_string(status), path_.string());
+  return Error::output(Message("the picture cannot be written: %1", cairo_status_to_string(status)),
+                       path_.string());
 }
 
 }  // namespace lvcalib::study

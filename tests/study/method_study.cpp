@@ -136,8 +136,8 @@ void study_condition(const NamedCondition& what, int rigs, std::uint64_t first_s
       std::fprintf(stderr, "seed %llu: %s\n",
                    static_cast<unsigned long long>(first_seed + static_cast<std::uint64_t>(k)),
                    result ? "not all scenes used" : result.error().text().c_str());
-      for (const std::string& w : result ? result->warnings : std::vector<std::string>{})
-        std::fprintf(stderr, "    %s\n", w.c_str());
+      for (const Message& w : result ? result->warnings : std::vector<Message>{})
+        std::fprintf(stderr, "    %s\n", w.text().c_str());
       continue;
     }
     add(tally, *result, rig->camera_from_lidar);

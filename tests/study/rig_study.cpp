@@ -109,8 +109,9 @@ RigOutcome run_rig(int index, std::uint64_t seed, const std::filesystem::path& f
   }
   outcome.solved = true;
   outcome.quality = name_of(result->quality);
-  for (const std::string& reason : result->quality_reasons)
-    std::fprintf(stderr, "%llu: %s\n", static_cast<unsigned long long>(seed), reason.c_str());
+  for (const Message& reason : result->quality_reasons)
+    std::fprintf(stderr, "%llu: %s\n", static_cast<unsigned long long>(seed),
+                 reason.text().c_str());
   const Rigid3 lidar_from_camera = result->extrinsic.camera_from_lidar.transform.inverse();
   for (std::size_t s = 0; s < rig->scenes.size(); ++s) {
     compare_scene(*rig, rig->scenes[s], result->scenes[s], outcome);
