@@ -8,6 +8,7 @@
 #include <QMenuBar>
 #include <QRegularExpression>
 #include <QStyle>
+#include <QTimer>
 #include <QToolBar>
 #include <QUndoStack>
 
@@ -149,7 +150,10 @@ void MainActions::follow(AppSettings& settings) {
   });
   connect(languages, &QActionGroup::triggered, this, [&settings](const QAction* action) {
     settings.set_language(action->data().toString());
+    // Every word of the window at once: the one click that takes longer than a moment.
+    QGuiApplication::setOverrideCursor(Qt::WaitCursor);
     use_language(settings.language());
+    QTimer::singleShot(0, qApp, [] { QGuiApplication::restoreOverrideCursor(); });
   });
 }
 

@@ -171,11 +171,6 @@ void CloudPane::setSurface(std::function<std::optional<BoardSurface>()> surface)
   if (color_->currentData().toInt() == static_cast<int>(CloudColor::kResidual)) rebuild();
 }
 
-void CloudPane::setUnused(std::vector<CloudLine> marks) {
-  unused_ = std::move(marks);
-  showLines();
-}
-
 void CloudPane::setCrop(const std::optional<CropBox>& box) {
   crop_ = box;
   if (box) {
@@ -220,7 +215,9 @@ void CloudPane::display(const std::shared_ptr<const CloudScene>& scene) {
 void CloudPane::showLines() {
   std::vector<CloudLine> lines = lines_;
   const auto& scene = view_->scene();
-  if (unused_action_->isChecked()) lines.insert(lines.end(), unused_.begin(), unused_.end());
+  if (unused_action_->isChecked() && scene) {
+    for (CloudLine& mark : unused_marks(scene->unused)) lines.push_back(std::move(mark));
+  }
   if (axes_action_->isChecked() && scene && scene->size() > 0) {
     for (CloudLine& line : axes_and_grid(scene->low_m, scene->high_m))
       lines.push_back(std::move(line));

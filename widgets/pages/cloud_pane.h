@@ -33,8 +33,6 @@ class CloudPane : public QWidget {
   void setInput(CloudSceneInput input, std::vector<CloudLine> lines);
   /// What the model leaves over the board, if that is another than the input's.
   void setSurface(std::function<std::optional<BoardSurface>()> surface);
-  /// Marks at points on the board that are not used; shown if the user wants them.
-  void setUnused(std::vector<CloudLine> marks);
   /// The crop box in force; none: not cropped.
   void setCrop(const std::optional<CropBox>& box);
   /// The box to begin with when there is none.
@@ -66,7 +64,6 @@ class CloudPane : public QWidget {
 
   CloudSceneInput input_;
   std::vector<CloudLine> lines_;
-  std::vector<CloudLine> unused_;
   std::optional<CropBox> crop_;    ///< In force.
   std::optional<CropBox> edited_;  ///< Shown with handles.
   CropBox suggested_;

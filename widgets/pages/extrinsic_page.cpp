@@ -21,6 +21,7 @@
 #include "pages/uncertainty_pane.h"
 #include "pages/world_pane.h"
 #include "style/texts.h"
+#include "style/unseen.h"
 #include "views/category_plots.h"
 #include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
@@ -158,7 +159,13 @@ void ExtrinsicPage::retranslate() {
          "than drawn)"));
   influence_mm_->setToolTip(tr("How far the LiDAR's origin moves when the scene is left out (mm)"));
   influence_mrad_->setToolTip(tr("How far the extrinsic turns when the scene is left out (mrad)"));
-  setResult(result_);
+  stale_ = unseen(*this);
+  if (!stale_) setResult(result_);
+}
+
+void ExtrinsicPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (stale_) setResult(result_);
 }
 
 // Names of the scenes in use that rise above either line.
@@ -218,6 +225,7 @@ void ExtrinsicPage::activate(int index) {
 
 void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
+  stale_ = false;
   fillTexts();
   methods_->setResult(result_.get());
   uncertainty_->setResult(result_.get());

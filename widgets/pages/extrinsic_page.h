@@ -58,6 +58,7 @@ class ExtrinsicPage : public QWidget {
 
  protected:
   void changeEvent(QEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   QWidget* createPlots();
@@ -73,6 +74,7 @@ class ExtrinsicPage : public QWidget {
   void colourise();
 
   std::shared_ptr<const CalibrationResult> result_;
+  bool stale_ = false;  // What is shown is in the words before.
   std::shared_ptr<const Cloud> full_cloud_;
   QImage image_;
   int scene_ = -1;

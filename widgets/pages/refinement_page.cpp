@@ -12,12 +12,14 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "base/units.h"
 #include "pipeline/refusals.h"
 #include "refinement/node_fit.h"
 #include "style/texts.h"
 #include "style/theme.h"
+#include "style/unseen.h"
 #include "views/angle_distance_plot.h"
 #include "views/board_map_plot.h"
 #include "views/convergence_plot.h"
@@ -76,8 +78,8 @@ void RefinementPage::retranslate() {
   slider_->setToolTip(tr("Iteration shown"));
   slider_->setAccessibleName(tr("Iteration"));
   const int shown = iteration();
-  showResult();
-  setIteration(shown);
+  showResultLater();
+  if (!stale_) setIteration(shown);
 }
 
 RefinementPage::~RefinementPage() = default;
@@ -163,13 +165,13 @@ void RefinementPage::setResult(std::shared_ptr<const CalibrationResult> result) 
   result_ = std::move(result);
   live_points_.reset();
   if (result_) setTarget(result_->target);
-  showResult();
+  showResultLater();
 }
 
 void RefinementPage::setScene(int index) {
   if (index == scene_) return;
   scene_ = index;
-  showResult();
+  showResultLater();
 }
 
 void RefinementPage::setTarget(const Target& target) {
@@ -186,6 +188,23 @@ void RefinementPage::setTarget(const Target& target) {
 void RefinementPage::setLivePoints(int scene, std::shared_ptr<const Cloud> board_points) {
   live_points_scene_ = scene;
   live_points_ = std::move(board_points);
+}
+
+// Ten figures behind another page would cost every change of the scene a tenth of a second. What
+// they showed is let go, so that an old result is not kept for them.
+void RefinementPage::showResultLater() {
+  stale_ = unseen(*this);
+  if (!stale_) return showResult();
+  player_.stop();
+  refinement_.reset();
+  points_.reset();
+  sampler_ = NodeSampler();
+  refused_.clear();
+}
+
+void RefinementPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (std::exchange(stale_, false)) showResult();
 }
 
 void RefinementPage::showResult() {
@@ -495,6 +514,10 @@ void RefinementPage::fillBins(const NodeRecord* record) {
   bins_->setCurrentCell(-1, -1);
   bins_->setRowCount(record != nullptr ? static_cast<int>(record->bins.size()) : 0);
   if (record == nullptr) return;
+  // Columns that fit their contents are measured again at every cell that changes.
+  QHeaderView* header = bins_->horizontalHeader();
+  for (int column = 0; column < 4; ++column)
+    header->setSectionResizeMode(column, QHeaderView::Fixed);
   const QColor refused = state_colors(palette()).bad;
   for (int row = 0; row < bins_->rowCount(); ++row) {
     const BinRecord& bin = record->bins[static_cast<std::size_t>(row)];
@@ -511,6 +534,8 @@ void RefinementPage::fillBins(const NodeRecord* record) {
       bins_->setItem(row, column, item);
     }
   }
+  for (int column = 0; column < 4; ++column)
+    header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
   bins_->verticalHeader()->setDefaultSectionSize(bins_->fontMetrics().height() + 6);
 }
 

@@ -60,6 +60,9 @@ class RefinementPage : public QWidget {
   void editsWanted(int scene, const lvcalib::SceneEdits& edits);
   void failed(const QString& message);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   /// Why a circle is not used though it could be refined.
   struct Refused {
@@ -72,6 +75,8 @@ class RefinementPage : public QWidget {
   void retranslate();
   void display(std::shared_ptr<const BoardRefinement> refinement,
                std::shared_ptr<const Cloud> points, const QString& message);
+  /// showResult(), once somebody sees it.
+  void showResultLater();
   void showResult();
   void rebuildGrid();
   void updatePlots();
@@ -91,6 +96,7 @@ class RefinementPage : public QWidget {
   [[nodiscard]] QString nodeTitle(int id, bool narrow = false) const;
 
   std::shared_ptr<const CalibrationResult> result_;
+  bool stale_ = false;  ///< What is shown is not yet the result's.
   std::shared_ptr<const BoardRefinement> refinement_;
   std::shared_ptr<const Cloud> points_;
   std::shared_ptr<const Cloud> live_points_;

@@ -16,6 +16,7 @@
 
 #include "pages/response_table.h"
 #include "style/texts.h"
+#include "style/unseen.h"
 #include "views/sample_map_plot.h"
 #include "words/core_text.h"
 
@@ -46,7 +47,8 @@ void ResponsePage::retranslate() {
   tabs_->setTabText(0, tr("Scenes"));
   tabs_->setTabText(1, tr("By range and incidence"));
   tabs_->setTabText(2, tr("Left out"));
-  refresh();
+  stale_ = unseen(*this);
+  if (!stale_) refresh();
 }
 
 QWidget* ResponsePage::createPlots() {

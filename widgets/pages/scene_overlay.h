@@ -25,11 +25,7 @@ ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& s
 /// thinning.
 void add_points(ImageOverlay& overlay, const CloudScene& cloud);
 
-/// Points on the board that are not used: refused by the solve, and left out by the user.
-struct UnusedPoints {
-  std::vector<Eigen::Vector3f> refused_m;
-  std::vector<Eigen::Vector3f> left_out_m;
-};
+/// Asks every return of the scene again: not for the interface's thread.
 UnusedPoints unused_points(const CalibrationResult& result, const SceneResult& scene);
 
 /// Puts them on the image, and small crosses across their rays into the cloud.

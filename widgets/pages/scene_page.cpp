@@ -199,13 +199,14 @@ void ScenePage::refresh() {
     input.camera = result_->camera;
     input.refinement = scene->refinement;
     input.surface = surface();
+    input.unused = [result = result_, place = static_cast<std::size_t>(scene_)] {
+      return unused_points(*result, result->scenes[place]);
+    };
     if (has_extrinsic(*result_)) {
       input.camera_from_lidar = result_->extrinsic.camera_from_lidar.transform;
     }
     lines = cloud_lines(*result_, *scene);
   }
-  unused_ = scene != nullptr ? unused_points(*result_, *scene) : UnusedPoints();
-  cloud_->setUnused(unused_marks(unused_));
   const Eigen::Vector3d middle =
       cloud_->view()->scene() ? cloud_->view()->scene()->center_m : Eigen::Vector3d::UnitX();
   cloud_->setSuggestedBox(box_about_board(result_.get(), scene, middle));
@@ -251,8 +252,10 @@ void ScenePage::showRefusal() {
 void ScenePage::refreshOverlay() {
   const SceneResult* scene = current();
   ImageOverlay overlay = scene != nullptr ? image_overlay(*result_, *scene) : ImageOverlay();
-  if (scene != nullptr) add_unused(overlay, *result_, unused_);
-  if (const auto& cloud = cloud_->view()->scene()) add_points(overlay, *cloud);
+  if (const auto& cloud = cloud_->view()->scene()) {
+    if (scene != nullptr) add_unused(overlay, *result_, cloud->unused);
+    add_points(overlay, *cloud);
+  }
   image_->setOverlay(std::move(overlay));
 }
 

@@ -105,7 +105,6 @@ class ScenePage : public QWidget {
   int scene_ = -1;
   CloudPane* cloud_ = nullptr;
   ImagePane* image_ = nullptr;
-  UnusedPoints unused_;
   std::optional<std::uint32_t> picked_;  // In the cloud shown; the one before is measured from.
   QLabel* refusal_ = nullptr;
   QLabel* edits_ = nullptr;

@@ -101,7 +101,8 @@ void AngleDistancePlot::rebuild() {
   drawBins();
   drawRefusal();
   drawLabel();
-  fillTable();
+  setTable({"kind", "angle_deg", "distance_mm", "sigma_mm", "samples", "state", "intensity"},
+           [this] { return tableRows(); });
   replot(rpQueuedReplot);
 }
 
@@ -244,7 +245,7 @@ void AngleDistancePlot::drawLabel() {
   label->setFont(bold);
 }
 
-void AngleDistancePlot::fillTable() {
+std::vector<QStringList> AngleDistancePlot::tableRows() const {
   std::vector<QStringList> rows;
   for (const BinRecord& bin : data_.record.bins) {
     rows.push_back({QString("bin"),
@@ -264,8 +265,7 @@ void AngleDistancePlot::fillTable() {
                     {},
                     csv_number(s.intensity)});
   }
-  setTable({"kind", "angle_deg", "distance_mm", "sigma_mm", "samples", "state", "intensity"},
-           std::move(rows));
+  return rows;
 }
 
 }  // namespace lvcalib::widgets

@@ -53,7 +53,7 @@ class AngleDistancePlot : public PlotView {
   void drawBins();
   void drawRefusal();
   void drawLabel();
-  void fillTable();
+  [[nodiscard]] std::vector<QStringList> tableRows() const;
 
   AngleDistanceData data_;
   QString title_;

@@ -45,6 +45,8 @@ class Builder {
   std::shared_ptr<const CloudScene> run() {
     chooseCloud();
     placeBoard();
+    if (in_.unused) scene_->unused = in_.unused();
+    if (stop_.stop_requested()) return nullptr;
     if (!scene_->cloud) return scene_;
     choosePoints();
     thinning_order(scene_->order);

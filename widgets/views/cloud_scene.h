@@ -44,6 +44,12 @@ enum class CloudFilter {
   kBoundary,  ///< In the ring about a circle's edge: what the refinement measures with.
 };
 
+/// Points on the board that are not used: refused by the solve, and left out by the user.
+struct UnusedPoints {
+  std::vector<Eigen::Vector3f> refused_m;
+  std::vector<Eigen::Vector3f> left_out_m;
+};
+
 /// Everything a picture of a cloud is made of. Shared read-only with the thread that builds it.
 struct CloudSceneInput {
   std::shared_ptr<const Cloud> full;   ///< May be null: then only board points can be shown.
@@ -55,6 +61,7 @@ struct CloudSceneInput {
   /// What the model leaves over the board; called only if a picture needs it, by the thread that
   /// builds the picture. May be empty.
   std::function<std::optional<BoardSurface>()> surface = {};
+  std::function<UnusedPoints()> unused = {};  ///< Called by that thread, too. May be empty.
   Target target;
   Camera camera;
   std::optional<Rigid3> camera_from_lidar;  ///< For pixels and camera colours.
@@ -77,8 +84,9 @@ struct CloudScene {
   ColorScale whole;            ///< The scale by the values, whatever range was asked for.
   std::vector<int> histogram;  ///< Of the values, in equal bins over `whole`; beyond: the ends.
   bool has_scale = true;       ///< False if colours are the camera's.
-  QString quantity;            ///< "intensity", "height (m)", …
-  QString notice;              ///< Why the picture is not what was asked for; empty if it is.
+  UnusedPoints unused;
+  QString quantity;  ///< "intensity", "height (m)", …
+  QString notice;    ///< Why the picture is not what was asked for; empty if it is.
   Eigen::Vector3d low_m = Eigen::Vector3d::Zero();  ///< Bounding box of the drawn points.
   Eigen::Vector3d high_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< Median of the drawn points.

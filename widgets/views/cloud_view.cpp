@@ -11,6 +11,7 @@
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QTransform>
+#include <algorithm>
 
 #include "style/texts.h"
 #include "views/color_bar.h"
@@ -65,14 +66,21 @@ CloudView::CloudView(QWidget* parent) : QWidget(parent) {
     setFocusProxy(message);
     layout->addWidget(message, 0, 0);
   }
+  // The canvas keeps its size whatever is shown beside it: another size draws all points again.
   legend_ = new ColorBar(this);
+  QSizePolicy always = legend_->sizePolicy();
+  always.setRetainSizeWhenHidden(true);
+  legend_->setSizePolicy(always);
   legend_->hide();
   layout->addWidget(legend_, 0, 1);
   notice_ = new QLabel(this);
   notice_->setObjectName("cloud-notice");
   notice_->setWordWrap(true);
+  notice_->setAutoFillBackground(true);
+  notice_->setMargin(3);
+  notice_->setAttribute(Qt::WA_TransparentForMouseEvents);
   notice_->hide();
-  layout->addWidget(notice_, 1, 0, 1, 2);
+  layout->addWidget(notice_, 0, 0, Qt::AlignBottom);
   layout->setRowStretch(0, 1);
   layout->setColumnStretch(0, 1);
   createActions();
@@ -302,7 +310,8 @@ void CloudView::updateLegend() {
   if (shown && scene_->has_scale)
     legend_->setScale(scene_->scale, scene_->quantity, scene_->whole, scene_->histogram);
   if (shown && !scene_->has_scale) legend_->setNameOnly(scene_->quantity);
-  legend_->setVisible(shown);  // As wide as it will be.
+  legend_->setMinimumWidth(std::max(legend_->minimumWidth(), legend_->sizeHint().width()));
+  legend_->setVisible(shown);
   notice_->setText(scene_ ? scene_->notice : QString());
   notice_->setVisible(!notice_->text().isEmpty());
 }

@@ -5,9 +5,11 @@
 #include <QFile>
 #include <QMenu>
 #include <QTemporaryDir>
-#include <QTimer>
 #include <algorithm>
 #include <typeinfo>
+#include <utility>
+
+#include "style/unseen.h"
 
 namespace lvcalib::widgets {
 
@@ -18,6 +20,8 @@ QString csv_number(double value) {
 PlotView::PlotView(QWidget* parent) : QCustomPlot(parent), colors_(PlotColors::of(palette())) {
   setFocusPolicy(Qt::StrongFocus);
   setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+  // Else each figure of a page brings the whole window onto the screen for itself.
+  setPlottingHint(QCP::phImmediateRefresh, false);
   setMinimumSize(90, 70);
   actions_ = new FigureActions(this, {"figure", [this] { return toPixmap(0, 0, 2.0).toImage(); },
                                       [this] { return pdf(); }, [this] { return csv(); }});
@@ -26,9 +30,10 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent), colors_(PlotColors::o
 }
 
 QByteArray PlotView::csv() const {
-  if (rows_.empty()) return {};
+  const std::vector<QStringList> rows = rows_ ? rows_() : std::vector<QStringList>();
+  if (rows.empty()) return {};
   QString text = header_.join(',') + '\n';
-  for (const QStringList& row : rows_) text += row.join(',') + '\n';
+  for (const QStringList& row : rows) text += row.join(',') + '\n';
   return text.toUtf8();
 }
 
@@ -41,7 +46,7 @@ void PlotView::resetView() {
 void PlotView::clearFigure() {
   clearPlottables();
   clearItems();
-  setTable({}, {});
+  setTable({}, nullptr);
 }
 
 namespace {
@@ -81,9 +86,13 @@ void PlotView::setHome(const QCPRange& x, const QCPRange& y) {
   yAxis->setRange(y);
 }
 
-void PlotView::setTable(const QStringList& header, std::vector<QStringList> rows) {
+void PlotView::setTable(const QStringList& header, std::function<std::vector<QStringList>()> rows) {
   header_ = header;
   rows_ = std::move(rows);
+}
+
+void PlotView::setTable(const QStringList& header, std::vector<QStringList> rows) {
+  setTable(header, [rows = std::move(rows)] { return rows; });
 }
 
 void PlotView::changeEvent(QEvent* event) {
@@ -95,12 +104,13 @@ void PlotView::changeEvent(QEvent* event) {
     colors_ = PlotColors::of(palette());
     applyColors();
   }
-  if (isVisible()) return rebuild();
-  // What nobody sees waits its turn: all figures at once would keep the window from answering.
-  constexpr std::size_t kTurns = 32;
-  constexpr int kTurn_ms = 12;
-  const auto turn = static_cast<int>(qHash(this) % kTurns);
-  QTimer::singleShot(kTurn_ms * (1 + turn), this, [this] { rebuild(); });
+  stale_ = unseen(*this);
+  if (!stale_) rebuild();
+}
+
+void PlotView::showEvent(QShowEvent* event) {
+  QCustomPlot::showEvent(event);
+  if (std::exchange(stale_, false)) rebuild();
 }
 
 void PlotView::keyPressEvent(QKeyEvent* event) {

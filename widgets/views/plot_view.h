@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QStringList>
+#include <functional>
 #include <vector>
 
 #include "views/custom_plot.h"
@@ -40,10 +41,13 @@ class PlotView : public QCustomPlot {
   void showMessage(const QString& text);
   /// Stores the range that resetView() goes back to, and shows it.
   void setHome(const QCPRange& x, const QCPRange& y);
-  /// What csv() gives.
+  /// What csv() gives; `rows` is called only when somebody wants it.
+  void setTable(const QStringList& header, std::function<std::vector<QStringList>()> rows);
+  /// The same of a small table.
   void setTable(const QStringList& header, std::vector<QStringList> rows);
 
   void changeEvent(QEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
@@ -60,10 +64,11 @@ class PlotView : public QCustomPlot {
 
   FigureActions* actions_;
   PlotColors colors_;
+  bool stale_ = false;  // Drawn with the colours or words before.
   QCPRange home_x_, home_y_;
   QPointF pressed_;
   QStringList header_;
-  std::vector<QStringList> rows_;
+  std::function<std::vector<QStringList>()> rows_;
 };
 
 /// A number for CSV files: shortest text that reads back as the same double.

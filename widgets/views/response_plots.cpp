@@ -229,15 +229,22 @@ void AnglePlot::fit() {
   setHome({-reach, reach}, {-reach, reach});
 }
 
+std::vector<QStringList> AnglePlot::tableRows() const {
+  std::vector<QStringList> rows;
+  for (const BoundarySample* s : scope_.samples(true, kMostDots)) {
+    const Eigen::Vector3d d = s->residual.cast<double>();
+    rows.push_back({csv_number(kDegPerRad * d.x()), csv_number(kDegPerRad * d.y()),
+                    csv_number(kMmPerM * d.z())});
+  }
+  return rows;
+}
+
 void AnglePlot::rebuild() {
   clearFigure();
-  std::vector<QStringList> rows;
   QCPGraph* dots = add_dots(*this, faint(colors().fill, 190), 3.2);
   for (const BoundarySample* s : scope_.samples(true, kMostDots)) {
     const Eigen::Vector3d d = s->residual.cast<double>();
     dots->addData(kDegPerRad * d.y(), kDegPerRad * d.x());
-    rows.push_back({csv_number(kDegPerRad * d.x()), csv_number(kDegPerRad * d.y()),
-                    csv_number(kMmPerM * d.z())});
   }
   if (const ResponseStatistics* s = scope_.statistics) {
     drawEllipse(s->covariance.topLeftCorner<2, 2>(), 1.0, QPen(colors().fit, 2.2));
@@ -253,7 +260,7 @@ void AnglePlot::rebuild() {
   } else {
     showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
   }
-  setTable({"pitch_deg", "yaw_deg", "range_mm"}, std::move(rows));
+  setTable({"pitch_deg", "yaw_deg", "range_mm"}, [this] { return tableRows(); });
   replot(rpQueuedReplot);
 }
 

@@ -64,6 +64,7 @@ class AnglePlot : public PlotView {
   void rebuild() override;
 
  private:
+  [[nodiscard]] std::vector<QStringList> tableRows() const;
   void drawEllipse(const Eigen::Matrix2d& covariance_rad2, double sigmas, const QPen& pen);
   void fit();
 

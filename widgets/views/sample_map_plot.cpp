@@ -59,7 +59,6 @@ void SampleMapPlot::fit() {
 void SampleMapPlot::rebuild() {
   clearFigure();
   drawBoard();
-  std::vector<QStringList> rows;
   QCPGraph* graphs[2];
   for (const bool overlap : {false, true}) {
     QColor color = overlap ? colors().emphasis : colors().axis;
@@ -69,16 +68,26 @@ void SampleMapPlot::rebuild() {
     graphs[overlap]->setPen(Qt::NoPen);
     graphs[overlap]->setScatterStyle({QCPScatterStyle::ssCircle, QPen(Qt::NoPen), color, 2.2});
   }
-  for (const BoundarySample* s : scope_.samples(false, kMostMapDots)) {
+  const std::vector<const BoundarySample*> samples = scope_.samples(false, kMostMapDots);
+  for (const BoundarySample* s : samples) {
     const Eigen::Vector2d p = kMmPerM * s->board_m.cast<double>();
     graphs[s->overlap]->addData(p.x(), p.y());
+  }
+  if (samples.empty())
+    showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
+  setTable({"x_mm", "y_mm", "distance_mm", "intensity", "overlap"}, [this] { return tableRows(); });
+  replot(rpQueuedReplot);
+}
+
+std::vector<QStringList> SampleMapPlot::tableRows() const {
+  std::vector<QStringList> rows;
+  for (const BoundarySample* s : scope_.samples(false, kMostMapDots)) {
+    const Eigen::Vector2d p = kMmPerM * s->board_m.cast<double>();
     rows.push_back({csv_number(p.x()), csv_number(p.y()),
                     csv_number(kMmPerM * static_cast<double>(s->distance_m)),
                     csv_number(static_cast<double>(s->intensity)), s->overlap ? "1" : "0"});
   }
-  if (rows.empty()) showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
-  setTable({"x_mm", "y_mm", "distance_mm", "intensity", "overlap"}, std::move(rows));
-  replot(rpQueuedReplot);
+  return rows;
 }
 
 void SampleMapPlot::drawBoard() {

@@ -20,6 +20,7 @@ class SampleMapPlot : public PlotView {
   void rebuild() override;
 
  private:
+  [[nodiscard]] std::vector<QStringList> tableRows() const;
   void drawBoard();
   void fit();
 
