@@ -4633,6 +4633,26 @@ were saved. Take them up again?</source>
         <source>Beside a curve over what is left in the %1 channel it is not there: %2; something that no effect explains is at work.</source>
         <translation>与描述%1通道残余的曲线并列时，该效应不存在：%2；起作用的是没有任何效应能解释的其他因素。</translation>
     </message>
+    <message>
+        <source>%1 + %2</source>
+        <translation>%1 + %2</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1、%2</translation>
+    </message>
+    <message>
+        <source>Base model</source>
+        <translation>基础模型</translation>
+    </message>
+    <message>
+        <source>The pose is for clouds as the LiDAR gives them.</source>
+        <translation>该位姿适用于激光雷达直接给出的点云。</translation>
+    </message>
+    <message>
+        <source>The pose is for clouds with this taken out: %1 (lvcalib correct). Clouds as the LiDAR gives them are still off by it.</source>
+        <translation>该位姿适用于已去除以下效应的点云：%1（lvcalib correct）。激光雷达直接给出的点云仍带有该误差。</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -4722,11 +4742,11 @@ were saved. Take them up again?</source>
     </message>
     <message>
         <source>tags %1</source>
-        <translation>标签 %1</translation>
+        <translation>标签（编号 %1）</translation>
     </message>
     <message>
         <source>circles %1</source>
-        <translation>圆 %1</translation>
+        <translation>圆（编号 %1）</translation>
     </message>
     <message>
         <source>Left out by hand: %1.</source>
@@ -5378,6 +5398,22 @@ were saved. Take them up again?</source>
     <message>
         <source>In the camera&apos;s view, one standard deviation</source>
         <translation>相机视野中的一倍标准差</translation>
+    </message>
+    <message>
+        <source>by chance</source>
+        <translation>随机</translation>
+    </message>
+    <message>
+        <source>in total</source>
+        <translation>总计</translation>
+    </message>
+    <message>
+        <source>Model:</source>
+        <translation>模型：</translation>
+    </message>
+    <message>
+        <source>By chance: what the noise of these scenes leaves open. In total: with what usual faults could still do that these scenes do not show.</source>
+        <translation>随机：这些场景的噪声所留下的不确定。总计：再加上这些场景看不出的常见误差可能造成的影响。</translation>
     </message>
 </context>
 <context>
@@ -7841,7 +7877,7 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     </message>
     <message>
         <source>&lt;b&gt;%1 is missing.&lt;/b&gt;</source>
-        <translation>&lt;b&gt;遗漏了 %1。&lt;/b&gt;</translation>
+        <translation>&lt;b&gt;遗漏了%1。&lt;/b&gt;</translation>
     </message>
     <message>
         <source>Add &amp;curve…</source>
@@ -8796,6 +8832,18 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>For other tools</source>
         <translation>供其他工具使用</translation>
     </message>
+    <message>
+        <source>± in total</source>
+        <translation>± 总计</translation>
+    </message>
+    <message>
+        <source>Model:</source>
+        <translation>模型：</translation>
+    </message>
+    <message>
+        <source>In total: with what usual faults could still do that these scenes do not show.</source>
+        <translation>总计：再加上这些场景看不出的常见误差可能造成的影响。</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::SampleMapPlot</name>
@@ -9059,11 +9107,11 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     </message>
     <message>
         <source>tags %1</source>
-        <translation>标签 %1</translation>
+        <translation>标签（编号 %1）</translation>
     </message>
     <message>
         <source>circles %1</source>
-        <translation>圆 %1</translation>
+        <translation>圆（编号 %1）</translation>
     </message>
     <message>
         <source>Drawn in red. A click on one says why, and offers to use it all the same where that is possible.</source>

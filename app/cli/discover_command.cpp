@@ -9,6 +9,7 @@
 #include "pipeline/model_discovery.h"
 #include "report/discovery_file.h"
 #include "report/result_file.h"
+#include "report/stored_model.h"
 
 namespace lvcalib::cli {
 namespace {
@@ -19,7 +20,7 @@ struct DiscoverArguments {
   std::vector<std::string> with;
 };
 
-std::string summary_of(const Discovery& discovery, const std::string& output) {
+std::string summary_of(const Discovery& discovery, const PoseUse& use, const std::string& output) {
   std::string effects;
   for (const std::string& id : discovery.selected) effects += (effects.empty() ? "" : ", ") + id;
   std::string text = !effects.empty() ? "missing: " + effects
@@ -41,7 +42,9 @@ std::string summary_of(const Discovery& discovery, const std::string& output) {
   char part[96];
   std::snprintf(part, sizeof part, "; sigma %.2g mm, %.2g mm with what effects left out could do",
                 sigma_mm(discovery.covariance), sigma_mm(discovery.covariance_with_budget));
-  return text + part + " -> " + output;
+  return text + part +
+         (use.corrected ? "; the pose is for corrected clouds (lvcalib correct)" : "") + " -> " +
+         output;
 }
 
 Result<std::string> run(const DiscoverArguments& options, Session& session) {
@@ -68,7 +71,7 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
   if (session.context.stopped()) return Error::cancelled();
   if (Status s = write_discovery(*discovery, final, output); !s) return s.error();
   if (final.quality == Quality::kFailed) return untrusted_result(final, options.calibration);
-  return summary_of(*discovery, output);
+  return summary_of(*discovery, pose_use(final), output);
 }
 
 }  // namespace

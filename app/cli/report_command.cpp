@@ -14,7 +14,10 @@ struct ReportArguments {
   std::string output;
 };
 
-Result<std::string> run(const ReportArguments& options, Session& session) {
+Result<std::string> run(ReportArguments options, Session& session) {
+  // Who names the file itself means its folder.
+  const std::filesystem::path named(options.folder);
+  if (named.filename() == "result.json") options.folder = (named.parent_path() / ".").string();
   for (const char* input : {"result.json", "result.yaml", "discovery.json"}) {
     const std::string file = (std::filesystem::path(options.folder) / input).string();
     if (Status s = refuse_overwriting(options.output, file); !s) return s.error();

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "model/correction.h"
 #include "model/residuals.h"
+#include "model/scan_velocity.h"
 #include "model/scene_geometry.h"
 #include "pipeline/ablation.h"
 #include "pipeline/forward_stage.h"
@@ -114,7 +116,7 @@ double black_share(const Target& target) {
 }
 
 // The beam towards a point of a board, as dark as the board on average, of no line in particular:
-// what is told of planes, and of circles on them, is a mean over many returns.
+// what is told of a circle is a mean over many returns.
 BeamPoint beam_towards(const Eigen::Vector3d& point_m, const Rigid3& lidar_from_board,
                        double darkness) {
   BeamPoint beam;
@@ -154,43 +156,67 @@ void take_out_of_corners(const Discovery& discovery, const Camera& camera, const
   }
 }
 
-// By how much a board that is bent lies off its plane, on average (board frame): what a plane
-// fitted to its returns takes for its place.
-Eigen::Vector3d mean_bend(const ModelledMovements& movements, const Target& target) {
-  constexpr int kSide = 9;
-  const BoardOutline outline = target.outline();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int i = 0; i < kSide; ++i) {
-    for (int j = 0; j < kSide; ++j) {
-      PrintPoint at;
-      at.board_m = outline.lower_left_m +
-                   outline.size_m().cwiseProduct(Eigen::Vector2d(i + 0.5, j + 0.5)) / kSide;
-      sum += movements.print(at, target);
-    }
+// The board's plane as it would be without the effects: fitted to the returns, each with what they
+// do to its range taken out. A robust plane does not follow its returns' mean: black print that
+// reads far off hardly pulls it. Nothing where no plane fits.
+std::optional<FittedPlane> plane_without_effects(const Cloud& board_points,
+                                                 const SceneObservations& scene,
+                                                 const Discovery& discovery,
+                                                 const ModelledMovements& movements,
+                                                 const Target& target) {
+  const SceneGeometry geometry(Rigid3(), scene.lidar_from_board);
+  const bool dark = discovery.scales.log_contrast > 0.0 && board_points.has_intensity();
+  const double black = black_share(target);
+  const std::vector<Eigen::Vector2d> velocities = scan_velocities(board_points);
+  Cloud corrected = board_points;
+  for (std::size_t i = 0; i < corrected.size(); ++i) {
+    const Eigen::Vector3d measured = corrected.points_m[i].cast<double>();
+    const Eigen::Vector3d direction = measured.normalized();
+    BeamPoint beam;
+    if (!geometry.describe(direction, beam)) continue;
+    beam.darkness = dark ? discovery.scales.darkness_of(board_points.intensity[i]) : black;
+    beam.white = std::clamp(1.0 - beam.darkness, 0.0, 1.0);
+    beam.line = board_points.has_line() ? board_points.line[i] : -1;
+    if (board_points.has_time()) beam.time_s = board_points.time_s[i];
+    if (!velocities.empty()) beam.scan_rad_s = velocities[i];
+    PrintPoint at;
+    at.board_m = beam.board_m;
+    const Eigen::Vector3d bend(0.0, 0.0, movements.print(at, target).z());
+    const double farther_m = geometry.range_row(direction).dot(
+        movements.point(beam) + scene.lidar_from_board.rotation * bend);
+    corrected.points_m[i] = (measured - farther_m * direction).cast<float>();
   }
-  return sum / (kSide * kSide);
+  const auto plane = fit_board_plane(corrected, target, scene.lidar_from_board);
+  if (!plane) return std::nullopt;
+  return plane->plane;
 }
 
-// The observations of the classical solve with a model's effects taken out of them.
+// The observations of the classical solve with a model's effects taken out of them; `planes` are
+// the scenes' without the effects.
 void take_out(const Discovery& discovery, const ModelledMovements& movements, const Camera& camera,
-              const Target& target, std::vector<SceneObservations>& observations) {
-  const Eigen::Vector3d bend = mean_bend(movements, target);
+              const Target& target, const std::vector<std::optional<FittedPlane>>& planes,
+              std::vector<SceneObservations>& observations) {
   const double darkness = black_share(target);
-  for (SceneObservations& o : observations) {
-    const auto& rotation = o.lidar_from_board.rotation;
-    for (RefinedNode& node : o.nodes) {
-      if (!node.valid) continue;
+  for (std::size_t s = 0; s < observations.size(); ++s) {
+    SceneObservations& o = observations[s];
+    if (planes[s]) o.plane = *planes[s];
+    const auto without_effects = [&](const Eigen::Vector3d& place_m, const RefinedNode& node) {
       PrintPoint at;
       at.board_m = node.board_m;
-      // Its height is the plane's, its place on it its own.
       const Eigen::Vector2d shift = movements.print(at, target).head<2>();
-      const BeamPoint beam = beam_towards(node.center_lidar_m, o.lidar_from_board, darkness);
-      node.center_lidar_m -= movements.spot(beam) + movements.point(beam) +
-                             rotation * Eigen::Vector3d(shift.x(), shift.y(), bend.z());
+      const BeamPoint beam = beam_towards(place_m, o.lidar_from_board, darkness);
+      const Eigen::Vector3d moved =
+          movements.spot(beam) + movements.point(beam) +
+          o.lidar_from_board.rotation * Eigen::Vector3d(shift.x(), shift.y(), 0.0);
+      // Its height is the plane's, its place on it its own.
+      const auto on_plane = o.plane.ray_hit(place_m - moved);
+      return on_plane ? o.plane.to_lidar(*on_plane) : Eigen::Vector3d(place_m - moved);
+    };
+    for (RefinedNode& node : o.nodes) {
+      if (!node.valid) continue;
+      node.center_lidar_m = without_effects(node.center_lidar_m, node);
+      node.raw_lidar_m = without_effects(node.raw_lidar_m, node);
     }
-    o.plane.center_m -=
-        movements.point(beam_towards(o.plane.center_m, o.lidar_from_board, darkness)) +
-        rotation * Eigen::Vector3d(0.0, 0.0, bend.z());
   }
   take_out_of_corners(discovery, camera, target, observations);
 }
@@ -229,8 +255,12 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   }
   const Target target = target_in_use(result, observations);
   auto paper = with_paper_nodes(observations, result, index);
-  take_out(discovery, movements, result.camera, target, paper);
-  take_out(discovery, movements, result.camera, target, observations);
+  std::vector<std::optional<FittedPlane>> planes;
+  for (std::size_t k = 0; k < observations.size(); ++k)
+    planes.push_back(plane_without_effects(result.scenes[index[k]].board_points, observations[k],
+                                           discovery, movements, target));
+  take_out(discovery, movements, result.camera, target, planes, paper);
+  take_out(discovery, movements, result.camera, target, planes, observations);
   const ExtrinsicOptions& how = result.options.extrinsic;
   ExtrinsicSolution nodes = result.extrinsic;
   const auto same_scenes = [&](const ExtrinsicSolution& other) {

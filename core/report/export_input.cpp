@@ -119,6 +119,7 @@ ExportInput export_input_of(const CalibrationResult& result) {
   input.camera = result.camera;
   input.dataset = result.dataset;
   input.quality = name_of(result.quality);
+  input.use = pose_use(result);
   input.result_json = result_as_json(result);
   input.scenes = scenes_of(parse_json(input.result_json));
   return input;
@@ -139,6 +140,7 @@ Result<ExportInput> read_export_input(const std::filesystem::path& result_json) 
   if (dataset != j.end() && dataset->is_string()) input.dataset = dataset->get<std::string>();
   const auto quality = j.find("quality");
   if (quality != j.end() && quality->is_string()) input.quality = quality->get<std::string>();
+  if (const auto model = model_in(*text, result_json.string())) input.use = pose_use(*model);
   input.scenes = scenes_of(j);
   input.result_json = std::move(*text);
   return input;

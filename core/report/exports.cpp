@@ -412,6 +412,12 @@ std::vector<std::string> export_notes(const ExportInput& input) {
   if (!input.dataset.empty()) out.push_back("dataset: " + on_one_line(input.dataset));
   if (!input.quality.empty() && input.quality != "good")
     out.push_back("quality: " + on_one_line(input.quality) + ": see the result's warnings");
+  if (input.use) {
+    out.push_back("model: " + on_one_line(input.use->model.text()));
+    for (const Message& effect : input.use->effects)
+      out.push_back("effect: " + on_one_line(effect.text()));
+    out.push_back(on_one_line(input.use->clouds.text()));
+  }
   if (has_own_names(input)) {
     out.push_back("names of the frames: LiDAR " + input.lidar_frame + ", camera " +
                   input.camera_frame);

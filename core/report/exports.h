@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/rigid3.h"
 #include "camera/camera.h"
+#include "report/stored_model.h"
 
 namespace lvcalib {
 
@@ -28,6 +29,7 @@ struct ExportInput {
   Camera camera;
   std::string dataset;                   ///< Named in the comment.
   std::string quality;                   ///< Said in the comment when it is not "good".
+  std::optional<PoseUse> use;            ///< Said in the comment; none in an older result.
   std::optional<Rigid3> imu_from_lidar;  ///< Needed by formats that speak of the IMU.
   std::string result_json;               ///< The whole result, for the boundary response.
   std::vector<ExportScene> scenes;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/html_report.h"
 
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <optional>
+
 #include "base/file_io.h"
 #include "pipeline/input_hashes.h"
 #include "report/discovery_file.h"
@@ -48,6 +53,17 @@ std::string page(const json& result, const std::string& body) {
          "</body>\n</html>\n";
 }
 
+// "2026-03-01", by the clock of this place.
+std::string day_of(std::chrono::system_clock::time_point when) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(when);
+  std::tm parts{};
+  std::array<char, 16> text{};
+  if (::localtime_r(&seconds, &parts) == nullptr ||
+      std::strftime(text.data(), text.size(), "%Y-%m-%d", &parts) == 0)
+    return {};
+  return text.data();
+}
+
 // The pictures are drawn from the scenes' files: from others than those that the result was made of
 // they would show what it does not say. Files that are gone are left to the sections that miss
 // them.
@@ -75,14 +91,17 @@ Status check_inputs(const json& result, const std::string& where, const RunConte
 
 // `text` is a result.json, `where` names it in errors.
 Result<HtmlReport> report_of(const std::string& text, const std::string& where,
-                             const json& discovery, const RunContext& context) {
+                             const json& discovery, const std::string& day,
+                             const RunContext& context) {
   const json result = parse_json(text);
   if (result.is_discarded() || !result.is_object())
     return Error::input(Message("not a JSON object"), where);
   if (Status s = check_inputs(result, where, context); !s) return s.error();
   HtmlReport report;
   try {
-    std::string body = verdict_section(result) + pose_section(result) +
+    const auto model = model_in(text, where);
+    const auto use = model ? std::optional(pose_use(*model)) : std::nullopt;
+    std::string body = verdict_section(result, use, day) + pose_section(result) +
                        uncertainty_section(result) + methods_section(result);
     const json scenes = result.at("scenes");
     for (std::size_t s = 0; s < scenes.size(); ++s) {
@@ -120,13 +139,18 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
                           Message("run lvcalib discover again, or remove the file"));
     }
   }
-  return report_of(*text, path.string(), discovery, context);
+  const auto changed = std::filesystem::last_write_time(path, code);
+  return report_of(
+      *text, path.string(), discovery,
+      day_of(code ? std::chrono::system_clock::now() : std::chrono::file_clock::to_sys(changed)),
+      context);
 }
 
 Result<HtmlReport> html_report(const CalibrationResult& result, const Discovery* discovery,
                                const RunContext& context) {
   const json found = discovery != nullptr ? parse_json(discovery_as_json(*discovery)) : json();
-  return report_of(result_as_json(result), "the result", found, context);
+  return report_of(result_as_json(result), "the result", found,
+                   day_of(std::chrono::system_clock::now()), context);
 }
 
 }  // namespace lvcalib

@@ -182,4 +182,27 @@ std::string heat_color(double share) {
   return text;
 }
 
+std::string heat_bar(double low, double high, const std::string& unit) {
+  constexpr int kSteps = 40;
+  constexpr double kLeftEnd = 20.0;
+  constexpr double kWidth = 380.0;
+  std::string out =
+      "<svg class=\"plot\" viewBox=\"0 0 420 40\" role=\"img\" aria-label=\"colours, " +
+      html_escaped(unit) + "\">";
+  for (int k = 0; k < kSteps; ++k) {
+    out += "<rect x=\"" + at(kLeftEnd + kWidth * k / kSteps) + "\" y=\"4\" width=\"" +
+           at(kWidth / kSteps + 0.3) + "\" height=\"12\" fill=\"" + heat_color((k + 0.5) / kSteps) +
+           "\"/>";
+  }
+  out += "<g font-size=\"11\" fill=\"#333\">";
+  for (int k = 0; k <= 4; ++k) {
+    out += text_at(kLeftEnd + 0.25 * k * kWidth, 32.0,
+                   k == 0   ? "start"
+                   : k == 4 ? "end"
+                            : "middle",
+                   shown(low + 0.25 * k * (high - low), 3) + (k == 4 ? " " + unit : ""));
+  }
+  return out + "</g></svg>\n";
+}
+
 }  // namespace lvcalib

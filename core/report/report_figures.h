@@ -56,4 +56,7 @@ class SvgPlot {
 /// A colour between pale and dark blue for 0 … 1.
 std::string heat_color(double share);
 
+/// The colours of heat_color() with the numbers they stand for, as inline SVG.
+std::string heat_bar(double low, double high, const std::string& unit);
+
 }  // namespace lvcalib

@@ -2,6 +2,7 @@
 #include "report/report_sections.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "report/report_figures.h"
@@ -69,7 +70,7 @@ std::string split_half(const json& uncertainty) {
   return out + html_table(rows);
 }
 
-std::string map_figure(const json& map) {
+std::string map_figure(const json& map, const json& camera) {
   const int columns = map.at("columns").get<int>();
   const int rows = map.at("rows").get<int>();
   const json& sigma = map.at("sigma_px");
@@ -85,21 +86,25 @@ std::string map_figure(const json& map) {
     low = std::min(low, v);
     high = std::max(high, v);
   }
-  SvgPlot plot({0.0, static_cast<double>(columns)}, {0.0, static_cast<double>(rows)},
-               "image, left to right", "bottom to top");
-  plot.x_names({});
+  const double width_px = camera.at("width").get<double>();
+  const double height_px = camera.at("height").get<double>();
+  const double wide = width_px / columns;
+  const double high_px = height_px / rows;
+  SvgPlot plot({0.0, width_px}, {0.0, height_px}, "across the image [px]",
+               "above its lower edge [px]");
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
       const double v = values[static_cast<std::size_t>(r * columns + c)];
       if (!std::isfinite(v)) continue;
-      plot.rect({c, rows - 1.0 - r}, {c + 1.0, rows - 0.0 - r},
+      plot.rect({wide * c, high_px * (rows - 1.0 - r)},
+                {wide * (c + 1.0), high_px * (rows - 0.0 - r)},
                 heat_color(high > low ? (v - low) / (high - low) : 0.5), shown(v, 3) + " px");
     }
   }
-  return "<figure>" + plot.svg("uncertainty over the image") +
-         "<figcaption>Uncertainty of a projected LiDAR point at " +
-         shown(map.at("range_m").get<double>(), 3) + " m: " + shown(low, 3) + " px (pale) to " +
-         shown(high, 3) + " px (dark), one sigma.</figcaption></figure>\n";
+  return "<figure>" + plot.svg("uncertainty over the image") + heat_bar(low, high, "px") +
+         "<figcaption>Standard deviation of a projected LiDAR point at " +
+         shown(map.at("range_m").get<double>(), 3) +
+         " m over the image, in pixels.</figcaption></figure>\n";
 }
 
 std::string method_boxes(const json& methods, const char* key, const char* label) {
@@ -141,27 +146,85 @@ std::string html_table(const std::vector<std::vector<std::string>>& rows) {
   return out + "</table>\n";
 }
 
-std::string verdict_section(const json& result) {
+std::string verdict_section(const json& result, const std::optional<PoseUse>& use,
+                            const std::string& day) {
   const std::string quality = result.at("quality").get<std::string>();
-  const bool known = quality == "good" || quality == "doubtful" || quality == "failed";
-  std::string out = "<h1>LiDAR–camera calibration</h1>\n<p>" +
-                    html_escaped(result.value("dataset", "")) + "</p>\n<p><span class=\"verdict " +
-                    (known ? quality : "failed") + "\">" + html_escaped(quality) + "</span></p>\n";
-  if (result.contains("quality_reasons") && !result["quality_reasons"].empty())
-    out += "<p>What speaks against it:</p>" + items(result["quality_reasons"]);
-  if (!result.at("warnings").empty()) out += "<p>Warnings:</p>" + items(result["warnings"]);
-  return out;
+  const bool good = quality == "good";
+  const bool known = good || quality == "doubtful" || quality == "failed";
+  const bool verified = result.value("verified", false);
+  const json reasons = result.value("quality_reasons", json::array());
+  const auto paragraph = [](const std::string& title, const std::string& text) {
+    return "<p><b>" + title + "</b> " + text + "</p>\n";
+  };
+  std::string out = "<h1>LiDAR–camera calibration</h1>\n<p class=\"note\">" +
+                    html_escaped(result.value("dataset", "")) + ", " + html_escaped(day) +
+                    "</p>\n<p><span class=\"verdict " + (known ? quality : "failed") + "\">" +
+                    html_escaped(quality) + "</span></p>\n";
+  std::size_t used = 0;
+  for (const json& scene : result.at("scenes")) used += scene.value("used", false) ? 1 : 0;
+  out += paragraph("What was calibrated:",
+                   "where the camera is to the LiDAR, and how it is turned, from " +
+                       std::to_string(used) + " of " + std::to_string(result.at("scenes").size()) +
+                       " scenes of a printed board.");
+  const auto how_well = [&](const char* key) {
+    const json& covariance = result.at(key);
+    std::array<double, 2> squares{};
+    for (std::size_t k = 0; k < 6; ++k)
+      squares[k / 3] += std::max(0.0, covariance.at(k).at(k).get<double>());
+    return "± " + shown(1e3 * std::sqrt(squares[0]), 2) + " mm and ± " +
+           shown(1e3 * std::sqrt(squares[1]), 2) + " mrad";
+  };
+  out += paragraph("How well:", how_well("covariance") +
+                                    " by chance (one standard deviation of place and turn); " +
+                                    how_well("covariance_total") +
+                                    " with what usual faults could still do that these scenes do "
+                                    "not show.");
+  out += paragraph("Can it be used?", good && verified ? "Yes."
+                                      : good ? "Yes, but count with the larger of the two errors: "
+                                               "these scenes do not verify the camera's intrinsics."
+                                      : known && quality == "doubtful"
+                                          ? "Not before what speaks against it is settled."
+                                          : "No.");
+  if (use)
+    out += paragraph("For which clouds?", html_escaped(use->clouds.text()) + " (" +
+                                              html_escaped(use->model.text()) + ".)");
+  if (!reasons.empty()) out += "<p><b>What speaks against it:</b></p>" + items(reasons);
+  // Each warning once: those that are a reason stand above.
+  json others = json::array();
+  for (const json& warning : result.at("warnings")) {
+    std::string text = warning.get<std::string>();
+    if (text.starts_with("result: ")) text.erase(0, 8);  // Here everything is about the result.
+    const bool said = std::any_of(reasons.begin(), reasons.end(), [&](const json& reason) {
+      return text.find(reason.get<std::string>()) != std::string::npos;
+    });
+    if (!said) others.push_back(text);
+  }
+  if (!others.empty()) out += "<p><b>Worth knowing:</b></p>" + items(others);
+  return out + paragraph("What to do next:",
+                         !good ? "Settle what is listed above, the first line first, and "
+                                 "calibrate again."
+                         : verified
+                             ? "Check it on scenes that it was not made from (lvcalib check)."
+                             : "Take the scene that is named above and calibrate again, or "
+                               "check on scenes that it was not made from (lvcalib check).");
 }
 
 std::string pose_section(const json& result) {
   const json& pose = result.at("T_camera_lidar");
   const json& covariance = result.at("covariance");
-  std::vector<std::vector<std::string>> sigma = {
-      {"", "x", "y", "z"}, {"translation [mm]"}, {"rotation [mrad]"}};
-  for (std::size_t k = 0; k < 6; ++k) {
-    const double variance = covariance.at(k).at(k).get<double>();
-    sigma[k < 3 ? 1 : 2].push_back(shown(1e3 * std::sqrt(std::max(0.0, variance)), 3));
-  }
+  std::vector<std::vector<std::string>> sigma = {{"", "x", "y", "z"},
+                                                 {"translation [mm]"},
+                                                 {"rotation [mrad]"},
+                                                 {"translation, in total [mm]"},
+                                                 {"rotation, in total [mrad]"}};
+  const auto add_sigmas = [&](const json& of, std::size_t first_row) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double variance = of.at(k).at(k).get<double>();
+      sigma[first_row + k / 3].push_back(shown(1e3 * std::sqrt(std::max(0.0, variance)), 3));
+    }
+  };
+  add_sigmas(covariance, 1);
+  add_sigmas(result.at("covariance_total"), 3);
   std::string quaternion;
   for (const json& v : pose.at("quaternion_xyzw"))
     quaternion += (quaternion.empty() ? "" : ", ") + shown(v.get<double>(), 9);
@@ -172,7 +235,9 @@ std::string pose_section(const json& result) {
          "the camera frame, from the noise estimated: corners " +
          shown(result.at("sigma_px").get<double>(), 3) + " px, LiDAR nodes widened " +
          shown(result.at("node_noise_scale").get<double>(), 3) + " times, planes " +
-         shown(result.at("plane_noise_scale").get<double>(), 3) + " times.</p>\n" +
+         shown(result.at("plane_noise_scale").get<double>(), 3) +
+         " times. In total: with what usual faults could still do that these scenes do not "
+         "show.</p>\n" +
          html_table(sigma) + "<p>Residuals: corners " +
          shown(result.at("rms_px").get<double>(), 4) + " px, nodes " +
          shown(result.at("rms_mm").get<double>(), 4) + " mm (RMS).</p>\n";
@@ -191,7 +256,7 @@ std::string uncertainty_section(const json& result) {
                     shown(number_of(r.at("along_mm")), 3)});
   }
   out += "<h3>At a distance (one sigma)</h3>\n<div class=\"figures\">" + html_table(rows);
-  for (const json& map : u.at("maps")) out += map_figure(map);
+  for (const json& map : u.at("maps")) out += map_figure(map, result.at("camera"));
   return out + "</div>\n" + leave_one_out(result) + split_half(u);
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "base/message.h"
+#include "report/stored_model.h"
 
 namespace lvcalib {
 
@@ -14,7 +16,10 @@ namespace lvcalib {
 // They throw nlohmann::json::exception on a result that lacks what they show; internal to this
 // room.
 
-std::string verdict_section(const nlohmann::json& result);
+/// The first page: what was calibrated, how well, whether it can be used and for which clouds, and
+/// what to do next. `day` is when the result was made; `use` is none for a result without a model.
+std::string verdict_section(const nlohmann::json& result, const std::optional<PoseUse>& use,
+                            const std::string& day);
 std::string pose_section(const nlohmann::json& result);
 std::string uncertainty_section(const nlohmann::json& result);
 std::string methods_section(const nlohmann::json& result);

@@ -13,6 +13,7 @@
 #include "pipeline/refusals.h"
 #include "report/evidence_json.h"
 #include "report/json_values.h"
+#include "report/stored_model.h"
 
 namespace lvcalib {
 namespace {
@@ -209,7 +210,7 @@ ordered_json to_json(const CalibrationResult& result) {
   j["T_camera_lidar"] = pose_json(x.camera_from_lidar.transform);
   j["covariance"] = rows_of(x.camera_from_lidar.covariance);
   j["covariance_total"] = rows_of(result.covariance_total);
-  j["applies_to"] = result.model.empty() ? "raw" : "corrected";
+  j["applies_to"] = pose_use(result).corrected ? "corrected" : "raw";
   if (result.forward) {
     j["dof"] = result.forward->dof;
     j["footprint"] = footprint_json(*result.forward);
@@ -359,6 +360,12 @@ std::string result_as_yaml(const CalibrationResult& result) {
       "total_sigma_rotation_mrad: " + yaml_list({1e3 * total(3), 1e3 * total(4), 1e3 * total(5)}) +
       "\n";
   out += "covariance_total:\n" + yaml_rows(result.covariance_total);
+  const PoseUse use = pose_use(result);
+  out += "# " + use.clouds.text() + "\n" + std::string("applies_to: ") +
+         (use.corrected ? "corrected" : "raw") + "\nmodel: " + yaml_quoted(use.model.text()) +
+         "\neffects:";
+  out += use.effects.empty() ? " []\n" : "\n";
+  for (const Message& effect : use.effects) out += "  - " + yaml_quoted(effect.text()) + "\n";
   out += std::string("verified: ") + (result.verified ? "true" : "false") + "\n";
   out += "quality: " + name_of(result.quality) + "\nwarnings:";
   out += result.warnings.empty() ? " []\n" : "\n";

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
+#include "base/text.h"
 #include "base/yaml_file.h"
+#include "model/correction.h"
 #include "model/user_effect.h"
 #include "report/evidence_json.h"
 #include "report/json_values.h"
@@ -179,19 +181,58 @@ Result<StoredModel> model_of(const CalibrationResult& result) {
   return Reader(model, "model").run();
 }
 
-Result<StoredModel> read_model(const std::filesystem::path& path) {
-  auto text = read_text_file(path, kMaxResultBytes);
-  if (!text) return text.error();
-  const auto j = parse_json(*text);
+Result<StoredModel> model_in(const std::string& result_json, const std::string& where) {
+  const auto j = parse_json(result_json);
   if (j.is_discarded() || !j.is_object())
-    return Error::input(Message("not a JSON object"), path.string(),
+    return Error::input(Message("not a JSON object"), where,
                         Message("give the result.json of a calibration"));
   const auto model = j.find("model");
   if (model == j.end() || !model->is_object()) {
-    return Error::input(Message("holds no model"), path.string(),
+    return Error::input(Message("holds no model"), where,
                         Message("give the result.json that lvcalib discover wrote"));
   }
-  return Reader(*model, path.string()).run();
+  return Reader(*model, where).run();
+}
+
+Result<StoredModel> read_model(const std::filesystem::path& path) {
+  auto text = read_text_file(path, kMaxResultBytes);
+  if (!text) return text.error();
+  return model_in(*text, path.string());
+}
+
+PoseUse pose_use(const StoredModel& model) {
+  PoseUse out;
+  out.model = Message("Base model");
+  std::optional<Message> taken_out;
+  const MeasurementTable table = empty_table(model.scales);
+  for (const EffectInUse& use : model.effects) {
+    const Message title = Message::listed(use.effect->info().title);
+    out.model = Message("%1 + %2", out.model, title);
+    std::string values;
+    const auto parameters = use.effect->parameters(table);
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const EffectParameter& p = parameters[k];
+      const double value = use.values(static_cast<Eigen::Index>(k)) / p.unit_in_si;
+      values += (k == 0 ? "" : ", ") + p.name + " = " + formatted("%.4g", value) +
+                (p.unit == "1" ? "" : " " + p.unit);
+    }
+    out.effects.push_back(Message("%1: %2", title, values));
+    if (!correction_reads(use, model.scales).moves_points) continue;
+    taken_out = taken_out ? Message("%1, %2", *taken_out, title) : title;
+  }
+  out.corrected = taken_out.has_value();
+  out.clouds = taken_out
+                   ? Message(
+                         "The pose is for clouds with this taken out: %1 (lvcalib correct). Clouds "
+                         "as the LiDAR gives them are still off by it.",
+                         *taken_out)
+                   : Message("The pose is for clouds as the LiDAR gives them.");
+  return out;
+}
+
+PoseUse pose_use(const CalibrationResult& result) {
+  const auto model = model_of(result);
+  return pose_use(model ? *model : StoredModel());
 }
 
 }  // namespace lvcalib

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/message.h"
 #include "model/linear_model.h"
 #include "model/model_scales.h"
 #include "pipeline/calibration.h"
@@ -24,5 +26,20 @@ Result<StoredModel> read_model(const std::filesystem::path& path);
 
 /// The same of a calibration that was not written.
 Result<StoredModel> model_of(const CalibrationResult& result);
+
+/// The same of a result.json's text; `where` names it in errors.
+Result<StoredModel> model_in(const std::string& result_json, const std::string& where);
+
+/// What a pose is for, in words. One wording for window, report, exports and command line.
+struct PoseUse {
+  Message model;                 ///< "Base model", "Base model + Range walk".
+  std::vector<Message> effects;  ///< "Range walk: a = 16.3 mm", one for each.
+  /// True for clouds with effects taken out; false for clouds as the LiDAR gives them, with a base
+  /// model or one whose effects are not in the points.
+  bool corrected = false;
+  Message clouds;  ///< The same as a sentence.
+};
+PoseUse pose_use(const StoredModel& model);
+PoseUse pose_use(const CalibrationResult& result);
 
 }  // namespace lvcalib

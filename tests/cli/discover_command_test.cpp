@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // discover on what it cannot work with: every case gets a verdict or a message in words.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -142,6 +143,45 @@ TEST_F(DiscoverCommand, GoesOnWithoutWhatTheDataCannotBear) {
   }
   EXPECT_EQ(result["model"]["effects"][1]["id"], "curve:range:azimuth");
   EXPECT_EQ(result["model"]["effects"][1]["spec"], curve["spec"]);
+}
+
+// What black print adds to its ranges leaves the nodes as it leaves the ranges, and every file says
+// which clouds the pose is for.
+TEST_F(DiscoverCommand, ResidualsAndWordsAreOfTheModelInForce) {
+  const fs::path walked = with_clouds([](Cloud& cloud) {
+    constexpr float kWhite = 125.0F;
+    constexpr float kBlack = 11.0F;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const float dark = std::log(kWhite / std::max(cloud.intensity[i], 1.0F));
+      const float share = std::clamp(dark / std::log(kWhite / kBlack), 0.0F, 1.1F);
+      cloud.points_m[i] += 0.02F * share * cloud.points_m[i].normalized();
+    }
+  });
+  const Outcome before = run_lvcalib({"calibrate", walked, "-o", out(), "--quiet"});
+  ASSERT_EQ(before.status, 0) << before.err;
+  const auto base = json("result.json");
+  EXPECT_EQ(base["applies_to"], "raw");
+  EXPECT_THAT(read_file(out() / "result.yaml"), HasSubstr("clouds as the LiDAR gives them.\n"));
+  const Outcome after = discover(walked, {"--with", "range_walk"});
+  ASSERT_EQ(after.status, 0) << after.err;
+  EXPECT_THAT(after.out, HasSubstr("corrected clouds"));
+  const auto mended = json("result.json");
+  EXPECT_EQ(mended["applies_to"], "corrected");
+  EXPECT_LT(mended["rms_mm"].get<double>(), 0.5 * base["rms_mm"].get<double>());
+  for (const auto& scene : mended["scenes"]) {
+    double height_mm = 0.0;
+    for (const auto& node : scene["nodes"]) height_mm += node["residual_mm"][2].get<double>();
+    EXPECT_LT(std::abs(height_mm / static_cast<double>(scene["nodes"].size())), 0.5);
+  }
+  EXPECT_THAT(read_file(out() / "result.yaml"), HasSubstr("model: \"Base model + Range walk\""));
+  const Outcome exported = run_lvcalib(
+      {"export", out() / "result.json", "--format", "urdf", "-o", folder_.path() / "rig.urdf"});
+  ASSERT_EQ(exported.status, 0) << exported.err;
+  EXPECT_THAT(read_file(folder_.path() / "rig.urdf"), HasSubstr("taken out: Range walk"));
+  const Outcome reported =
+      run_lvcalib({"report", out() / "result.json", "-o", folder_.path() / "report.html"});
+  ASSERT_EQ(reported.status, 0) << reported.err;
+  EXPECT_THAT(read_file(folder_.path() / "report.html"), HasSubstr("taken out: Range walk"));
 }
 
 TEST_F(DiscoverCommand, MissingFieldsAreNotTestable) {

@@ -20,6 +20,7 @@
 #include "dialogs/export_pane.h"
 #include "report/exports.h"
 #include "report/result_file.h"
+#include "report/stored_model.h"
 #include "style/texts.h"
 #include "style/theme.h"
 #include "words/core_text.h"
@@ -42,22 +43,30 @@ QStringList numbers(const Eigen::Ref<const Eigen::VectorXd>& values, int decimal
   return out;
 }
 
-QString pose_table(const UncertainRigid3& pose) {
+QString pose_table(const CalibrationResult& result) {
+  const UncertainRigid3& pose = result.extrinsic.camera_from_lidar;
+  const UncertainRigid3 total{pose.transform, result.covariance_total};
   const Vector6d sigma = pose.covariance.diagonal().cwiseSqrt();
+  const Vector6d sigma_total = total.covariance.diagonal().cwiseSqrt();
   const RollPitchYaw angles = roll_pitch_yaw(pose);
+  const QString in_total = ResultsDialog::tr("± in total");
   QString out = QStringLiteral("<table cellpadding='2'>");
   out += row(ResultsDialog::tr("Translation x y z"), numbers(1e3 * pose.transform.translation, 3),
              QStringLiteral("mm"));
   out += row(ResultsDialog::tr("± one standard deviation"), numbers(1e3 * sigma.head<3>(), 3),
              QStringLiteral("mm"));
+  out += row(in_total, numbers(1e3 * sigma_total.head<3>(), 3), QStringLiteral("mm"));
   out += row(ResultsDialog::tr("Quaternion x y z w"), numbers(pose.transform.rotation.coeffs(), 7),
              QString());
   out += row(ResultsDialog::tr("Roll, pitch, yaw"), numbers(kDegPerRad * angles.angles_rad, 4),
              QStringLiteral("°"));
   out += row(ResultsDialog::tr("± one standard deviation"),
              numbers(kDegPerRad * angles.sigmas_rad, 4), QStringLiteral("°"));
+  out +=
+      row(in_total, numbers(kDegPerRad * roll_pitch_yaw(total).sigmas_rad, 4), QStringLiteral("°"));
   out += row(ResultsDialog::tr("Rotation about camera x y z, ± σ"),
              numbers(1e3 * sigma.tail<3>(), 3), QStringLiteral("mrad"));
+  out += row(in_total, numbers(1e3 * sigma_total.tail<3>(), 3), QStringLiteral("mrad"));
   return out + QStringLiteral("</table>");
 }
 
@@ -112,7 +121,14 @@ QString results_html(const CalibrationResult& result) {
                       .arg(result.scenes.size())
                       .arg(x.rms_px, 0, 'f', 3)
                       .arg(x.rms_mm, 0, 'f', 3));
-  out += pose_table(x.camera_from_lidar);
+  const PoseUse use = pose_use(result);
+  out += QStringLiteral("<p><b>%1</b> %2<br>%3</p>")
+             .arg(ResultsDialog::tr("Model:").toHtmlEscaped(), core_text(use.model).toHtmlEscaped(),
+                  core_text(use.clouds).toHtmlEscaped());
+  out += pose_table(result);
+  out += QStringLiteral("<p>%1</p>")
+             .arg(ResultsDialog::tr(
+                 "In total: with what usual faults could still do that these scenes do not show."));
   if (!x.weak_directions.empty()) {
     out += QStringLiteral("<h3>%1</h3>").arg(ResultsDialog::tr("Weakly determined"));
     out += list(x.weak_directions);

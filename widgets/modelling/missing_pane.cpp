@@ -344,8 +344,9 @@ void MissingPane::describe() {
     // The values first: what follows may need to be scrolled to.
     QString html;
     if (!p->finding.parameters.empty()) {
-      html += QStringLiteral("<p><b>%1</b><br>%2</p>")
-                  .arg(values_text(p->finding.parameters, false).toHtmlEscaped(),
+      html += QStringLiteral("<p><b>%1</b>: %2<br>%3</p>")
+                  .arg(effect_title(p->finding.id).toHtmlEscaped(),
+                       values_text(p->finding.parameters, false).toHtmlEscaped(),
                        tr("Adding it moves the extrinsic by %1.")
                            .arg(move_text(p->gained_mm, p->gained_mrad)));
     }
@@ -384,14 +385,13 @@ void MissingPane::retranslate() {
   tabs_->setTabText(0, tr("Missing"));
   tabs_->setTabToolTip(0, tr("What is missing"));
   tabs_->setTabText(1, tr("Cannot be seen"));
-  tabs_->setTabToolTip(1, tr("What cannot be seen"));
   tabs_->setTabToolTip(1, tr("Effects that these scenes could not show, and by how much they would "
                              "spoil the extrinsic at the size that matters"));
   list_->setHeaderLabels({tr("Effect"), tr("Verdict"), tr("Error")});
   list_->setAccessibleName(tr("What is missing"));
   budget_->setHeaderLabels({tr("Effect"), tr("Could move by")});
   budget_->headerItem()->setToolTip(
-      2, tr("Upper 95 % limit of its largest parameter; beyond it these scenes would show it"));
+      0, tr("Upper 95 % limit of its largest parameter; beyond it these scenes would show it"));
   budget_->setAccessibleName(tr("What cannot be seen"));
   all_->setText(tr("&Find all"));
   all_->setToolTip(tr("Add what scenes held out speak for, one after the other"));

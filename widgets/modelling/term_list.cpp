@@ -10,6 +10,7 @@
 #include <QSignalBlocker>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "modelling/model_text.h"
@@ -109,6 +110,10 @@ void TermList::fill() {
   }
   if (before >= 0 && before + 1 < tree_->topLevelItemCount())
     tree_->setCurrentItem(tree_->topLevelItem(before + 1));
+  // Wide enough for all three columns, as far as the figures beside can spare it.
+  constexpr int kWidest = 300;
+  tree_->setMinimumWidth(
+      std::min(kWidest, tree_->header()->length() + 2 * tree_->frameWidth() + 2));
   updateButtons();
   pose_->clear();
   if (!step_ || !base_) return;

@@ -6,6 +6,7 @@
 #include "base/roll_pitch_yaw.h"
 #include "base/units.h"
 #include "pages/page_tr.h"
+#include "report/stored_model.h"
 #include "style/theme.h"
 #include "words/core_text.h"
 
@@ -53,36 +54,47 @@ QString quality_line(const CalibrationResult& result, const QPalette& palette) {
   return line + "</p>";
 }
 
-QString translation_table(const UncertainRigid3& pose) {
-  QString out = "<table>";
+// Above every two columns of standard deviations.
+QString statistical_and_total() {
+  return row({"", "", tr("by chance"), tr("in total")});
+}
+
+QString translation_table(const UncertainRigid3& pose, const UncertainRigid3& total) {
+  QString out = "<table>" + statistical_and_total();
   const char* axes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) {
     out += row({axes[k], number(kMmPerM * pose.transform.translation(k), 2) + " mm",
-                "± " + number(kMmPerM * std::sqrt(pose.covariance(k, k)), 2)});
+                "± " + number(kMmPerM * std::sqrt(pose.covariance(k, k)), 2),
+                "± " + number(kMmPerM * std::sqrt(total.covariance(k, k)), 2)});
   }
   return out + "</table>";
 }
 
-QString rotation_table(const UncertainRigid3& pose) {
+QString rotation_table(const UncertainRigid3& pose, const UncertainRigid3& total) {
   const RollPitchYaw turn = roll_pitch_yaw(pose);
+  const RollPitchYaw in_total = roll_pitch_yaw(total);
   const QString names[] = {tr("roll"), tr("pitch"), tr("yaw")};
-  QString out = "<table>";
+  const auto sigma = [](double sigma_rad) {
+    return "± " + (std::isfinite(sigma_rad) ? number(kDegPerRad * sigma_rad, 4) : tr("unbounded"));
+  };
+  QString out = "<table>" + statistical_and_total();
   for (int k = 0; k < 3; ++k) {
-    const QString sigma = std::isfinite(turn.sigmas_rad(k))
-                              ? number(kDegPerRad * turn.sigmas_rad(k), 4)
-                              : tr("unbounded");
-    out += row({names[k], number(kDegPerRad * turn.angles_rad(k), 4) + "°", "± " + sigma});
+    out += row({names[k], number(kDegPerRad * turn.angles_rad(k), 4) + "°",
+                sigma(turn.sigmas_rad(k)), sigma(in_total.sigmas_rad(k))});
   }
   return out + "</table>";
 }
 
-// Of the perturbation in the camera frame: what the covariance of the result file says.
-QString camera_sigma_table(const UncertainRigid3& pose) {
-  QString out = "<table>";
+// Of the perturbation in the camera frame: what the covariances of the result file say.
+QString camera_sigma_table(const UncertainRigid3& pose, const UncertainRigid3& total) {
+  QString out = "<table>" + row({"", tr("by chance"), "", tr("in total"), ""});
   const char* axes[] = {"x", "y", "z"};
+  const auto sigma = [](const UncertainRigid3& of, int k) {
+    return number(1e3 * std::sqrt(of.covariance(k, k)), 3);
+  };
   for (int k = 0; k < 3; ++k) {
-    out += row({axes[k], number(kMmPerM * std::sqrt(pose.covariance(k, k)), 3) + " mm",
-                number(1e3 * std::sqrt(pose.covariance(k + 3, k + 3)), 3) + " mrad"});
+    out += row({axes[k], sigma(pose, k) + " mm", sigma(pose, k + 3) + " mrad",
+                sigma(total, k) + " mm", sigma(total, k + 3) + " mrad"});
   }
   return out + "</table>";
 }
@@ -116,12 +128,24 @@ QString list(const std::vector<Message>& lines) {
 
 QString pose_html(const CalibrationResult& result, const QPalette& palette) {
   const UncertainRigid3& pose = result.extrinsic.camera_from_lidar;
+  const UncertainRigid3 total{pose.transform, result.covariance_total};
+  const PoseUse use = pose_use(result);
   QString html = quality_line(result, palette);
-  html += heading(tr("Translation (LiDAR origin in the camera frame)")) + translation_table(pose);
-  html += heading(tr("Roll, pitch, yaw (R = Rz·Ry·Rx)")) + rotation_table(pose);
+  html += QStringLiteral("<p><b>%1</b> %2<br>%3</p>")
+              .arg(tr("Model:").toHtmlEscaped(), core_text(use.model).toHtmlEscaped(),
+                   core_text(use.clouds).toHtmlEscaped());
+  html += heading(tr("Translation (LiDAR origin in the camera frame)")) +
+          translation_table(pose, total);
+  html += heading(tr("Roll, pitch, yaw (R = Rz·Ry·Rx)")) + rotation_table(pose, total);
+  html += "<p>" +
+          tr("By chance: what the noise of these scenes leaves open. In total: with what usual "
+             "faults could still do that these scenes do not show.")
+              .toHtmlEscaped() +
+          "</p>";
   html += heading(tr("T_camera_lidar")) + matrix_table(pose.transform);
   html += heading(tr("Quaternion x y z w")) + quaternion_line(pose.transform);
-  html += heading(tr("Standard deviations along the camera's axes")) + camera_sigma_table(pose);
+  html +=
+      heading(tr("Standard deviations along the camera's axes")) + camera_sigma_table(pose, total);
   html += heading(tr("Weak directions"));
   html += result.extrinsic.weak_directions.empty()
               ? "<p>" + tr("None: the scenes determine all six.") + "</p>"

@@ -75,6 +75,7 @@ QWidget* ResponsePage::createTables() {
   scenes_->setObjectName("response-scenes");
   classes_ = new_response_table(tabs_);
   classes_->setObjectName("response-classes");
+  hide_transition(*classes_);
   classes_->setSelectionMode(QAbstractItemView::NoSelection);
   reasons_ = new QTextBrowser(tabs_);
   reasons_->setObjectName("response-reasons");

@@ -66,6 +66,11 @@ QTableWidget* new_response_table(QWidget* parent) {
   return table;
 }
 
+void hide_transition(QTableWidget& table) {
+  for (int column = kFirstNumber + kNumbers; column < kResponseColumns; ++column)
+    table.setColumnHidden(column, true);
+}
+
 void title_response_table(QTableWidget& table, const QString& name_title) {
   const QStringList titles = {name_title,
                               tr("N"),

@@ -18,6 +18,9 @@ QTableWidget* new_response_table(QWidget* parent);
 /// Its headings and tool tips in the present language.
 void title_response_table(QTableWidget& table, const QString& name_title);
 
+/// Leaves out the transition's columns, for a table whose rows have none.
+void hide_transition(QTableWidget& table);
+
 /// Adds a row; without statistics it says the reason instead of numbers.
 void add_response_row(QTableWidget& table, const QString& name,
                       const std::optional<ResponseStatistics>& statistics,

@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <fstream>
+#include <regex>
 #include <stack>
 
 #include <gmock/gmock.h>
@@ -142,6 +143,34 @@ TEST_F(HtmlReportTest, HoldsEverySectionAndLoadsNothing) {
   for (const InputFile& file : result_->inputs) EXPECT_THAT(html, HasSubstr(file.sha256));
   for (const char* no_number : {">nan", "\"nan", ",nan", " nan", "-nan"})
     EXPECT_THAT(html, Not(HasSubstr(no_number)));
+}
+
+// Who reads no further than the first page knows what it is, how good, and what to do.
+TEST_F(HtmlReportTest, TheFirstPageConcludesAndSaysNothingTwice) {
+  CalibrationResult result = *result_;
+  result.quality = Quality::kDoubtful;
+  result.quality_reasons = {Message("the board is bowed")};
+  result.warnings = {Message("result: the board is bowed"), Message("result: it was dark")};
+  result.covariance_total = result.extrinsic.camera_from_lidar.covariance;
+  result.covariance_total(0, 0) = 0.0345 * 0.0345;
+  const auto doubtful = html_report(result, nullptr, {});
+  ASSERT_TRUE(doubtful.ok());
+  const std::string first = doubtful->html.substr(0, doubtful->html.find("<h2>"));
+  for (const char* part : {"What was calibrated:", "3 of 3 scenes", "± 3", "Not before",
+                           "clouds as the LiDAR gives them", "it was dark", "What to do next:"})
+    EXPECT_THAT(first, HasSubstr(part));
+  EXPECT_EQ(first.find("bowed"), first.rfind("bowed")) << "said twice";
+  EXPECT_TRUE(std::regex_search(first, std::regex("20[0-9]{2}-[0-9]{2}-[0-9]{2}")));
+  result.quality = Quality::kGood;
+  result.quality_reasons.clear();
+  result.verified = true;
+  const auto good = html_report(result, nullptr, {});
+  ASSERT_TRUE(good.ok());
+  EXPECT_THAT(good->html, HasSubstr("Can it be used?</b> Yes."));
+  result.verified = false;
+  const auto unverified = html_report(result, nullptr, {});
+  ASSERT_TRUE(unverified.ok());
+  EXPECT_THAT(unverified->html, HasSubstr("larger of the two errors"));
 }
 
 TEST_F(HtmlReportTest, IsTheSameOfAStoredAndOfAFreshResult) {
