@@ -1998,10 +1998,6 @@ were saved. Take them up again?</source>
         <translation>图像静止，但点云在变化</translation>
     </message>
     <message>
-        <source>the same pose as from %1 s to %2 s, which is longer</source>
-        <translation>与 %1 s 到 %2 s 的位姿相同，而后者更长</translation>
-    </message>
-    <message>
         <source>stands still, but was left out by its time</source>
         <translation>静止，但未按时间选用</translation>
     </message>
@@ -4653,6 +4649,10 @@ were saved. Take them up again?</source>
         <source>The pose is for clouds with this taken out: %1 (lvcalib correct). Clouds as the LiDAR gives them are still off by it.</source>
         <translation>该位姿适用于已去除以下效应的点云：%1（lvcalib correct）。激光雷达直接给出的点云仍带有该误差。</translation>
     </message>
+    <message>
+        <source>the same pose as from %1 s to %2 s, which is kept</source>
+        <translation>与 %1 s 至 %2 s 的位姿相同，保留后者</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -4741,14 +4741,6 @@ were saved. Take them up again?</source>
         </translation>
     </message>
     <message>
-        <source>tags %1</source>
-        <translation>标签（编号 %1）</translation>
-    </message>
-    <message>
-        <source>circles %1</source>
-        <translation>圆（编号 %1）</translation>
-    </message>
-    <message>
         <source>Left out by hand: %1.</source>
         <translation>手动排除：%1。</translation>
     </message>
@@ -4759,6 +4751,14 @@ were saved. Take them up again?</source>
     <message>
         <source>Left out by the program: %1.</source>
         <translation>程序未采用：%1。</translation>
+    </message>
+    <message>
+        <source>tag no. %1</source>
+        <translation>标签（编号 %1）</translation>
+    </message>
+    <message>
+        <source>circle no. %1</source>
+        <translation>圆（编号 %1）</translation>
     </message>
 </context>
 <context>
@@ -7844,10 +7844,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>或：%1</translation>
     </message>
     <message>
-        <source>Predicted fall of the squared error in scenes held out</source>
-        <translation>留出场景中平方误差的预计降幅</translation>
-    </message>
-    <message>
         <source>%1 against %2</source>
         <translation>%1 对 %2</translation>
     </message>
@@ -7966,6 +7962,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>if %1</source>
         <translation>若 %1</translation>
+    </message>
+    <message>
+        <source>Predicted fall of the squared error in scenes held out, where it helps most</source>
+        <translation>在其作用最大的通道中，留出场景平方误差的预计降幅</translation>
     </message>
 </context>
 <context>
@@ -9106,16 +9106,16 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>，仍然采用</translation>
     </message>
     <message>
-        <source>tags %1</source>
+        <source>Drawn in red. A click on one says why, and offers to use it all the same where that is possible.</source>
+        <translation>以红色绘出。点击其中之一可查看原因，并在可能时仍然采用。</translation>
+    </message>
+    <message>
+        <source>tag no. %1</source>
         <translation>标签（编号 %1）</translation>
     </message>
     <message>
-        <source>circles %1</source>
+        <source>circle no. %1</source>
         <translation>圆（编号 %1）</translation>
-    </message>
-    <message>
-        <source>Drawn in red. A click on one says why, and offers to use it all the same where that is possible.</source>
-        <translation>以红色绘出。点击其中之一可查看原因，并在可能时仍然采用。</translation>
     </message>
 </context>
 <context>
@@ -9962,10 +9962,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>尚无结果</translation>
     </message>
     <message>
-        <source>σ %1 of %2 mm, %3 of %4 mrad</source>
-        <translation>σ %1 / %2 mm，%3 / %4 mrad</translation>
-    </message>
-    <message>
         <source>%1 is being solved …</source>
         <translation>%1 求解中 …</translation>
     </message>
@@ -10056,6 +10052,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>One standard deviation of the extrinsic&apos;s position and rotation in total, and the tolerance of each (Parameters)</source>
         <translation>外参位置与旋转的总标准差（一个 σ），以及各自的容差（参数）</translation>
+    </message>
+    <message>
+        <source>σ in total %1 mm (wanted: %2), %3 mrad (wanted: %4)</source>
+        <translation>总 σ %1 mm（目标 %2），%3 mrad（目标 %4）</translation>
     </message>
 </context>
 <context>

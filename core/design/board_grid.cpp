@@ -22,8 +22,20 @@ std::vector<Eigen::Vector2d> pattern_corners(const Target& target) {
   return out;
 }
 
+// The whole board and its whole print, with room for a board that is held by hand.
 bool is_seen(const Target& target, const Camera& camera, const Rigid3& camera_from_board,
              double min_tag_px) {
+  constexpr double kRoom = 0.03;  // Of the image's shorter side.
+  const double room_px = kRoom * std::min(camera.width_px, camera.height_px);
+  const BoardOutline outline = target.outline();
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d at =
+        outline.lower_left_m + Eigen::Vector2d(k % 2, k / 2).cwiseProduct(outline.size_m());
+    const auto pixel = camera.project(camera_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0));
+    if (!pixel || !camera.in_image(*pixel + Eigen::Vector2d::Constant(room_px)) ||
+        !camera.in_image(*pixel - Eigen::Vector2d::Constant(room_px)))
+      return false;
+  }
   const auto corners = pattern_corners(target);
   const std::size_t group = target.has_tags() ? 4 : 2;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();

@@ -232,7 +232,7 @@ ImportedStretch describe_stretch(const Recording& recording, const RecordingSurv
       break;
     case StretchVerdict::kRepeat: {
       const StillStretch& other = stretches[stretch.repeat_of];
-      out.reason = Message("the same pose as from %1 s to %2 s, which is longer",
+      out.reason = Message("the same pose as from %1 s to %2 s, which is kept",
                            formatted("%.1f", seconds(other.first_ns)),
                            formatted("%.1f", seconds(other.last_ns)));
       break;

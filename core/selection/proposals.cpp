@@ -48,6 +48,7 @@ class Proposer {
   void judge(std::size_t k, EffectProposal& proposal) const {
     const Candidate& c = search_.candidates()[k];
     proposal.heldout_fall = c.heldout_gain;
+    proposal.channel = c.main_channel();
     const Vector6d move = c.fit.solution.head<6>() - search_.reference().fit.solution.head<6>();
     proposal.gained_mm = 1e3 * move.head<3>().norm();
     proposal.gained_mrad = 1e3 * move.tail<3>().norm();

@@ -16,8 +16,9 @@ struct EffectProposal {
   std::string alias_of;    ///< Suggested effect that it cannot be told from; empty: none.
   /// Relative fall of each channel's held-out squares; negative if they grow.
   std::array<double, kChannels> heldout_fall{};
-  double gained_mm = 0.0;    ///< By how much the extrinsic moves when it is added, …
-  double gained_mrad = 0.0;  ///< … and turns.
+  Channel channel = Channel::kRange;  ///< Where it helps most.
+  double gained_mm = 0.0;             ///< By how much the extrinsic moves when it is added, …
+  double gained_mrad = 0.0;           ///< … and turns.
 };
 
 /// What is in a model, and what is missing.

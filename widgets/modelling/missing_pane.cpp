@@ -64,8 +64,9 @@ class FallDelegate : public QStyledItemDelegate {
   }
 };
 
+// Of the channel that its explanation names.
 double best_fall(const EffectProposal& p) {
-  return *std::max_element(p.heldout_fall.begin(), p.heldout_fall.end());
+  return p.heldout_fall[static_cast<std::size_t>(p.channel)];
 }
 
 QColor verdict_color(const EffectProposal& p, const QPalette& palette) {
@@ -275,7 +276,8 @@ void MissingPane::addProposal(const EffectProposal& p, int index) {
   if (p.finding.parameters.empty() || !(fall > 0.0005)) return;
   item->setData(kFall, kShare, fall);
   item->setText(kFall, QStringLiteral("−%1 %").arg(100.0 * fall, 0, 'f', fall < 0.1 ? 1 : 0));
-  item->setToolTip(kFall, tr("Predicted fall of the squared error in scenes held out"));
+  item->setToolTip(
+      kFall, tr("Predicted fall of the squared error in scenes held out, where it helps most"));
 }
 
 void MissingPane::addUnknown(int index) {
@@ -293,6 +295,10 @@ void MissingPane::fillBudget() {
   budget_->clear();
   if (!ranking_) return;
   for (const BudgetItem& limit : ranking_->budget) {
+    const auto p = std::find_if(ranking_->proposals.begin(), ranking_->proposals.end(),
+                                [&](const EffectProposal& q) { return q.finding.id == limit.id; });
+    // What is seen is said to be missing, not to be out of sight.
+    if (p != ranking_->proposals.end() && p->suggested) continue;
     const QString size = QStringLiteral("%1 = %2 %3")
                              .arg(QString::fromStdString(limit.parameter))
                              .arg(limit.size, 0, 'g', 2)
@@ -300,8 +306,6 @@ void MissingPane::fillBudget() {
     auto* item = new QTreeWidgetItem(
         budget_, {effect_title(limit.id) + QLatin1Char('\n') + tr("if %1").arg(size),
                   move_text(limit.translation_mm, limit.rotation_mrad)});
-    const auto p = std::find_if(ranking_->proposals.begin(), ranking_->proposals.end(),
-                                [&](const EffectProposal& q) { return q.finding.id == limit.id; });
     if (p == ranking_->proposals.end()) continue;
     for (int column = 0; column < 2; ++column)
       item->setToolTip(column, core_text(p->finding.explanation));

@@ -166,12 +166,14 @@ QString criteria_html(const EffectProposal& proposal) {
   for (const Criterion& c : f.criteria) {
     const char* name = criterion_name(c.name);
     const QString title = name != nullptr ? translated(name) : QString::fromStdString(c.name);
+    // As the numbers are, not as they would have to be.
+    const char16_t relation = c.at_most ? (c.holds() ? u'≤' : u'>') : (c.holds() ? u'≥' : u'<');
     rows +=
         QStringLiteral(
             "<tr><td>%1&nbsp;</td><td>%2&nbsp;</td><td align=right>%3&nbsp;%4&nbsp;%5</td></tr>")
             .arg(c.holds() ? QChar(0x2713) : QChar(0x2717))
-            .arg(title.toHtmlEscaped(), number(c.value),
-                 QString(QChar(c.at_most ? 0x2264 : 0x2265)), number(c.threshold));
+            .arg(title.toHtmlEscaped(), number(c.value), QString(QChar(relation)).toHtmlEscaped(),
+                 number(c.threshold));
   }
   const QString head = proposal.suggested
                            ? plain(QT_TRANSLATE_NOOP("ModelText", "Why it is suggested"))

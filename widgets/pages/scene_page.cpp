@@ -485,8 +485,8 @@ void ScenePage::select(SceneSelection selection, bool add) {
   QStringList parts;
   if (!selection.points_m.empty())
     parts << tr("%n points about the board", nullptr, static_cast<int>(selection.points_m.size()));
-  if (!selection.tags.empty()) parts << tr("tags %1").arg(ids_text(selection.tags));
-  if (!selection.circles.empty()) parts << tr("circles %1").arg(ids_text(selection.circles));
+  if (!selection.tags.empty()) parts << tr("tag no. %1").arg(ids_text(selection.tags));
+  if (!selection.circles.empty()) parts << tr("circle no. %1").arg(ids_text(selection.circles));
   selection_->setText(parts.isEmpty() ? tr("Nothing is selected.")
                                       : tr("Selected: %1").arg(parts.join(QStringLiteral(", "))));
   selection_->setSelection(std::move(selection), result_.get(), current());

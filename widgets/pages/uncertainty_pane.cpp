@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pages/uncertainty_pane.h"
 
+#include <QGuiApplication>
 #include <QSplitter>
 #include <QTextBrowser>
 #include <QVBoxLayout>
@@ -31,7 +32,8 @@ UncertaintyPane::UncertaintyPane(QWidget* parent) : QWidget(parent) {
 }
 
 void UncertaintyPane::setText(const CalibrationResult* result) {
-  text_->setHtml(result != nullptr ? uncertainty_html(*result, palette()) : QString());
+  text_->setHtml(result != nullptr ? uncertainty_html(*result, QGuiApplication::palette())
+                                   : QString());
 }
 
 void UncertaintyPane::setResult(const CalibrationResult* result) {

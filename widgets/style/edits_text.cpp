@@ -28,15 +28,15 @@ QString edits_text(const SceneResult& scene) {
   if (scene.left_out_points.size() > 0) {
     out << EditsText::tr("%n points", nullptr, static_cast<int>(scene.left_out_points.size()));
   }
-  if (!edits.tags.empty()) out << EditsText::tr("tags %1").arg(ids_text(edits.tags));
-  if (!edits.circles.empty()) out << EditsText::tr("circles %1").arg(ids_text(edits.circles));
+  if (!edits.tags.empty()) out << EditsText::tr("tag no. %1").arg(ids_text(edits.tags));
+  if (!edits.circles.empty()) out << EditsText::tr("circle no. %1").arg(ids_text(edits.circles));
   QStringList all;
   if (!out.isEmpty())
     all << EditsText::tr("Left out by hand: %1.").arg(out.join(QStringLiteral(", ")));
   QStringList kept;
-  if (!edits.kept_tags.empty()) kept << EditsText::tr("tags %1").arg(ids_text(edits.kept_tags));
+  if (!edits.kept_tags.empty()) kept << EditsText::tr("tag no. %1").arg(ids_text(edits.kept_tags));
   if (!edits.kept_circles.empty())
-    kept << EditsText::tr("circles %1").arg(ids_text(edits.kept_circles));
+    kept << EditsText::tr("circle no. %1").arg(ids_text(edits.kept_circles));
   if (!kept.isEmpty())
     all << EditsText::tr("Used all the same: %1.").arg(kept.join(QStringLiteral(", ")));
   return all.join(QLatin1Char(' '));
@@ -55,8 +55,8 @@ QString refusals_text(const CalibrationResult& result, const std::string& scene)
   }
   QStringList out;
   if (points > 0) out << EditsText::tr("%n points", nullptr, static_cast<int>(points));
-  if (!tags.empty()) out << EditsText::tr("tags %1").arg(ids_text(tags));
-  if (!circles.empty()) out << EditsText::tr("circles %1").arg(ids_text(circles));
+  if (!tags.empty()) out << EditsText::tr("tag no. %1").arg(ids_text(tags));
+  if (!circles.empty()) out << EditsText::tr("circle no. %1").arg(ids_text(circles));
   if (out.isEmpty()) return {};
   return EditsText::tr("Left out by the program: %1.").arg(out.join(QStringLiteral(", ")));
 }

@@ -26,7 +26,7 @@ ImportedStretch stretch(double first_s, double last_s, bool taken, bool usable,
 std::vector<ImportedStretch> examples() {
   return {
       stretch(0, 2, true, true, Message("rig and board stand still for 2.0 s")),
-      stretch(3, 4, false, true, Message("the same pose as from 0.0 s to 2.0 s, which is longer")),
+      stretch(3, 4, false, true, Message("the same pose as from 0.0 s to 2.0 s, which is kept")),
       stretch(5, 5.5, false, false, Message("stands still for 0.5 s only; 0.8 s are needed")),
       stretch(6, 8, true, true, Message("rig and board stand still for 2.0 s"))};
 }

@@ -103,7 +103,8 @@ TEST_F(SceneModelTest, WhatTheProgramRefusedOfASceneIsSaid) {
   model_.set_result(changed);
   for (const int column : {SceneModel::kState, SceneModel::kTags, SceneModel::kPoints}) {
     const QString tip = model_.index(0, column).data(Qt::ToolTipRole).toString();
-    EXPECT_TRUE(tip.contains("Left out by the program: tags 7, circles 4.")) << tip.toStdString();
+    EXPECT_TRUE(tip.contains("Left out by the program: tag no. 7, circle no. 4."))
+        << tip.toStdString();
   }
   EXPECT_FALSE(
       model_.index(1, SceneModel::kState).data(Qt::ToolTipRole).toString().contains("program"));
