@@ -10054,8 +10054,8 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>外参位置与旋转的总标准差（一个 σ），以及各自的容差（参数）</translation>
     </message>
     <message>
-        <source>σ in total %1 mm (wanted: %2), %3 mrad (wanted: %4)</source>
-        <translation>总 σ %1 mm（目标 %2），%3 mrad（目标 %4）</translation>
+        <source>σ %1 of %2 mm, %3 of %4 mrad</source>
+        <translation>σ %1 / %2 mm，%3 / %4 mrad</translation>
     </message>
 </context>
 <context>

@@ -188,7 +188,7 @@ QString WatchWindow::sigmaText() const {
   if (!result) return tr("No result yet");
   const QualityOptions& q = result->options.quality;
   const Matrix6d& covariance = result->covariance_total;
-  return tr("σ in total %1 mm (wanted: %2), %3 mrad (wanted: %4)")
+  return tr("σ %1 of %2 mm, %3 of %4 mrad")
       .arg(sigma_text(sigma_mm(covariance)), QString::number(1e3 * q.tolerance_m, 'g', 3),
            sigma_text(sigma_mrad(covariance)), QString::number(1e3 * q.tolerance_rad, 'g', 3));
 }

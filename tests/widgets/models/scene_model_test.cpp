@@ -86,7 +86,7 @@ TEST_F(SceneModelTest, ARefusedSceneKeepsItsFigures) {
   EXPECT_TRUE(model_.index(1, SceneModel::kState)
                   .data(Qt::ToolTipRole)
                   .toString()
-                  .contains("Left out by hand: tags 3."));
+                  .contains("Left out by hand: tag no. 3."));
 }
 
 TEST_F(SceneModelTest, WhatTheProgramRefusedOfASceneIsSaid) {

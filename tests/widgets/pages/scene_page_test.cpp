@@ -197,7 +197,7 @@ TEST_F(ScenePageTest, TagsAreBrushedInTheImageAndLeftOut) {
   for (const QPointF& p : {box.topRight(), box.bottomRight(), box.bottomLeft()})
     QTest::mouseMove(lasso, at(p));
   QTest::mouseRelease(lasso, Qt::LeftButton, {}, at(box.topLeft()));
-  EXPECT_TRUE(selection().contains(QString("Selected: tags %1").arg(tag.id)))
+  EXPECT_TRUE(selection().contains(QString("Selected: tag no. %1").arg(tag.id)))
       << selection().toStdString();
   ASSERT_TRUE(exclude->isVisible());
   QSignalSpy edits(&page_, &ScenePage::editsChanged);
@@ -223,7 +223,7 @@ TEST_F(ScenePageTest, WhatIsLeftOutIsShownAndTakenBack) {
   ASSERT_TRUE(settle());
   auto* label = page_.findChild<QLabel*>("scene-edits");
   EXPECT_TRUE(label->isVisible());
-  EXPECT_TRUE(label->text().contains(QString("2 points, tags %1").arg(tag)))
+  EXPECT_TRUE(label->text().contains(QString("2 points, tag no. %1").arg(tag)))
       << label->text().toStdString();
   const auto& overlay = image().overlay().overlay();
   EXPECT_EQ(overlay.left_out_points.size(), 2U);
