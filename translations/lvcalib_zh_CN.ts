@@ -9326,6 +9326,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>Drawing</source>
         <translation>绘制</translation>
     </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::StretchList</name>

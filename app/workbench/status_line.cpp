@@ -3,7 +3,9 @@
 
 #include <QLabel>
 #include <QProgressBar>
+#include <QStringList>
 
+#include "report/stored_model.h"
 #include "style/marks.h"
 #include "words/core_text.h"
 
@@ -93,8 +95,17 @@ void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& re
   const QString word = result->quality == Quality::kGood       ? tr("good")
                        : result->quality == Quality::kDoubtful ? tr("doubtful")
                                                                : tr("failed");
-  quality_->setText(up_to_date ? word : tr("%1 (out of date)").arg(word));
-  quality_->setToolTip(core_text(result->quality_reason));
+  QString text = up_to_date ? word : tr("%1 (out of date)").arg(word);
+  QStringList more;
+  if (!result->quality_reason.empty()) more << core_text(result->quality_reason);
+  // Whose verdict it is, once that is another model's than the calibration's own.
+  if (!result->model.empty()) {
+    const PoseUse use = pose_use(*result);
+    text = tr("%1: %2").arg(core_text(use.model), text);
+    more << core_text(use.clouds);
+  }
+  quality_->setText(text);
+  quality_->setToolTip(more.join(QLatin1Char('\n')));
 }
 
 QString StatusLine::text() const {

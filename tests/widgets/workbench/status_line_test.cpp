@@ -34,6 +34,12 @@ TEST(StatusLine, SaysWhenTheQualityIsOfOlderDecisions) {
   result->quality = Quality::kGood;
   line.show_quality(result, true);
   EXPECT_EQ(quality->text(), "good");
+  auto modelled = std::make_shared<CalibrationResult>(*result);
+  modelled->model = {{"range_walk", {{"a", "mm", 1e-3, 0.01, 0.001}}}};
+  modelled->model_scales.darkness_high = 1.0;
+  line.show_quality(modelled, true);
+  EXPECT_EQ(quality->text(), "Base model + Range walk: good");
+  EXPECT_TRUE(quality->toolTip().contains("taken out: Range walk"));
   line.show_quality(result, false);
   EXPECT_TRUE(quality->text().contains("out of date"));
 }
