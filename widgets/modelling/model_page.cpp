@@ -43,7 +43,7 @@ ModelPage::~ModelPage() = default;
 
 void ModelPage::createLayout() {
   auto* left = new QWidget(this);
-  left->setMinimumWidth(215);  // Room for names and values.
+  what_if_->setMinimumWidth(215);  // The list above asks for what its names and values need.
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(terms_, 1);

@@ -110,10 +110,8 @@ void TermList::fill() {
   }
   if (before >= 0 && before + 1 < tree_->topLevelItemCount())
     tree_->setCurrentItem(tree_->topLevelItem(before + 1));
-  // Wide enough for all three columns, as far as the figures beside can spare it.
-  constexpr int kWidest = 300;
-  tree_->setMinimumWidth(
-      std::min(kWidest, tree_->header()->length() + 2 * tree_->frameWidth() + 2));
+  // Columns get their widths once the rows are laid out.
+  QMetaObject::invokeMethod(this, &TermList::fitWidth, Qt::QueuedConnection);
   updateButtons();
   pose_->clear();
   if (!step_ || !base_) return;
@@ -125,6 +123,15 @@ void TermList::fill() {
   pose_->setText(tr("Extrinsic moved by %1; it is known to %2.")
                      .arg(move_text(mm, mrad),
                           move_text(1e3 * sigma.head<3>().norm(), 1e3 * sigma.tail<3>().norm())));
+}
+
+// Wide enough for all columns, as far as the figures beside can spare it.
+void TermList::fitWidth() {
+  constexpr int kWidest = 320;
+  tree_->doItemsLayout();
+  tree_->header()->resizeSections(QHeaderView::ResizeToContents);
+  tree_->setMinimumWidth(
+      std::min(kWidest, tree_->header()->length() + 2 * tree_->frameWidth() + 2));
 }
 
 void TermList::addTerm(int k) {

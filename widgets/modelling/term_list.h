@@ -40,6 +40,7 @@ class TermList : public QWidget {
  private:
   void retranslate();
   void fill();
+  void fitWidth();
   void addTerm(int k);
   void take(QTreeWidgetItem* item, int column);
   void updateButtons();

@@ -43,6 +43,8 @@ void WherePane::createBar() {
   channel_label_ = new QLabel(this);
   channels_ = new QComboBox(this);
   channels_->setObjectName(QStringLiteral("channel"));
+  channels_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  channels_->setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Fixed);
   covariate_label_ = new QLabel(this);
   covariates_ = new QComboBox(this);
   covariates_->setObjectName(QStringLiteral("covariate"));

@@ -9,7 +9,7 @@ namespace lvcalib::widgets {
 
 simulation::SimulationOptions demo_options() {
   simulation::SimulationOptions options;
-  options.seed = 2;
+  options.seed = 6;
   options.scenes = 4;
   options.effects["range_walk"] = 10.0;  // mm
   return options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modelling/term_list.h"
 
+#include <QHeaderView>
 #include <QPushButton>
 #include <QTreeWidget>
 
@@ -34,6 +35,14 @@ TEST_F(Terms, ListsEffectsWithValuesAndDeviations) {
   EXPECT_TRUE(walk()->text(1).contains(QString::fromUtf8("±")));
   EXPECT_TRUE(walk()->text(1).endsWith("mm"));
   EXPECT_EQ(walk()->checkState(0), Qt::Checked);
+}
+
+TEST_F(Terms, AllColumnsAreSeenHoweverNarrowItsPlaceIs) {
+  list_.resize(120, 300);
+  list_.show();
+  QTest::qWait(20);
+  EXPECT_GE(tree_->viewport()->width(), tree_->header()->length());
+  EXPECT_LE(list_.width(), 330);
 }
 
 TEST_F(Terms, CheckBoxesAskForOnAndHeld) {
