@@ -341,8 +341,13 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   const ModelledMovements movements(discovery);
   result.budget = discovery.budget;
   result.covariance_with_budget = discovery.covariance_with_budget;
-  // What an effect of the model explains is no longer left out.
-  if (changed) result.covariance_total = discovery.covariance_with_budget;
+  // What an effect of the model explains is no longer left out. Before the budget is known, what
+  // was left out of the base model stands for it.
+  if (changed && discovery.budget.empty()) {
+    result.covariance_total += discovery.covariance - result.extrinsic.camera_from_lidar.covariance;
+  } else if (changed) {
+    result.covariance_total = discovery.covariance_with_budget;
+  }
   result.model_scales = discovery.scales;
   result.model.clear();
   for (const EffectFinding& f : discovery.effects) {

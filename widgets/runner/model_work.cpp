@@ -125,12 +125,14 @@ void ModelWork::keep(const std::vector<ModelDecision>& decisions, const ModelSte
 void ModelWork::keep_ranking(const Key& key, ModelRanking ranking) {
   rankings_[key] = std::make_shared<const ModelRanking>(std::move(ranking));
   Q_EMIT ranking_changed();
-  // "good" does not stand beside "something is missing".
+  // "good" does not stand beside "something is missing", and the total uncertainty of a model with
+  // effects is that with its budget.
   const auto shown = result_ ? result_ : source_;
   const auto missing = this->ranking();
-  if (missing && !missing->nothing_missing() &&
-      (results_.running() || (shown && shown->quality == Quality::kGood)))
-    build_result();
+  if (!missing) return;
+  const bool judged = shown && !missing->nothing_missing() && shown->quality == Quality::kGood;
+  const bool budgeted = shown && !shown->model.empty() && shown->budget.empty();
+  if (results_.running() || judged || budgeted) build_result();
 }
 
 void ModelWork::update_steps() {

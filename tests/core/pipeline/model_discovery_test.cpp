@@ -104,5 +104,22 @@ TEST(WithModel, PutsPoseBoardsEffectsAndScalesIntoTheResult) {
   }
 }
 
+// Between a step and its ranking nothing may look surer than it is.
+TEST(WithModel, TotalUncertaintyHoldsWhatIsLeftOutBeforeAndAfterTheBudgetIsKnown) {
+  CalibrationResult before = four_scenes();
+  const Matrix6d left_out = 4e-6 * Matrix6d::Identity();
+  before.covariance_total = before.extrinsic.camera_from_lidar.covariance + left_out;
+  Discovery discovery;
+  discovery.state.camera_from_lidar = test::test_extrinsic();
+  discovery.covariance = 1e-6 * Matrix6d::Identity();
+  discovery.model.push_back({find_effect("range_near"), 1.2, Eigen::VectorXd::Constant(1, 0.02)});
+  const CalibrationResult at_once = with_model(before, discovery);
+  EXPECT_NEAR((at_once.covariance_total - discovery.covariance - left_out).norm(), 0.0, 1e-12);
+  discovery.budget.push_back({});
+  discovery.covariance_with_budget = 2e-6 * Matrix6d::Identity();
+  const CalibrationResult later = with_model(before, discovery);
+  EXPECT_EQ(later.covariance_total, discovery.covariance_with_budget);
+}
+
 }  // namespace
 }  // namespace lvcalib
