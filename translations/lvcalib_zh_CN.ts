@@ -4653,6 +4653,14 @@ were saved. Take them up again?</source>
         <source>the same pose as from %1 s to %2 s, which is kept</source>
         <translation>与 %1 s 至 %2 s 的位姿相同，保留后者</translation>
     </message>
+    <message>
+        <source>In total: with what usual faults could still do that these scenes do not show.</source>
+        <translation>总计：再加上这些场景看不出的常见误差可能造成的影响。</translation>
+    </message>
+    <message>
+        <source>It cannot be told which clouds the pose is for: its model is not whole.</source>
+        <translation>无法判断该位姿适用于哪种点云：其模型不完整。</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -5400,10 +5408,6 @@ were saved. Take them up again?</source>
         <translation>相机视野中的一倍标准差</translation>
     </message>
     <message>
-        <source>by chance</source>
-        <translation>随机</translation>
-    </message>
-    <message>
         <source>in total</source>
         <translation>总计</translation>
     </message>
@@ -5412,8 +5416,12 @@ were saved. Take them up again?</source>
         <translation>模型：</translation>
     </message>
     <message>
-        <source>By chance: what the noise of these scenes leaves open. In total: with what usual faults could still do that these scenes do not show.</source>
-        <translation>随机：这些场景的噪声所留下的不确定。总计：再加上这些场景看不出的常见误差可能造成的影响。</translation>
+        <source>statistical</source>
+        <translation>统计</translation>
+    </message>
+    <message>
+        <source>Statistical: what the noise of these scenes leaves open.</source>
+        <translation>统计：这些场景的噪声所留下的不确定。</translation>
     </message>
 </context>
 <context>
@@ -8839,10 +8847,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Model:</source>
         <translation>模型：</translation>
-    </message>
-    <message>
-        <source>In total: with what usual faults could still do that these scenes do not show.</source>
-        <translation>总计：再加上这些场景看不出的常见误差可能造成的影响。</translation>
     </message>
 </context>
 <context>

@@ -183,7 +183,9 @@ std::string heat_color(double share) {
 }
 
 std::string heat_bar(double low, double high, const std::string& unit) {
-  constexpr int kSteps = 40;
+  constexpr int kSteps = 40;  // Finer steps of this scale cannot be told apart.
+  // In units of the picture, which is as wide as a plot (420); the rest is room for the end
+  // numbers.
   constexpr double kLeftEnd = 20.0;
   constexpr double kWidth = 380.0;
   std::string out =

@@ -175,7 +175,7 @@ std::string verdict_section(const json& result, const std::optional<PoseUse>& us
            shown(1e3 * std::sqrt(squares[1]), 2) + " mrad";
   };
   out += paragraph("How well:", how_well("covariance") +
-                                    " by chance (one standard deviation of place and turn); " +
+                                    " statistically (one standard deviation of place and turn); " +
                                     how_well("covariance_total") +
                                     " with what usual faults could still do that these scenes do "
                                     "not show.");
@@ -235,10 +235,8 @@ std::string pose_section(const json& result) {
          "the camera frame, from the noise estimated: corners " +
          shown(result.at("sigma_px").get<double>(), 3) + " px, LiDAR nodes widened " +
          shown(result.at("node_noise_scale").get<double>(), 3) + " times, planes " +
-         shown(result.at("plane_noise_scale").get<double>(), 3) +
-         " times. In total: with what usual faults could still do that these scenes do not "
-         "show.</p>\n" +
-         html_table(sigma) + "<p>Residuals: corners " +
+         shown(result.at("plane_noise_scale").get<double>(), 3) + " times. " +
+         total_uncertainty_note().text() + "</p>\n" + html_table(sigma) + "<p>Residuals: corners " +
          shown(result.at("rms_px").get<double>(), 4) + " px, nodes " +
          shown(result.at("rms_mm").get<double>(), 4) + " mm (RMS).</p>\n";
 }

@@ -213,8 +213,8 @@ PoseUse pose_use(const StoredModel& model) {
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const EffectParameter& p = parameters[k];
       const double value = use.values(static_cast<Eigen::Index>(k)) / p.unit_in_si;
-      values += (k == 0 ? "" : ", ") + p.name + " = " + formatted("%.4g", value) +
-                (p.unit == "1" ? "" : " " + p.unit);
+      values +=
+          (k == 0 ? "" : ", ") + p.name + " = " + formatted("%.4g", value) + behind_number(p.unit);
     }
     out.effects.push_back(Message("%1: %2", title, values));
     if (!correction_reads(use, model.scales).moves_points) continue;
@@ -231,8 +231,18 @@ PoseUse pose_use(const StoredModel& model) {
 }
 
 PoseUse pose_use(const CalibrationResult& result) {
-  const auto model = model_of(result);
-  return pose_use(model ? *model : StoredModel());
+  if (const auto model = model_of(result)) return pose_use(*model);
+  // A model that no file could hold: named as far as it can be, and nothing promised of raw clouds.
+  PoseUse out = pose_use(StoredModel());
+  for (const ModelEffect& effect : result.model)
+    out.model = Message("%1 + %2", out.model, effect.id);
+  out.corrected = true;
+  out.clouds = Message("It cannot be told which clouds the pose is for: its model is not whole.");
+  return out;
+}
+
+Message total_uncertainty_note() {
+  return Message("In total: with what usual faults could still do that these scenes do not show.");
 }
 
 }  // namespace lvcalib

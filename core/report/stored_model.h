@@ -42,4 +42,7 @@ struct PoseUse {
 PoseUse pose_use(const StoredModel& model);
 PoseUse pose_use(const CalibrationResult& result);
 
+/// What a total standard deviation holds beside the statistical one, as a sentence.
+Message total_uncertainty_note();
+
 }  // namespace lvcalib

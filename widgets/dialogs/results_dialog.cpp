@@ -126,9 +126,7 @@ QString results_html(const CalibrationResult& result) {
              .arg(ResultsDialog::tr("Model:").toHtmlEscaped(), core_text(use.model).toHtmlEscaped(),
                   core_text(use.clouds).toHtmlEscaped());
   out += pose_table(result);
-  out += QStringLiteral("<p>%1</p>")
-             .arg(ResultsDialog::tr(
-                 "In total: with what usual faults could still do that these scenes do not show."));
+  out += QStringLiteral("<p>%1</p>").arg(core_text(total_uncertainty_note()).toHtmlEscaped());
   if (!x.weak_directions.empty()) {
     out += QStringLiteral("<h3>%1</h3>").arg(ResultsDialog::tr("Weakly determined"));
     out += list(x.weak_directions);

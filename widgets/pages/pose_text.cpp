@@ -56,7 +56,7 @@ QString quality_line(const CalibrationResult& result, const QPalette& palette) {
 
 // Above every two columns of standard deviations.
 QString statistical_and_total() {
-  return row({"", "", tr("by chance"), tr("in total")});
+  return row({"", "", tr("statistical"), tr("in total")});
 }
 
 QString translation_table(const UncertainRigid3& pose, const UncertainRigid3& total) {
@@ -87,7 +87,7 @@ QString rotation_table(const UncertainRigid3& pose, const UncertainRigid3& total
 
 // Of the perturbation in the camera frame: what the covariances of the result file say.
 QString camera_sigma_table(const UncertainRigid3& pose, const UncertainRigid3& total) {
-  QString out = "<table>" + row({"", tr("by chance"), "", tr("in total"), ""});
+  QString out = "<table>" + row({"", tr("statistical"), "", tr("in total"), ""});
   const char* axes[] = {"x", "y", "z"};
   const auto sigma = [](const UncertainRigid3& of, int k) {
     return number(1e3 * std::sqrt(of.covariance(k, k)), 3);
@@ -138,8 +138,8 @@ QString pose_html(const CalibrationResult& result, const QPalette& palette) {
           translation_table(pose, total);
   html += heading(tr("Roll, pitch, yaw (R = Rz·Ry·Rx)")) + rotation_table(pose, total);
   html += "<p>" +
-          tr("By chance: what the noise of these scenes leaves open. In total: with what usual "
-             "faults could still do that these scenes do not show.")
+          (tr("Statistical: what the noise of these scenes leaves open.") + QLatin1Char(' ') +
+           core_text(total_uncertainty_note()))
               .toHtmlEscaped() +
           "</p>";
   html += heading(tr("T_camera_lidar")) + matrix_table(pose.transform);

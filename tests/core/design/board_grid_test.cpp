@@ -74,6 +74,25 @@ TEST(BoardGrid, KeepsToWhatTheCameraSees) {
   EXPECT_TRUE(board_grid(target, camera, sharp).empty());
 }
 
+TEST(BoardGrid, TheWholeBoardIsInTheImageWithRoomForAHand) {
+  const Target target;
+  const Camera camera = test::test_camera();
+  const BoardOutline outline = target.outline();
+  const double room_px = 0.029 * std::min(camera.width_px, camera.height_px);
+  for (const GridPose& pose : board_grid(target, camera, {})) {
+    for (const double x : {outline.lower_left_m.x(), outline.upper_right_m.x()}) {
+      for (const double y : {outline.lower_left_m.y(), outline.upper_right_m.y()}) {
+        const auto pixel = camera.project(pose.camera_from_board * Eigen::Vector3d(x, y, 0.0));
+        ASSERT_TRUE(pixel);
+        EXPECT_GT(pixel->x(), room_px);
+        EXPECT_GT(pixel->y(), room_px);
+        EXPECT_LT(pixel->x(), camera.width_px - room_px);
+        EXPECT_LT(pixel->y(), camera.height_px - room_px);
+      }
+    }
+  }
+}
+
 TEST(BoardGrid, SaysWhereTheBoardGoes) {
   GridPose pose;
   pose.distance_m = 2.0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/stored_model.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -122,6 +124,20 @@ TEST(StoredModel, FilesThatAreNoResultsAreNamed) {
     EXPECT_THAT(model.error().text(), HasSubstr("result.json: "));
   }
   EXPECT_THAT(read_model(folder.path() / "no.json").error().text(), HasSubstr("not found"));
+}
+
+TEST(PoseUse, AModelThatIsNotWholePromisesNothingOfRawClouds) {
+  CalibrationResult result;
+  EXPECT_FALSE(pose_use(result).corrected);
+  result.model = {{"range_walk", {{"a", "mm", 1e-3, 0.01, 0.001}}}};
+  EXPECT_TRUE(pose_use(result).corrected);
+  EXPECT_EQ(pose_use(result).model.text(), "Base model + Range walk");
+  EXPECT_EQ(pose_use(result).effects.front().text(), "Range walk: a = 10 mm");
+  result.model = {{"corner_bias", {{"b", "px", 1.0, 0.1, 0.01}}}};
+  EXPECT_FALSE(pose_use(result).corrected) << "the points stay where they are";
+  result.model_scales.log_contrast = std::nan("");
+  EXPECT_TRUE(pose_use(result).corrected);
+  EXPECT_EQ(pose_use(result).model.text(), "Base model + corner_bias");
 }
 
 }  // namespace

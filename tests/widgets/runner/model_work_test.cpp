@@ -75,6 +75,8 @@ TEST_F(Work, FindsAddsAndTakesBackWhatIsHidden) {
   ASSERT_EQ(workspace_->model().size(), 1U);
   ASSERT_TRUE(QTest::qWaitFor([&] { return work_->result() != nullptr; }, 30'000));
   EXPECT_EQ(work_->result()->model.size(), 1U);
+  // Once the rest of the catalogue was asked, the result holds the budget.
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !work_->result()->budget.empty(); }, 60'000));
   const auto discovery = work_->discovery();
   ASSERT_NE(discovery, nullptr);
   EXPECT_THAT(discovery->selected, ElementsAre("range_walk"));
