@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -20,13 +21,21 @@ struct DiscoverArguments {
   std::vector<std::string> with;
 };
 
-std::string summary_of(const Discovery& discovery, const PoseUse& use, const std::string& output) {
+// What the verdict was before the effects and is with them: "; doubtful -> good".
+std::string verdicts_of(Quality before, Quality after) {
+  return "; " + (before == after ? "" : name_of(before) + " -> ") + name_of(after);
+}
+
+std::string summary_of(const Discovery& discovery, Quality before, const CalibrationResult& final,
+                       const std::string& output) {
+  const PoseUse use = pose_use(final);
   std::string effects;
   for (const std::string& id : discovery.selected) effects += (effects.empty() ? "" : ", ") + id;
   std::string text = !effects.empty() ? "missing: " + effects
                      : discovery.unknown.empty()
                          ? "nothing is missing in the model"
                          : "missing: something that no known effect explains";
+  text += verdicts_of(before, final.quality);
   for (const ChannelSummary& before : discovery.channels) {
     for (const ChannelSummary& after : discovery.history.back().channels) {
       if (before.channel != after.channel) continue;
@@ -67,11 +76,17 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
     return error;
   }
   for (const Message& warning : discovery->warnings) session.warn(warning);
+  const Quality before = result->quality;
+  const std::vector<Message> said = result->warnings;
   const CalibrationResult final = with_model(std::move(*result), *discovery);
+  // What the model in force is warned of, beyond what the base model was.
+  for (const Message& warning : final.warnings) {
+    if (std::find(said.begin(), said.end(), warning) == said.end()) session.warn(warning);
+  }
   if (session.context.stopped()) return Error::cancelled();
   if (Status s = write_discovery(*discovery, final, output); !s) return s.error();
   if (final.quality == Quality::kFailed) return untrusted_result(final, options.calibration);
-  return summary_of(*discovery, pose_use(final), output);
+  return summary_of(*discovery, before, final, output);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "pipeline/ablation.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
+#include "pipeline/refusals.h"
 #include "pipeline/verdict.h"
 
 namespace lvcalib {
@@ -235,6 +236,43 @@ void put_poses(const Discovery& discovery, CalibrationResult& result) {
   }
 }
 
+// Scenes that contradict the base model may agree once the effect that it lacks is taken out of
+// their observations. They are no reason to doubt then, though the model was fitted without them;
+// and what the user insisted on is not objected to any more. To agree, the solve that refuses bad
+// scenes must keep a scene and fit the others as well as without it.
+void ask_scenes_again(std::vector<SceneObservations> observations,
+                      const std::vector<std::size_t>& index, const Target& target,
+                      const ExtrinsicSolution& without, CalibrationResult& result) {
+  const auto refused = [](const SceneResult& scene) {
+    return scene.contradicts && can_be_insisted_on(scene);
+  };
+  const auto insisted = [&](const SceneResult& scene) {
+    return scene.used && !scene.objection.empty() &&
+           !(target.has_circles() && scene.refinement->nodes.empty());
+  };
+  bool any = false;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const SceneResult& scene = result.scenes[index[k]];
+    observations[k].use = observations[k].use || refused(scene);
+    any = any || refused(scene) || insisted(scene);
+  }
+  if (!any) return;
+  const auto with = solve_extrinsic(observations, result.camera, target, result.options.extrinsic);
+  if (!with || with->node_scale > std::max(1.0, without.node_scale) ||
+      with->plane_scale > std::max(1.0, without.plane_scale))
+    return;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    SceneResult& scene = result.scenes[index[k]];
+    if (!with->scenes[k].used) continue;
+    if (insisted(scene)) scene.objection = {};
+    if (!refused(scene)) continue;
+    scene.contradicts = false;
+    scene.reason = Message(
+        "it contradicts the others only without the effects of this model: use it all the same "
+        "(--insist) and search again");
+  }
+}
+
 // Everything that is told of the scenes, under the model's effects: residuals, methods, what single
 // scenes and halves would give. Where the classical solve does not bear the corrected observations
 // the base's stands, with the model's pose.
@@ -244,15 +282,6 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   for (const SceneResult& scene : result.scenes) use.push_back(scene.used);
   std::vector<std::size_t> index;
   auto observations = observations_of(result, use, index);
-  const auto& solved = result.extrinsic.scenes;
-  const auto boards = static_cast<std::size_t>(
-      std::count_if(solved.begin(), solved.end(), [](const SceneSolution& s) { return s.used; }));
-  if (!discovery.fit || solved.size() != observations.size() ||
-      boards != discovery.state.camera_from_board.size()) {
-    // Not made by one solve: what it says of its measurements stays.
-    put_poses(discovery, result);
-    return;
-  }
   const Target target = target_in_use(result, observations);
   auto paper = with_paper_nodes(observations, result, index);
   std::vector<std::optional<FittedPlane>> planes;
@@ -262,15 +291,24 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   take_out(discovery, movements, result.camera, target, planes, paper);
   take_out(discovery, movements, result.camera, target, planes, observations);
   const ExtrinsicOptions& how = result.options.extrinsic;
+  const auto again = solve_extrinsic(observations, result.camera, target, how);
+  if (again) ask_scenes_again(observations, index, target, *again, result);
+  const auto& solved = result.extrinsic.scenes;
+  const auto boards = static_cast<std::size_t>(
+      std::count_if(solved.begin(), solved.end(), [](const SceneSolution& s) { return s.used; }));
+  if (!discovery.fit || solved.size() != observations.size() ||
+      boards != discovery.state.camera_from_board.size()) {
+    // Not made by one solve: what it says of its measurements stays.
+    put_poses(discovery, result);
+    return;
+  }
   ExtrinsicSolution nodes = result.extrinsic;
   const auto same_scenes = [&](const ExtrinsicSolution& other) {
     return std::equal(
         other.scenes.begin(), other.scenes.end(), nodes.scenes.begin(), nodes.scenes.end(),
         [](const SceneSolution& a, const SceneSolution& b) { return a.used == b.used; });
   };
-  if (auto again = solve_extrinsic(observations, result.camera, target, how);
-      again && same_scenes(*again))
-    nodes = std::move(*again);
+  if (again && same_scenes(*again)) nodes = *again;
   ReportedPose pose{{discovery.state.camera_from_lidar, discovery.covariance},
                     discovery.state.camera_from_board};
   if (result.forward) {

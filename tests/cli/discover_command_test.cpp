@@ -120,6 +120,25 @@ TEST_F(DiscoverCommand, TheUsersToleranceDecidesWhatMatters) {
   EXPECT_LT(narrow.first, wide.first);
 }
 
+// Dark print reads 10 mm too far, and one scene contradicts the others for it.
+TEST_F(DiscoverCommand, AScenesContradictionGoesWithTheMissingEffect) {
+  const fs::path dataset = folder_.path() / "walk";
+  ASSERT_EQ(run_lvcalib({"simulate", "-o", dataset, "--quiet", "--seed", "2", "--scenes", "4",
+                         "--effect", "range_walk=10"})
+                .status,
+            0);
+  const auto scene = [&] { return json("result.json")["scenes"][0]; };
+  const Outcome without = discover(dataset);
+  EXPECT_THAT(without.err, HasSubstr("scene A is not used: contradicts the other scenes"));
+  EXPECT_THAT(without.err, HasSubstr("only without the effects of this model"));
+  EXPECT_THAT(without.out, HasSubstr("doubtful -> good"));
+  EXPECT_FALSE(scene()["used"].get<bool>());
+  const Outcome with = discover(dataset, {"--insist", "A"});
+  EXPECT_THAT(with.err, HasSubstr("scene A is used all the same"));
+  EXPECT_THAT(with.out, HasSubstr("doubtful -> good"));
+  EXPECT_TRUE(scene()["used"].get<bool>());
+}
+
 TEST_F(DiscoverCommand, GoesOnWithoutWhatTheDataCannotBear) {
   const Outcome outcome = discover(
       good_dataset(), {"--with", "formula:range:a/(board_x-board_x)", "--with", "range_walk",

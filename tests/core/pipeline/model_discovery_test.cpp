@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/model_discovery.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/pose_matchers.h"
@@ -29,7 +30,9 @@ CalibrationResult four_scenes() {
     scene.used = s != 2;
     scene.view.emplace();
     scene.view->corners = observations[s].corners;
+    scene.view->camera_from_board.transform = observations[s].camera_from_board;
     scene.refinement.emplace();
+    scene.refinement->nodes = observations[s].nodes;
     scene.refinement->plane = observations[s].plane;
     scene.refinement->lidar_from_board = observations[s].lidar_from_board;
     scene.board_points.points_m.push_back({1.0F, 0.0F, 0.0F});
@@ -119,6 +122,51 @@ TEST(WithModel, TotalUncertaintyHoldsWhatIsLeftOutBeforeAndAfterTheBudgetIsKnown
   discovery.covariance_with_budget = 2e-6 * Matrix6d::Identity();
   const CalibrationResult later = with_model(before, discovery);
   EXPECT_EQ(later.covariance_total, discovery.covariance_with_budget);
+}
+
+// A model whose effect moves nothing: what is told of the scenes stays what it is.
+Discovery model_that_moves_nothing() {
+  Discovery discovery;
+  discovery.state.camera_from_lidar = test::test_extrinsic();
+  discovery.covariance = 1e-6 * Matrix6d::Identity();
+  discovery.model.push_back({find_effect("range_near"), 1.2, Eigen::VectorXd::Constant(1, 1e-9)});
+  return discovery;
+}
+
+constexpr char kContradicts[] = "contradicts the other scenes";
+
+TEST(WithModel, ASceneThatAgreesUnderTheModelIsNoReasonToDoubt) {
+  CalibrationResult before = four_scenes();
+  before.scenes[2].contradicts = true;
+  before.scenes[2].reason = Message(kContradicts);
+  const CalibrationResult after = with_model(before, model_that_moves_nothing());
+  EXPECT_FALSE(after.scenes[2].contradicts);
+  EXPECT_FALSE(after.scenes[2].used);  // The model was fitted without it.
+  EXPECT_THAT(after.scenes[2].reason.text(), testing::HasSubstr("only without the effects"));
+}
+
+TEST(WithModel, ASceneThatStillContradictsStaysRefused) {
+  CalibrationResult before = four_scenes();
+  before.scenes[2].contradicts = true;
+  before.scenes[2].reason = Message(kContradicts);
+  for (CornerObservation& corner : before.scenes[2].view->corners) corner.pixel.x() += 20.0;
+  const CalibrationResult after = with_model(before, model_that_moves_nothing());
+  EXPECT_TRUE(after.scenes[2].contradicts);
+  EXPECT_EQ(after.scenes[2].reason.text(), kContradicts);
+}
+
+TEST(WithModel, NothingIsObjectedToAnInsistedSceneThatAgreesUnderTheModel) {
+  CalibrationResult before = four_scenes();
+  for (const bool agrees : {true, false}) {
+    before.scenes[3].insisted = true;
+    before.scenes[3].objection = Message(kContradicts);
+    if (!agrees) {
+      before.scenes[2].used = true;  // Three others, so that one of four can be told to be bad.
+      for (CornerObservation& corner : before.scenes[3].view->corners) corner.pixel.x() += 20.0;
+    }
+    const CalibrationResult after = with_model(before, model_that_moves_nothing());
+    EXPECT_EQ(after.scenes[3].objection.empty(), agrees);
+  }
 }
 
 }  // namespace
