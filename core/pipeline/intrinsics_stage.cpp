@@ -10,6 +10,7 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "detection/board_pose.h"
 #include "detection/board_view.h"
 #include "pipeline/calibration.h"
 #include "pipeline/forward_stage.h"
@@ -33,29 +34,43 @@ std::vector<CornerView> extra_views(const IntrinsicsReport& report) {
   return views;
 }
 
-void append_views(std::vector<CornerView>& views, const std::vector<CornerView>& more) {
-  views.insert(views.end(), more.begin(), more.end());
+// Whether a scene's image counts for the camera.
+bool image_counts(const SceneResult& scene) {
+  return scene.view && !scene.rejected;
 }
 
-// The scenes' images first, then those of intrinsics/.
+// The scenes' images first, then those of intrinsics/. Scenes that the solve refused count: what
+// their clouds say is another matter, and wrong intrinsics may be why they were refused.
 std::vector<CornerView> views_of(const CalibrationResult& result) {
   std::vector<CornerView> views;
   for (const SceneResult& scene : result.scenes) {
-    if (scene.view && !scene.rejected)
+    if (image_counts(scene))
       views.push_back({&scene.view->corners, scene.view->camera_from_board.transform});
   }
-  append_views(views, extra_views(result.intrinsics));
+  const std::vector<CornerView> extra = extra_views(result.intrinsics);
+  views.insert(views.end(), extra.begin(), extra.end());
   return views;
 }
 
-std::vector<CornerView> views_of(const std::vector<SceneObservations>& observations,
-                                 const IntrinsicsReport& report) {
-  std::vector<CornerView> views;
-  for (const SceneObservations& o : observations) {
-    if (o.use) views.push_back({&o.corners, o.camera_from_board});
+// The camera that fits all corners, wherever they can tell. Lenses have their principal point near
+// the image's middle: where camera.yaml says otherwise, far from there, a fit that starts at it may
+// end in focal lengths and distortions that stand for the shift, so one starts in the middle, too.
+std::optional<IntrinsicsFit> fit_freely(const std::vector<CornerView>& views, const Camera& given) {
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
+  auto fit = fit_intrinsics(views, given, wide);
+  Camera middle = given;
+  middle.cx = 0.5 * given.width_px;
+  middle.cy = 0.5 * given.height_px;
+  if (std::abs(given.cx - middle.cx) <= wide(2) && std::abs(given.cy - middle.cy) <= wide(3))
+    return fit;
+  std::vector<CornerView> seen = views;
+  for (CornerView& view : seen) {
+    // Under the given camera the boards are seen elsewhere and tilted otherwise.
+    if (const auto pose = estimate_board_pose(*view.corners, middle, DetectionOptions()))
+      view.camera_from_board = pose->camera_from_board.transform;
   }
-  append_views(views, extra_views(report));
-  return views;
+  auto other = fit_intrinsics(seen, middle, wide);
+  return other && (!fit || other->sigma_px < fit->sigma_px) ? other : fit;
 }
 
 // Leaves out images of intrinsics/ that are of something else; one of them would spoil the camera
@@ -143,14 +158,24 @@ std::optional<Freed> solve_freed(const CalibrationResult& result,
   std::vector<SceneObservations> freed = observations;
   ExtrinsicSolution start = nodes;
   if (corners != nullptr) {
+    // Images that no scene in use has count for the camera. What they say holds near where it was
+    // linearized.
+    std::vector<CornerView> extra;
     std::size_t next = 0;
-    for (SceneObservations& o : freed) {
-      if (o.use) o.camera_from_board = corners->camera_from_board[next++];
+    for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+      const SceneResult& scene = result.scenes[s];
+      if (!image_counts(scene)) continue;
+      const Rigid3& pose = corners->camera_from_board[next++];
+      const auto at = std::find(index.begin(), index.end(), s);
+      if (at != index.end() && observations[static_cast<std::size_t>(at - index.begin())].use) {
+        freed[static_cast<std::size_t>(at - index.begin())].camera_from_board = pose;
+      } else {
+        extra.push_back({&scene.view->corners, pose});
+      }
     }
+    for (const CornerView& view : extra_views(result.intrinsics))
+      extra.push_back({view.corners, corners->camera_from_board[next++]});
     options.first_camera = corners->camera;
-    // What the extra images say holds near where it was linearized.
-    std::vector<CornerView> extra = extra_views(result.intrinsics);
-    for (CornerView& view : extra) view.camera_from_board = corners->camera_from_board[next++];
     options.intrinsics_evidence = intrinsics_evidence(extra, corners->camera, corners->sigma_px);
     auto solved = solve_extrinsic(freed, corners->camera, result.target, result.options.extrinsic);
     if (solved) start = std::move(*solved);
@@ -286,7 +311,7 @@ Message contradicted_by_corners(const CalibrationResult& result) {
   const std::vector<CornerView> views = views_of(result);
   const Camera& given = result.intrinsics.given;
   const IntrinsicsVector wide = wide_intrinsics_sigma(given);
-  const auto fit = fit_intrinsics(views, given, wide);
+  const auto fit = fit_freely(views, given);
   if (!fit) return {};
   const IntrinsicsContrast contrast =
       contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance, wide,
@@ -301,8 +326,7 @@ Message better_spacing(const std::vector<CornerView>& views, const Target& targe
   if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
       target.tag_count() < 2)
     return {};
-  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
-  const auto as_given = fit_intrinsics(views, given, wide);
+  const auto as_given = fit_freely(views, given);
   if (!as_given || !(as_given->replicate_px > 0.0) ||
       as_given->sigma_px < kNotNoise * as_given->replicate_px)
     return {};
@@ -321,7 +345,7 @@ Message better_spacing(const std::vector<CornerView>& views, const Target& targe
       }
       view.corners = &corners.back();
     }
-    const auto fit = fit_intrinsics(moved, given, wide);
+    const auto fit = fit_freely(moved, given);
     return fit ? fit->sigma_px : std::numeric_limits<double>::infinity();
   };
   // Golden section; one minimum, as the misfit grows with the distance from the true spacing.
@@ -395,7 +419,7 @@ Status check_intrinsics(CalibrationResult& result,
                         const RunContext& context) {
   IntrinsicsReport& report = result.intrinsics;
   report.contradiction.reset();
-  const std::vector<CornerView> views = views_of(observations, report);
+  const std::vector<CornerView> views = views_of(result);
   // Corners that lie otherwise on the board say nothing about the camera.
   report.spacing = better_spacing(views, result.target, report.given);
   if (!report.spacing.empty()) return Done{};
@@ -406,7 +430,7 @@ Status check_intrinsics(CalibrationResult& result,
   const Camera& given = report.given;
   const double alarm = result.options.intrinsics.false_alarm;
   const IntrinsicsVector wide = wide_intrinsics_sigma(given);
-  const auto corners = fit_intrinsics(views, given, wide);
+  const auto corners = fit_freely(views, given);
   IntrinsicsContrast of_corners;
   if (corners) {
     report.replicate_px = corners->replicate_px;

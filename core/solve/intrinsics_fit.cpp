@@ -462,11 +462,20 @@ Message describe(const IntrinsicsContrast& contrast, const Camera& given,
                                 : Message("the focal length is %1 ± %2 % too short", size, sigma));
         break;
       }
-      case IntrinsicsPart::kPrincipalPoint:
-        words.push_back(Message("the principal point is off by %1 px across and %2 px down",
-                                formatted("%.1f", -contrast.difference(2)),
-                                formatted("%.1f", -contrast.difference(3))));
+      case IntrinsicsPart::kPrincipalPoint: {
+        const double cx = given.cx + contrast.difference(2);
+        const double cy = given.cy + contrast.difference(3);
+        const Message off = Message("the principal point is off by %1 px across and %2 px down",
+                                    formatted("%.1f", -contrast.difference(2)),
+                                    formatted("%.1f", -contrast.difference(3)));
+        // Lenses are off the middle by some per cent of the image.
+        const double usual_px = 0.02 * given.width_px;
+        const bool exchanged = std::abs(cx - given.cy) < usual_px &&
+                               std::abs(cy - given.cx) < usual_px &&
+                               std::abs(given.cx - given.cy) > 2.0 * usual_px;
+        words.push_back(exchanged ? Message("%1, as if cx and cy were exchanged", off) : off);
         break;
+      }
       case IntrinsicsPart::kDistortion: {
         Camera other = given;
         other.distortion += contrast.difference.tail<8>();

@@ -53,8 +53,9 @@ int run_kinds(const std::vector<std::string>& starts) {
 
 TEST(Corruption, OfTheIntrinsicsIsNeverGood) {
   EXPECT_GE(run_kinds({"clean", "focal -1 %", "focal +5 %", "focal -20 %", "only fx +2 %",
-                       "principal point +10", "principal point +0 +20"}),
-            7);
+                       "principal point +10", "principal point +0 +20",
+                       "principal point in the image's corner", "cx and cy exchanged"}),
+            9);
 }
 
 TEST(Corruption, OfTheCloudsIsNeverGood) {
