@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+
+#include <Eigen/Geometry>
 
 #include "base/random.h"
 #include "support/corruption_tools.h"
@@ -824,6 +827,18 @@ void add_covers(Kinds& all) {
 
 // --- Planted by the simulator ------------------------------------------------------------------
 
+// A steadily turning scanner whose encoder is late by the same time throughout gives clouds of a
+// frame that is turned about its axis. The truth for those clouds is the pose of that frame.
+void turn_frame_by_lag(CorruptedRig& c) {
+  if (c.rig.options.lidar.kind != simulation::LidarKind::kSpinning) return;
+  constexpr double kTurnsPerSecond = 10.0;
+  const double angle_rad =
+      2.0 * std::numbers::pi * kTurnsPerSecond * 1e-6 * c.rig.options.effects.at("encoder_lag");
+  const Rigid3 turned{Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ())),
+                      Eigen::Vector3d::Zero()};
+  c.truth = *c.truth * turned;
+}
+
 void add_planted(Kinds& all) {
   const std::vector<std::pair<const char*, std::vector<double>>> effects{
       {"scan_motion", {5, 20, 100}},
@@ -869,6 +884,7 @@ void add_planted(Kinds& all) {
       Corruption planted{named("%s=%g", id, value)};
       planted.family = Family::kPlanted;
       planted.effects = {{id, value}};
+      if (std::string(id) == "encoder_lag") planted.apply = turn_frame_by_lag;
       all.push_back(std::move(planted));
     }
   }
