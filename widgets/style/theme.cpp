@@ -50,13 +50,19 @@ QColor mixed(const QColor& a, const QColor& b, double share) {
 }
 
 // Fusion edges check boxes with a darkened window colour, which is faint on a light ground and
-// vanishes on a dark one.
+// vanishes on a dark one; a button that is down it only darkens a little, which cannot be told from
+// one that is up on a dark ground.
 class ThemeStyle : public QProxyStyle {
  public:
   ThemeStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
 
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override {
+    const bool button = element == PE_PanelButtonTool || element == PE_PanelButtonCommand;
+    if (button && option->state.testFlag(State_On)) {
+      drawChecked(*option, *painter);
+      return;
+    }
     QProxyStyle::drawPrimitive(element, option, painter, widget);
     const bool box = element == PE_IndicatorCheckBox || element == PE_IndicatorItemViewItemCheck;
     if (!box && element != PE_IndicatorRadioButton) return;
@@ -72,6 +78,20 @@ class ThemeStyle : public QProxyStyle {
       painter->drawEllipse(edge);
     }
     painter->restore();
+  }
+
+ private:
+  // In the colour of what is chosen, so far as the words on it stay readable.
+  static void drawChecked(const QStyleOption& option, QPainter& painter) {
+    const QPalette& colors = option.palette;
+    const QColor accent = colors.color(QPalette::Highlight);
+    const bool pressed = option.state.testFlag(State_Sunken);
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(is_dark(colors) ? accent.lighter(135) : accent, 2.0));
+    painter.setBrush(mixed(colors.color(QPalette::Base), accent, pressed ? 0.5 : 0.35));
+    painter.drawRoundedRect(QRectF(option.rect).adjusted(1.0, 1.0, -1.0, -1.0), 3, 3);
+    painter.restore();
   }
 };
 

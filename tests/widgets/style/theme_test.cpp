@@ -70,5 +70,38 @@ TEST(Theme, AnEmptyCheckBoxHasAVisibleEdge) {
   }
 }
 
+// What is switched on is seen at a glance, and what stands on it can be read.
+TEST(Theme, ACheckedButtonIsToldFromAnUncheckedOne) {
+  for (const Theme theme : {Theme::kLight, Theme::kDark}) {
+    apply_theme(*qApp, theme);
+    const QPalette colors = qApp->palette();
+    const auto draw = [&](QStyle::PrimitiveElement element, QStyle::State state) {
+      QImage image(60, 24, QImage::Format_RGB32);
+      image.fill(colors.color(QPalette::Window));
+      QStyleOptionButton option;
+      option.palette = colors;
+      option.rect = image.rect();
+      option.state = QStyle::State_Enabled | QStyle::State_AutoRaise | state;
+      QPainter painter(&image);
+      qApp->style()->drawPrimitive(element, &option, &painter);
+      painter.end();
+      return image;
+    };
+    for (const auto element : {QStyle::PE_PanelButtonTool, QStyle::PE_PanelButtonCommand}) {
+      const QImage on = draw(element, QStyle::State_On);
+      const QImage off = draw(element, QStyle::State_Off | QStyle::State_Raised);
+      const QColor fill = on.pixelColor(30, 12);
+      const QColor plain = off.pixelColor(30, 12);
+      const int apart = std::abs(fill.red() - plain.red()) +
+                        std::abs(fill.green() - plain.green()) +
+                        std::abs(fill.blue() - plain.blue());
+      EXPECT_GT(apart, 60) << name_of(theme).toStdString() << " " << element;
+      EXPECT_GT(contrast(on.pixelColor(30, 1), plain), 1.8)
+          << name_of(theme).toStdString() << ", its edge";
+      EXPECT_GT(contrast(colors.color(QPalette::ButtonText), fill), 4.5);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lvcalib::widgets::theme_test
