@@ -73,7 +73,7 @@ QString pose_table(const CalibrationResult& result) {
 QString list(const std::vector<Message>& lines) {
   QString out = QStringLiteral("<ul>");
   for (const Message& line : lines)
-    out += QStringLiteral("<li>%1</li>").arg(core_text(line).toHtmlEscaped());
+    out += QStringLiteral("<li>%1</li>").arg(warning_text(line).toHtmlEscaped());
   return out + QStringLiteral("</ul>");
 }
 

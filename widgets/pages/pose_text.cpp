@@ -64,8 +64,8 @@ QString translation_table(const UncertainRigid3& pose, const UncertainRigid3& to
   const char* axes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) {
     out += row({axes[k], number(kMmPerM * pose.transform.translation(k), 2) + " mm",
-                "± " + number(kMmPerM * std::sqrt(pose.covariance(k, k)), 2),
-                "± " + number(kMmPerM * std::sqrt(total.covariance(k, k)), 2)});
+                "± " + number(kMmPerM * std::sqrt(pose.covariance(k, k)), 2) + " mm",
+                "± " + number(kMmPerM * std::sqrt(total.covariance(k, k)), 2) + " mm"});
   }
   return out + "</table>";
 }
@@ -75,7 +75,8 @@ QString rotation_table(const UncertainRigid3& pose, const UncertainRigid3& total
   const RollPitchYaw in_total = roll_pitch_yaw(total);
   const QString names[] = {tr("roll"), tr("pitch"), tr("yaw")};
   const auto sigma = [](double sigma_rad) {
-    return "± " + (std::isfinite(sigma_rad) ? number(kDegPerRad * sigma_rad, 4) : tr("unbounded"));
+    return "± " +
+           (std::isfinite(sigma_rad) ? number(kDegPerRad * sigma_rad, 4) + "°" : tr("unbounded"));
   };
   QString out = "<table>" + statistical_and_total();
   for (int k = 0; k < 3; ++k) {
@@ -119,7 +120,7 @@ QString quaternion_line(const Rigid3& pose) {
 QString list(const std::vector<Message>& lines) {
   QString out = "<ul style='margin-left:-22px'>";
   for (const Message& line : lines) {
-    out += "<li>" + core_text(line).toHtmlEscaped() + "</li>";
+    out += "<li>" + warning_text(line).toHtmlEscaped() + "</li>";
   }
   return out + "</ul>";
 }

@@ -455,7 +455,7 @@ void Workspace::take_run(SessionRun run) {
                            .arg(r.extrinsic.rms_mm, 0, 'f', 3);
   Q_EMIT logged(story);
   Q_EMIT logged(line);
-  for (const Message& warning : r.warnings) Q_EMIT logged(core_text(warning));
+  for (const Message& warning : r.warnings) Q_EMIT logged(warning_text(warning));
   Q_EMIT result_changed();
   Q_EMIT run_ended(line);
 }

@@ -27,6 +27,11 @@ QString core_text(const Message& message) {
   return out;
 }
 
+QString warning_text(const Message& warning) {
+  const bool of_the_whole = warning.id() == "result: %1" && warning.arguments().size() == 1;
+  return core_text(of_the_whole ? warning.arguments().front() : warning);
+}
+
 QString core_text(const Error& error) {
   return core_text(error.sentence());
 }

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/verdict.h"
+
 namespace lvcalib::widgets::core_text_test {
 namespace {
 
@@ -60,6 +62,17 @@ TEST_F(CoreTextTest, AnErrorSaysWhereAndWhatToDo) {
 
 TEST_F(CoreTextTest, WhatIsFilledInIsNotReadAsAPlace) {
   EXPECT_EQ(core_text(Message("scene %1: %2", "%2", "100 %1")), "<100 %1> in %2");
+}
+
+// The word is for the lines of a terminal; whether it is still the same one, the core's own verdict
+// tells.
+TEST(CoreText, AWarningOfTheWholeResultStandsWithoutItsHead) {
+  CalibrationResult result;
+  Verdict(result).note(Message("take more scenes"));
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_EQ(result.warnings.front().text(), "result: take more scenes");
+  EXPECT_EQ(warning_text(result.warnings.front()), "take more scenes");
+  EXPECT_EQ(warning_text(Message("scene %1: %2", "A", Message("used"))), "scene A: used");
 }
 
 TEST(CoreText, WithoutACatalogueTheCoreSpeaks) {
