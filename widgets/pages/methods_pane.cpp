@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QTableWidget>
 
+#include "style/fitting.h"
 #include "style/texts.h"
 #include "views/category_plots.h"
 
@@ -51,9 +52,9 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
   table_->setObjectName("methods");
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
-  // Numbers share the room there is, under titles of two lines: nothing needs to be scrolled to.
+  // Numbers share the room there is, under titles of some lines: nothing needs to be scrolled to.
   table_->horizontalHeader()->setMinimumSectionSize(30);
-  table_->horizontalHeader()->setFixedHeight(2 * table_->fontMetrics().height() + 8);
+  keep_headings_whole(*table_);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignCenter |

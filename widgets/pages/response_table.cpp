@@ -2,10 +2,14 @@
 #include "pages/response_table.h"
 
 #include <QHeaderView>
+#include <QResizeEvent>
 #include <QTableWidget>
+#include <algorithm>
+#include <vector>
 
 #include "base/units.h"
 #include "pages/page_tr.h"
+#include "style/fitting.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -14,8 +18,12 @@ constexpr int kFirstNumber = 2;
 constexpr int kNumbers = 6;
 constexpr int kResponseColumns = 10;
 
+constexpr double kSmallestLetters = 0.75;  // Of the usual ones.
+constexpr int kCellMargin = 8;
+
+// Its spaces do not break: a number and its ± stay on one line.
 QString plus_minus(double value, double sigma, int decimals) {
-  return QString("%1 ± %2")
+  return QString("%1\u00a0±\u00a0%2")
       .arg(QString::number(value, 'f', decimals).replace('-', QChar(0x2212)))
       .arg(sigma, 0, 'f', decimals);
 }
@@ -41,21 +49,98 @@ void put_statistics(QTableWidget& table, int row, const ResponseStatistics& s) {
   }
 }
 
+// Every column is as wide as its numbers with their ±. Where the window is too narrow for that the
+// letters become smaller, and where that is not enough the table scrolls.
+class ResponseTable : public QTableWidget {
+ public:
+  explicit ResponseTable(QWidget* parent) : QTableWidget(0, kResponseColumns, parent) {
+    const auto later = [this] {
+      if (pending_) return;
+      pending_ = true;
+      QMetaObject::invokeMethod(
+          this, [this] { fit(); }, Qt::QueuedConnection);
+    };
+    for (auto signal : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved})
+      connect(model(), signal, this, later);
+    connect(model(), &QAbstractItemModel::dataChanged, this, later);
+    connect(model(), &QAbstractItemModel::headerDataChanged, this, later);
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QTableWidget::resizeEvent(event);
+    if (event->size().width() != event->oldSize().width()) fit();
+  }
+  void showEvent(QShowEvent* event) override {
+    QTableWidget::showEvent(event);
+    fit();
+  }
+
+ private:
+  // What the numbers, the names and the longest word of each heading need.
+  [[nodiscard]] std::vector<int> needed(const QFontMetrics& metrics) const {
+    std::vector<int> widths(kResponseColumns, 0);
+    for (int c = 0; c < kResponseColumns; ++c) {
+      if (isColumnHidden(c)) continue;
+      int& width = widths[static_cast<std::size_t>(c)];
+      const QTableWidgetItem* title = horizontalHeaderItem(c);
+      for (const QString& word : title == nullptr ? QStringList() : title->text().split(' '))
+        width = std::max(width, metrics.horizontalAdvance(word));
+      for (int r = 0; r < rowCount(); ++r) {
+        // A reason runs over several columns.
+        if (item(r, c) != nullptr && columnSpan(r, c) == 1)
+          width = std::max(width, metrics.horizontalAdvance(item(r, c)->text()));
+      }
+      width += kCellMargin;
+    }
+    return widths;
+  }
+
+  void fit() {
+    pending_ = false;
+    const QFont usual = parentWidget() != nullptr ? parentWidget()->font() : QFont();
+    QFont letters = usual;
+    std::vector<int> widths;
+    const int room = viewport()->width();
+    int sum = 0;
+    for (double share = 1.0; share >= kSmallestLetters; share -= 0.05) {
+      letters.setPointSizeF(share * usual.pointSizeF());
+      widths = needed(QFontMetrics(letters));
+      sum = 0;
+      for (const int width : widths) sum += width;
+      if (sum <= room) break;
+    }
+    if (font() != letters) setFont(letters);
+    verticalHeader()->setMinimumSectionSize(QFontMetrics(letters).height() + 8);
+    // What is left over goes to the numbers.
+    int numbers = 0;
+    for (int c = kFirstNumber; c < kResponseColumns; ++c) numbers += isColumnHidden(c) ? 0 : 1;
+    int left = std::max(0, room - sum);
+    for (int c = 0; c < kResponseColumns; ++c) {
+      int width = widths[static_cast<std::size_t>(c)];
+      if (c >= kFirstNumber && !isColumnHidden(c)) {
+        const int more = left / numbers--;
+        left -= more;
+        width += more;
+      }
+      if (width > 0) setColumnWidth(c, width);
+    }
+  }
+
+  bool pending_ = false;
+};
+
 }  // namespace
 
 QTableWidget* new_response_table(QWidget* parent) {
-  auto* table = new QTableWidget(0, kResponseColumns, parent);
+  auto* table = new ResponseTable(parent);
+  keep_headings_whole(*table);
   table->verticalHeader()->hide();
-  // Numbers that do not fit beside their ± take two lines; nothing needs to be scrolled to.
-  table->setWordWrap(true);
+  table->setWordWrap(true);  // A reason may be longer than its columns.
   table->setTextElideMode(Qt::ElideNone);
-  table->verticalHeader()->setMinimumSectionSize(table->fontMetrics().height() + 8);
   table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table->horizontalHeader()->setMinimumSectionSize(30);
-  table->horizontalHeader()->setFixedHeight(2 * table->fontMetrics().height() + 8);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  for (const int column : {0, 1})
-    table->horizontalHeader()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::Fixed);
   table->horizontalHeader()->setDefaultAlignment(Qt::AlignCenter |
                                                  static_cast<Qt::Alignment>(Qt::TextWordWrap));
   table->horizontalHeader()->setHighlightSections(false);

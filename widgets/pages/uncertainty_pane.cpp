@@ -19,6 +19,7 @@ UncertaintyPane::UncertaintyPane(QWidget* parent) : QWidget(parent) {
   halves->setChildrenCollapsible(false);
   text_ = new QTextBrowser(halves);
   text_->setObjectName("uncertainty");
+  text_->setWordWrapMode(QTextOption::WordWrap);  // Never within a word of a narrow column.
   auto* plots = new QSplitter(Qt::Horizontal, halves);
   plots->setChildrenCollapsible(false);
   map_ = new UncertaintyMapPlot(plots);

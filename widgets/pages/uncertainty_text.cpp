@@ -33,8 +33,12 @@ QString row(const QStringList& cells, const char* tag = "td") {
   return out + "</tr>";
 }
 
+// Breaks between the two where it has to, not between a number and its unit.
 QString pair(double mm, double mrad) {
-  return tr("%1 mm, %2 mrad").arg(mm, 0, 'f', 2).arg(mrad, 0, 'f', 3);
+  const QString text = tr("%1 mm, %2 mrad").arg(mm, 0, 'f', 2).arg(mrad, 0, 'f', 3);
+  QStringList parts = text.split(QStringLiteral(", "));
+  for (QString& part : parts) part.replace(QLatin1Char(' '), QChar(0xa0));
+  return parts.join(QStringLiteral(", "));
 }
 
 QString names(const std::vector<std::string>& scenes) {

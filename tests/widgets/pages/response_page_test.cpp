@@ -40,7 +40,8 @@ TEST_F(ResponsePageTest, TheTableCarriesTheResultsNumbers) {
   ASSERT_EQ(table()->rowCount(), 4);
   EXPECT_EQ(table()->item(0, 1)->text().toInt(), response.all->n);
   const double sigma_range_mm = 1e3 * response.all->std_dev().z();
-  EXPECT_NEAR(table()->item(0, 7)->text().section(' ', 0, 0).toDouble(), sigma_range_mm, 0.006);
+  EXPECT_NEAR(table()->item(0, 7)->text().section(QChar(0xa0), 0, 0).toDouble(), sigma_range_mm,
+              0.006);
   for (int s = 0; s < 3; ++s) {
     const SceneResponse& scene = response.scenes[static_cast<std::size_t>(s)];
     EXPECT_EQ(table()->item(s + 1, 0)->text().toStdString(), scene.name);
