@@ -19,6 +19,7 @@ namespace {
 // Widths of thumbnails, the first of which is taken with which all columns are in sight.
 constexpr int kThumbnailWidths[] = {48, 24, 0};
 constexpr int kThumbnailMargin = 8;
+constexpr int kSign = 16 + 14;  // The sign of a state, and the room about it and the words.
 
 }  // namespace
 
@@ -192,18 +193,30 @@ void ScenesDock::fit_columns() {
   const QHeaderView* header = view_->header();
   const QAbstractItemView& rows = *view_;  // There its hints are public.
   int needed = 0;
+  int state = 0;
   for (int column = 0; column < header->count(); ++column) {
     if (view_->isColumnHidden(column)) continue;
     int width = std::max(header->sectionSizeHint(column), header->minimumSectionSize());
-    // Of the state the sign is enough.
+    if (column == SceneModel::kState) state = width;
     if (column != SceneModel::kState) width = std::max(width, rows.sizeHintForColumn(column));
     needed += width;
   }
+  const int words = view_->fontMetrics().horizontalAdvance(SceneModel::used_words());
+  const int said = std::max(0, kSign + words - state);
   const int shown = model_.thumbnail_width();
   if (shown > 0) needed -= shown + kThumbnailMargin;
+  const int room = view_->viewport()->width();
+  const auto with = [&](int width) { return needed + (width > 0 ? width + kThumbnailMargin : 0); };
+  // The usual state in full, or its sign alone: "us…" says nothing. Small pictures go before words.
   for (const int width : kThumbnailWidths) {
-    const int with = needed + (width > 0 ? width + kThumbnailMargin : 0);
-    if (with > view_->viewport()->width() && width > 0) continue;
+    if (width == 0 || with(width) + said > room) continue;
+    model_.set_state_said(true);
+    model_.set_thumbnail_width(width);
+    return;
+  }
+  for (const int width : kThumbnailWidths) {
+    if (width > 0 && with(width) > room) continue;
+    model_.set_state_said(width == 0 && with(width) + said <= room);
     model_.set_thumbnail_width(width);
     return;
   }

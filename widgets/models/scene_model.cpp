@@ -146,6 +146,17 @@ void SceneModel::set_thumbnail_width(int width_px) {
     Q_EMIT dataChanged(index(0, kName), index(rowCount() - 1, kName), {Qt::DecorationRole});
 }
 
+void SceneModel::set_state_said(bool said) {
+  if (said == state_said_) return;
+  state_said_ = said;
+  if (!rows_.empty())
+    Q_EMIT dataChanged(index(0, kState), index(rowCount() - 1, kState), {Qt::DisplayRole});
+}
+
+QString SceneModel::used_words() {
+  return tr("used");
+}
+
 void SceneModel::set_problem(const QString& scene, const Message& problem) {
   if (problems_.value(scene) == problem) return;
   if (problem.empty()) {
@@ -193,7 +204,10 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
   const Row& row = rows_[static_cast<std::size_t>(index.row())];
   switch (role) {
     case Qt::DisplayRole:
+      if (index.column() == kState && !state_said_) return {};
       return text(row, index.column());
+    case Qt::AccessibleTextRole:
+      return index.column() == kState ? QVariant(state_words(row)) : QVariant();
     case kSortRole:
       return number(row, index.column());
     case Qt::ToolTipRole:

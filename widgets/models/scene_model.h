@@ -39,6 +39,11 @@ class SceneModel : public QAbstractTableModel {
   /// Pictures are shown this wide, or smaller; 0: none.
   void set_thumbnail_width(int width_px);
   [[nodiscard]] int thumbnail_width() const { return thumbnail_width_; }
+  /// Whether the state is said in words beside its sign; its tool tip has them always.
+  void set_state_said(bool said);
+  [[nodiscard]] bool is_state_said() const { return state_said_; }
+  /// What a scene that is used says of itself, the shortest of the states.
+  [[nodiscard]] static QString used_words();
   /// A file of the scene is missing or cannot be read, in words; empty: no longer.
   void set_problem(const QString& scene, const Message& problem);
 
@@ -113,6 +118,7 @@ class SceneModel : public QAbstractTableModel {
   std::filesystem::path dataset_;  // Whose scenes these are.
   QHash<QString, QPixmap> thumbnails_;
   int thumbnail_width_ = 48;
+  bool state_said_ = true;
   QHash<QString, Message> problems_;
 };
 

@@ -109,6 +109,13 @@ TEST_F(ScenesDockTest, ANarrowListGivesUpPicturesAndNoColumn) {
     dock_.resize(narrow -= 10, 300);
     QTest::qWait(5);
     EXPECT_TRUE(in_sight() || model_.thumbnail_width() == 0) << narrow;
+    // The usual state is read in full or not said at all.
+    const QModelIndex state = view_->model()->index(0, SceneModel::kState);
+    const QAbstractItemView& rows = *view_;
+    EXPECT_TRUE(state.data().toString().isEmpty() ||
+                view_->columnWidth(SceneModel::kState) >= rows.sizeHintForIndex(state).width())
+        << narrow;
+    EXPECT_FALSE(state.data(Qt::AccessibleTextRole).toString().isEmpty());
   }
   EXPECT_EQ(model_.thumbnail_width(), 0);
   EXPECT_TRUE(in_sight()) << narrow;
