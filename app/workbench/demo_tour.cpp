@@ -6,6 +6,7 @@
 #include <QTabBar>
 #include <QTabWidget>
 #include <QToolBar>
+#include <utility>
 
 #include "runner/model_work.h"
 #include "runner/workspace.h"
@@ -16,6 +17,17 @@ namespace {
 // A widget by name; null if it is not there.
 std::function<QWidget*()> widget(QMainWindow& window, const char* name) {
   return [&window, name] { return window.findChild<QWidget*>(QString::fromLatin1(name)); };
+}
+
+// Several of them: what a text speaks of beside what it points at.
+std::function<std::vector<QWidget*>()> widgets_named(QMainWindow& window,
+                                                     std::vector<const char*> names) {
+  return [&window, names = std::move(names)] {
+    std::vector<QWidget*> out;
+    for (const char* name : names)
+      out.push_back(window.findChild<QWidget*>(QString::fromLatin1(name)));
+    return out;
+  };
 }
 
 }  // namespace
@@ -61,18 +73,24 @@ void DemoTour::start() {
        tab_bar, on_model_page},
       {tr("The effects that may be missing are being tried; scenes held out decide. The best one "
           "comes first, with a sentence on what was seen and how sure that is."),
-       widget(window_, "proposals"), [this] { return work_.ranking() != nullptr; }, true},
+       widget(window_, "proposals"), [this] { return work_.ranking() != nullptr; }, true,
+       widgets_named(window_, {"proposal_text", "missing_verdict"})},
       {tr("The effect at the top of the list is the one that scenes held out speak for most. The "
           "orange curve is its pattern at the size found; the marks are what is measured."),
        widget(window_, "residual_plot"),
-       {}},
+       {},
+       false,
+       widgets_named(window_, {"proposals"})},
       {tr("<b>Add</b> it to the model."), widget(window_, "add_proposal"),
-       [this] { return work_.current() > 0; }},
+       [this] { return work_.current() > 0; }, false,
+       widgets_named(window_, {"proposals", "proposal_text"})},
       {tr("Red is what no effect explains, green what the model explains now; diamonds are scenes "
           "held out. The list on the left says by how much the extrinsic has moved. Click an "
           "earlier step or undo to compare."),
        widget(window_, "budget_plot"),
-       {}},
+       {},
+       false,
+       widgets_named(window_, {"terms", "model_pose", "model_legend"})},
   });
 }
 

@@ -16,6 +16,44 @@ namespace {
 constexpr int kWidth = 320;
 constexpr int kGap = 10;
 
+// Where a bubble covers the least of what it must not: below, above, right or left of the first
+// rectangle, at either end of its edge, and beside the others; what is as large as the window has
+// it in a corner.
+QPoint free_corner(const QSize& size, const QRect& room, const std::vector<QRect>& clear) {
+  std::vector<QPoint> places;
+  for (const QRect& at : clear) {
+    const int below = at.bottom() + kGap;
+    const int above = at.top() - kGap - size.height();
+    const int right = at.right() + kGap;
+    const int left = at.left() - kGap - size.width();
+    const int last_x = at.right() + 1 - size.width();
+    const int last_y = at.bottom() + 1 - size.height();
+    for (const QPoint& place :
+         {QPoint(at.left(), below), QPoint(at.left(), above), QPoint(right, at.top()),
+          QPoint(left, at.top()), QPoint(last_x, below), QPoint(last_x, above),
+          QPoint(right, last_y), QPoint(left, last_y)})
+      places.push_back(place);
+  }
+  places.emplace_back(room.right() - size.width() - kGap, clear.front().top() + kGap);
+  QPoint best;
+  int least = -1;
+  for (const QPoint& place : places) {
+    const QPoint inside(std::clamp(place.x(), 0, std::max(0, room.width() - size.width())),
+                        std::clamp(place.y(), 0, std::max(0, room.height() - size.height())));
+    const QRect bubble(inside, size);
+    int covered = 0;
+    for (const QRect& rect : clear) {
+      const QRect common = bubble.intersected(rect);
+      if (!common.isEmpty()) covered += common.width() * common.height();
+    }
+    if (least >= 0 && covered >= least) continue;
+    least = covered;
+    best = inside;
+    if (covered == 0) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 // A frame about the target that lets every event through.
@@ -100,8 +138,10 @@ void CoachMarks::show_mark(int index) {
   const bool last = index + 1 == static_cast<int>(marks_.size());
   text_->setText(mark.text);
   count_->setText(QStringLiteral("%1/%2").arg(index + 1).arg(marks_.size()));
-  next_->setVisible(!mark.done || mark.reader_goes_on);
-  next_->setEnabled(!mark.done || mark.done());
+  const bool done = mark.done && mark.done();
+  reader_goes_on_ = !mark.done || mark.reader_goes_on || done;
+  next_->setVisible(reader_goes_on_);
+  next_->setEnabled(!mark.done || done);
   next_->setText(last ? tr("Done") : tr("Next"));
   close_->setVisible(!last);
   place();
@@ -111,7 +151,7 @@ void CoachMarks::look() {
   if (current_ < 0) return;
   const CoachMark& mark = marks_[static_cast<std::size_t>(current_)];
   const bool done = mark.done && mark.done();
-  if (done && !mark.reader_goes_on) {
+  if (done && !reader_goes_on_) {
     show_mark(current_ + 1);
     return;
   }
@@ -119,37 +159,30 @@ void CoachMarks::look() {
   place();
 }
 
-// Beside the target, where there is room in the window.
+QRect CoachMarks::on_window(const QWidget& widget) const {
+  return {widget.mapTo(parentWidget(), QPoint(0, 0)), widget.size()};
+}
+
+// Beside the target, where there is room in the window and nothing that the text speaks of.
 void CoachMarks::place() {
   QWidget* window = parentWidget();
-  QWidget* target = current_ < 0 ? nullptr : marks_[static_cast<std::size_t>(current_)].target();
+  const CoachMark* mark = current_ < 0 ? nullptr : &marks_[static_cast<std::size_t>(current_)];
+  const QWidget* target = mark != nullptr ? mark->target() : nullptr;
   const bool there = target != nullptr && target->isVisible();
   setVisible(there);
   if (frame_) frame_->setVisible(there);
   if (!there) return;
-  const QRect at(target->mapTo(window, QPoint(0, 0)), target->size());
+  const QRect at = on_window(*target);
+  std::vector<QRect> clear = {at};
+  if (mark->also) {
+    for (const QWidget* widget : mark->also()) {
+      if (widget != nullptr && widget->isVisible()) clear.push_back(on_window(*widget));
+    }
+  }
   adjustSize();
   const QSize size(kWidth, std::max(sizeHint().height(), heightForWidth(kWidth)));
   resize(size);
-  // Below, above, right or left of it, wherever it fits; what is as large as the window has the
-  // bubble in a corner of its own.
-  const QPoint places[] = {{at.left(), at.bottom() + kGap},
-                           {at.left(), at.top() - kGap - size.height()},
-                           {at.right() + kGap, at.top()},
-                           {at.left() - kGap - size.width(), at.top()}};
-  QPoint corner(at.right() - size.width() - kGap, at.top() + kGap);
-  const QRect room = window->rect();
-  for (const QPoint& place : places) {
-    const bool below_or_above = place.x() == at.left();
-    const bool fits = below_or_above ? place.y() >= 0 && place.y() + size.height() <= room.height()
-                                     : place.x() >= 0 && place.x() + size.width() <= room.width();
-    if (!fits) continue;
-    corner = place;
-    break;
-  }
-  corner.setX(std::clamp(corner.x(), 0, std::max(0, window->width() - size.width())));
-  corner.setY(std::clamp(corner.y(), 0, std::max(0, window->height() - size.height())));
-  move(corner);
+  move(free_corner(size, window->rect(), clear));
   if (frame_) {
     frame_->setGeometry(at.adjusted(-3, -3, 3, 3));
     frame_->raise();

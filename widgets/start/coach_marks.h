@@ -23,11 +23,14 @@ struct CoachMark {
   /// `done` is not the user's doing (something is computed): then "Next" becomes possible, and the
   /// reader goes on when they have read.
   bool reader_goes_on = false;
+  /// What else the text speaks of: the bubble lies over none of it.
+  std::function<std::vector<QWidget*>()> also = {};
 };
 
 /// A small speech bubble that leads through a window: it frames a widget, says what to do there,
-/// and goes on when that is done, or with "Next". It takes no input from the rest of the window and
-/// can be closed at any time.
+/// and goes on when that is done, or with "Next". What is done before it could be read waits for
+/// "Next", too. The bubble stands beside what it explains and takes no input from the rest of the
+/// window and can be closed at any time.
 class CoachMarks : public QFrame {
   Q_OBJECT
 
@@ -53,11 +56,13 @@ class CoachMarks : public QFrame {
   void show_mark(int index);
   void look();
   void place();
+  [[nodiscard]] QRect on_window(const QWidget& widget) const;
   void retranslate();
 
   class Frame;
   std::vector<CoachMark> marks_;
   int current_ = -1;
+  bool reader_goes_on_ = false;
   QTimer timer_;
   QLabel* text_;
   QLabel* count_;

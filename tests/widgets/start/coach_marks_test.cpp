@@ -64,6 +64,44 @@ TEST_F(Coach, WaitsForTheReaderWhereSomethingIsComputed) {
   EXPECT_EQ(marks_.current(), 1);
 }
 
+// Done before it could be read: then it does not vanish.
+TEST_F(Coach, WaitsForTheReaderWhereItIsDoneAlready) {
+  marks_.start({{"Do it", [&] { return &target_; }, [] { return true; }},
+                {"Well done", [&] { return &target_; }, {}}});
+  EXPECT_TRUE(button("coach_next")->isVisible());
+  EXPECT_TRUE(button("coach_next")->isEnabled());
+  QTest::qWait(3 * CoachMarks::kLookMs);
+  EXPECT_EQ(marks_.current(), 0);
+  button("coach_next")->click();
+  EXPECT_EQ(marks_.current(), 1);
+}
+
+// It lies over nothing that it speaks of, wherever that is.
+TEST_F(Coach, StandsBesideAllThatItExplains) {
+  window_.resize(1000, 700);
+  other_.show();
+  const QRect places[][2] = {{{700, 200, 290, 150}, {700, 360, 290, 130}},
+                             {{10, 20, 980, 150}, {10, 180, 250, 200}},
+                             {{300, 250, 400, 400}, {720, 200, 270, 300}}};
+  for (const auto& [target, other] : places) {
+    target_.setGeometry(target);
+    other_.setGeometry(other);
+    marks_.start(
+        {{"A sentence that is long enough to need three lines or four in a bubble, and "
+          "speaks of two things",
+          [&] { return &target_; },
+          {},
+          false,
+          [&] {
+            return std::vector<QWidget*>{&other_, nullptr};
+          }}});
+    EXPECT_TRUE(marks_.isVisible());
+    EXPECT_FALSE(marks_.geometry().intersects(target_.geometry())) << target.x();
+    EXPECT_FALSE(marks_.geometry().intersects(other_.geometry())) << target.x();
+    EXPECT_TRUE(window_.rect().contains(marks_.geometry()));
+  }
+}
+
 TEST_F(Coach, HidesWhileItsTargetIsNotThereAndEndsWhenAsked) {
   QWidget* there = nullptr;
   marks_.start({{"Wait", [&] { return there; }, {}}, {"More", [&] { return there; }, {}}});

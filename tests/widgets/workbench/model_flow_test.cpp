@@ -128,17 +128,30 @@ TEST_F(Flow, TheTourLeadsFromTheFirstLookToTheFallenError) {
   ASSERT_TRUE(test::wait_until([&] { return coach->current() == 1; }));
   test::find<QTabWidget>(window_, "pages")->setCurrentIndex(4);
   ASSERT_TRUE(test::wait_until([&] { return coach->current() == 2; }, 240'000));
+  // The bubble lies over nothing that it speaks of.
+  const auto covers = [&](const char* name) {
+    const auto* widget = test::find<QWidget>(window_, name);
+    return widget != nullptr && widget->isVisible() &&
+           QRect(widget->mapTo(&window_, QPoint(0, 0)), widget->size())
+               .intersects(coach->geometry());
+  };
+  for (const char* name : {"proposals", "proposal_text", "missing_verdict"})
+    EXPECT_TRUE(test::wait_until([&] { return !covers(name); }, 2000)) << name;
   // What is computed meanwhile does not turn the page for the reader.
   auto* next = test::find<QPushButton>(*coach, "coach_next");
   ASSERT_TRUE(test::wait_until([&] { return next->isEnabled(); }, 240'000));
   EXPECT_EQ(coach->current(), 2);
   QTest::mouseClick(next, Qt::LeftButton);
   EXPECT_EQ(coach->current(), 3);
+  for (const char* name : {"residual_plot", "proposals"})
+    EXPECT_TRUE(test::wait_until([&] { return !covers(name); }, 2000)) << name;
   QTest::mouseClick(test::find<QPushButton>(*coach, "coach_next"), Qt::LeftButton);
   EXPECT_EQ(coach->current(), 4);
   ASSERT_TRUE(wait_idle());
   QTest::mouseClick(test::find<QPushButton>(window_, "add_proposal"), Qt::LeftButton);
   ASSERT_TRUE(test::wait_until([&] { return coach->current() == 5; }, 240'000));
+  for (const char* name : {"budget_plot", "model_legend", "terms"})
+    EXPECT_TRUE(test::wait_until([&] { return !covers(name); }, 2000)) << name;
   QTest::mouseClick(test::find<QPushButton>(*coach, "coach_next"), Qt::LeftButton);
   EXPECT_FALSE(coach->isVisible());
 }

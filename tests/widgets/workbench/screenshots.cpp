@@ -22,6 +22,7 @@
 #include "modelling/residual_plot.h"
 #include "pipeline/refusals.h"
 #include "report/result_file.h"
+#include "start/coach_marks.h"
 #include "tools/check_dialog.h"
 #include "tools/compare_dialog.h"
 #include "tools/plan_dialog.h"
@@ -320,7 +321,14 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   tabs->setCurrentIndex(4);
   camera.take(QStringLiteral("model-looking"));
   wait_for_model(window);
-  camera.take(QStringLiteral("model-tour"));
+  // Every bubble as its reader finds it, up to the one that waits for an effect to be added.
+  auto* coach = test::find<widgets::CoachMarks>(window, "coach_marks");
+  auto* next = test::find<QPushButton>(window, "coach_next");
+  while (coach != nullptr && next != nullptr && coach->isVisible() && coach->current() < 5) {
+    camera.take(QStringLiteral("tour-%1").arg(coach->current() + 1));
+    if (!next->isVisible() || !next->isEnabled()) break;
+    next->click();
+  }
   if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
   if (quick) {
     choose(window, "theme", quick_theme);
