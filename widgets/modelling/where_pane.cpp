@@ -16,6 +16,7 @@
 #include "modelling/model_text.h"
 #include "modelling/residual_map_plot.h"
 #include "modelling/residual_plot.h"
+#include "views/tool_row.h"
 
 namespace lvcalib::widgets {
 
@@ -38,34 +39,34 @@ WherePane::~WherePane() {
     part->disconnect(this);  // They change while they go.
 }
 
+// In two lines where one is too short: what is chosen is read in full.
 void WherePane::createBar() {
-  auto* bar = new QHBoxLayout;
-  channel_label_ = new QLabel(this);
-  channels_ = new QComboBox(this);
-  channels_->setObjectName(QStringLiteral("channel"));
-  channels_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  channels_->setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Fixed);
-  covariate_label_ = new QLabel(this);
-  covariates_ = new QComboBox(this);
-  covariates_->setObjectName(QStringLiteral("covariate"));
-  covariates_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  covariates_->setMinimumContentsLength(8);
-  channel_label_->setBuddy(channels_);
-  covariate_label_->setBuddy(covariates_);
-  brush_ = new QToolButton(this);
+  auto* bar = new ToolRow(this);
+  const auto named_box = [&](QLabel*& label, QComboBox*& box, const char* name) {
+    auto* both = new QWidget(bar);
+    auto* row = new QHBoxLayout(both);
+    row->setContentsMargins(0, 0, 3, 0);
+    label = new QLabel(both);
+    box = new QComboBox(both);
+    box->setObjectName(QString::fromLatin1(name));
+    box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    label->setBuddy(box);
+    row->addWidget(label);
+    row->addWidget(box);
+    bar->addWidget(both);
+  };
+  named_box(channel_label_, channels_, "channel");
+  named_box(covariate_label_, covariates_, "covariate");
+  brush_ = new QToolButton(bar);
   brush_->setObjectName(QStringLiteral("brush"));
   brush_->setCheckable(true);
-  before_ = new QToolButton(this);
+  before_ = new QToolButton(bar);
   before_->setObjectName(QStringLiteral("before"));
   before_->setCheckable(true);
   before_->setChecked(true);
-  for (QWidget* w :
-       std::initializer_list<QWidget*>{channel_label_, channels_, covariate_label_, covariates_})
-    bar->addWidget(w);
-  bar->setStretchFactor(covariates_, 1);
   bar->addWidget(before_);
   bar->addWidget(brush_);
-  static_cast<QVBoxLayout*>(layout())->addLayout(bar);
+  static_cast<QVBoxLayout*>(layout())->addWidget(bar);
   connect(channels_, &QComboBox::currentIndexChanged, this, [this] {
     fillCovariates();
     Q_EMIT turned();

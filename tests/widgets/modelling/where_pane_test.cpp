@@ -2,6 +2,7 @@
 #include "modelling/where_pane.h"
 
 #include <QComboBox>
+#include <QStyleOptionComboBox>
 #include <QTabWidget>
 #include <QToolButton>
 
@@ -39,6 +40,29 @@ TEST_F(Where, BeginsWhereTheStructureIsStrongest) {
   const auto* covariates = pane_.findChild<QComboBox*>("covariate");
   EXPECT_TRUE(covariates->itemText(0).contains('%'));
   EXPECT_GT(covariates->count(), 10);
+}
+
+// At the width that a window of 1280 pixels leaves the pane, and at half of it.
+TEST_F(Where, WhatIsChosenIsReadInFull) {
+  for (const int width : {417, 330}) {
+    pane_.resize(width, 400);
+    QCoreApplication::processEvents();
+    for (const char* name : {"channel", "covariate"}) {
+      const auto* box = pane_.findChild<QComboBox*>(QString::fromLatin1(name));
+      for (int k = 0; k < box->count(); ++k) {
+        QStyleOptionComboBox option;
+        option.initFrom(box);
+        const int room =
+            box->style()
+                ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box)
+                .width();
+        EXPECT_GE(room, box->fontMetrics().horizontalAdvance(box->itemText(k)))
+            << box->itemText(k).toStdString() << " in " << width;
+      }
+      const QRect place(box->mapTo(&pane_, QPoint(0, 0)), box->size());
+      EXPECT_TRUE(pane_.rect().contains(place)) << name << " in " << width;
+    }
+  }
 }
 
 TEST_F(Where, AnotherChannelHasItsOwnCovariates) {
