@@ -206,6 +206,10 @@ were saved. Take them up again?</source>
         <source>range beyond the board&apos;s plane, mean over %1 mm (mm)</source>
         <translation>超出标定板平面的距离，%1 mm 内平均 (mm)</translation>
     </message>
+    <message>
+        <source>scene</source>
+        <translation>场景</translation>
+    </message>
 </context>
 <context>
     <name>Core</name>
@@ -4661,6 +4665,14 @@ were saved. Take them up again?</source>
         <source>It cannot be told which clouds the pose is for: its model is not whole.</source>
         <translation>无法判断该位姿适用于哪种点云：其模型不完整。</translation>
     </message>
+    <message>
+        <source>%1, as if cx and cy were exchanged</source>
+        <translation>%1，像是 cx 与 cy 互换了</translation>
+    </message>
+    <message>
+        <source>it contradicts the others only without the effects of this model: use it all the same (--insist) and search again</source>
+        <translation>只有在不含该模型的效应时，它才与其他场景矛盾：请仍然使用它（--insist）并重新搜索</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -5542,6 +5554,22 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
         <source>distance from the circle (mm)</source>
         <translation>到圆的距离 (mm)</translation>
     </message>
+    <message>
+        <source>dark sample</source>
+        <translation>暗样本</translation>
+    </message>
+    <message>
+        <source>bright sample</source>
+        <translation>亮样本</translation>
+    </message>
+    <message>
+        <source>edge in a bin, ±1σ</source>
+        <translation>各区间的边缘，±1σ</translation>
+    </message>
+    <message>
+        <source>fitted wave</source>
+        <translation>拟合波形</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::AnglePlot</name>
@@ -5566,6 +5594,18 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     <message>
         <source>no data</source>
         <translation>无数据</translation>
+    </message>
+    <message>
+        <source>samples</source>
+        <translation>样本</translation>
+    </message>
+    <message>
+        <source>1σ, 2σ of a beam</source>
+        <translation>光束的 1σ、2σ</translation>
+    </message>
+    <message>
+        <source>1σ of the samples</source>
+        <translation>样本的 1σ</translation>
     </message>
 </context>
 <context>
@@ -5623,6 +5663,14 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     <message>
         <source>difference (±%1)</source>
         <translation>差值（±%1）</translation>
+    </message>
+    <message>
+        <source>darker than predicted</source>
+        <translation>比预测暗</translation>
+    </message>
+    <message>
+        <source>brighter</source>
+        <translation>比预测亮</translation>
     </message>
 </context>
 <context>
@@ -5970,6 +6018,26 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Close</source>
         <translation>关闭</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>Points:</source>
+        <translation>点：</translation>
+    </message>
+    <message>
+        <source>Edges:</source>
+        <translation>边缘：</translation>
+    </message>
+    <message>
+        <source>on an edge of the image</source>
+        <translation>与图像边缘重合</translation>
+    </message>
+    <message>
+        <source>on none</source>
+        <translation>不重合</translation>
     </message>
 </context>
 <context>
@@ -6399,6 +6467,10 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <source>Enlargement of the arrows</source>
         <translation>箭头的放大倍数</translation>
     </message>
+    <message>
+        <source>shift of the board</source>
+        <translation>标定板的位移</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ConvergencePlot</name>
@@ -6417,6 +6489,18 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>no iterations</source>
         <translation>没有迭代</translation>
+    </message>
+    <message>
+        <source>circle %1</source>
+        <translation>圆 %1</translation>
+    </message>
+    <message>
+        <source>each circle</source>
+        <translation>各圆</translation>
+    </message>
+    <message>
+        <source>layout</source>
+        <translation>布局</translation>
     </message>
 </context>
 <context>
@@ -6502,8 +6586,12 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>点云的采集时刻(&amp;W)：</translation>
     </message>
     <message>
-        <source>0 with the first scene of the calibration, 1 with the last. Effects that drift from scene to scene are taken out only if this is known.</source>
-        <translation>标定的第一个场景为 0，最后一个为 1。随场景漂移的效应只有在知道这一时刻时才会被去除。</translation>
+        <source>0 % with the first scene of the calibration, 100 % with the last. Effects that drift from scene to scene are taken out only if this is known.</source>
+        <translation>0 % 为标定的第一个场景时，100 % 为最后一个场景时。随场景漂移的效应只有在已知该时刻时才会去除。</translation>
+    </message>
+    <message>
+        <source>of the way from the first scene to the last</source>
+        <translation>（从第一个场景到最后一个场景）</translation>
     </message>
 </context>
 <context>
@@ -7148,10 +7236,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>圆</translation>
     </message>
     <message>
-        <source>Board outline, circles and their centres as the LiDAR sees them, projected with the extrinsic (orange)</source>
-        <translation>激光雷达所见的标定板轮廓、圆及圆心，用外参投影（橙色）</translation>
-    </message>
-    <message>
         <source>Points</source>
         <translation>点</translation>
     </message>
@@ -7218,6 +7302,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Draw a line about what is to be selected: the tags, circles and points that are shown. With Shift it is added to what is selected (L)</source>
         <translation>圈住要选中的内容：所显示的标签、圆和点。按住 Shift 则加入已选中的内容（L）</translation>
+    </message>
+    <message>
+        <source>Board outline, circles and their centres as the LiDAR sees them, projected with the extrinsic (orange). Crossed out: not used</source>
+        <translation>激光雷达所见的标定板轮廓、圆及其圆心，用外参投影（橙色）。打叉：未使用</translation>
     </message>
 </context>
 <context>
@@ -8014,6 +8102,14 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>The measurements are being collected and the model fitted …</source>
         <translation>正在收集测量值并拟合模型……</translation>
     </message>
+    <message>
+        <source>mm from the truth</source>
+        <translation>与真值相差 mm</translation>
+    </message>
+    <message>
+        <source>mrad from the truth</source>
+        <translation>与真值相差 mrad</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ModelWork</name>
@@ -8442,6 +8538,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>σ range %1 mm</source>
         <translation>距离 σ %1 mm</translation>
     </message>
+    <message>
+        <source>±1σ of a beam</source>
+        <translation>光束的 ±1σ</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::RefinementPage</name>
@@ -8630,6 +8730,34 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>residual (%1)</source>
         <translation>残差（%1）</translation>
+    </message>
+    <message>
+        <source>residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>noise of one</source>
+        <translation>单个残差的噪声</translation>
+    </message>
+    <message>
+        <source>means ± 2σ</source>
+        <translation>均值 ± 2σ</translation>
+    </message>
+    <message>
+        <source>differ from zero</source>
+        <translation>显著非零</translation>
+    </message>
+    <message>
+        <source>selected</source>
+        <translation>已选中</translation>
+    </message>
+    <message>
+        <source>base model</source>
+        <translation>基础模型</translation>
+    </message>
+    <message>
+        <source>chosen effect</source>
+        <translation>所选效应</translation>
     </message>
 </context>
 <context>
@@ -8866,6 +8994,18 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>no data</source>
         <translation>无数据</translation>
+    </message>
+    <message>
+        <source>samples</source>
+        <translation>样本</translation>
+    </message>
+    <message>
+        <source>overlap region</source>
+        <translation>重叠区</translation>
+    </message>
+    <message>
+        <source>circles left out</source>
+        <translation>未使用的圆</translation>
     </message>
 </context>
 <context>
@@ -9904,6 +10044,26 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
 σ = %2 mm</source>
         <translation>δ = %1 mm
 σ = %2 mm</translation>
+    </message>
+    <message>
+        <source>samples</source>
+        <translation>样本</translation>
+    </message>
+    <message>
+        <source>overlap region</source>
+        <translation>重叠区</translation>
+    </message>
+    <message>
+        <source>means</source>
+        <translation>均值</translation>
+    </message>
+    <message>
+        <source>… a colour for each scene</source>
+        <translation>……每个场景一种颜色</translation>
+    </message>
+    <message>
+        <source>fit</source>
+        <translation>拟合</translation>
     </message>
 </context>
 <context>

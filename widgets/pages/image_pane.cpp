@@ -123,7 +123,7 @@ void ImagePane::retranslate() {
   factor_->setAccessibleName(tr("Enlargement of residuals"));
   describe(circles_, tr("Circles"),
            tr("Board outline, circles and their centres as the LiDAR sees them, "
-              "projected with the extrinsic (orange)"));
+              "projected with the extrinsic (orange). Crossed out: not used"));
   describe(points_, tr("Points"), tr("The points of the cloud view, projected with the extrinsic"));
   describe(unused_, tr("Left out"),
            tr("LiDAR points on the board that are not used: refused by the program (red crosses), "

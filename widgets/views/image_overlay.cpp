@@ -78,6 +78,10 @@ void strike(QPainter& painter, const QPolygonF& shape, bool left_out) {
 
 }  // namespace
 
+QColor OverlayItem::shiftColor() {
+  return kResidualColor;
+}
+
 void OverlayItem::setOverlay(ImageOverlay overlay) {
   overlay_ = std::move(overlay);
   update();
@@ -207,11 +211,16 @@ void OverlayItem::paintCircles(QPainter& painter, double scale) const {
                         1.6);
     if (!circle.valid) pen.setStyle(Qt::DashLine);
     painter.setPen(pen);
+    painter.setBrush(Qt::NoBrush);
     painter.drawPolygon(circle.edge);
-    const double half = 4.0 / scale;
-    painter.drawLine(circle.center - QPointF(half, half), circle.center + QPointF(half, half));
-    painter.drawLine(circle.center - QPointF(half, -half), circle.center + QPointF(half, -half));
+    if (!circle.valid) continue;
+    // A dot: crossed out is what is not used.
+    const double half = 2.5 / scale;
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(kCircleColor);
+    painter.drawEllipse(circle.center, half, half);
   }
+  painter.setBrush(Qt::NoBrush);
 }
 
 void OverlayItem::paintShifts(QPainter& painter, double scale) const {

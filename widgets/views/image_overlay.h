@@ -63,6 +63,8 @@ struct OverlayParts {
 /// Draws an overlay; its scene coordinates are image pixels. Lines keep their width on the screen.
 class OverlayItem : public QGraphicsItem {
  public:
+  /// Of the arrows of residuals and shifts.
+  static QColor shiftColor();
   void setOverlay(ImageOverlay overlay);
   [[nodiscard]] const ImageOverlay& overlay() const { return overlay_; }
   void setParts(const OverlayParts& parts);

@@ -114,13 +114,15 @@ inline void click_scene(const QMainWindow& window, const QString& name, bool che
   QTest::mouseClick(view->viewport(), Qt::LeftButton, Qt::NoModifier, at);
 }
 
-/// Text of a cell of the scene list.
+/// Text of a cell of the scene list; of a state that a narrow list shows by its sign, the words.
 inline QString cell(const QMainWindow& window, const QString& scene, int column) {
   const auto* view = find<QTreeView>(window, "scenes");
   const auto found =
       view->model()->match(view->model()->index(0, 0), Qt::DisplayRole, scene, 1, Qt::MatchExactly);
   if (found.isEmpty()) return {};
-  return view->model()->index(found.first().row(), column).data().toString();
+  const QModelIndex at = view->model()->index(found.first().row(), column);
+  const QString said = at.data(Qt::AccessibleTextRole).toString();
+  return said.isEmpty() ? at.data().toString() : said;
 }
 
 /// Waits until a window is idle and its result answers its decisions.

@@ -91,6 +91,32 @@ TEST(ImageOverlay, InvalidCirclesAreRed) {
   EXPECT_GT(qRed(invalid.pixel(100, 100)), 200);
 }
 
+// A cross says that something is not used; what is used has a dot for its centre.
+TEST(ImageOverlay, OnlyWhatIsRefusedIsCrossedOut) {
+  ImageOverlay overlay;
+  QPolygonF edge;
+  for (int k = 0; k < 40; ++k) {
+    edge.push_back({100 + 40 * std::cos(k * 0.157), 100 + 40 * std::sin(k * 0.157)});
+  }
+  overlay.circles.push_back({0, edge, {100, 100}, true});
+  // Between the edge and the middle, on the two lines of a cross.
+  const auto lit = [&](double from, double to) {
+    const QImage image = painted(overlay, {false, false, true, false});
+    int out = 0;
+    for (int y = 65; y < 136; ++y) {
+      for (int x = 65; x < 136; ++x) {
+        const double off = std::hypot(x - 100.0, y - 100.0);
+        if (off > from && off < to && qRed(image.pixel(x, y)) > 60) ++out;
+      }
+    }
+    return out;
+  };
+  EXPECT_EQ(lit(4.0, 36.0), 0);
+  EXPECT_GT(lit(0.0, 3.0), 10) << "a dot in the middle";
+  overlay.circles[0].valid = false;
+  EXPECT_GT(lit(4.0, 36.0), 100);
+}
+
 TEST(ImageOverlay, HighlightsAreRings) {
   const QImage image = painted({}, {}, {QPointF(100, 100)});
   EXPECT_GT(qBlue(image.pixel(109, 100)), 150);
