@@ -123,11 +123,12 @@ void BoardIntensityView::paint(QPainter& painter, const QRectF& area) {
   const double title = 1.6 * painter.fontMetrics().height();
   const double width = area.width() / shown;
   const double aspect = static_cast<double>(data_->columns) / data_->rows;
+  double below = area.top();
   for (int k = 0; k < shown; ++k) {
     // In turns: the left place shows both, the right one the difference.
     const int which = flicker_ ? (k == 1 ? 2 : (odd_ ? 1 : 0)) : k;
     const QRectF place(area.left() + k * width + 4, area.top() + title, width - 8,
-                       area.height() - title - 4);
+                       area.height() - 2 * title - 8);
     const double w = std::min(place.width(), place.height() * aspect);
     const QRectF target(place.center().x() - 0.5 * w, place.top(), w, w / aspect);
     painter.drawText(QRectF(place.left(), area.top(), place.width(), title), Qt::AlignCenter,
@@ -135,6 +136,29 @@ void BoardIntensityView::paint(QPainter& painter, const QRectF& area) {
                                                       static_cast<int>(place.width())));
     painter.drawImage(target, pictures_[which]);
     painter.drawRect(target);
+    below = std::max(below, target.bottom());
+  }
+  paintLegend(painter, QRectF(area.left() + 4, below + 4, area.width() - 8, title));
+}
+
+// What the colours of the difference say.
+void BoardIntensityView::paintLegend(QPainter& painter, const QRectF& place) {
+  const QFontMetrics metrics = painter.fontMetrics();
+  const std::pair<double, QString> entries[] = {{0.0, tr("darker than predicted")},
+                                                {1.0, tr("brighter")}};
+  double x = place.left();
+  double y = place.top();
+  for (const auto& [share, text] : entries) {
+    const double wide = metrics.horizontalAdvance(text) + 2.0;
+    if (x > place.left() && x + 14.0 + wide > place.right()) {
+      x = place.left();
+      y += metrics.height();
+    }
+    const QRectF box(x, y + 0.5 * place.height() - 5.0, 10.0, 10.0);
+    painter.fillRect(box, QColor::fromRgb(map_color(ColorMap::kDiverging, share)));
+    painter.drawText(QRectF(box.right() + 4.0, y, wide, place.height()),
+                     Qt::AlignLeft | Qt::AlignVCenter, text);
+    x = box.right() + 4.0 + wide + 12.0;
   }
 }
 

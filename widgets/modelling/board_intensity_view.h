@@ -35,6 +35,7 @@ class BoardIntensityView : public QWidget {
 
  private:
   void paint(QPainter& painter, const QRectF& area);
+  void paintLegend(QPainter& painter, const QRectF& place);
 
   std::shared_ptr<const BoardIntensity> data_;
   QImage pictures_[3];

@@ -23,6 +23,7 @@ class BudgetPlot : public PlotView {
   /// The true T_camera_lidar, as of a simulation: the distance of every step to it stands beside
   /// the channels, mm (left bar) and mrad (right bar), each on its own scale.
   void setTruth(const std::optional<Rigid3>& camera_from_lidar);
+  [[nodiscard]] bool knowsTruth() const { return truth_.has_value(); }
 
   /// A channel's error beyond its noise floor, display units.
   struct BeyondNoise {

@@ -53,6 +53,7 @@ void ModelPage::createLayout() {
   columns->addWidget(left);
   columns->addWidget(where_);
   columns->addWidget(missing_);
+  where_->setMinimumWidth(410);    // The names of its figures side by side.
   missing_->setMinimumWidth(285);  // Names of effects, verdicts and falls side by side.
   columns->setStretchFactor(0, 0);
   columns->setStretchFactor(1, 1);
@@ -156,6 +157,7 @@ void ModelPage::setReason(const QString& reason) {
 
 void ModelPage::setTruth(const std::optional<Rigid3>& camera_from_lidar) {
   budget_->setTruth(camera_from_lidar);
+  describeSteps();
 }
 
 void ModelPage::showEvent(QShowEvent* event) {
@@ -198,10 +200,14 @@ void ModelPage::describeSteps() {
     const QString text = step ? step_text(*step).toHtmlEscaped() : QStringLiteral("…");
     steps << (k == work_.current() ? QStringLiteral("<b>%1</b>").arg(text) : text);
   }
-  const QStringList legend = {entry(BudgetPlot::noiseColor(colors), u'■', tr("within noise")),
-                              entry(colors.refused, u'■', tr("unexplained")),
-                              entry(BudgetPlot::explainedColor(colors), u'■', tr("explained")),
-                              entry(colors.mark, u'◇', tr("scenes held out"))};
+  QStringList legend = {entry(BudgetPlot::noiseColor(colors), u'■', tr("within noise")),
+                        entry(colors.refused, u'■', tr("unexplained")),
+                        entry(BudgetPlot::explainedColor(colors), u'■', tr("explained")),
+                        entry(colors.mark, u'◇', tr("scenes held out"))};
+  if (budget_->knowsTruth()) {
+    legend << entry(colors.series(0), u'■', tr("mm from the truth"))
+           << entry(colors.series(1), u'■', tr("mrad from the truth"));
+  }
   legend_->setText(legend.join(QStringLiteral("&nbsp;&nbsp;")) +
                    (steps.isEmpty() ? QString()
                                     : QStringLiteral("&nbsp;&nbsp;&nbsp;&nbsp;") +

@@ -74,7 +74,9 @@ QImage paint(const Grid& grid) {
       const float n = grid.count[static_cast<std::size_t>(y * kWidth + x)];
       if (n <= 0.0F) continue;
       const double share = std::log1p(static_cast<double>(n)) * scale;
-      line[x] = qRgba(70, 125, 190, static_cast<int>(45.0 + 190.0 * share));
+      const QColor color = ResidualFigure::dotColor();
+      line[x] =
+          qRgba(color.red(), color.green(), color.blue(), static_cast<int>(45.0 + 190.0 * share));
     }
   }
   return image;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QColor>
 #include <QImage>
 #include <QString>
 #include <memory>
@@ -40,6 +41,8 @@ struct ResidualFigure {
   std::vector<ResidualBin> now, before, predicted;
 
   [[nodiscard]] const Covariate& along() const { return view->columns.covariates[covariate]; }
+  /// Of single residuals, on light and dark ground.
+  static QColor dotColor() { return {70, 125, 190}; }
   /// Where a value of the covariate stands on the plot's axis (categories: 1, 2, …).
   [[nodiscard]] double place(double value) const;
 };

@@ -156,7 +156,9 @@ void ResidualMapPlot::fit(const ResidualMap& map) {
   fitted_to_ = axisRect()->size();
   QCPRange x(map.x_low, map.x_high);
   QCPRange y(map.y_low, map.y_high);
-  const double room = 0.04 * std::max(x.size(), y.size());
+  // Arrows reach beyond the cells at the edges.
+  const double arrow = 0.7 * std::min(x.size() / map.columns, y.size() / map.rows);
+  const double room = std::max(arrow, 0.04 * std::max(x.size(), y.size()));
   x = {x.lower - room, x.upper + room};
   y = {y.lower - room, y.upper + room};
   const QRect rect = axisRect()->rect();

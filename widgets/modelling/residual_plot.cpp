@@ -110,6 +110,7 @@ void ResidualPlot::rebuild() {
   if (!figure_->predicted.empty()) drawMeans(figure_->predicted, colors().fit, false, scale_);
   drawMeans(figure_->now, colors().mark, true, 1.0);
   drawSelected();
+  explain();
   std::vector<QStringList> rows;
   for (const ResidualBin& bin : figure_->now) {
     rows.push_back({csv_number(bin.center), csv_number(bin.residual.mean),
@@ -119,6 +120,19 @@ void ResidualPlot::rebuild() {
   setTable({QString::fromStdString(figure_->along().name), "mean", "sigma", "n", "significant"},
            std::move(rows));
   replot(rpQueuedReplot);
+}
+
+void ResidualPlot::explain() {
+  using Sign = LegendEntry::Sign;
+  std::vector<LegendEntry> entries = {{Sign::kDot, figure_->dotColor(), tr("residuals")},
+                                      {Sign::kDashed, colors().zero, tr("noise of one")},
+                                      {Sign::kMark, colors().mark, tr("means ± 2σ")},
+                                      {Sign::kDot, colors().refused, tr("differ from zero")}};
+  if (before_) entries.push_back({Sign::kLine, colors().axis, tr("base model")});
+  if (!figure_->predicted.empty())
+    entries.push_back({Sign::kLine, colors().fit, tr("chosen effect")});
+  if (!selected_.empty()) entries.push_back({Sign::kDot, colors().emphasis, tr("selected")});
+  showLegend(std::move(entries));
 }
 
 void ResidualPlot::setLabels() {

@@ -41,6 +41,7 @@ class ResidualPlot : public PlotView {
   void drawMeans(const std::vector<ResidualBin>& bins, const QColor& color, bool bars,
                  double scale);
   void drawSelected();
+  void explain();
   void setLabels();
   [[nodiscard]] double halfHeight() const;
   void emitBrush(const QRect& rect);

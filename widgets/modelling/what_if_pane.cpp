@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "modelling/model_text.h"
+#include "style/fitting.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -36,6 +37,7 @@ WhatIfPane::WhatIfPane(QWidget* parent)
   size_->setObjectName(QStringLiteral("what_if_size"));
   effects_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   effects_->setMinimumContentsLength(14);
+  show_entries_in_full(*effects_);
   slider_->setRange(-kSteps, kSteps);
   note_->setWordWrap(true);
   auto* row = new QHBoxLayout;
@@ -121,7 +123,14 @@ void WhatIfPane::choose() {
   const EffectParameter* p = parameter();
   slider_->setEnabled(p != nullptr);
   size_->setEnabled(p != nullptr);
+  // Without an effect there is no size: a number there would have no unit.
+  size_->setSpecialValueText(p == nullptr ? QStringLiteral("–") : QString());
   if (p == nullptr) {
+    const QSignalBlocker quiet(size_);
+    size_->setRange(0.0, 0.0);
+    size_->setSuffix({});
+    const QSignalBlocker still(slider_);
+    slider_->setValue(0);
     note_->setText(
         tr("Choose an effect to see, before it is in the model, what it would leave in the "
            "residuals (orange)."));

@@ -3,12 +3,14 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QEvent>
 #include <QVBoxLayout>
 
 #include "pages/scene_overlay.h"
 #include "style/texts.h"
 #include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
+#include "views/plot_colors.h"
 #include "views/tool_row.h"
 
 namespace lvcalib::widgets {
@@ -60,6 +62,11 @@ void WorldPane::setResult(std::shared_ptr<const CalibrationResult> result) {
   rebuild();
 }
 
+void WorldPane::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && builder_ != nullptr) rebuild();
+}
+
 void WorldPane::rebuild() {
   CloudSceneInput input;
   input.color = static_cast<CloudColor>(color_->currentData().toInt());
@@ -67,6 +74,11 @@ void WorldPane::rebuild() {
   input.landmarks_m = {Eigen::Vector3d::Zero()};
   if (result_) {
     input.target = result_->target;
+    const PlotColors colors = PlotColors::of(palette());
+    for (const SceneResult& scene : result_->scenes) {
+      const auto place = static_cast<int>(input.scenes.size());
+      input.scenes.push_back({QString::fromStdString(scene.name), colors.series(place).rgb()});
+    }
     for (const Eigen::Vector3d& p : camera_pyramid(*result_)) input.landmarks_m.push_back(p);
   } else {
     input.problem = tr("run the calibration first");

@@ -32,6 +32,9 @@ class WorldPane : public QWidget {
   void sceneActivated(int scene);
   void failed(const QString& message);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   void retranslate();
   void rebuild();
@@ -39,7 +42,7 @@ class WorldPane : public QWidget {
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const Cloud> boards_;
   CloudView* view_;
-  CloudSceneBuilder* builder_;
+  CloudSceneBuilder* builder_ = nullptr;
   QComboBox* color_;
 };
 

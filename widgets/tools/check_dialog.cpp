@@ -73,6 +73,7 @@ CheckDialog::CheckDialog(Camera camera, const CheckedPose& pose, std::vector<Fil
       points_(new QCheckBox(this)),
       edges_(new QCheckBox(this)),
       score_(new QLabel(this)),
+      legend_(new QLabel(this)),
       group_(new QGroupBox(this)),
       range_label_(new QLabel(this)),
       range_(new QComboBox(this)),
@@ -104,12 +105,14 @@ void CheckDialog::build() {
       {points_, "check_points"}, {edges_, "check_edges"},   {score_, "check_score"},
       {range_, "check_range"},   {reset_, "check_reset"},   {best_, "check_best"},
       {take_, "check_take"},     {forget_, "check_forget"}, {close_, "check_close"},
-      {image_, "check_image"}};
+      {image_, "check_image"},   {legend_, "check_legend"}};
   for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
   for (QLabel* label : {verdict_, hint_, score_}) {
     label->setWordWrap(true);
     label->setTextFormat(Qt::PlainText);
   }
+  legend_->setWordWrap(true);
+  legend_->setTextFormat(Qt::RichText);
   verdict_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   // A line's worth of room, so that the picture stays where it is.
   verdict_->setMinimumHeight(2 * fontMetrics().lineSpacing());
@@ -164,6 +167,7 @@ void CheckDialog::build() {
   shown->addWidget(edges_);
   shown->addStretch();
   column->addLayout(shown);
+  column->addWidget(legend_);
   column->addWidget(group_);
   auto* grid = new QGridLayout;
   grid->addWidget(best_, 0, 0);
@@ -320,10 +324,10 @@ void CheckDialog::look() {
 void CheckDialog::drawLook() {
   if (!look_) return;
   ImageOverlay overlay;
+  std::vector<float> ranges;
+  for (const EdgeLook::Point& p : look_->points) ranges.push_back(static_cast<float>(p.range_m));
+  const ColorScale scale = scale_for(ranges, ColorMap::kSequential);
   if (points_->isChecked()) {
-    std::vector<float> ranges;
-    for (const EdgeLook::Point& p : look_->points) ranges.push_back(static_cast<float>(p.range_m));
-    const ColorScale scale = scale_for(ranges, ColorMap::kSequential);
     for (const EdgeLook::Point& p : look_->points) {
       overlay.points.emplace_back(p.pixel.x(), p.pixel.y());
       overlay.point_colors.push_back(scale.color(p.range_m));
@@ -337,11 +341,33 @@ void CheckDialog::drawLook() {
     }
   }
   image_->overlay().setOverlay(std::move(overlay));
+  showLegend(scale);
   const EdgeScore& s = look_->score;
   score_->setText(
       s.edges == 0 ? tr("No edges in the picture")
                    : tr("Edge agreement %1 ± %2")
                          .arg(QString::number(s.score, 'f', 3), QString::number(s.sigma, 'f', 3)));
+}
+
+// What the colours of the dots mean, of those that are shown.
+void CheckDialog::showLegend(const ColorScale& ranges) {
+  const auto entry = [](const QColor& color, const QString& text) {
+    return QStringLiteral("<span style=\"color:%1\">■</span>&nbsp;%2")
+        .arg(color.name(), QString(text).replace(QLatin1Char(' '), QChar(0xa0)));
+  };
+  QStringList points;
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const double range = ranges.low + share * (ranges.high - ranges.low);
+    points << entry(QColor(ranges.color(range)), tr("%1 m").arg(range, 0, 'f', 1));
+  }
+  QStringList lines;
+  if (points_->isChecked() && !look_->points.empty())
+    lines << tr("Points:") + QLatin1Char(' ') + points.join(QLatin1Char(' '));
+  if (edges_->isChecked() && !look_->edges.empty()) {
+    lines << tr("Edges:") + QLatin1Char(' ') + entry(kMeets, tr("on an edge of the image")) +
+                 QLatin1Char(' ') + entry(kAlone, tr("on none"));
+  }
+  legend_->setText(lines.join(QStringLiteral("<br>")));
 }
 
 void CheckDialog::drag(const QPointF& from, const QPointF& to, Qt::KeyboardModifiers modifiers) {

@@ -10,6 +10,7 @@
 #include "dialogs/choices.h"
 #include "runner/edge_work.h"
 #include "runner/runner.h"
+#include "views/color_map.h"
 
 class QCheckBox;
 class QComboBox;
@@ -66,6 +67,7 @@ class CheckDialog : public QDialog {
   void showPlace();
   void look();
   void drawLook();
+  void showLegend(const ColorScale& ranges);
   void drag(const QPointF& from, const QPointF& to, Qt::KeyboardModifiers modifiers);
   void setPose(const Rigid3& pose);
   void setRange();
@@ -98,6 +100,7 @@ class CheckDialog : public QDialog {
   QCheckBox* points_;
   QCheckBox* edges_;
   QLabel* score_;
+  QLabel* legend_;
   QGroupBox* group_;
   QLabel* range_label_;
   QComboBox* range_;

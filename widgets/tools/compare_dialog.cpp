@@ -432,14 +432,17 @@ void CompareDialog::chooseScene() {
 }
 
 void CompareDialog::showLegend() {
-  const auto colored = [](const QColor& color, const QString& text) {
-    return QStringLiteral("<span style=\"color:%1\">■</span>&nbsp;%2").arg(color.name(), text);
+  const auto colored = [](const QColor& color, const QString& text, QChar sign = u'■') {
+    return QStringLiteral("<span style=\"color:%1\">%2</span>&nbsp;%3")
+        .arg(color.name(), QString(sign), text);
   };
-  legend_->setText(scene_.isEmpty() ? QString()
-                                    : QStringLiteral("<b>%1</b> %2 %3")
-                                          .arg(scene_.toHtmlEscaped(),
-                                               colored(first_projection_color(), tr("from")),
-                                               colored(second_projection_color(), tr("to"))));
+  legend_->setText(
+      scene_.isEmpty()
+          ? QString()
+          : QStringLiteral("<b>%1</b> %2 %3 %4")
+                .arg(scene_.toHtmlEscaped(), colored(first_projection_color(), tr("from")),
+                     colored(second_projection_color(), tr("to")),
+                     colored(OverlayItem::shiftColor(), tr("shift of the board"), u'→')));
 }
 
 void CompareDialog::showFactor() {

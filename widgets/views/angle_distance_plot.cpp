@@ -101,6 +101,7 @@ void AngleDistancePlot::rebuild() {
   drawBins();
   drawRefusal();
   drawLabel();
+  if (!compact_ && !data_.samples.empty()) explain();
   setTable({"kind", "angle_deg", "distance_mm", "sigma_mm", "samples", "state", "intensity"},
            [this] { return tableRows(); });
   replot(rpQueuedReplot);
@@ -203,6 +204,17 @@ void AngleDistancePlot::drawBins() {
   for (const BinRecord& bin : data_.record.bins) {
     if (bin.state == BinState::kUsed) bars->addData(kMmPerM * bin.sigma_m);
   }
+}
+
+void AngleDistancePlot::explain() {
+  using Sign = LegendEntry::Sign;
+  const auto tone = [&](double share) {
+    return QColor::fromRgb(map_color(data_.intensity.map, share));
+  };
+  showLegend({{Sign::kDot, tone(colors().dark ? 0.22 : 0.0), tr("dark sample")},
+              {Sign::kDot, tone(colors().dark ? 1.0 : 0.92), tr("bright sample")},
+              {Sign::kMark, colors().mark, tr("edge in a bin, ±1σ")},
+              {Sign::kLine, colors().fit, tr("fitted wave")}});
 }
 
 // Hatched and crossed out, as circles that are not used are in the image.

@@ -51,6 +51,7 @@ class AngleDistancePlot : public PlotView {
   void drawSamples();
   void drawWave();
   void drawBins();
+  void explain();
   void drawRefusal();
   void drawLabel();
   [[nodiscard]] std::vector<QStringList> tableRows() const;

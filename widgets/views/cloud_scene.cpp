@@ -160,6 +160,7 @@ class Builder {
 
   void paint() {
     if (in_.color == CloudColor::kCameraColor && paintFromImage()) return;
+    if (in_.color == CloudColor::kScene && paintByScene()) return;
     const std::vector<float> values = quantities();
     scene_->whole = scale_for(
         values, in_.color == CloudColor::kResidual ? ColorMap::kDiverging : ColorMap::kSequential);
@@ -189,6 +190,22 @@ class Builder {
     scene_->has_scale = false;
     scene_->rgb.reserve(3 * scene_->order.size());
     for (const std::uint32_t i : scene_->order) push(image_color(in_.image, scene_->pixels[i]));
+    return true;
+  }
+
+  // Scenes have no order that a scale could show.
+  bool paintByScene() {
+    const Cloud& cloud = *scene_->cloud;
+    if (in_.scenes.empty() || !cloud.has_line()) return false;
+    scene_->quantity = CloudSceneText::tr("scene");
+    scene_->has_scale = false;
+    scene_->categories = in_.scenes;
+    scene_->rgb.reserve(3 * scene_->order.size());
+    for (const std::uint32_t i : scene_->order) {
+      const std::size_t place = cloud.line[i];
+      const bool known = place >= 1 && place <= in_.scenes.size();
+      push(known ? in_.scenes[place - 1].color : qRgb(128, 128, 128));
+    }
     return true;
   }
 

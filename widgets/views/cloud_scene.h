@@ -44,6 +44,13 @@ enum class CloudFilter {
   kBoundary,  ///< In the ring about a circle's edge: what the refinement measures with.
 };
 
+/// One of several things that have no order, and its colour.
+struct CloudCategory {
+  QString name;
+  QRgb color = 0;
+  bool operator==(const CloudCategory&) const = default;
+};
+
 /// Points on the board that are not used: refused by the solve, and left out by the user.
 struct UnusedPoints {
   std::vector<Eigen::Vector3f> refused_m;
@@ -69,6 +76,8 @@ struct CloudSceneInput {
   std::optional<std::pair<double, double>> range;  ///< Of the colours; none: by the values.
   /// Places that are to be in sight with the points, such as the sensors.
   std::vector<Eigen::Vector3d> landmarks_m = {};
+  /// For `kScene`: the scenes, of which a point's line is the place, counted from 1.
+  std::vector<CloudCategory> scenes = {};
   QString problem;  ///< Why there is no full cloud and will be none; empty: it may still come.
 };
 
@@ -83,7 +92,8 @@ struct CloudScene {
   ColorScale scale;
   ColorScale whole;            ///< The scale by the values, whatever range was asked for.
   std::vector<int> histogram;  ///< Of the values, in equal bins over `whole`; beyond: the ends.
-  bool has_scale = true;       ///< False if colours are the camera's.
+  bool has_scale = true;       ///< False if colours are the camera's or those of categories.
+  std::vector<CloudCategory> categories;  ///< What colours stand for; empty if they are a scale.
   UnusedPoints unused;
   QString quantity;  ///< "intensity", "height (m)", …
   QString notice;    ///< Why the picture is not what was asked for; empty if it is.

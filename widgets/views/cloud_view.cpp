@@ -309,7 +309,13 @@ void CloudView::updateLegend() {
   const bool shown = scene_ && scene_->size() > 0;
   if (shown && scene_->has_scale)
     legend_->setScale(scene_->scale, scene_->quantity, scene_->whole, scene_->histogram);
-  if (shown && !scene_->has_scale) legend_->setNameOnly(scene_->quantity);
+  if (shown && !scene_->has_scale) {
+    if (scene_->categories.empty()) {
+      legend_->setNameOnly(scene_->quantity);
+    } else {
+      legend_->setCategories(scene_->categories, scene_->quantity);
+    }
+  }
   legend_->setMinimumWidth(std::max(legend_->minimumWidth(), legend_->sizeHint().width()));
   legend_->setVisible(shown);
   notice_->setText(scene_ ? scene_->notice : QString());

@@ -14,6 +14,8 @@ constexpr int kBarWidth = 14;
 constexpr int kMargin = 6;
 constexpr int kTick = 4;
 constexpr int kHistogramWidth = 26;
+constexpr int kSwatch = 12;
+constexpr int kWidestName = 130;
 
 // A step of 1, 2 or 5 times a power of ten that divides the range into four or more.
 double round_step(double range) {
@@ -39,6 +41,7 @@ void ColorBar::setScale(const ColorScale& scale, const QString& quantity, const 
                         const std::vector<int>& histogram) {
   whole_ = whole;
   histogram_ = histogram;
+  categories_.clear();
   // While an end is dragged, what was built for an earlier place of it arrives.
   if (dragged_ == End::kNone) scale_ = scale;
   quantity_ = quantity;
@@ -56,6 +59,7 @@ void ColorBar::setNameOnly(const QString& quantity) {
   quantity_ = quantity;
   has_scale_ = false;
   histogram_.clear();
+  categories_.clear();
   setToolTip({});
   setCursor(Qt::ArrowCursor);
   setAccessibleName(quantity);
@@ -63,8 +67,52 @@ void ColorBar::setNameOnly(const QString& quantity) {
   update();
 }
 
+void ColorBar::setCategories(const std::vector<CloudCategory>& categories,
+                             const QString& quantity) {
+  setNameOnly(quantity);
+  categories_ = categories;
+  // Names in full, and all of them, whatever room there is.
+  QString all;
+  for (const CloudCategory& category : categories_) {
+    all += QStringLiteral("<span style=\"color:%1\">■</span>&nbsp;%2<br>")
+               .arg(QColor(category.color).name(), category.name.toHtmlEscaped());
+  }
+  setToolTip(all);
+  updateGeometry();
+  update();
+}
+
+void ColorBar::paintCategories(QPainter& painter) const {
+  const QFontMetrics metrics(font());
+  const int line = metrics.height() + 4;
+  const int left = 2 * kMargin + kSwatch;
+  const int room = width() - left - kMargin;
+  int y = kMargin;
+  painter.drawText(QRect(kMargin, y, width() - kMargin, line), Qt::AlignLeft | Qt::AlignVCenter,
+                   quantity_);
+  for (std::size_t k = 0; k < categories_.size(); ++k) {
+    y += line;
+    // The last line says that there are more; the tool tip has all.
+    if (y + 2 * line > height() && k + 1 < categories_.size()) {
+      painter.drawText(QRect(left, y, room, line), Qt::AlignLeft | Qt::AlignVCenter,
+                       QStringLiteral("… +%1").arg(categories_.size() - k));
+      return;
+    }
+    painter.fillRect(QRect(kMargin, y + (line - kSwatch) / 2, kSwatch, kSwatch),
+                     QColor(categories_[k].color));
+    painter.drawText(QRect(left, y, room, line), Qt::AlignLeft | Qt::AlignVCenter,
+                     metrics.elidedText(categories_[k].name, Qt::ElideMiddle, room));
+  }
+}
+
 QSize ColorBar::sizeHint() const {
   const QFontMetrics metrics(font());
+  if (!categories_.empty()) {
+    int widest = metrics.horizontalAdvance(quantity_) - kSwatch - kMargin;
+    for (const CloudCategory& category : categories_)
+      widest = std::max(widest, metrics.horizontalAdvance(category.name));
+    return {3 * kMargin + kSwatch + std::min(widest + 2, kWidestName), 160};
+  }
   const int name = metrics.height() + kMargin;
   const int numbers = metrics.horizontalAdvance("-8888.8");
   return {2 * kMargin + name + (has_scale_ ? kBarWidth + kTick + numbers : 0) +
@@ -129,6 +177,10 @@ void ColorBar::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   const QFontMetrics metrics(font());
   painter.setPen(palette().color(QPalette::WindowText));
+  if (!categories_.empty()) {
+    paintCategories(painter);
+    return;
+  }
   const QString name = metrics.elidedText(quantity_, Qt::ElideRight, height() - 2 * kMargin);
   painter.save();
   painter.translate(width() - kMargin - metrics.descent(), height() - kMargin);

@@ -5,12 +5,13 @@
 #include <QWidget>
 #include <vector>
 
+#include "views/cloud_scene.h"
 #include "views/color_map.h"
 
 namespace lvcalib::widgets {
 
 /// Legend of a colour scale: an upright bar with round numbers beside it and the quantity's name
-/// along it.
+/// along it; or of categories, by name.
 class ColorBar : public QWidget {
   Q_OBJECT
 
@@ -24,6 +25,8 @@ class ColorBar : public QWidget {
                 const std::vector<int>& histogram);
   /// Only the name, without a bar (camera colours).
   void setNameOnly(const QString& quantity);
+  /// What is told apart, and in which colours.
+  void setCategories(const std::vector<CloudCategory>& categories, const QString& quantity);
 
   [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] QSize minimumSizeHint() const override;
@@ -41,6 +44,8 @@ class ColorBar : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
 
  private:
+  void paintCategories(QPainter& painter) const;
+
   enum class End { kNone, kLow, kHigh };
   [[nodiscard]] QRect bar() const;
   [[nodiscard]] double valueAt(int y) const;
@@ -49,6 +54,7 @@ class ColorBar : public QWidget {
   ColorScale scale_;
   ColorScale whole_;
   std::vector<int> histogram_;
+  std::vector<CloudCategory> categories_;
   End dragged_ = End::kNone;
   QString quantity_;
   bool has_scale_ = false;

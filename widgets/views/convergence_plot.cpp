@@ -79,8 +79,21 @@ void ConvergencePlot::rebuild() {
   }
   drawNodes();
   drawLayoutMoves();
+  if (!history_.empty()) {
+    const int shown = chosen_ >= 0 ? placeOf(chosen_) : 0;
+    showLegend({{LegendEntry::Sign::kLine, colors().series(std::max(0, shown)),
+                 chosen_ >= 0 ? tr("circle %1").arg(chosen_) : tr("each circle")},
+                {LegendEntry::Sign::kLine, colors().mark, tr("layout")}});
+  }
   fillTable();
   replot(rpQueuedReplot);
+}
+
+int ConvergencePlot::placeOf(int id) const {
+  const auto& nodes = history_.front().nodes;
+  const auto found = std::find_if(nodes.begin(), nodes.end(),
+                                  [id](const NodeRecord& node) { return node.id == id; });
+  return found == nodes.end() ? -1 : static_cast<int>(found - nodes.begin());
 }
 
 void ConvergencePlot::drawNodes() {

@@ -28,6 +28,7 @@ class ConvergencePlot : public PlotView {
   void rebuild() override;
 
  private:
+  [[nodiscard]] int placeOf(int id) const;
   void drawNodes();
   void drawLayoutMoves();
   void fillTable();

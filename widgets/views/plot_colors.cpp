@@ -8,7 +8,10 @@ QColor PlotColors::series(int index) const {
   static constexpr int kHues[] = {212, 24, 140, 350, 268, 48, 185, 310, 90, 0};
   const int hue = kHues[static_cast<unsigned>(index) % 10U];
   const bool gray = static_cast<unsigned>(index) % 10U == 9U;
-  return QColor::fromHsl(hue, gray ? 0 : 170, dark ? 155 : 105);
+  const bool second = static_cast<unsigned>(index) / 10U % 2U == 1U;
+  const int usual = dark ? 155 : 105;
+  const int other = dark ? 205 : 65;
+  return QColor::fromHsl(hue, gray ? 0 : 170, second ? other : usual);
 }
 
 PlotColors PlotColors::of(const QPalette& palette) {

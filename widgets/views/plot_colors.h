@@ -20,7 +20,8 @@ struct PlotColors {
   QColor emphasis;  ///< The chosen one.
   bool dark = false;
 
-  /// Well-told-apart colours for series 0, 1, 2, …; they repeat after ten.
+  /// Well-told-apart colours for series 0, 1, 2, …; the second ten are those of the first in
+  /// another lightness, then they repeat.
   [[nodiscard]] QColor series(int index) const;
 
   static PlotColors of(const QPalette& palette);

@@ -46,7 +46,20 @@ void PlotView::resetView() {
 void PlotView::clearFigure() {
   clearPlottables();
   clearItems();
+  showLegend({});
   setTable({}, nullptr);
+}
+
+std::vector<LegendEntry> PlotView::legendEntries() const {
+  return legend_row_ != nullptr ? legend_row_->entries() : std::vector<LegendEntry>();
+}
+
+void PlotView::showLegend(std::vector<LegendEntry> entries) {
+  if (legend_row_ == nullptr) {
+    if (entries.empty()) return;
+    legend_row_ = new PlotLegend(this);
+  }
+  legend_row_->setEntries(std::move(entries), font(), colors_.text);
 }
 
 namespace {
@@ -210,11 +223,14 @@ void PlotView::fitLabels() {
   fitMessage();
   constexpr double kOtherParts_px = 36.0;  // Margins, and the numbers below the figure.
   constexpr double kSmallest = 0.6;
+  const double legend_px =
+      legend_row_ != nullptr ? legend_row_->minimumOuterSizeHint().height() : 0.0;
   for (QCPAxis* axis : {yAxis, yAxis2}) {
     if (axis->label().isEmpty()) continue;
     QFont fitting = font();
     const double wanted = QFontMetricsF(fitting).horizontalAdvance(axis->label());
-    const double share = std::clamp((height() - kOtherParts_px) / wanted, kSmallest, 1.0);
+    const double room = height() - kOtherParts_px - legend_px;
+    const double share = std::clamp(room / wanted, kSmallest, 1.0);
     fitting.setPointSizeF(share * fitting.pointSizeF());
     if (axis->labelFont() != fitting) axis->setLabelFont(fitting);
   }

@@ -8,6 +8,7 @@
 #include "views/custom_plot.h"
 #include "views/figure_actions.h"
 #include "views/plot_colors.h"
+#include "views/plot_legend.h"
 
 namespace lvcalib::widgets {
 
@@ -23,6 +24,8 @@ class PlotView : public QCustomPlot {
   /// The data behind the figure as CSV text.
   [[nodiscard]] QByteArray csv() const;
   [[nodiscard]] const PlotColors& colors() const { return colors_; }
+  /// What the figure says its colours and signs are; empty if nothing has to be said.
+  [[nodiscard]] std::vector<LegendEntry> legendEntries() const;
 
  public Q_SLOTS:
   /// Back to the whole range.
@@ -39,6 +42,8 @@ class PlotView : public QCustomPlot {
   void clearFigure();
   /// Says in the middle of an empty figure why it is empty.
   void showMessage(const QString& text);
+  /// Says above the figure what its colours and signs are, until it is drawn anew.
+  void showLegend(std::vector<LegendEntry> entries);
   /// Stores the range that resetView() goes back to, and shows it.
   void setHome(const QCPRange& x, const QCPRange& y);
   /// What csv() gives; `rows` is called only when somebody wants it.
@@ -63,6 +68,7 @@ class PlotView : public QCustomPlot {
   [[nodiscard]] QByteArray pdf();
 
   FigureActions* actions_;
+  PlotLegend* legend_row_ = nullptr;  // The layout's; made once there is something to say.
   PlotColors colors_;
   bool stale_ = false;  // Drawn with the colours or words before.
   QCPRange home_x_, home_y_;

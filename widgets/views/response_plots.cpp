@@ -38,6 +38,11 @@ void add_caption(QCustomPlot& plot, const QString& text, const QColor& color) {
   item->setColor(color);
   item->setFont(plot.font());
   item->setText(text);
+  // Read on whatever is drawn beneath.
+  item->setPadding({3, 1, 3, 1});
+  QColor ground = PlotColors::of(plot.palette()).background;
+  ground.setAlpha(215);
+  item->setBrush(ground);
 }
 
 QCPGraph* add_dots(QCustomPlot& plot, const QColor& color, double size) {
@@ -124,15 +129,39 @@ void TransitionPlot::rebuild() {
     drawMeans(*scope_.scenes[k], alone ? colors().mark : colors().series(scope_.colors[k]), rows);
   }
   if (scope_.transition != nullptr) drawFit();
+  if (!rows.empty()) explain();
   if (rows.empty()) showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
   drawCaption();
   setTable({"scene", "distance_mm", "mean_intensity", "sigma", "samples"}, std::move(rows));
   replot(rpQueuedReplot);
 }
 
+// Apart from the colours of the scenes.
+QColor TransitionPlot::overlapColor() const {
+  return colors().dark ? colors().emphasis : colors().fill;
+}
+
+void TransitionPlot::explain() {
+  using Sign = LegendEntry::Sign;
+  constexpr std::size_t kMostNames = 6;
+  std::vector<LegendEntry> entries = {{Sign::kDot, colors().axis, tr("samples")},
+                                      {Sign::kDot, overlapColor(), tr("overlap region")}};
+  const std::size_t scenes = scope_.scenes.size();
+  if (scenes == 1) entries.push_back({Sign::kDot, colors().mark, tr("means")});
+  for (std::size_t k = 0; scenes > 1 && k < std::min(scenes, kMostNames); ++k) {
+    if (!scope_.scenes[k]->transition) continue;
+    const QString name = QString::fromStdString(scope_.scenes[k]->name);
+    entries.push_back(
+        {Sign::kDot, colors().series(scope_.colors[k]),
+         k + 1 == kMostNames && scenes > kMostNames ? tr("… a colour for each scene") : name});
+  }
+  if (scope_.transition != nullptr) entries.push_back({Sign::kLine, colors().fit, tr("fit")});
+  showLegend(std::move(entries));
+}
+
 void TransitionPlot::drawSamples() {
   QCPGraph* plain = add_dots(*this, faint(colors().axis, 110), 2.6);
-  QCPGraph* overlap = add_dots(*this, faint(colors().emphasis, 150), 2.6);
+  QCPGraph* overlap = add_dots(*this, faint(overlapColor(), 220), 2.6);
   for (const SceneResponse* scene : scope_.scenes) {
     if (scope_.scenes.size() > 1 && !scene->transition) continue;
     const Levels levels = levelsOf(*scene);
@@ -250,6 +279,10 @@ void AnglePlot::rebuild() {
     drawEllipse(s->covariance.topLeftCorner<2, 2>(), 1.0, QPen(colors().fit, 2.2));
     drawEllipse(s->covariance.topLeftCorner<2, 2>(), 2.0, QPen(colors().fit, 1.4));
     drawEllipse(s->paired.topLeftCorner<2, 2>(), 1.0, QPen(colors().mark, 1.2, Qt::DashLine));
+    using Sign = LegendEntry::Sign;
+    showLegend({{Sign::kDot, colors().fill, tr("samples")},
+                {Sign::kLine, colors().fit, tr("1σ, 2σ of a beam")},
+                {Sign::kDashed, colors().mark, tr("1σ of the samples")}});
     const Eigen::Vector3d std_dev = kDegPerRad * s->std_dev();
     const Eigen::Vector3d sigma = kDegPerRad * s->std_sigma;
     add_caption(
@@ -337,6 +370,9 @@ void RangePlot::drawSigma() {
     line->point2->setCoords(x, 1.0);
     line->setPen(x == 0.0 ? QPen(colors().zero, 1, Qt::DashLine) : QPen(colors().fit, 2.0));
   }
+  using Sign = LegendEntry::Sign;
+  showLegend({{Sign::kBox, colors().fill, tr("samples")},
+              {Sign::kLine, colors().fit, tr("±1σ of a beam")}});
   add_caption(
       *this,
       tr("σ range %1 mm").arg(plus_minus(sigma, kMmPerM * scope_.statistics->std_sigma.z(), 2)),

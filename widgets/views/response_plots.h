@@ -46,6 +46,8 @@ class TransitionPlot : public PlotView {
   void drawMeans(const SceneResponse& scene, const QColor& color, std::vector<QStringList>& rows);
   void drawFit();
   void drawCaption();
+  void explain();
+  [[nodiscard]] QColor overlapColor() const;
   void fit();
 
   ResponseScope scope_;

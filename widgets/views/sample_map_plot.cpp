@@ -73,6 +73,14 @@ void SampleMapPlot::rebuild() {
     const Eigen::Vector2d p = kMmPerM * s->board_m.cast<double>();
     graphs[s->overlap]->addData(p.x(), p.y());
   }
+  using Sign = LegendEntry::Sign;
+  std::vector<LegendEntry> entries = {{Sign::kDot, colors().axis, tr("samples")},
+                                      {Sign::kDot, colors().emphasis, tr("overlap region")}};
+  const auto& nodes = target_.nodes();
+  if (std::any_of(nodes.begin(), nodes.end(),
+                  [&](const TargetNode& node) { return isRefused(node.id); }))
+    entries.push_back({Sign::kDashed, colors().refused, tr("circles left out")});
+  if (!samples.empty()) showLegend(std::move(entries));
   if (samples.empty())
     showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
   setTable({"x_mm", "y_mm", "distance_mm", "intensity", "overlap"}, [this] { return tableRows(); });
@@ -90,6 +98,14 @@ std::vector<QStringList> SampleMapPlot::tableRows() const {
   return rows;
 }
 
+bool SampleMapPlot::isRefused(int id) const {
+  return std::any_of(scope_.scenes.begin(), scope_.scenes.end(), [&](const SceneResponse* scene) {
+    return std::any_of(scene->nodes.begin(), scene->nodes.end(), [&](const NodeResponse& node) {
+      return node.id == id && node.state != NodeResponseState::kUsed;
+    });
+  });
+}
+
 void SampleMapPlot::drawBoard() {
   const BoardOutline outline = target_.outline();
   auto* board = new QCPItemRect(this);
@@ -98,13 +114,6 @@ void SampleMapPlot::drawBoard() {
   board->bottomRight->setCoords(kMmPerM * outline.upper_right_m.x(),
                                 kMmPerM * outline.lower_left_m.y());
   board->setPen(QPen(colors().axis));
-  const auto refused = [&](int id) {
-    return std::any_of(scope_.scenes.begin(), scope_.scenes.end(), [&](const SceneResponse* scene) {
-      return std::any_of(scene->nodes.begin(), scene->nodes.end(), [&](const NodeResponse& node) {
-        return node.id == id && node.state != NodeResponseState::kUsed;
-      });
-    });
-  };
   for (const TargetNode& node : target_.nodes()) {
     const double r = target_.circle_radius_m;
     auto* circle = new QCPItemEllipse(this);
@@ -112,8 +121,8 @@ void SampleMapPlot::drawBoard() {
                                kMmPerM * (node.center_m.y() + r));
     circle->bottomRight->setCoords(kMmPerM * (node.center_m.x() + r),
                                    kMmPerM * (node.center_m.y() - r));
-    circle->setPen(refused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine)
-                                    : QPen(colors().axis));
+    circle->setPen(isRefused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine)
+                                      : QPen(colors().axis));
   }
 }
 

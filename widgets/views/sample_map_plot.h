@@ -21,6 +21,7 @@ class SampleMapPlot : public PlotView {
 
  private:
   [[nodiscard]] std::vector<QStringList> tableRows() const;
+  [[nodiscard]] bool isRefused(int id) const;
   void drawBoard();
   void fit();
 

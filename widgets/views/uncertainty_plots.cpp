@@ -148,8 +148,6 @@ UncertaintyRangePlot::UncertaintyRangePlot(QWidget* parent) : PlotView(parent) {
   yAxis->setTicker(decades());
   yAxis->setNumberFormat("gb");
   yAxis->setNumberPrecision(0);
-  legend->setVisible(true);
-  axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
   follow_language(this, [this] {
     xAxis->setLabel(tr("range (m)"));
     yAxis->setLabel(tr("standard deviation (mm)"));
@@ -182,7 +180,6 @@ void UncertaintyRangePlot::setRanges(std::vector<RangeUncertainty> ranges) {
 void UncertaintyRangePlot::drawCurve(bool across) {
   QCPGraph* graph = addGraph();
   const QColor color = colors().series(across ? 0 : 1);
-  graph->setName(across ? tr("across the ray") : tr("along the ray"));
   graph->setPen(QPen(color, 2.0));
   graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(color), color, 6});
   for (const RangeUncertainty& r : ranges_)
@@ -191,16 +188,14 @@ void UncertaintyRangePlot::drawCurve(bool across) {
 
 void UncertaintyRangePlot::rebuild() {
   clearFigure();
-  legend->setVisible(!ranges_.empty());
-  legend->setBrush(Qt::NoBrush);
-  legend->setBorderPen(Qt::NoPen);
-  legend->setTextColor(colors().text);
   std::vector<QStringList> rows;
   if (ranges_.empty()) {
     showMessage(tr("no result yet"));
   } else {
     drawCurve(true);
     drawCurve(false);
+    showLegend({{LegendEntry::Sign::kLine, colors().series(0), tr("across the ray")},
+                {LegendEntry::Sign::kLine, colors().series(1), tr("along the ray")}});
   }
   for (const RangeUncertainty& r : ranges_)
     rows.push_back({csv_number(r.range_m), csv_number(r.across_mm), csv_number(r.along_mm)});

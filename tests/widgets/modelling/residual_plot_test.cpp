@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modelling/residual_plot.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "model_example.h"
@@ -27,6 +29,34 @@ TEST(ResidualPlotTest, DrawsMeansAndTellsThemAsCsv) {
   const int with_before = plot.plottableCount();
   plot.setBeforeShown(false);
   EXPECT_LT(plot.plottableCount(), with_before);
+}
+
+// Which colour is what stands above the figure: of what is drawn, and in the colours it is drawn
+// in.
+TEST(ResidualPlotTest, EveryCurveStandsInTheLegend) {
+  ResidualPlot plot;
+  plot.resize(500, 400);
+  auto whole = std::make_shared<ResidualFigure>(*figure("range"));
+  plot.setFigure(whole);
+  const auto legend_has = [&](const QColor& color) {
+    const auto entries = plot.legendEntries();
+    return std::any_of(entries.begin(), entries.end(),
+                       [&](const LegendEntry& entry) { return entry.color == color; });
+  };
+  for (const QColor& color : {plot.colors().mark, plot.colors().refused, plot.colors().zero,
+                              plot.colors().axis, ResidualFigure::dotColor()})
+    EXPECT_TRUE(legend_has(color)) << color.name().toStdString();
+  EXPECT_FALSE(legend_has(plot.colors().fit)) << "no effect is chosen";
+  plot.setBeforeShown(false);
+  EXPECT_FALSE(legend_has(plot.colors().axis));
+  auto with_effect = std::make_shared<ResidualFigure>(*whole);
+  with_effect->predicted = with_effect->now;
+  plot.setFigure(with_effect);
+  EXPECT_TRUE(legend_has(plot.colors().fit));
+  plot.setSelected({0, 1});
+  EXPECT_TRUE(legend_has(plot.colors().emphasis));
+  plot.setFigure(nullptr, "nothing");
+  EXPECT_TRUE(plot.legendEntries().empty());
 }
 
 TEST(ResidualPlotTest, SaysWhyItIsEmpty) {

@@ -37,6 +37,12 @@ TEST(WhatIfPaneTest, ASliderScalesThePatternOfAnEffect) {
   size->setValue(-4.0);
   EXPECT_NEAR(scale, -2.0, 1e-6);
   EXPECT_EQ(slider->value(), slider->minimum() / 5);
+  // Without an effect there is no size, and no number that has lost its unit.
+  effects->setCurrentIndex(0);
+  EXPECT_FALSE(effect);
+  EXPECT_EQ(size->text(), "–");
+  effects->setCurrentIndex(effects->findData("range_walk"));
+  EXPECT_TRUE(size->text().endsWith(" mm")) << size->text().toStdString();
 }
 
 TEST(WhatIfPaneTest, EffectsWithSeveralParametersShowThem) {

@@ -9,6 +9,7 @@
 
 #include "pages/scene_overlay.h"
 #include "views/cloud_view.h"
+#include "views/color_bar.h"
 #include "widgets/support/calibrated_demo.h"
 
 namespace lvcalib::widgets::world_pane_test {
@@ -34,8 +35,6 @@ TEST_F(WorldPaneTest, HoldsEveryBoardAndBothSensors) {
   for (const SceneResult& scene : demo_.result->scenes) points += scene.board_points.size();
   const CloudScene& scene = *pane_.view()->scene();
   EXPECT_EQ(scene.size(), points);
-  EXPECT_EQ(scene.whole.low, 1.0);
-  EXPECT_EQ(scene.whole.high, 3.0);
   const auto camera = camera_pyramid(*demo_.result);
   ASSERT_EQ(camera.size(), 5U);
   for (const Eigen::Vector3d& p : camera) {
@@ -48,6 +47,26 @@ TEST_F(WorldPaneTest, HoldsEveryBoardAndBothSensors) {
   const auto pixel = demo_.result->camera.project(camera_from_lidar * camera[3]);
   ASSERT_TRUE(pixel);
   EXPECT_NEAR(pixel->x(), demo_.result->camera.width_px - 0.5, 0.01);
+}
+
+// Scenes have names, not an order: a colour of its own for each, and a legend that says which.
+TEST_F(WorldPaneTest, EverySceneHasItsColourAndItsName) {
+  pane_.setResult(demo_.result);
+  ASSERT_TRUE(settle());
+  const CloudScene& scene = *pane_.view()->scene();
+  EXPECT_FALSE(scene.has_scale);
+  ASSERT_EQ(scene.categories.size(), demo_.result->scenes.size());
+  for (std::size_t k = 0; k < scene.categories.size(); ++k) {
+    EXPECT_EQ(scene.categories[k].name.toStdString(), demo_.result->scenes[k].name);
+    for (std::size_t other = 0; other < k; ++other)
+      EXPECT_NE(scene.categories[k].color, scene.categories[other].color);
+  }
+  for (std::size_t k = 0; k < scene.size(); ++k) {
+    const QRgb wanted = scene.categories[scene.cloud->line[scene.order[k]] - 1U].color;
+    ASSERT_EQ(qRgb(scene.rgb[3 * k], scene.rgb[3 * k + 1], scene.rgb[3 * k + 2]), wanted);
+  }
+  for (const CloudCategory& category : scene.categories)
+    EXPECT_TRUE(pane_.view()->legend()->toolTip().contains(QColor(category.color).name()));
 }
 
 TEST_F(WorldPaneTest, AClickOnABoardGoesToItsScene) {

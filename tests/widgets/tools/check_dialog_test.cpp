@@ -82,6 +82,13 @@ TEST_F(CheckDialogTest, ACalibrationIsJudgedAtOnce) {
   ASSERT_TRUE(test::wait_until([this] { return !image()->image().isNull(); }, 10'000));
   EXPECT_GT(image()->overlay().overlay().points.size(), 1000U);
   EXPECT_TRUE(find<QLabel>(*dialog_, "check_score")->text().contains("±"));
+  // What the colours of the dots are, of those that are shown.
+  const auto* legend = find<QLabel>(*dialog_, "check_legend");
+  const auto metres = QStringLiteral("\u00a0m");
+  EXPECT_EQ(legend->text().count(metres), 3) << legend->text().toStdString();
+  EXPECT_TRUE(legend->text().contains("on\u00a0none"));
+  find<QCheckBox>(*dialog_, "check_points")->setChecked(false);
+  EXPECT_EQ(legend->text().count(metres), 0);
 }
 
 TEST_F(CheckDialogTest, ABumpedRigIsMovedToWhereEdgesAgree) {

@@ -34,6 +34,25 @@ TEST(ColorBar, NameOnlyIsNarrower) {
   EXPECT_LT(bar.sizeHint().width(), wide);
 }
 
+TEST(ColorBar, CategoriesStandByName) {
+  ColorBar bar;
+  std::vector<CloudCategory> scenes;
+  for (int k = 0; k < 4; ++k)
+    scenes.push_back({QStringLiteral("scene %1").arg(k), qRgb(40 + 50 * k, 0, 200 - 50 * k)});
+  bar.setCategories(scenes, "scene");
+  bar.resize(bar.sizeHint().width(), 300);
+  for (const CloudCategory& scene : scenes) {
+    EXPECT_TRUE(test::shows(bar, QColor(scene.color)));
+    EXPECT_TRUE(bar.toolTip().contains(scene.name));
+  }
+  // Where there is no room for all, the tool tip still has them.
+  bar.resize(bar.sizeHint().width(), 60);
+  EXPECT_FALSE(test::shows(bar, QColor(scenes.back().color)));
+  EXPECT_TRUE(bar.toolTip().contains(scenes.back().name));
+  bar.setNameOnly("camera colour");
+  EXPECT_FALSE(test::shows(bar, QColor(scenes.front().color)));
+}
+
 TEST(ColorBar, OddScalesAreDrawn) {
   ColorBar bar;
   bar.resize(80, 200);
