@@ -50,7 +50,7 @@ CorrectDialog::CorrectDialog(std::shared_ptr<const CalibrationResult> result, Ch
       choices_(choices),
       folder_(folder),
       model_(new QLabel(this)),
-      labels_{new QLabel(this), new QLabel(this)},
+      labels_{new QLabel(this), new QLabel(this), new QLabel(this)},
       input_(new QLineEdit(this)),
       output_(new QLineEdit(this)),
       effects_(new QListWidget(this)),
@@ -116,9 +116,11 @@ void CorrectDialog::build() {
   }
   effects_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
   effects_->setVisible(effects_->count() > 0);
-  clock_->setRange(0.0, 1.0);
-  clock_->setDecimals(2);
-  clock_->setSingleStep(0.05);
+  // Of the way from the first scene of the calibration to the last.
+  clock_->setRange(0.0, 100.0);
+  clock_->setDecimals(0);
+  clock_->setSingleStep(5.0);
+  clock_->setSuffix(QStringLiteral(" %"));
   const std::pair<QWidget*, const char*> named[] = {
       {input_, "correct_input"},         {output_, "correct_output"}, {summary_, "correct_summary"},
       {correct_, "correct_start"},       {stop_, "correct_stop"},     {cloud_, "correct_cloud"},
@@ -157,6 +159,7 @@ void CorrectDialog::build() {
   auto* when = new QHBoxLayout;
   when->addWidget(has_clock_);
   when->addWidget(clock_);
+  when->addWidget(labels_[2]);
   when->addStretch();
   layout->addLayout(when);
   layout->addLayout(form);
@@ -190,7 +193,7 @@ CorrectionOptions CorrectDialog::options() const {
     if (item->checkState() != Qt::Checked)
       out.skip.push_back(item->data(Qt::UserRole).toString().toStdString());
   }
-  if (has_clock_->isChecked()) out.clock = clock_->value();
+  if (has_clock_->isChecked()) out.clock = 0.01 * clock_->value();
   return out;
 }
 
@@ -260,11 +263,12 @@ void CorrectDialog::retranslate() {
   effects_->setToolTip(tr("Effects that are not ticked stay in the clouds"));
   has_clock_->setText(tr("&When the clouds were taken:"));
   has_clock_->setToolTip(tr(
-      "0 with the first scene of the calibration, 1 with the last. Effects that drift from scene "
-      "to scene are taken out only if this is known."));
+      "0 % with the first scene of the calibration, 100 % with the last. Effects that drift from "
+      "scene to scene are taken out only if this is known."));
   clock_->setToolTip(has_clock_->toolTip());
   labels_[0]->setText(tr("&From:"));
   labels_[1]->setText(tr("&To:"));
+  labels_[2]->setText(tr("of the way from the first scene to the last"));
   cloud_->setText(tr("&Cloud…"));
   clouds_->setText(tr("F&older…"));
   place_->setText(tr("&Place…"));

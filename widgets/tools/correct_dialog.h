@@ -47,7 +47,7 @@ class CorrectDialog : public QDialog {
   bool cancelled_ = false;
 
   QLabel* model_;
-  QLabel* labels_[2];
+  QLabel* labels_[3];
   QLineEdit* input_;
   QLineEdit* output_;
   QListWidget* effects_;

@@ -9,6 +9,7 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QTemporaryDir>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -89,6 +90,37 @@ TEST_F(CorrectDialogTest, AnEffectThatIsNotTickedStaysInTheCloud) {
   EXPECT_FALSE(find<QDoubleSpinBox>(dialog_, "correct_clock")->isEnabled());
   find<QCheckBox>(dialog_, "correct_has_clock")->click();
   EXPECT_TRUE(find<QDoubleSpinBox>(dialog_, "correct_clock")->isEnabled());
+}
+
+// The time is given in per cent of the way through the calibration, and says so.
+TEST(CorrectDialogClock, IsAShareOfTheWayFromTheFirstSceneToTheLast) {
+  auto drifting = std::make_shared<CalibrationResult>();
+  ParameterEstimate warm;
+  warm.name = "b";
+  warm.unit = "mm";
+  warm.unit_in_si = 1e-3;
+  warm.value = 0.020;
+  drifting->model.push_back({"range_warmup", {warm}, 1.0, 0.0, {}});
+  const QTemporaryDir folder;
+  const QString cloud = folder.filePath("walk.pcd");
+  ASSERT_TRUE(write_pcd(cloud.toStdString(), example_cloud()).ok());
+  test::Answers answers;
+  CorrectDialog dialog(drifting, answers, folder.path());
+  auto* clock = find<QDoubleSpinBox>(dialog, "correct_clock");
+  EXPECT_EQ(clock->text(), "0 %");
+  find<QCheckBox>(dialog, "correct_has_clock")->click();
+  // b exp(-t/τ) with τ of the whole session: 20 mm at its start, 7.4 mm at its end.
+  for (const auto& [percent, moved_m] : {std::pair{0.0, 0.020}, {100.0, 0.020 * std::exp(-1.0)}}) {
+    clock->setValue(percent);
+    const QString output = folder.filePath(QStringLiteral("at-%1.pcd").arg(percent));
+    find<QLineEdit>(dialog, "correct_input")->setText(cloud);
+    find<QLineEdit>(dialog, "correct_output")->setText(output);
+    find<QPushButton>(dialog, "correct_start")->click();
+    ASSERT_TRUE(wait_until([&] { return !dialog.busy(); }));
+    const auto after = read_cloud(output.toStdString());
+    ASSERT_TRUE(after.ok());
+    EXPECT_NEAR(example_cloud().points_m[7].norm() - after->points_m[7].norm(), moved_m, 1e-4);
+  }
 }
 
 TEST_F(CorrectDialogTest, AFolderKeepsItsNamesAndABrokenCloudDoesNotStopTheOthers) {
