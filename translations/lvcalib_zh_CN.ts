@@ -9847,8 +9847,8 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>固定：采用您的值，不拟合</translation>
     </message>
     <message>
-        <source>Value and standard deviation; believable: ±%1 %2. Double-click to hold it at a value of yours.</source>
-        <translation>值与标准差；可信范围：±%1 %2。双击可固定为您的值。</translation>
+        <source>Value and standard deviation; believable: ±%1%2. Double-click to hold it at a value of yours.</source>
+        <translation>值与标准差；可信范围：±%1%2。双击可固定为您的值。</translation>
     </message>
     <message>
         <source>&lt;b&gt;Model&lt;/b&gt;</source>
@@ -10308,8 +10308,8 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>选择一个效应，在加入模型之前查看它会在残差中留下什么（橙色）。</translation>
     </message>
     <message>
-        <source>Orange: what the poses would leave of it; %1 %2 is the size that matters.</source>
-        <translation>橙色：位姿吸收后的残留；有影响的大小为 %1 %2。</translation>
+        <source>Orange: what the poses would leave of it; %1%2 is the size that matters.</source>
+        <translation>橙色：位姿吸收后的残留；有影响的大小为 %1%2。</translation>
     </message>
     <message>
         <source>&lt;b&gt;What if&lt;/b&gt;</source>

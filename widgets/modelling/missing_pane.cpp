@@ -299,10 +299,10 @@ void MissingPane::fillBudget() {
                                 [&](const EffectProposal& q) { return q.finding.id == limit.id; });
     // What is seen is said to be missing, not to be out of sight.
     if (p != ranking_->proposals.end() && p->suggested) continue;
-    const QString size = QStringLiteral("%1 = %2 %3")
+    const QString size = QStringLiteral("%1 = %2%3")
                              .arg(QString::fromStdString(limit.parameter))
                              .arg(limit.size, 0, 'g', 2)
-                             .arg(QString::fromStdString(limit.unit));
+                             .arg(unit_behind(limit.unit));
     auto* item = new QTreeWidgetItem(
         budget_, {effect_title(limit.id) + QLatin1Char('\n') + tr("if %1").arg(size),
                   move_text(limit.translation_mm, limit.rotation_mrad)});

@@ -128,9 +128,12 @@ QString effect_title(const std::string& spec) {
   return core_text(Message::listed(effect->info().title));
 }
 
+QString unit_behind(const std::string& unit) {
+  return unit.empty() || unit == "1" ? QString() : QLatin1Char(' ') + QString::fromStdString(unit);
+}
+
 QString value_text(const ParameterEstimate& p, bool held) {
-  const QString unit =
-      p.unit == "1" ? QString() : QLatin1Char(' ') + QString::fromStdString(p.unit);
+  const QString unit = unit_behind(p.unit);
   const double value = p.value / p.unit_in_si;
   const double sigma = p.sigma / p.unit_in_si;
   if (held)

@@ -20,6 +20,9 @@ QString verdict_name(EffectVerdict verdict);
 /// Title of an effect; its specification if it has none.
 QString effect_title(const std::string& spec);
 
+/// " mm", to be set behind a number; nothing of a number without a unit.
+QString unit_behind(const std::string& unit);
+
 /// "8.1 ± 0.1 mm"; "8.1 mm (held)".
 QString value_text(const ParameterEstimate& parameter, bool held);
 /// "a = 8.1 ± 0.1 mm, b = …", the first few.

@@ -125,9 +125,10 @@ void ResidualPlot::rebuild() {
 void ResidualPlot::explain() {
   using Sign = LegendEntry::Sign;
   std::vector<LegendEntry> entries = {{Sign::kDot, figure_->dotColor(), tr("residuals")},
-                                      {Sign::kDashed, colors().zero, tr("noise of one")},
                                       {Sign::kMark, colors().mark, tr("means ± 2σ")},
                                       {Sign::kDot, colors().refused, tr("differ from zero")}};
+  if (figure_->noise < halfHeight())
+    entries.insert(entries.begin() + 1, {Sign::kDashed, colors().zero, tr("noise of one")});
   if (before_) entries.push_back({Sign::kLine, colors().axis, tr("base model")});
   if (!figure_->predicted.empty())
     entries.push_back({Sign::kLine, colors().fit, tr("chosen effect")});

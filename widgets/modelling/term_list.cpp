@@ -151,10 +151,10 @@ void TermList::addTerm(int k) {
   item->setToolTip(kHeld, tr("Held: the value is yours and is not fitted"));
   const auto show = [&](QTreeWidgetItem* row, std::size_t p) {
     row->setText(kValue, value_text(estimates[p], term.use.held));
-    row->setToolTip(kValue, tr("Value and standard deviation; believable: ±%1 %2. Double-click to "
+    row->setToolTip(kValue, tr("Value and standard deviation; believable: ±%1%2. Double-click to "
                                "hold it at a value of yours.")
                                 .arg(term.parameters[p].prior_sigma / estimates[p].unit_in_si)
-                                .arg(QString::fromStdString(estimates[p].unit)));
+                                .arg(unit_behind(estimates[p].unit)));
   };
   if (changeable_) flags |= Qt::ItemIsEditable;
   if (estimates.size() == 1) {

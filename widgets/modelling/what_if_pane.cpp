@@ -143,15 +143,14 @@ void WhatIfPane::choose() {
     size_->setRange(-most, most);
     size_->setDecimals(std::clamp(3 - static_cast<int>(std::floor(std::log10(most))), 0, 6));
     size_->setSingleStep(most / kSteps);
-    size_->setSuffix(p->unit == "1" ? QString()
-                                    : QLatin1Char(' ') + QString::fromStdString(p->unit));
+    size_->setSuffix(unit_behind(p->unit));
     size_->setValue(p->material / p->unit_in_si);
     const QSignalBlocker still(slider_);
     slider_->setValue(static_cast<int>(kSteps / kMostMaterial));
   }
-  note_->setText(tr("Orange: what the poses would leave of it; %1 %2 is the size that matters.")
+  note_->setText(tr("Orange: what the poses would leave of it; %1%2 is the size that matters.")
                      .arg(p->material / p->unit_in_si)
-                     .arg(QString::fromStdString(p->unit)));
+                     .arg(unit_behind(p->unit)));
   EffectInUse use{effect_, effect_->shapes(step_->table()).front(),
                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters_.size()))};
   use.values(names_->currentIndex()) = p->material;

@@ -99,6 +99,7 @@ TEST(MissingPaneTest, WhatCannotBeSeenIsListedByWhatItCouldDo) {
   }
   double last = HUGE_VAL;
   for (int k = 0; k < budget->topLevelItemCount(); ++k) {
+    EXPECT_FALSE(budget->topLevelItem(k)->text(0).endsWith(" 1")) << "a number has no unit";
     const double mm = budget->topLevelItem(k)->text(1).section(' ', 0, 0).toDouble();
     EXPECT_LE(mm, last + 0.051);
     last = mm;

@@ -12,6 +12,8 @@ TEST(ModelText, ValuesHaveTheirUnitsAndDeviations) {
   const ParameterEstimate a{"a", "mm", 1e-3, 0.00812, 0.00013};
   EXPECT_EQ(value_text(a, false), QString::fromUtf8("8.12 ± 0.13 mm"));
   EXPECT_EQ(value_text(a, true), "8.12 mm (held)");
+  EXPECT_EQ(unit_behind("px"), " px");
+  EXPECT_EQ(unit_behind("1"), "");
   EXPECT_EQ(value_text({"n", "1", 1.0, 2.0, 0.5}, false), QString::fromUtf8("2.00 ± 0.50"));
   EXPECT_TRUE(values_text({a, a, a, a}, false).endsWith(QString::fromUtf8(", …")));
 }
