@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "workbench/status_line.h"
 
+#include <QEvent>
 #include <QLabel>
 #include <QProgressBar>
 #include <QStringList>
 
 #include "report/stored_model.h"
-#include "style/marks.h"
 #include "words/core_text.h"
 
 namespace lvcalib::widgets {
@@ -27,6 +27,7 @@ StatusLine::StatusLine(QWidget* parent)
   bar_->setObjectName(QStringLiteral("progress"));
   text_->setObjectName(QStringLiteral("status"));
   quality_->setObjectName(QStringLiteral("quality"));
+  mark_->setObjectName(QStringLiteral("quality_mark"));
   bar_->setRange(0, kSteps);
   bar_->setFormat(QStringLiteral("%p %"));
   bar_->setFixedWidth(220);
@@ -87,11 +88,11 @@ void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& re
   mark_->setVisible(result != nullptr);
   quality_->setVisible(result != nullptr);
   if (!result) return;
-  const Mark mark = !up_to_date                             ? Mark::kIdle
-                    : result->quality == Quality::kGood     ? Mark::kGood
-                    : result->quality == Quality::kDoubtful ? Mark::kDoubtful
-                                                            : Mark::kBad;
-  mark_->setPixmap(mark_icon(mark, palette()).pixmap(16, 16));
+  shown_ = !up_to_date                             ? Mark::kIdle
+           : result->quality == Quality::kGood     ? Mark::kGood
+           : result->quality == Quality::kDoubtful ? Mark::kDoubtful
+                                                   : Mark::kBad;
+  draw_mark();
   const QString word = result->quality == Quality::kGood       ? tr("good")
                        : result->quality == Quality::kDoubtful ? tr("doubtful")
                                                                : tr("failed");
@@ -106,6 +107,16 @@ void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& re
   }
   quality_->setText(text);
   quality_->setToolTip(more.join(QLatin1Char('\n')));
+}
+
+void StatusLine::draw_mark() {
+  if (shown_) mark_->setPixmap(mark_icon(*shown_, palette()).pixmap(16, 16));
+}
+
+// A mark of the light theme is hardly seen in the dark one.
+void StatusLine::changeEvent(QEvent* event) {
+  QStatusBar::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) draw_mark();
 }
 
 QString StatusLine::text() const {

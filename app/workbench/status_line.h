@@ -3,8 +3,10 @@
 
 #include <QStatusBar>
 #include <memory>
+#include <optional>
 
 #include "pipeline/calibration.h"
+#include "style/marks.h"
 
 class QLabel;
 class QProgressBar;
@@ -23,7 +25,13 @@ class StatusLine : public QStatusBar {
   void show_quality(const std::shared_ptr<const CalibrationResult>& result, bool up_to_date);
   [[nodiscard]] QString text() const;
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  void draw_mark();
+
+  std::optional<Mark> shown_;
   QLabel* stage_;
   QProgressBar* bar_;
   QLabel* text_;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "workbench/status_line.h"
 
+#include <QApplication>
 #include <QLabel>
 #include <QProgressBar>
 
 #include <gtest/gtest.h>
+
+#include "style/marks.h"
+#include "style/theme.h"
 
 namespace lvcalib::widgets::status_line_test {
 namespace {
@@ -42,6 +46,21 @@ TEST(StatusLine, SaysWhenTheQualityIsOfOlderDecisions) {
   EXPECT_TRUE(quality->toolTip().contains("taken out: Range walk"));
   line.show_quality(result, false);
   EXPECT_TRUE(quality->text().contains("out of date"));
+}
+
+TEST(StatusLine, ItsMarkFollowsTheTheme) {
+  StatusLine line;
+  line.show();
+  auto result = std::make_shared<CalibrationResult>();
+  result->quality = Quality::kDoubtful;
+  line.show_quality(result, true);
+  auto* mark = line.findChild<QLabel*>("quality_mark");
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    apply_theme(*qApp, theme);
+    QCoreApplication::processEvents();
+    const QImage wanted = mark_icon(Mark::kDoubtful, qApp->palette()).pixmap(16, 16).toImage();
+    EXPECT_EQ(mark->pixmap(Qt::ReturnByValue).toImage(), wanted);
+  }
 }
 
 }  // namespace
