@@ -8,6 +8,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/paired_moments.h"
 #include "base/statistics.h"
 
 namespace lvcalib {
@@ -16,25 +17,10 @@ namespace {
 // Below this a correlation says nothing and the gain would be noise.
 constexpr int kMinInside = 12;
 
-// Running sums for a Pearson correlation.
-struct Moments {
-  double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
-  void add(double albedo, double intensity) {
-    n += 1;
-    a += albedo;
-    i += intensity;
-    aa += albedo * albedo;
-    ii += intensity * intensity;
-    ai += albedo * intensity;
-  }
-  [[nodiscard]] double correlation() const {
-    if (n < kMinInside) return 0.0;
-    const double va = aa - a * a / n;
-    const double vi = ii - i * i / n;
-    const double c = ai - a * i / n;
-    return va > 0 && vi > 0 ? c / std::sqrt(va * vi) : 0.0;
-  }
-};
+// Of print and intensities.
+double correlation(const PairedMoments& moments) {
+  return moments.n < kMinInside ? 0.0 : moments.correlation();
+}
 
 double angle_difference(double a, double b) {
   return std::abs(std::remainder(a - b, 2.0 * std::numbers::pi));
@@ -91,12 +77,12 @@ class SampleGrid {
 };
 
 // Correlation over every stride-th sample, the board turned by (cosine, sine).
-Moments moments_at(const std::vector<LocalSample>& samples, const PatternTemplate& pattern,
-                   const Eigen::Vector2f& outline_center, const Eigen::Vector2f& turn,
-                   std::size_t stride) {
+PairedMoments moments_at(const std::vector<LocalSample>& samples, const PatternTemplate& pattern,
+                         const Eigen::Vector2f& outline_center, const Eigen::Vector2f& turn,
+                         std::size_t stride) {
   const float c = turn.x();
   const float s = turn.y();
-  Moments m;
+  PairedMoments m;
   for (std::size_t k = 0; k < samples.size(); k += stride) {
     const LocalSample& d = samples[k];
     const float v = pattern.value(c * d.x + s * d.y + outline_center.x(),
@@ -211,12 +197,12 @@ std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& sample
     grid.about(center.cast<float>(), kSearchSamples, near);
     const std::size_t quick = std::max<std::size_t>(1, near.size() / kQuickSamples);
     for (std::size_t t = 0; t < turns.size(); ++t) {
-      const Moments few = moments_at(near, pattern, outline_center, turns[t], quick);
-      if (quick > 1 && few.n >= kMinInside && few.correlation() < kHopeless) continue;
-      const Moments m = moments_at(near, pattern, outline_center, turns[t], 1);
+      const PairedMoments few = moments_at(near, pattern, outline_center, turns[t], quick);
+      if (quick > 1 && few.n >= kMinInside && correlation(few) < kHopeless) continue;
+      const PairedMoments m = moments_at(near, pattern, outline_center, turns[t], 1);
       RankedMatch ranked;
       ranked.match.pose = {range.angles_rad[t], center};
-      ranked.match.correlation = m.correlation();
+      ranked.match.correlation = correlation(m);
       ranked.match.inside = static_cast<int>(m.n);
       ranked.gain = ranked.match.gain();
       if (ranked.gain > 0) all.push_back(ranked);
@@ -229,7 +215,7 @@ namespace {
 
 // Normal equations of intensity = a + b·albedo(pose, scale) at one pose.
 struct PatternSystem {
-  Moments moments;
+  PairedMoments moments;
   double a = 0.0;
   double b = 0.0;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();  // u, v, angle, scale
@@ -257,11 +243,10 @@ PatternSystem build_system(const std::vector<PlanarSample>& samples, const Patte
     rows.push_back({at, local, sample.intensity});
     system.moments.add(at.value, sample.intensity);
   }
-  const Moments& m = system.moments;
-  const double va = m.aa - m.a * m.a / std::max(m.n, 1.0);
-  if (m.n < kMinInside || va <= 0) return system;
-  system.b = (m.ai - m.a * m.i / m.n) / va;
-  system.a = (m.i - system.b * m.a) / m.n;
+  const PairedMoments& m = system.moments;
+  if (m.n < kMinInside || m.x_squares() <= 0) return system;
+  system.b = m.slope();
+  system.a = (m.y - system.b * m.x) / m.n;
   // Moving the pose by (du, dv) in the plane moves board points by −Rᵀ(du, dv).
   double sum_sq = 0.0;
   for (const Row& row : rows) {
@@ -299,7 +284,7 @@ PatternMatch refine_pattern_pose(const std::vector<PlanarSample>& samples,
     const PlanarPose next{match.pose.angle_rad + factor * step.z(),
                           match.pose.center_m + factor * step.head<2>()};
     PatternSystem candidate = build_system(samples, pattern, outline_center_m, next);
-    const bool better = candidate.moments.correlation() >= system.moments.correlation();
+    const bool better = correlation(candidate.moments) >= correlation(system.moments);
     if (better) {
       match.pose = next;
       system = candidate;
@@ -309,7 +294,7 @@ PatternMatch refine_pattern_pose(const std::vector<PlanarSample>& samples,
       damping *= 10.0;
     }
   }
-  match.correlation = system.b > 0 ? system.moments.correlation() : 0.0;
+  match.correlation = system.b > 0 ? correlation(system.moments) : 0.0;
   match.inside = static_cast<int>(system.moments.n);
   const Eigen::LDLT<Eigen::Matrix4d> full(system.normal);
   if (full.info() == Eigen::Success && full.isPositive() && full.rcond() > 1e-12) {

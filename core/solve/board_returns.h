@@ -71,28 +71,9 @@ inline constexpr double kPlainStructure = 1.25;
 /// ½·E[difference²] of noise alone is the variance, so that one means no print to be seen.
 double intensity_structure(const BoardReturns& returns);
 
-/// A pose for the board within a neighbourhood of another, found by the print alone.
-struct PrintMatch {
-  Rigid3 lidar_from_board;
-  double correlation = 0.0;     ///< Between intensities and blurred print.
-  double log_likelihood = 0.0;  ///< Over that of no print at all.
-};
-
-/// Poses at least so far apart are different places of the print: half of the smallest feature that
-/// a LiDAR resolves at two metres.
-inline constexpr double kOtherPlace_m = 0.04;
-
-struct PrintSearch {
-  double reach_m = 0.075;  ///< Moves tried along each axis of the board.
-  double turn_rad = 0.1;   ///< Turns tried about its normal.
-  std::size_t samples = 1500;
-  std::size_t places = 4;  ///< Local maxima followed to the end.
-};
-
-/// Slides and turns the board on its plane until the intensities fit best. The best pose first,
-/// then the best of those elsewhere (`places` in all); none where no pose correlates.
-std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPrint& print,
-                                    const Rigid3& lidar_from_board, const PrintSearch& search = {},
-                                    int threads = 1);
+/// Share of sixteen parts of the board with at least a fifth of the returns that the fuller half of
+/// them has.
+double seen_share(const BoardReturns& returns, const BlurredPrint& print,
+                  const Rigid3& lidar_from_board);
 
 }  // namespace lvcalib

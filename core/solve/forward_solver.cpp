@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/paired_moments.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
 
@@ -32,8 +33,6 @@ constexpr double kSensorChance = 0.1;
 constexpr double kShrinks = 0.5;
 // One error counts as one, rounding aside.
 constexpr double kOneError = 0.999;
-// The print is seen where it explains a tenth of the intensities' variance.
-constexpr double kPrintSeen = 0.3;
 
 class ForwardSolver {
  public:
@@ -51,9 +50,8 @@ class ForwardSolver {
     }
     if (solution_.uses_intensity) {
       prepare_print();
-      match();
+      if (!match()) return Error::cancelled();
     }
-    if (context_.stopped()) return Error::cancelled();
     if (!select()) return Error::untrusted(Message("no LiDAR return lies on the board"));
     first_levels();
     if (!coarse()) return failure();
@@ -150,101 +148,24 @@ class ForwardSolver {
                    0.8 * options_.first_blur_rad * farthest, context_.thread_count());
   }
 
-  // Each scene's print votes for an extrinsic, and for the next best; the vote under which all
-  // scenes' prints fit best wins, the start included. The best of those that put the print
-  // elsewhere tells how sure that is.
-  void match() {
-    std::vector<std::vector<PrintMatch>> matches(scenes_.size());
+  // Where the prints put the boards, before anything else is asked of them.
+  bool match() {
+    const auto vote = vote_on_print(returns_, print_, state().camera_from_board,
+                                    state().camera_from_lidar, options_.search, context_);
+    if (!vote) return false;
+    state().camera_from_lidar = vote->camera_from_lidar;
+    solution_.lattice_margin = vote->margin;
     print_unseen_.assign(scenes_.size(), false);
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (context_.stopped()) return;
-      matches[s] = match_print(returns_[s], print_, state().lidar_from_board(s), options_.search,
-                               context_.thread_count());
-    }
-    std::vector<Rigid3> votes{state().camera_from_lidar};
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
       ForwardSceneResult& scene = solution_.scenes[s];
-      if (returns_[s].has_intensity) {
-        scene.intensity_structure = intensity_structure(returns_[s]);
-        scene.saturated = returns_[s].saturated;
-      }
-      if (matches[s].empty()) continue;
-      scene.print_correlation = matches[s].front().correlation;
-      scene.print_margin = matches[s].front().log_likelihood -
-                           (matches[s].size() > 1 ? matches[s][1].log_likelihood : 0.0);
-      for (const PrintMatch& match : matches[s])
-        votes.push_back(state().camera_from_board[s] * match.lidar_from_board.inverse());
+      scene.print_correlation = vote->scenes[s].correlation;
+      scene.print_margin = vote->scenes[s].margin;
+      print_unseen_[s] = vote->scenes[s].unseen;
+      if (!returns_[s].has_intensity) continue;
+      scene.intensity_structure = intensity_structure(returns_[s]);
+      scene.saturated = returns_[s].saturated;
     }
-    std::vector<double> likelihood(votes.size(), 0.0);
-    parallel_for(votes.size(), context_.thread_count(), [&](std::size_t v) {
-      for (std::size_t s = 0; s < scenes_.size(); ++s) likelihood[v] += fit_of(s, votes[v]);
-    });
-    const auto best = static_cast<std::size_t>(
-        std::max_element(likelihood.begin(), likelihood.end()) - likelihood.begin());
-    double other = 0.0;
-    for (std::size_t v = 0; v < votes.size(); ++v) {
-      if (lies_elsewhere(votes[v], votes[best])) other = std::max(other, likelihood[v]);
-    }
-    solution_.lattice_margin = likelihood[best] - other;
-    state().camera_from_lidar = votes[best];
-    // What no scene's own search found may be there where the others put it.
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (!returns_[s].has_intensity || !matches[s].empty()) continue;
-      const double rho = agreement(s, votes[best]).correlation;
-      print_unseen_[s] = !(rho > kPrintSeen);
-      if (!print_unseen_[s]) solution_.scenes[s].print_correlation = rho;
-    }
-  }
-
-  // Whether some board's middle lies elsewhere under another extrinsic. What is off by less comes
-  // back in the solve.
-  bool lies_elsewhere(const Rigid3& a, const Rigid3& b) const {
-    const Eigen::Vector2d c = print_.outline().center_m();
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (print_unseen_[s]) continue;
-      const Eigen::Vector3d middle =
-          solution_.state.camera_from_board[s] * Eigen::Vector3d(c.x(), c.y(), 0.0);
-      const Eigen::Vector3d off = b.inverse() * middle - a.inverse() * middle;
-      if (off.norm() > kOtherPlace_m) return true;
-    }
-    return false;
-  }
-
-  // Log-likelihood of one scene's intensities under an extrinsic, levels fitted; a blur of 12 mm
-  // bridges what the votes are still off.
-  double fit_of(std::size_t s, const Rigid3& camera_from_lidar) const {
-    const Agreement a = agreement(s, camera_from_lidar);
-    return -0.5 * a.samples * std::log(1.0 - a.correlation * a.correlation);
-  }
-
-  struct Agreement {
-    double samples = 0.0;
-    double correlation = 0.0;  // From 0 to 0.9999.
-  };
-  Agreement agreement(std::size_t s, const Rigid3& camera_from_lidar) const {
-    const Rigid3 board = camera_from_lidar.inverse() * solution_.state.camera_from_board[s];
-    const BoardPredictor predictor(print_, board, {}, {});
-    const BoardReturns& returns = returns_[s];
-    if (!returns.has_intensity) return {};
-    const BlurredPrint::Coarse print = print_.coarse(0.012);
-    double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
-    const std::size_t stride = std::max<std::size_t>(1, returns.size() / 1500);
-    for (std::size_t k = 0; k < returns.size(); k += stride) {
-      const auto hit = predictor.hit(returns.point_m(k).normalized());
-      if (!hit) continue;
-      const double white = print.at(hit->board_m);
-      const double intensity = returns.intensity(k);
-      n += 1;
-      a += white;
-      i += intensity;
-      aa += white * white;
-      ii += intensity * intensity;
-      ai += white * intensity;
-    }
-    const double va = aa - a * a / n;
-    const double vi = ii - i * i / n;
-    if (!(n > 10 && va > 0 && vi > 0)) return {};
-    return {n, std::clamp((ai - a * i / n) / std::sqrt(va * vi), 0.0, 0.9999)};
+    return true;
   }
 
   // Levels by regression of the intensities on the coarse print.
@@ -257,27 +178,17 @@ class ForwardSolver {
         continue;
       }
       const BoardPredictor predictor(print_, state().lidar_from_board(s), {}, {});
-      double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
+      PairedMoments m;
       const std::size_t stride = std::max<std::size_t>(1, returns_[s].size() / kEarlyRows);
       for (std::size_t k = 0; k < returns_[s].size(); k += stride) {
         const auto hit = predictor.hit(returns_[s].point_m(k).normalized());
-        if (!hit) continue;
-        const double white = print.at(hit->board_m);
-        const double v = returns_[s].intensity(k);
-        n += 1;
-        a += white;
-        i += v;
-        aa += white * white;
-        ii += v * v;
-        ai += white * v;
+        if (hit) m.add(print.at(hit->board_m), returns_[s].intensity(k));
       }
-      if (n < 3) continue;
-      const double va = aa - a * a / n;
-      const double slope = va > 0 ? (ai - a * i / n) / va : 0.0;
+      if (m.n < 3) continue;
       BoardLevels& levels = state().levels[s];
-      levels.black = (i - slope * a) / n;
-      levels.white = levels.black + slope;
-      const double rest = std::max(1e-12, (ii - i * i / n - slope * (ai - a * i / n)) / n);
+      levels.black = (m.y - m.slope() * m.x) / m.n;
+      levels.white = levels.black + m.slope();
+      const double rest = std::max(1e-12, (m.y_squares() - m.slope() * m.products()) / m.n);
       noise().scenes[s].intensity_white = noise().scenes[s].intensity_black = std::sqrt(rest);
     }
   }
@@ -607,67 +518,27 @@ class ForwardSolver {
       scene.intensity_chi = chi(fit.intensity_squares, fit.intensity_rows);
       scene.corner_chi = chi(fit.corner_squares, fit.corner_rows);
       scene.noise = fit.noise;
-      scene.seen = seen_share(s);
+      scene.seen = seen_share(returns_[s], print_, state().lidar_from_board(s));
       if (returns_[s].has_intensity && scene.print_correlation > 0.0) {
         scene.print_size = measure_print_size(returns_[s], print_, state().lidar_from_board(s),
                                               state().levels[s], state().beam, fit.noise);
       }
     });
-    std::vector<PrintSize> sizes;
     double inflation = 1.0;
-    for (const ForwardSceneResult& scene : solution_.scenes) {
-      sizes.push_back(scene.print_size);
+    for (const ForwardSceneResult& scene : solution_.scenes)
       inflation = std::max(inflation, scene.noise.intensity_inflation);
-    }
-    solution_.print_size = combined_print_size(sizes);
-    overrule_print_size();
+    solution_.print_size = print_size();
     solution_.lattice_margin /= inflation;
   }
 
-  // A print of quite another size is matched anywhere; what its returns then say of the size is
-  // chance. Where the boards stand says it roughly, but whatever the match. A wrong focal length
-  // shows there, too: a print that explains its intensities is believed.
-  void overrule_print_size() {
-    std::vector<Rigid3> by_camera;
-    std::vector<Rigid3> by_lidar;
-    std::vector<double> left;
+  [[nodiscard]] PrintSize print_size() const {
+    std::vector<SceneSize> scenes;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      by_camera.push_back(scenes_[s].camera_from_board);
-      by_lidar.push_back(scenes_[s].lidar_from_board);
-      left.push_back(solution_.scenes[s].intensity_left);
+      const ForwardSceneResult& scene = solution_.scenes[s];
+      scenes.push_back({scene.print_size, scene.intensity_left, scenes_[s].camera_from_board,
+                        scenes_[s].lidar_from_board});
     }
-    const PrintSize places = size_from_places(by_camera, by_lidar, state().camera_from_lidar,
-                                              print_.outline().center_m());
-    constexpr double kClear = 4.0;
-    constexpr double kUnexplained = 0.5;
-    if (!places.measured || std::abs(places.scale(0) - 1.0) < kClear * places.sigma(0)) return;
-    if (!solution_.print_size.measured || median(left) > kUnexplained)
-      solution_.print_size = places;
-  }
-
-  // Share of sixteen parts of the board with at least a fifth of the returns that the fuller half
-  // of them has.
-  double seen_share(std::size_t s) const {
-    constexpr int kParts = 4;
-    constexpr double kFewest = 0.2;
-    const BoardOutline& outline = print_.outline();
-    const BoardPredictor predictor(print_, solution_.state.lidar_from_board(s), {}, {});
-    std::array<double, kParts * kParts> count{};
-    for (std::size_t k = 0; k < returns_[s].size(); ++k) {
-      const auto hit = predictor.hit(returns_[s].point_m(k).normalized());
-      if (!hit) continue;
-      const Eigen::Vector2d t =
-          kParts * (hit->board_m - outline.lower_left_m).cwiseQuotient(outline.size_m());
-      const int x = std::clamp(static_cast<int>(t.x()), 0, kParts - 1);
-      const int y = std::clamp(static_cast<int>(t.y()), 0, kParts - 1);
-      count[static_cast<std::size_t>(y * kParts + x)] += 1.0;
-    }
-    std::vector<double> sorted(count.begin(), count.end());
-    std::sort(sorted.begin(), sorted.end());
-    const double usual = sorted[sorted.size() * 3 / 4];
-    const auto seen = std::count_if(count.begin(), count.end(),
-                                    [&](double n) { return n > 0.0 && n >= kFewest * usual; });
-    return static_cast<double>(seen) / static_cast<double>(count.size());
+    return print_size_of(scenes, solution_.state.camera_from_lidar, print_.outline().center_m());
   }
 
   // ν = 2v²/Var(v), v the trace of the extrinsic's scaled covariance, whose variance comes from

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "solve/global_solution.h"
+#include "solve/print_match.h"
 #include "solve/print_size.h"
 #include "solve/scan_faults.h"
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/paired_moments.h"
 #include "base/statistics.h"
 
 namespace lvcalib {
@@ -89,21 +90,17 @@ class SizeFit {
   [[nodiscard]] double coarse_scale() const {
     const BlurredPrint::Coarse print = print_.coarse(0.01);
     double best = 1.0;
-    double largest = -1.0;
+    double largest = 0.0;
     const int steps = static_cast<int>(kCoarsest / kCoarseStep);
     for (int k = -steps; k <= steps; ++k) {
       const double scale = 1.0 + kCoarseStep * k;
-      double n = 0, a = 0, i = 0, aa = 0, ii = 0, ai = 0;
+      PairedMoments moments;
       const std::size_t stride = std::max<std::size_t>(1, places_.size() / 1500);
       for (std::size_t q = 0; q < places_.size(); q += stride) {
-        const double white = print.at(center_ + (places_[q].board_m - center_) / scale);
-        const double v = places_[q].intensity;
-        n += 1, a += white, i += v, aa += white * white, ii += v * v, ai += white * v;
+        moments.add(print.at(center_ + (places_[q].board_m - center_) / scale),
+                    places_[q].intensity);
       }
-      const double va = aa - a * a / n;
-      const double vi = ii - i * i / n;
-      if (!(va > 0 && vi > 0)) continue;
-      const double rho = (ai - a * i / n) / std::sqrt(va * vi);
+      const double rho = moments.correlation();
       if (rho > largest) {
         largest = rho;
         best = scale;
@@ -235,6 +232,27 @@ PrintSize combined_print_size(const std::vector<PrintSize>& scenes) {
   }
   out.measured = true;
   return out;
+}
+
+PrintSize print_size_of(const std::vector<SceneSize>& scenes, const Rigid3& camera_from_lidar,
+                        const Eigen::Vector2d& center_m) {
+  constexpr double kClear = 4.0;
+  constexpr double kUnexplained = 0.5;
+  std::vector<PrintSize> by_returns;
+  std::vector<Rigid3> by_camera;
+  std::vector<Rigid3> by_lidar;
+  std::vector<double> left;
+  for (const SceneSize& scene : scenes) {
+    by_returns.push_back(scene.by_returns);
+    by_camera.push_back(scene.camera_from_board);
+    by_lidar.push_back(scene.lidar_from_board);
+    left.push_back(scene.intensity_left);
+  }
+  const PrintSize returns = combined_print_size(by_returns);
+  const PrintSize places = size_from_places(by_camera, by_lidar, camera_from_lidar, center_m);
+  if (!places.measured || std::abs(places.scale(0) - 1.0) < kClear * places.sigma(0))
+    return returns;
+  return !returns.measured || median(left) > kUnexplained ? places : returns;
 }
 
 }  // namespace lvcalib

@@ -38,4 +38,19 @@ PrintSize size_from_places(const std::vector<Rigid3>& camera_from_board,
 /// Mean over scenes by their weights, its σ widened by what they scatter beyond their own.
 PrintSize combined_print_size(const std::vector<PrintSize>& scenes);
 
+/// What one scene says of the print's size.
+struct SceneSize {
+  PrintSize by_returns;
+  double intensity_left = 1.0;  ///< Share of the intensities' variance that the print leaves.
+  Rigid3 camera_from_board;     ///< Of the image alone,
+  Rigid3 lidar_from_board;      ///< and of the cloud alone.
+};
+
+/// Size of the print over all scenes: by its returns, or by where the boards stand if that speaks
+/// clearly and the returns do not. A print of quite another size is matched anywhere, and what its
+/// returns then say of the size is chance. A wrong focal length shows in where boards stand, too: a
+/// print that explains its intensities is believed.
+PrintSize print_size_of(const std::vector<SceneSize>& scenes, const Rigid3& camera_from_lidar,
+                        const Eigen::Vector2d& center_m);
+
 }  // namespace lvcalib

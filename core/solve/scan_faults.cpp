@@ -16,13 +16,13 @@ namespace {
 constexpr double kFalseAlarm = 0.001;
 // Directions among a kind's columns of which the nuisances leave less than this share are not
 // tested: sums of 10⁵ rows in doubles leave rounding below it,
-constexpr double kLeastShare = 1e-6;
+constexpr double kLeastResolved = 1e-6;
 // and of what moves the scan as a motion of the LiDAR does, second order of the last step. Scales,
 // eccentricity and tilt have directions that are a rotation up to a share of 10⁻⁷ to 10⁻³, where χ²
 // was up to 1000 on clean rigs, and others from a tenth on; the origin's begin at 7·10⁻⁴, where χ²
 // was as it should be.
-constexpr double kLeastShareOfAngles = 1e-2;
-constexpr double kLeastShareOfOrigin = 5e-4;
+constexpr double kLeastResolvedOfAngles = 1e-2;
+constexpr double kLeastResolvedOfOrigin = 5e-4;
 // How fast a board that is held, or a rig that rolls, moves (one σ), and how long detectors trail;
 // angles and origins as what is left out of a solve (see LeftOutSizes). They draw to zero what the
 // rows hardly tell, so that the extrinsic's move is not noise.
@@ -77,9 +77,9 @@ ScanFault score_test(ScanFault::Kind kind, const std::vector<const FaultTerm*>& 
       unit.asDiagonal() * (information - coupling.transpose() * answer) * unit.asDiagonal();
   const Eigen::VectorXd asked = unit.cwiseProduct(gradient - coupling.transpose() * solved.globals);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(0.5 * (left + left.transpose()));
-  const double least = kind == ScanFault::Kind::kAngles   ? kLeastShareOfAngles
-                       : kind == ScanFault::Kind::kOrigin ? kLeastShareOfOrigin
-                                                          : kLeastShare;
+  const double least = kind == ScanFault::Kind::kAngles   ? kLeastResolvedOfAngles
+                       : kind == ScanFault::Kind::kOrigin ? kLeastResolvedOfOrigin
+                                                          : kLeastResolved;
   int dof = 0;  // The last ones: shares come in rising order.
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!(axes.eigenvalues()(k) > least)) continue;
