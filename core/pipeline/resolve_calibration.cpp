@@ -232,6 +232,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   }
   if (context.stopped()) return Error::cancelled();
   MethodOptions methods;
+  methods.threads = context.thread_count();
   SubsetSolver subsets;
   if (result.forward) {
     subsets = forward_subsets(*result.forward, nodes);

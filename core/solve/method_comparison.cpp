@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/parallel.h"
 #include "base/statistics.h"
 #include "solve/baselines.h"
 
@@ -260,23 +261,31 @@ std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& 
                                           const ExtrinsicOptions& options,
                                           const MethodOptions& method_options) {
   const Comparison comparison(scenes, camera, target, joint, options);
-  std::vector<MethodResult> results;
+  const auto held_out = [&](int fewest) {
+    return method_options.held_out && joint.used_scenes >= fewest;
+  };
+  // Each solves as many times as there are scenes, and none asks for another.
+  std::vector<std::function<std::optional<MethodResult>()>> tasks;
   for (const Method& method : kMethods) {
     const bool is_joint = method.objective == Objective::kJoint && method.refined;
     if (!target.has_circles() && !is_joint) continue;
     // Without circles a scene less may leave too few to solve.
     const int fewest = target.has_circles() ? 2 : 4;
-    results.push_back(
-        comparison.evaluate(method, method_options.held_out && joint.used_scenes >= fewest));
+    tasks.emplace_back([&, fewest] { return comparison.evaluate(method, held_out(fewest)); });
   }
-  if (method_options.paper && target.has_circles()) {
-    auto paper = comparison.evaluate(*method_options.paper,
-                                     method_options.held_out && joint.used_scenes >= 2);
-    if (paper) results.push_back(std::move(*paper));
-  }
-  if (method_options.other) {
-    results.push_back(comparison.evaluate(*method_options.other,
-                                          method_options.held_out && joint.used_scenes >= 2));
+  if (method_options.paper && target.has_circles())
+    tasks.emplace_back([&] { return comparison.evaluate(*method_options.paper, held_out(2)); });
+  if (method_options.other)
+    tasks.emplace_back([&] { return comparison.evaluate(*method_options.other, held_out(2)); });
+  std::vector<std::optional<MethodResult>> done(tasks.size());
+  // The last ones take longest.
+  parallel_for(tasks.size(), method_options.threads, [&](std::size_t k) {
+    const std::size_t at = tasks.size() - 1 - k;
+    done[at] = tasks[at]();
+  });
+  std::vector<MethodResult> results;
+  for (std::optional<MethodResult>& result : done) {
+    if (result) results.push_back(std::move(*result));
   }
   return results;
 }

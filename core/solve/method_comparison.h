@@ -67,6 +67,7 @@ struct MethodOptions {
   /// With nodes as the paper refines them and paper_objective(): its method as it is printed.
   std::optional<JointVariant> paper = {};
   std::optional<OtherMethod> other = {};
+  int threads = 1;
 };
 
 /// The paper's comparison (LV-Calib, section IV-C) on the scenes, tags and nodes that the joint

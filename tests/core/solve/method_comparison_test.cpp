@@ -144,7 +144,7 @@ class PaperMethod : public Methods {
  protected:
   [[nodiscard]] std::vector<MethodResult> compare_with_paper(
       const std::vector<SceneObservations>& observations,
-      const std::vector<SceneObservations>& paper) const {
+      const std::vector<SceneObservations>& paper, int threads = 1) const {
     const auto joint = solve_extrinsic(observations, camera_, target_, {});
     if (!joint) {
       ADD_FAILURE() << joint.error().text();
@@ -152,6 +152,7 @@ class PaperMethod : public Methods {
     }
     MethodOptions options;
     options.paper = JointVariant{"joint_paper", paper, paper_objective({})};
+    options.threads = threads;
     return compare_methods(observations, camera_, target_, *joint, {}, options);
   }
 };
@@ -166,6 +167,19 @@ TEST_F(PaperMethod, StandsBehindTheOthersAndFindsTheTruthWithoutNoise) {
   EXPECT_THAT(paper.camera_from_lidar, test::IsNearPose(truth_, 1e-3, 1e-3));
   ASSERT_TRUE(paper.heldout_mm);
   EXPECT_LT(*paper.heldout_mm, 1e-2);
+}
+
+TEST_F(PaperMethod, ThreadsChangeNeitherOrderNorDigits) {
+  const auto observations = scenes(4, 9);
+  const auto one = compare_with_paper(observations, observations);
+  const auto several = compare_with_paper(observations, observations, 3);
+  ASSERT_EQ(one.size(), several.size());
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    EXPECT_EQ(one[k].name, several[k].name);
+    EXPECT_EQ(one[k].camera_from_lidar.translation, several[k].camera_from_lidar.translation);
+    EXPECT_EQ(one[k].heldout_px, several[k].heldout_px);
+    EXPECT_EQ(one[k].heldout_mm, several[k].heldout_mm);
+  }
 }
 
 // Nothing is left out and squares count: one bad centre moves the paper's extrinsic, not ours.
