@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/quality.h"
 #include "pipeline/scene_loading.h"
@@ -389,6 +390,16 @@ class Calibration {
     // A board of the right size was found before, and refused for another reason.
     constexpr double kSame = 0.005;
     if (!scale || std::abs(*scale - 1.0) < kSame) return std::nullopt;
+    constexpr double kSameUnit = 0.05;  // The size is measured to some per cent, units lie afar.
+    for (const LengthUnit& unit : other_length_units()) {
+      if (std::abs(*scale / unit.in_m - 1.0) > kSameUnit) continue;
+      return Error::untrusted(
+          Message("the board is not found in any cloud, but it is if the lengths in target.yaml "
+                  "are %1",
+                  unit.what),
+          result_.dataset,
+          Message("write them in metres: multiply each by %1", formatted("%g", unit.in_m)));
+    }
     const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
     // Of its own size it was looked for already: something else is wrong.
     if (percent == 0) return std::nullopt;

@@ -41,16 +41,21 @@ SceneHypotheses seen_by_camera(const BoardView& view, const Target& target) {
 
 }  // namespace
 
+std::vector<LengthUnit> other_length_units() {
+  return {{Message("in millimetres"), 1e-3},
+          {Message("in centimetres"), 1e-2},
+          {Message("in feet"), 0.3048},
+          {Message("in inches"), 0.0254}};
+}
+
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
                                      const CalibrationResult& result, const RunContext& context) {
+  std::vector<CloudReading> readings;
+  for (const LengthUnit& unit : other_length_units())
+    readings.push_back({unit.what, Eigen::Vector3f::Constant(static_cast<float>(unit.in_m))});
   // Mirrored along one axis is mirrored along any: the search does not care how a cloud is turned.
-  const std::vector<CloudReading> readings = {
-      {Message("in millimetres"), Eigen::Vector3f::Constant(1e-3F)},
-      {Message("in centimetres"), Eigen::Vector3f::Constant(1e-2F)},
-      {Message("in feet"), Eigen::Vector3f::Constant(0.3048F)},
-      {Message("in inches"), Eigen::Vector3f::Constant(0.0254F)},
-      {Message("mirrored (its axes make a left-handed frame)"),
-       Eigen::Vector3f(1.0F, -1.0F, 1.0F)}};
+  readings.push_back({Message("mirrored (its axes make a left-handed frame)"),
+                      Eigen::Vector3f(1.0F, -1.0F, 1.0F)});
   // Something may look like the board by chance, but hardly twice in the same place of the rig.
   constexpr std::size_t kMostScenes = 3;  // Two that agree, and one that may show nothing.
   std::vector<std::size_t> seen;

@@ -10,14 +10,22 @@
 
 namespace lvcalib {
 
+/// A unit in which lengths are written where metres are expected: "in millimetres".
+struct LengthUnit {
+  Message what;
+  double in_m;
+};
+std::vector<LengthUnit> other_length_units();
+
 /// After the board was not found in any cloud: whether it is found, at places of two scenes that
 /// agree if there are two, once the clouds are taken for ones in millimetres, centimetres, feet or
 /// inches, or for mirrored ones. The error that says so.
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
                                      const CalibrationResult& result, const RunContext& context);
 
-/// Looks for the board in other sizes, after it was not found in its own. The size (over the
-/// model's) at which it is found, or nothing.
+/// Looks for the board in other sizes (half to double, and as if the target's lengths were in other
+/// units), after it was not found in its own. The size (over the model's) at which it is found, or
+/// nothing.
 std::optional<double> find_scaled_board(const Dataset& dataset, const CalibrationRequest& request,
                                         const CalibrationResult& result, const RunContext& context);
 

@@ -22,9 +22,22 @@ Target scaled(Target t, double s) {
   return t;
 }
 
-// Wrong units and wrong readings: from half to double in steps that the search bridges.
+// Wrong readings of a rule, half or double squares: from half to double in steps that the search
+// bridges.
 constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9,  0.95, 1.05,
                                1.1, 1.16, 1.22, 1.3,  1.4,  1.5,  1.6, 1.72, 1.86, 2.0};
+
+// Sizes worth a look: those and units that no board of this target would be absurd in.
+std::vector<double> sizes_of(const Target& target) {
+  constexpr double kSmallest_m = 0.1;
+  constexpr double kLargest_m = 10.0;
+  std::vector<double> sizes(kSizes.begin(), kSizes.end());
+  const double side = target.outline().size_m().maxCoeff();
+  for (const LengthUnit& unit : other_length_units()) {
+    if (unit.in_m * side > kSmallest_m && unit.in_m * side < kLargest_m) sizes.push_back(unit.in_m);
+  }
+  return sizes;
+}
 
 // The board's best candidate if it were `size` times as large as in target.yaml; gain 0: none.
 BoardCandidate best_at_size(const Cloud& cloud, const CalibrationResult& result,
@@ -76,7 +89,7 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
           found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
       return std::pair(sizes[static_cast<std::size_t>(best - found.begin())], *best);
     };
-    const auto [coarse, first] = best_of({kSizes.begin(), kSizes.end()});
+    const auto [coarse, first] = best_of(sizes_of(result.target));
     if (first.gain <= 0) return std::nullopt;
     // Some per cent off, a board set slightly askew fits nearly as well, and measures a wrong
     // scale: only next to the true size can the measured scale be trusted.

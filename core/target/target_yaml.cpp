@@ -19,11 +19,15 @@ class Reader {
  public:
   explicit Reader(const YamlFile& file) : file_(file) {}
 
-  void number(const char* key, double& out, double low = 0.0, double high = kLargestLength_m) {
-    take(file_.number(key, low, high), out);
+  void number(const char* key, double& out) { take(file_.number(key, 0.0, kLargestLength_m), out); }
+  // In metres, which who wrote millimetres is told.
+  void length(const char* key, double& out) {
+    const bool fine = !error_;
+    number(key, out);
+    if (fine && error_ && error_->hint.empty()) error_->hint = Message("lengths are in metres");
   }
-  void optional_number(const char* key, double& out, double low = 0.0) {
-    if (file_.has(key)) number(key, out, low);
+  void optional_length(const char* key, double& out) {
+    if (file_.has(key)) length(key, out);
   }
   void integer(const char* key, int& out, int low, int high = kLargestCount) {
     take(file_.integer(key, low, high), out);
@@ -79,26 +83,26 @@ void read_grid(Reader& reader, Target& target) {
   reader.optional_string("tagFamily", target.tag_family);
   reader.integer("tagCols", target.tag_columns, 1);
   reader.integer("tagRows", target.tag_rows, 1);
-  reader.number("tagSize", target.tag_size_m);
+  reader.length("tagSize", target.tag_size_m);
   reader.number("tagSpacing", target.tag_spacing);
   reader.optional_integer("tagBorder", target.tag_border_bits, 1, 2);
   reader.optional_integer("firstTagId", target.first_tag_id, 0, 1'000'000);
-  reader.optional_number("margin", target.margin_m);
-  if (target.has_circles()) reader.number("circleRadius", target.circle_radius_m);
+  reader.optional_length("margin", target.margin_m);
+  if (target.has_circles()) reader.length("circleRadius", target.circle_radius_m);
 }
 
 // boardWidth, boardHeight and boardOffset; without them the board ends with its pattern.
 void read_outline(Reader& reader, const YamlFile& file, Target& target) {
-  if (file.has("boardWidth")) reader.number("boardWidth", target.board_width_m);
-  if (file.has("boardHeight")) reader.number("boardHeight", target.board_height_m);
+  if (file.has("boardWidth")) reader.length("boardWidth", target.board_width_m);
+  if (file.has("boardHeight")) reader.length("boardHeight", target.board_height_m);
   reader.optional_pair("boardOffset", target.board_offset_m);
 }
 
 void read_checkerboard(Reader& reader, const YamlFile& file, Target& target) {
   reader.integer("targetCols", target.corner_columns, 3);
   reader.integer("targetRows", target.corner_rows, 3);
-  reader.number("colSpacingMeters", target.column_spacing_m);
-  reader.number("rowSpacingMeters", target.row_spacing_m);
+  reader.length("colSpacingMeters", target.column_spacing_m);
+  reader.length("rowSpacingMeters", target.row_spacing_m);
   // Without an outline: the pattern with its outer squares.
   target.board_width_m = (target.corner_columns + 1) * target.column_spacing_m;
   target.board_height_m = (target.corner_rows + 1) * target.row_spacing_m;
@@ -112,9 +116,9 @@ void read_charuco(Reader& reader, const YamlFile& file, Target& target) {
   reader.integer("targetRows", rows, 3);
   target.corner_columns = columns - 1;
   target.corner_rows = rows - 1;
-  reader.number("squareSize", target.column_spacing_m);
+  reader.length("squareSize", target.column_spacing_m);
   target.row_spacing_m = target.column_spacing_m;
-  reader.number("markerSize", target.tag_size_m);
+  reader.length("markerSize", target.tag_size_m);
   reader.string("dictionary", target.tag_family);
   if (!target.tag_family.starts_with("DICT_")) target.tag_family.insert(0, "DICT_");
   reader.optional_integer("firstMarkerId", target.first_tag_id, 0, 1'000'000);
@@ -127,7 +131,7 @@ void read_charuco(Reader& reader, const YamlFile& file, Target& target) {
 void read_single_tag(Reader& reader, const YamlFile& file, Target& target) {
   reader.optional_string("tagFamily", target.tag_family);
   reader.integer("tagId", target.first_tag_id, 0, 1'000'000);
-  reader.number("tagSize", target.tag_size_m);
+  reader.length("tagSize", target.tag_size_m);
   reader.optional_integer("tagBorder", target.tag_border_bits, 1, 2);
   // A white border of one bit, which the tag needs to be seen.
   const double border_m = target.tag_size_m > 0.0 ? target.tag_bit_m() : 0.0;
@@ -141,9 +145,9 @@ std::optional<Error> read_measured_length(Reader& reader, const YamlFile& file, 
   double measured_m = 0.0;
   double drawn_m = 0.0;
   double sigma_m = 0.0;
-  reader.optional_number("measuredLength", measured_m);
-  reader.optional_number("drawnLength", drawn_m);
-  reader.optional_number("measuredSigma", sigma_m);
+  reader.optional_length("measuredLength", measured_m);
+  reader.optional_length("drawnLength", drawn_m);
+  reader.optional_length("measuredSigma", sigma_m);
   if (reader.error() || (measured_m == 0.0 && drawn_m == 0.0)) return std::nullopt;
   // No printer is off by a tenth; another unit is.
   constexpr double kMost = 0.1;

@@ -492,6 +492,17 @@ void add_descriptions(Kinds& all) {
                            t.margin_m *= s;
                          }));
   }
+  // Refused when it is read, or found by looking for the board in other sizes.
+  const std::vector<std::pair<const char*, double>> units{
+      {"millimetres", 1e3}, {"centimetres", 1e2}, {"inches", 1 / 0.0254}, {"feet", 1 / 0.3048}};
+  for (const auto& [unit, s] : units) {
+    const Words words = s > 500.0 ? Words{"lengths are in metres"} : Words{unit};
+    all.push_back(target(named("target.yaml in %s", unit), words, [s = s](Target& t) {
+      t.tag_size_m *= s;
+      t.circle_radius_m *= s;
+      t.margin_m *= s;
+    }));
+  }
   // The tags' pitch kept: squares of 118.8 mm where the file says 120.
   for (const double s : {0.95, 0.99, 1.01, 1.05}) {
     all.push_back(target(named("tags %g times as large, pitch kept", s), {"tagSize", "tagSpacing"},

@@ -71,9 +71,10 @@ TEST(Corruption, OfTheImagesIsNeverGood) {
 }
 
 TEST(Corruption, OfTheBoardIsNeverGood) {
-  EXPECT_GE(run_kinds({"board ", "a second board in every cloud", "ids from 4", "ids from 100",
+  EXPECT_GE(run_kinds({"board ", "target.yaml in centi", "target.yaml in milli",
+                       "a second board in every cloud", "ids from 4", "ids from 100",
                        "ids from the top row"}),
-            9);
+            11);
 }
 
 TEST(Corruption, OfTheRigIsNeverGood) {

@@ -239,6 +239,7 @@ TEST_F(TargetYaml, RefusesBadGrids) {
   EXPECT_THAT(error(replaced(kGrid, "0.10", "[0.1]")), HasSubstr("a list of 1"));
   EXPECT_THAT(error(replaced(kGrid, "0.10", "0")), HasSubstr("positive"));
   EXPECT_THAT(error(replaced(kGrid, "0.10", "-1")), HasSubstr("between 0 and 100"));
+  EXPECT_THAT(error(replaced(kGrid, "0.10", "120")), HasSubstr("(lengths are in metres)"));
   EXPECT_THAT(error(replaced(kGrid, "tagCols: 5", "tagCols: 2.5")), HasSubstr("whole number"));
   EXPECT_THAT(error(replaced(kGrid, "tagCols: 5", "tagCols: 1")), HasSubstr("2 × 2 tags"));
   EXPECT_THAT(error(replaced(kGrid, "tagCols: 5", "tagCols: 900")), HasSubstr("do not exist"));
