@@ -19,12 +19,8 @@ ConvergencePlot::ConvergencePlot(QWidget* parent) : PlotView(parent) {
   figureActions()->setName("convergence");
   yAxis->setScaleType(QCPAxis::stLogarithmic);
   yAxis->setTicker(QSharedPointer<QCPAxisTickerLog>(new QCPAxisTickerLog));
-  yAxis->setNumberFormat("gb");
-  yAxis->setNumberPrecision(0);
-  QSharedPointer<QCPAxisTickerFixed> whole(new QCPAxisTickerFixed);
-  whole->setTickStep(1.0);
-  whole->setScaleStrategy(QCPAxisTickerFixed::ssMultiples);
-  xAxis->setTicker(whole);
+  yAxis->setNumberFormat("g");  // 10, not 10¹ beside a plain 1.
+  showWholeNumbers(*xAxis);
   follow_language(this, [this] {
     xAxis->setLabel(tr("iteration"));
     yAxis->setLabel(tr("move (mm)"));
@@ -80,13 +76,21 @@ void ConvergencePlot::rebuild() {
   drawNodes();
   drawLayoutMoves();
   if (!history_.empty()) {
-    const int shown = chosen_ >= 0 ? placeOf(chosen_) : 0;
-    showLegend({{LegendEntry::Sign::kLine, colors().series(std::max(0, shown)),
-                 chosen_ >= 0 ? tr("circle %1").arg(chosen_) : tr("each circle")},
-                {LegendEntry::Sign::kLine, colors().mark, tr("layout")}});
+    showLegend({circlesEntry(), {LegendEntry::Sign::kLine, colors().mark, tr("layout")}});
   }
   fillTable();
   replot(rpQueuedReplot);
+}
+
+// Every circle has a colour of its own; one that is chosen is named in its colour.
+LegendEntry ConvergencePlot::circlesEntry() const {
+  const int place = chosen_ >= 0 ? placeOf(chosen_) : -1;
+  if (place >= 0)
+    return {LegendEntry::Sign::kLine, colors().series(place), tr("circle %1").arg(chosen_)};
+  LegendEntry entry{LegendEntry::Sign::kLine, colors().series(0), tr("each circle")};
+  for (std::size_t n = 1; n < history_.front().nodes.size(); ++n)
+    entry.others.push_back(colors().series(static_cast<int>(n)));
+  return entry;
 }
 
 int ConvergencePlot::placeOf(int id) const {

@@ -28,6 +28,7 @@ class ConvergencePlot : public PlotView {
   void rebuild() override;
 
  private:
+  [[nodiscard]] LegendEntry circlesEntry() const;
   [[nodiscard]] int placeOf(int id) const;
   void drawNodes();
   void drawLayoutMoves();

@@ -10,11 +10,26 @@ constexpr int kSignWidth = 18;
 constexpr int kSignGap = 4;
 constexpr int kEntryGap = 12;
 constexpr int kMargin = 4;
+// Lines that stand for any number of them.
+constexpr std::size_t kMostLines = 3;
 // A figure keeps this much of its height for what it shows.
 constexpr int kLowestFigure = 130;
 
+// One above the other, in as many colours as there is room for.
+void draw_lines(QCPPainter& painter, const LegendEntry& entry, const QRectF& place) {
+  const std::size_t count = std::min(kMostLines, entry.others.size() + 1);
+  const double step = place.height() / static_cast<double>(kMostLines + 1);
+  for (std::size_t k = 0; k < count; ++k) {
+    painter.setPen(QPen(k == 0 ? entry.color : entry.others[k - 1], 1.6));
+    const double y =
+        place.center().y() + step * (static_cast<double>(k) - 0.5 * static_cast<double>(count - 1));
+    painter.drawLine(QPointF(place.left(), y), QPointF(place.right(), y));
+  }
+}
+
 void draw_sign(QCPPainter& painter, const LegendEntry& entry, const QRectF& place) {
   using Sign = LegendEntry::Sign;
+  if (!entry.others.empty()) return draw_lines(painter, entry, place);
   const QPointF middle = place.center();
   const double y = middle.y();
   painter.setPen(

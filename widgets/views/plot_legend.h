@@ -23,6 +23,8 @@ struct LegendEntry {
   Sign sign = Sign::kLine;
   QColor color;
   QString text;
+  /// Of a line that stands for several, each in a colour of its own: the colours of others.
+  std::vector<QColor> others = {};
 };
 
 /// A legend above a figure: entries side by side, in as many lines as they need, so that they lie

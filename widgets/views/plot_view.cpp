@@ -4,6 +4,7 @@
 #include <QContextMenuEvent>
 #include <QFile>
 #include <QMenu>
+#include <QPainter>
 #include <QTemporaryDir>
 #include <algorithm>
 #include <typeinfo>
@@ -27,6 +28,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent), colors_(PlotColors::o
                                       [this] { return pdf(); }, [this] { return csv(); }});
   applyColors();
   connect(this, &QCustomPlot::beforeReplot, this, &PlotView::fitLabels);
+  connect(this, &QCustomPlot::afterReplot, this, [this] { old_colors_ = false; });
 }
 
 QByteArray PlotView::csv() const {
@@ -92,6 +94,14 @@ void PlotView::showMessage(const QString& text) {
   item->position->setCoords(0.5, 0.5);
 }
 
+void PlotView::showWholeNumbers(QCPAxis& axis) {
+  const QSharedPointer<QCPAxisTickerFixed> whole(new QCPAxisTickerFixed);
+  whole->setTickStep(1.0);
+  whole->setScaleStrategy(QCPAxisTickerFixed::ssMultiples);
+  axis.setTicker(whole);
+  axis.setSubTicks(false);
+}
+
 void PlotView::setHome(const QCPRange& x, const QCPRange& y) {
   home_x_ = x;
   home_y_ = y;
@@ -116,6 +126,7 @@ void PlotView::changeEvent(QEvent* event) {
   if (what != QEvent::LanguageChange) {
     colors_ = PlotColors::of(palette());
     applyColors();
+    old_colors_ = true;
   }
   stale_ = unseen(*this);
   if (!stale_) rebuild();
@@ -124,6 +135,13 @@ void PlotView::changeEvent(QEvent* event) {
 void PlotView::showEvent(QShowEvent* event) {
   QCustomPlot::showEvent(event);
   if (std::exchange(stale_, false)) rebuild();
+}
+
+// Axes and words for a light ground are not seen on a dark one: until they are drawn anew there is
+// the ground alone.
+void PlotView::paintEvent(QPaintEvent* event) {
+  if (!old_colors_) return QCustomPlot::paintEvent(event);
+  QPainter(this).fillRect(rect(), colors_.background);
 }
 
 void PlotView::keyPressEvent(QKeyEvent* event) {
@@ -196,7 +214,8 @@ void PlotView::fitTicks() {
   for (QCPAxis* axis : {xAxis, xAxis2, yAxis, yAxis2}) {
     QCPAxisTicker& ticker = *axis->ticker();
     // Others place their own.
-    if (typeid(ticker) != typeid(QCPAxisTicker)) continue;
+    if (typeid(ticker) != typeid(QCPAxisTicker) && typeid(ticker) != typeid(QCPAxisTickerFixed))
+      continue;
     const bool across = axis->orientation() == Qt::Horizontal;
     const QSize laid_out = axis->axisRect()->size();
     const int known_px = across ? laid_out.width() : laid_out.height();
@@ -228,8 +247,17 @@ void PlotView::fitLabels() {
   for (QCPAxis* axis : {yAxis, yAxis2}) {
     if (axis->label().isEmpty()) continue;
     QFont fitting = font();
-    const double wanted = QFontMetricsF(fitting).horizontalAdvance(axis->label());
+    const QFontMetricsF metrics(fitting);
     const double room = height() - kOtherParts_px - legend_px;
+    QString words = axis->label().replace(QLatin1Char('\n'), QLatin1Char(' '));
+    double wanted = metrics.horizontalAdvance(words);
+    // In two lines, where it would be cut off even so.
+    const auto gap = words.indexOf(QLatin1Char(' '));
+    if (kSmallest * wanted > room && gap > 0) {
+      words[gap] = QLatin1Char('\n');
+      wanted = metrics.size(0, words).width();
+    }
+    if (axis->label() != words) axis->setLabel(words);
     const double share = std::clamp(room / wanted, kSmallest, 1.0);
     fitting.setPointSizeF(share * fitting.pointSizeF());
     if (axis->labelFont() != fitting) axis->setLabelFont(fitting);

@@ -44,6 +44,8 @@ class PlotView : public QCustomPlot {
   void showMessage(const QString& text);
   /// Says above the figure what its colours and signs are, until it is drawn anew.
   void showLegend(std::vector<LegendEntry> entries);
+  /// Counts have no numbers such as 2.5 on their axis.
+  static void showWholeNumbers(QCPAxis& axis);
   /// Stores the range that resetView() goes back to, and shows it.
   void setHome(const QCPRange& x, const QCPRange& y);
   /// What csv() gives; `rows` is called only when somebody wants it.
@@ -53,6 +55,7 @@ class PlotView : public QCustomPlot {
 
   void changeEvent(QEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
@@ -70,7 +73,8 @@ class PlotView : public QCustomPlot {
   FigureActions* actions_;
   PlotLegend* legend_row_ = nullptr;  // The layout's; made once there is something to say.
   PlotColors colors_;
-  bool stale_ = false;  // Drawn with the colours or words before.
+  bool stale_ = false;       // Drawn with the colours or words before.
+  bool old_colors_ = false;  // What has been drawn is not in the present ones.
   QCPRange home_x_, home_y_;
   QPointF pressed_;
   QStringList header_;

@@ -317,6 +317,7 @@ RangePlot::RangePlot(QWidget* parent) : PlotView(parent) {
   figureActions()->setName("range-histogram");
   axisRect()->setRangeZoom(Qt::Horizontal);
   axisRect()->setRangeDrag(Qt::Horizontal);
+  showWholeNumbers(*yAxis);
   follow_language(this, [this] {
     xAxis->setLabel(tr("range off the board's plane (mm)"));
     yAxis->setLabel(tr("samples"));

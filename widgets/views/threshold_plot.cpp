@@ -18,6 +18,7 @@ constexpr double kKeyStep = 0.02;  // Of the range shown.
 ThresholdPlot::ThresholdPlot(QWidget* parent) : PlotView(parent) {
   setMouseTracking(true);
   setMinimumHeight(120);
+  showWholeNumbers(*yAxis);
 }
 
 void ThresholdPlot::setValueLabel(const QString& label, const QString& csv_name) {

@@ -98,6 +98,8 @@ void UncertaintyMapPlot::drawCells(const ProjectedUncertainty& map) {
     }
   }
   cells->setInterpolate(false);
+  // Outer cells are centred on the image's edge: their other halves lie beside it.
+  cells->setTightBoundary(true);
   cells->setColorScale(scale_);
   cells->setGradient(gradient());
   // Zero stands at the dark end, so that a colour means the same whatever the best spot is.
@@ -146,8 +148,7 @@ UncertaintyRangePlot::UncertaintyRangePlot(QWidget* parent) : PlotView(parent) {
   xAxis->setScaleType(QCPAxis::stLogarithmic);
   yAxis->setScaleType(QCPAxis::stLogarithmic);
   yAxis->setTicker(decades());
-  yAxis->setNumberFormat("gb");
-  yAxis->setNumberPrecision(0);
+  yAxis->setNumberFormat("g");  // 10, not 10¹ beside a plain 1.
   follow_language(this, [this] {
     xAxis->setLabel(tr("range (m)"));
     yAxis->setLabel(tr("standard deviation (mm)"));

@@ -40,6 +40,22 @@ TEST(ConvergencePlot, ShowsEveryValidNodeAndTheLayout) {
   EXPECT_GT(plot.yAxis->range().upper, 3.0);
 }
 
+// One colour would stand for one circle.
+TEST(ConvergencePlot, TheLegendHasTheColoursOfAllCirclesOrOfTheChosenOne) {
+  ConvergencePlot plot;
+  plot.resize(400, 300);
+  plot.setHistory(example());
+  const LegendEntry all = plot.legendEntries().front();
+  EXPECT_EQ(all.color, plot.colors().series(0));
+  ASSERT_EQ(all.others.size(), 8U);
+  EXPECT_EQ(all.others.back(), plot.colors().series(8));
+  plot.setChosenNode(4);
+  const LegendEntry one = plot.legendEntries().front();
+  EXPECT_EQ(one.color, plot.colors().series(4));
+  EXPECT_TRUE(one.others.empty());
+  EXPECT_TRUE(one.text.contains("4"));
+}
+
 TEST(ConvergencePlot, AClickNamesTheIteration) {
   ConvergencePlot plot;
   plot.resize(400, 300);

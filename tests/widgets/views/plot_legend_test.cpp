@@ -82,6 +82,15 @@ TEST(PlotLegend, GoesWithWhatItExplained) {
   EXPECT_EQ(rows_of(plot, kBefore).first, -1);
 }
 
+TEST(PlotLegend, SeveralLinesAreDrawnInTheirColours) {
+  Figure plot;
+  plot.resize(300, 300);
+  plot.showLegend({{LegendEntry::Sign::kLine, kBefore, "each", {kAfter, Qt::black, Qt::green}}});
+  plot.replot();
+  EXPECT_TRUE(test::shows(plot, kBefore));
+  EXPECT_TRUE(test::shows(plot, kAfter));
+}
+
 TEST(PlotLegend, EverySignIsDrawn) {
   using Sign = LegendEntry::Sign;
   for (const Sign sign :

@@ -66,6 +66,29 @@ TEST_F(ThresholdPlotTest, KeysMoveItWithinItsRange) {
   EXPECT_EQ(plot_.threshold(), 1.0);
 }
 
+TEST_F(ThresholdPlotTest, HowManyIsAWholeNumber) {
+  for (const int most : {1, 2, 4, 7, 60}) {
+    plot_.setValues(std::vector<double>(static_cast<std::size_t>(most), 0.5));
+    plot_.replot();
+    QVector<double> ticks;
+    plot_.yAxis->ticker()->generate(plot_.yAxis->range(), QLocale::c(), 'g', 6, ticks, nullptr,
+                                    nullptr);
+    EXPECT_GE(ticks.size(), 2);
+    for (const double tick : ticks) EXPECT_EQ(tick, std::round(tick)) << most;
+  }
+}
+
+// Every figure is drawn a moment after the theme has changed; what it has drawn before does not
+// stand on the new ground meanwhile.
+TEST_F(ThresholdPlotTest, NothingInOldColoursStandsOnANewGround) {
+  plot_.setPalette(test::palette_of(false));
+  plot_.replot();
+  EXPECT_GT(test::colours_shown(plot_), 3);
+  plot_.setPalette(test::palette_of(true));
+  EXPECT_EQ(test::colours_shown(plot_), 1);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return test::colours_shown(plot_) > 3; }, 2000));
+}
+
 TEST_F(ThresholdPlotTest, WithoutValuesItSaysWhy) {
   plot_.setValues({}, "no circles");
   EXPECT_TRUE(plot_.csv().isEmpty());

@@ -37,8 +37,32 @@ TEST(UncertaintyMapPlot, ShowsEveryCellInTheColourOfItsValue) {
     return picture.pixelColor(static_cast<int>(plot.xAxis->coordToPixel(u)),
                               static_cast<int>(plot.yAxis->coordToPixel(v)));
   };
-  EXPECT_GT(at(500, 100).lightness(), at(100, 100).lightness() + 20);
+  EXPECT_GT(at(480, 120).lightness(), at(120, 120).lightness() + 20);
   EXPECT_EQ(at(130, 330), plot.colors().background);  // no ray there
+}
+
+// As the core computes it: outer cells are centred on the outermost pixels.
+TEST(UncertaintyMapPlot, NoCellReachesBeyondTheImage) {
+  UncertaintyMapPlot plot;
+  plot.resize(500, 340);
+  ProjectedUncertainty map = example();
+  for (Eigen::Vector2d& pixel : map.pixel)
+    pixel = {(pixel.x() - 100.0) * 599.0 / 400.0, (pixel.y() - 100.0) * 399.0 / 200.0};
+  plot.setMap(map, {600, 400});
+  plot.toPixmap(500, 340);  // Fits the image once its place is known.
+  plot.xAxis->setRange(-200, 800);
+  plot.yAxis->setRange(-150, 550);
+  const QImage picture = plot.toPixmap(500, 340).toImage();
+  const auto at = [&](double u, double v) {
+    return picture.pixelColor(static_cast<int>(plot.xAxis->coordToPixel(u)),
+                              static_cast<int>(plot.yAxis->coordToPixel(v)));
+  };
+  for (const double v : {40.0, 360.0}) {
+    EXPECT_NE(at(580, v), plot.colors().background);
+    EXPECT_EQ(at(640, v), plot.colors().background) << v;
+  }
+  EXPECT_EQ(at(430, -50), plot.colors().background);
+  EXPECT_EQ(at(430, 450), plot.colors().background);
 }
 
 TEST(UncertaintyMapPlot, ImageStandsUprightWithSquarePixels) {
