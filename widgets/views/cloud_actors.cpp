@@ -94,7 +94,8 @@ void show_lines(vtkActor& actor, const std::vector<CloudLine>& lines) {
   actor.SetVisibility(lines.empty() ? 0 : 1);
 }
 
-void show_points(vtkActor& actor, const std::vector<Eigen::Vector3d>& points_m) {
+void show_points(vtkActor& actor, const std::vector<Eigen::Vector3d>& points_m,
+                 double device_pixel_ratio) {
   vtkNew<vtkPoints> points;
   for (const Eigen::Vector3d& p : points_m) points->InsertNextPoint(p.data());
   vtkNew<vtkPolyData> data;
@@ -104,7 +105,8 @@ void show_points(vtkActor& actor, const std::vector<Eigen::Vector3d>& points_m) 
   mapper->SetInputData(data);
   actor.SetMapper(mapper);
   constexpr std::size_t kFew = 20;
-  actor.GetProperty()->SetPointSize(points_m.size() <= kFew ? 11.0F : 4.0F);
+  actor.GetProperty()->SetPointSize((points_m.size() <= kFew ? 11.0F : 4.0F) *
+                                    static_cast<float>(device_pixel_ratio));
   actor.SetVisibility(points_m.empty() ? 0 : 1);
 }
 

@@ -29,6 +29,7 @@ std::vector<vtkSmartPointer<vtkActor>> point_portions(const CloudScene& scene,
 void show_lines(vtkActor& actor, const std::vector<CloudLine>& lines);
 
 /// Makes an actor draw these points (m), large if they are few, or hides it if there are none.
-void show_points(vtkActor& actor, const std::vector<Eigen::Vector3d>& points_m);
+void show_points(vtkActor& actor, const std::vector<Eigen::Vector3d>& points_m,
+                 double device_pixel_ratio = 1.0);
 
 }  // namespace lvcalib::widgets

@@ -188,12 +188,20 @@ struct CloudPipeline::Vtk {
     for (std::size_t k = 0; k < 6; ++k) wide[k] += (k % 2 == 0 ? -0.05 : 0.05) * reach;
     renderer->ResetCameraClippingRange(wide.data());
   }
+
+  // VTK counts the screen's own pixels: on a fine screen lines would be hairs.
+  void scaleLines() {
+    const auto ratio = static_cast<float>(device_pixel_ratio);
+    line_actor->GetProperty()->SetLineWidth(2.0F * ratio);
+    box->GetOutlineProperty()->SetLineWidth(1.5F * ratio);
+    box->GetSelectedOutlineProperty()->SetLineWidth(2.5F * ratio);
+  }
 };
 
 CloudPipeline::CloudPipeline(Hooks hooks) : vtk_(std::make_unique<Vtk>()) {
   vtk_->hooks = std::move(hooks);
   vtk_->createInteraction();
-  vtk_->line_actor->GetProperty()->SetLineWidth(2.0F);
+  vtk_->scaleLines();
   vtk_->line_actor->GetProperty()->LightingOff();
   vtk_->highlight_actor->GetProperty()->LightingOff();
   vtk_->point_property->LightingOff();
@@ -246,7 +254,7 @@ void CloudPipeline::setLines(const std::vector<CloudLine>& lines) {
 }
 
 void CloudPipeline::setHighlights(const std::vector<Eigen::Vector3d>& points_m) {
-  show_points(*vtk_->highlight_actor, points_m);
+  show_points(*vtk_->highlight_actor, points_m, vtk_->device_pixel_ratio);
 }
 
 void CloudPipeline::setBackground(double red, double green, double blue, bool dark) {
@@ -255,8 +263,6 @@ void CloudPipeline::setBackground(double red, double green, double blue, bool da
   vtk_->renderer->SetBackgroundAlpha(1.0);
   const double edge = dark ? 0.95 : 0.1;
   vtk_->box->GetOutlineProperty()->SetColor(edge, edge, edge);
-  vtk_->box->GetOutlineProperty()->SetLineWidth(1.5F);
-  vtk_->box->GetSelectedOutlineProperty()->SetLineWidth(2.5F);
   vtk_->box->GetHandleProperty()->SetColor(0.95, 0.55, 0.1);
   vtk_->box->GetSelectedHandleProperty()->SetColor(1.0, 0.2, 0.2);
   vtk_->highlight_actor->GetProperty()->SetColor(1.0, dark ? 0.25 : 0.0, dark ? 0.9 : 0.7);
@@ -340,6 +346,7 @@ void CloudPipeline::resize(int width_px, int height_px, double device_pixel_rati
   }
   vtk_->device_pixel_ratio = device_pixel_ratio;
   setPointSize(vtk_->point_size_px);
+  vtk_->scaleLines();
 }
 
 void CloudPipeline::handle(const CanvasMouse& mouse) {

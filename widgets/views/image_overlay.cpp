@@ -22,8 +22,10 @@ const QColor kLeftOutColor(190, 110, 255);
 constexpr std::size_t kMostPoints = 60'000;
 constexpr std::size_t kPaintedTogether = 2000;
 
-QPen cosmetic(const QColor& color, double width) {
-  QPen pen(color, width);
+// As wide on the screen whatever the zoom. Qt counts the screen's own pixels, of which a fine
+// screen has several to each of ours.
+QPen cosmetic(const QPainter& painter, const QColor& color, double width) {
+  QPen pen(color, width * painter.device()->devicePixelRatioF());
   pen.setCosmetic(true);
   return pen;
 }
@@ -67,7 +69,7 @@ void strike(QPainter& painter, const QPolygonF& shape, bool left_out) {
   // Lines as far apart on the screen whatever the zoom.
   hatch.setTransform(painter.worldTransform().inverted());
   painter.setBrush(hatch);
-  painter.setPen(cosmetic(color, 1.6));
+  painter.setPen(cosmetic(painter, color, 1.6));
   painter.drawPolygon(shape);
   painter.setBrush(Qt::NoBrush);
   const qsizetype half = shape.size() / 2;
@@ -128,7 +130,7 @@ void OverlayItem::paintPoints(QPainter& painter, const QRectF& visible) const {
   std::size_t collected = 0;
   const auto flush = [&] {
     for (const auto& [color, places] : by_color) {
-      painter.setPen(cosmetic(QColor::fromRgb(color), 2.0));
+      painter.setPen(cosmetic(painter, QColor::fromRgb(color), 2.0));
       painter.drawPoints(places.constData(), static_cast<int>(places.size()));
     }
     by_color.clear();
@@ -154,7 +156,7 @@ void OverlayItem::paintUnusedPoints(QPainter& painter, double scale) const {
       lines << QLineF(places[i] - QPointF(half, half), places[i] + QPointF(half, half))
             << QLineF(places[i] - QPointF(half, -half), places[i] + QPointF(half, -half));
     }
-    painter.setPen(cosmetic(color, 1.0));
+    painter.setPen(cosmetic(painter, color, 1.0));
     painter.drawLines(lines);
   };
   crosses(overlay_.refused_points, kUnusedColor);
@@ -173,7 +175,7 @@ void OverlayItem::paintTags(QPainter& painter, double scale) const {
                          : tag.used                 ? kTagColor
                                                     : kUnusedColor;
     if (!tag.used || tag.left_out) strike(painter, tag.corners, tag.left_out);
-    painter.setPen(cosmetic(color, tag.id == highlighted_tag_ ? 3.0 : 1.6));
+    painter.setPen(cosmetic(painter, color, tag.id == highlighted_tag_ ? 3.0 : 1.6));
     painter.drawPolygon(tag.corners);
     if (labels)
       draw_label(painter, tag.corners.boundingRect().center(), scale, QString::number(tag.id),
@@ -184,16 +186,16 @@ void OverlayItem::paintTags(QPainter& painter, double scale) const {
 void OverlayItem::paintResiduals(QPainter& painter, double scale) const {
   for (const ImageOverlay::Corner& corner : overlay_.corners) {
     const QColor color = corner.used ? kResidualColor : kUnusedColor;
-    painter.setPen(cosmetic(kTagColor, 1.2));
+    painter.setPen(cosmetic(painter, kTagColor, 1.2));
     const double half = 3.0 / scale;
     const QPointF& d = corner.detected;
     painter.drawLine(d - QPointF(half, 0), d + QPointF(half, 0));
     painter.drawLine(d - QPointF(0, half), d + QPointF(0, half));
     if (!corner.has_prediction) continue;
-    painter.setPen(cosmetic(color, 1.2));
+    painter.setPen(cosmetic(painter, color, 1.2));
     painter.setBrush(Qt::NoBrush);
     painter.drawEllipse(corner.predicted, half, half);
-    painter.setPen(cosmetic(color, 1.8));
+    painter.setPen(cosmetic(painter, color, 1.8));
     draw_arrow(painter, corner.predicted,
                corner.predicted + factor_ * (corner.detected - corner.predicted), scale);
   }
@@ -201,11 +203,12 @@ void OverlayItem::paintResiduals(QPainter& painter, double scale) const {
 
 void OverlayItem::paintCircles(QPainter& painter, double scale) const {
   painter.setBrush(Qt::NoBrush);
-  painter.setPen(cosmetic(kCircleColor, 1.4));
+  painter.setPen(cosmetic(painter, kCircleColor, 1.4));
   if (!overlay_.outline.isEmpty()) painter.drawPolygon(overlay_.outline);
   for (const ImageOverlay::Circle& circle : overlay_.circles) {
     if (!circle.valid) strike(painter, circle.edge, circle.left_out);
-    QPen pen = cosmetic(circle.valid      ? kCircleColor
+    QPen pen = cosmetic(painter,
+                        circle.valid      ? kCircleColor
                         : circle.left_out ? kLeftOutColor
                                           : kUnusedColor,
                         1.6);
@@ -226,10 +229,10 @@ void OverlayItem::paintCircles(QPainter& painter, double scale) const {
 void OverlayItem::paintShifts(QPainter& painter, double scale) const {
   painter.setBrush(Qt::NoBrush);
   for (const ImageOverlay::Outline& outline : overlay_.outlines) {
-    painter.setPen(cosmetic(QColor::fromRgb(outline.color), 1.4));
+    painter.setPen(cosmetic(painter, QColor::fromRgb(outline.color), 1.4));
     painter.drawPolygon(outline.points);
   }
-  painter.setPen(cosmetic(kResidualColor, 1.8));
+  painter.setPen(cosmetic(painter, kResidualColor, 1.8));
   for (const QLineF& shift : overlay_.shifts)
     draw_arrow(painter, shift.p1(), shift.p1() + factor_ * (shift.p2() - shift.p1()), scale);
 }
@@ -239,9 +242,9 @@ void OverlayItem::paintHighlights(QPainter& painter, double scale) const {
   for (std::size_t k = 0; k < highlights_.size(); ++k) {
     // The first one is what was asked for, the others are its neighbours.
     const double radius = (k == 0 ? 9.0 : 4.0) / scale;
-    painter.setPen(cosmetic(Qt::black, k == 0 ? 4.0 : 3.0));
+    painter.setPen(cosmetic(painter, Qt::black, k == 0 ? 4.0 : 3.0));
     painter.drawEllipse(highlights_[k], radius, radius);
-    painter.setPen(cosmetic(kChosenColor, k == 0 ? 2.0 : 1.4));
+    painter.setPen(cosmetic(painter, kChosenColor, k == 0 ? 2.0 : 1.4));
     painter.drawEllipse(highlights_[k], radius, radius);
   }
 }

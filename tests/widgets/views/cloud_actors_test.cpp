@@ -59,6 +59,9 @@ TEST(CloudActors, FewPointsAreDrawnLarge) {
   EXPECT_EQ(actor->GetVisibility(), 1);
   show_points(*actor, std::vector<Eigen::Vector3d>(300, Eigen::Vector3d::Zero()));
   EXPECT_LT(actor->GetProperty()->GetPointSize(), few);
+  // As large on a fine screen.
+  show_points(*actor, std::vector<Eigen::Vector3d>(3, Eigen::Vector3d::Zero()), 2.0);
+  EXPECT_EQ(actor->GetProperty()->GetPointSize(), 2.0F * few);
   show_points(*actor, {});
   EXPECT_EQ(actor->GetVisibility(), 0);
 }

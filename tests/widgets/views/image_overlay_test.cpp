@@ -11,7 +11,7 @@ namespace lvcalib::widgets::image_overlay_test {
 namespace {
 
 QImage painted(const ImageOverlay& overlay, const OverlayParts& parts,
-               const std::vector<QPointF>& highlights = {}) {
+               const std::vector<QPointF>& highlights = {}, int device_pixel_ratio = 1) {
   QGraphicsScene scene;
   auto* item = new OverlayItem;
   item->setBounds({0, 0, 200, 200});
@@ -19,7 +19,8 @@ QImage painted(const ImageOverlay& overlay, const OverlayParts& parts,
   item->setParts(parts);
   item->setHighlights(highlights, -1);
   scene.addItem(item);
-  QImage image(200, 200, QImage::Format_RGB32);
+  QImage image(QSize(200, 200) * device_pixel_ratio, QImage::Format_RGB32);
+  image.setDevicePixelRatio(device_pixel_ratio);
   image.fill(Qt::black);
   QPainter painter(&image);
   scene.render(&painter, {0, 0, 200, 200}, {0, 0, 200, 200});
@@ -41,6 +42,22 @@ TEST(ImageOverlay, PointsTakeTheirColours) {
   EXPECT_GT(qRed(strongest(50, 50)), 240);
   EXPECT_LT(qBlue(strongest(50, 50)), 20);
   EXPECT_GT(qBlue(strongest(150, 150)), 240);
+}
+
+// On a screen of twice the resolution a dot has twice the pixels across.
+TEST(ImageOverlay, DotsAreAsLargeOnAFineScreen) {
+  ImageOverlay overlay;
+  overlay.points = {{50, 50}};
+  overlay.point_colors = {qRgb(255, 0, 0)};
+  const auto dots = [&](int ratio) {
+    const QImage image = painted(overlay, {false, false, false, true}, {}, ratio);
+    int out = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) out += qRed(image.pixel(x, y)) > 120 ? 1 : 0;
+    }
+    return out;
+  };
+  EXPECT_GE(dots(2), 3 * dots(1));
 }
 
 // The middle of a tag that is not used is hatched, in the colour of who did not want it.
