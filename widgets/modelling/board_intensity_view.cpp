@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "modelling/model_text.h"
 #include "style/texts.h"
 #include "views/color_map.h"
 
@@ -117,8 +118,8 @@ void BoardIntensityView::paint(QPainter& painter, const QRectF& area) {
                      message_.isEmpty() ? tr("no intensity in these clouds") : message_);
     return;
   }
-  const QString titles[] = {tr("measured (%1 … %2)").arg(low_, 0, 'g', 3).arg(high_, 0, 'g', 3),
-                            tr("predicted"), tr("difference (±%1)").arg(range_, 0, 'g', 2)};
+  const QString titles[] = {tr("measured (%1 … %2)").arg(plain_number(low_), plain_number(high_)),
+                            tr("predicted"), tr("difference (±%1)").arg(plain_number(range_, 2))};
   const int shown = flicker_ ? 2 : 3;
   const double title = 1.6 * painter.fontMetrics().height();
   const double width = area.width() / shown;

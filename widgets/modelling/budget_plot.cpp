@@ -123,9 +123,9 @@ void BudgetPlot::rebuild() {
     const QString unit = base.channel == Channel::kIntensity
                              ? QString()
                              : QStringLiteral(" ") + unit_text(base.channel);
-    ticker->addTick(middle, tr("%1 (noise %2)")
-                                .arg(channel_name(base.channel),
-                                     QString::number(base.noise_floor, 'g', 2) + unit));
+    ticker->addTick(middle,
+                    tr("%1 (noise %2)")
+                        .arg(channel_name(base.channel), plain_number(base.noise_floor, 2) + unit));
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       const ChannelSummary* c = steps_[k] ? summary_of(*steps_[k], base.channel) : nullptr;
       if (c == nullptr) continue;
@@ -198,8 +198,8 @@ void BudgetPlot::writeFigures(const ChannelSummary& base, double middle) {
   const ChannelSummary* now = shown ? summary_of(*shown, base.channel) : nullptr;
   const auto figure = [](const ChannelSummary& c) {
     const BeyondNoise error = beyond_noise(c);
-    return error.is_chance() ? tr("< %1").arg(error.by_chance, 0, 'g', 2)
-                             : QString::number(error.unexplained, 'g', 2);
+    return error.is_chance() ? tr("< %1").arg(plain_number(error.by_chance, 2))
+                             : plain_number(error.unexplained, 2);
   };
   QString text = figure(base);
   const QString then = now != nullptr && current_ > 0 ? figure(*now) : text;
@@ -260,8 +260,8 @@ void BudgetPlot::drawTruth(int first) {
   const Distance before = toTruth(*steps_.front());
   const Distance now = shown ? toTruth(*shown) : before;
   const auto change = [&](double from, double to, const char* unit) {
-    QString text = QString::number(from, 'g', 2);
-    const QString then = QString::number(to, 'g', 2);
+    QString text = plain_number(from, 2);
+    const QString then = plain_number(to, 2);
     if (current_ > 0 && then != text) text += QStringLiteral(" → ") + then;
     return text + QLatin1Char(' ') + QLatin1String(unit);
   };
@@ -291,8 +291,8 @@ void BudgetPlot::showTip(const QPoint& place) {
     setToolTip(tr("Step %1, %2: %3 mm (left bar) and %4 mrad (right bar) from the truth")
                    .arg(step)
                    .arg(step_text(shown))
-                   .arg(d.mm, 0, 'g', 3)
-                   .arg(d.mrad, 0, 'g', 3));
+                   .arg(plain_number(d.mm))
+                   .arg(plain_number(d.mrad)));
   }
   if (channel >= steps_.front()->channels.size()) return;
   const ChannelSummary* c = summary_of(shown, steps_.front()->channels[channel].channel);
@@ -300,10 +300,10 @@ void BudgetPlot::showTip(const QPoint& place) {
   setToolTip(tr("Step %1, %2: %3\nRMS %4, noise %5, unexplained %6, held out %7 (%8)")
                  .arg(step)
                  .arg(step_text(shown), channel_name(c->channel))
-                 .arg(c->rms, 0, 'g', 3)
-                 .arg(c->noise_floor, 0, 'g', 3)
-                 .arg(c->unexplained, 0, 'g', 3)
-                 .arg(c->heldout_rms, 0, 'g', 3)
+                 .arg(plain_number(c->rms))
+                 .arg(plain_number(c->noise_floor))
+                 .arg(plain_number(c->unexplained))
+                 .arg(plain_number(c->heldout_rms))
                  .arg(unit_text(c->channel)));
 }
 

@@ -158,11 +158,28 @@ QString move_text(double mm, double mrad) {
   return QStringLiteral("%1 mm, %2 mrad").arg(mm, 0, 'f', 1).arg(mrad, 0, 'f', 2);
 }
 
+QString plain_number(double value, int digits) {
+  constexpr double kEndless = 1e6;
+  constexpr double kTiny = 1e-3;
+  static constexpr char16_t kRaised[] = u"⁰¹²³⁴⁵⁶⁷⁸⁹";
+  if (!(std::abs(value) <= kEndless))
+    return value < 0.0 ? QStringLiteral("−∞") : QStringLiteral("∞");
+  const double rounded = QString::number(value, 'e', digits - 1).toDouble();
+  if (std::abs(rounded) >= std::pow(10.0, digits)) return QString::number(value, 'f', 0);
+  if (value == 0.0 || std::abs(value) >= kTiny) return QString::number(value, 'g', digits);
+  const QStringList parts = QString::number(value, 'e', 1).split(QStringLiteral("e-"));
+  QString exponent;
+  for (const QChar digit : QString::number(parts[1].toInt()))
+    exponent += kRaised[digit.digitValue()];
+  return QStringLiteral("%1·10⁻%2").arg(parts[0], exponent);
+}
+
 QString criteria_html(const EffectProposal& proposal) {
   const EffectFinding& f = proposal.finding;
   if (f.criteria.empty()) return {};
-  const auto number = [](double value) {
-    return std::abs(value) > 1e6 ? QString(QChar(0x221E)) : QString::number(value, 'g', 3);
+  // Chances of many trials add up to more than certainty.
+  const auto shown = [](const Criterion& c) {
+    return c.name == "p_value" ? std::min(1.0, c.value) : c.value;
   };
   const auto plain = [](const char* text) { return translated(text).toHtmlEscaped(); };
   QString rows;
@@ -175,8 +192,8 @@ QString criteria_html(const EffectProposal& proposal) {
         QStringLiteral(
             "<tr><td>%1&nbsp;</td><td>%2&nbsp;</td><td align=right>%3&nbsp;%4&nbsp;%5</td></tr>")
             .arg(c.holds() ? QChar(0x2713) : QChar(0x2717))
-            .arg(title.toHtmlEscaped(), number(c.value), QString(QChar(relation)).toHtmlEscaped(),
-                 number(c.threshold));
+            .arg(title.toHtmlEscaped(), plain_number(shown(c)),
+                 QString(QChar(relation)).toHtmlEscaped(), plain_number(c.threshold));
   }
   const QString head = proposal.suggested
                            ? plain(QT_TRANSLATE_NOOP("ModelText", "Why it is suggested"))

@@ -23,6 +23,9 @@ QString effect_title(const std::string& spec);
 /// " mm", to be set behind a number; nothing of a number without a unit.
 QString unit_behind(const std::string& unit);
 
+/// A number to so many digits, and never as 1.7e+03: whole where it is large, "1.0·10⁻⁷" where it
+/// is tiny, ∞ where it has no meaning but that.
+QString plain_number(double value, int digits = 3);
 /// "8.1 ± 0.1 mm"; "8.1 mm (held)".
 QString value_text(const ParameterEstimate& parameter, bool held);
 /// "a = 8.1 ± 0.1 mm, b = …", the first few.

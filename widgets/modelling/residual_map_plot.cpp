@@ -211,7 +211,7 @@ void ResidualMapPlot::drawArrows(const ResidualMap& map) {
                        cell.significant() ? 1.8 : 1.2));
   }
   auto* note = new QCPItemText(this);
-  note->setText(tr("longest arrow: %1 px").arg(full, 0, 'g', 2));
+  note->setText(tr("longest arrow: %1 px").arg(plain_number(full, 2)));
   note->setColor(colors().text);
   note->setFont(font());
   note->setPositionAlignment(Qt::AlignRight | Qt::AlignTop);

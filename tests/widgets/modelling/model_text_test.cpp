@@ -18,6 +18,27 @@ TEST(ModelText, ValuesHaveTheirUnitsAndDeviations) {
   EXPECT_TRUE(values_text({a, a, a, a}, false).endsWith(QString::fromUtf8(", …")));
 }
 
+TEST(ModelText, NumbersHaveNoExponentsOfPrograms) {
+  EXPECT_EQ(plain_number(1670.0), "1670");
+  EXPECT_EQ(plain_number(120.0, 2), "120");
+  EXPECT_EQ(plain_number(99.7, 2), "100");
+  EXPECT_EQ(plain_number(-2.345), "-2.35");
+  EXPECT_EQ(plain_number(0.0299), "0.0299");
+  EXPECT_EQ(plain_number(1.01e-7), QString::fromUtf8("1.0·10⁻⁷"));
+  EXPECT_EQ(plain_number(3.2e-12), QString::fromUtf8("3.2·10⁻¹²"));
+  EXPECT_EQ(plain_number(0.0), "0");
+  EXPECT_EQ(plain_number(1e9), QString::fromUtf8("∞"));
+}
+
+// A bound of a chance over many trials may exceed one; a chance does not.
+TEST(ModelText, AChanceIsAtMostCertainty) {
+  EffectProposal proposal;
+  proposal.finding.criteria = {{"p_value", 4.65, 0.05, true}};
+  const QString html = criteria_html(proposal);
+  EXPECT_FALSE(html.contains("4.65")) << html.toStdString();
+  EXPECT_TRUE(html.contains("1&nbsp;&gt;&nbsp;0.05")) << html.toStdString();
+}
+
 TEST(ModelText, EveryCovariateOfAChannelHasAName) {
   const auto& base = *test::model_example().base;
   for (const StructureScore& s : base.structure)
