@@ -132,7 +132,10 @@ void MainWindow::connect_actions() {
     demo_opening_ = true;
     workspace_->open_demo(demo_);
   };
-  const auto guide = [this] { (new GuideDialog(pages_->tab(), this))->show(); };
+  const auto guide = [this] {
+    if (!guide_) guide_ = new GuideDialog(pages_->tab(), this);
+    guide_->show_page(pages_->tab());
+  };
   on(actions_->open_dataset, open_dataset);
   on(actions_->open_project, open_project);
   on(actions_->demo, demo);
@@ -239,7 +242,7 @@ void MainWindow::connect_workspace() {
       // Nobody sits before the screen to close a message for every scene.
       log_->append(core_text(error));
     } else {
-      show_error(error);
+      show_failed(error);
     }
   });
   connect(w, &Workspace::logged, log_, [this](const QString& line) { log_->append(line); });
@@ -474,9 +477,20 @@ bool MainWindow::save(bool ask_for_path) {
   return true;
 }
 
-void MainWindow::show_error(const Error& error) {
+ErrorDialog* MainWindow::show_error(const Error& error) {
   log_->append(QString::fromStdString(error.text()));
-  (new ErrorDialog(error, this))->show();
+  auto* dialog = new ErrorDialog(error, this);
+  dialog->show();
+  return dialog;
+}
+
+// Where the folder itself is at fault, and none of the files in it, a dataset is still to be made.
+void MainWindow::show_failed(const Error& error) {
+  ErrorDialog* dialog = show_error(error);
+  if (folder_wanted_.isEmpty() || error.where != folder_wanted_.toStdString()) return;
+  settings_.set_last_folder(folder_wanted_);
+  for (QAction* action : {actions_->import_recording, actions_->import_files})
+    dialog->offer(*action);
 }
 
 void MainWindow::update_actions() {

@@ -20,7 +20,9 @@
 namespace lvcalib::widgets {
 
 class DemoTour;
+class ErrorDialog;
 class FilesDialog;
+class GuideDialog;
 class ImportDialog;
 class LogDock;
 class MainActions;
@@ -87,7 +89,8 @@ class MainWindow : public QMainWindow {
   void restore_window();
   bool may_drop_decisions();
   bool save(bool ask_for_path);
-  void show_error(const Error& error);
+  ErrorDialog* show_error(const Error& error);
+  void show_failed(const Error& error);
   void take_opened();
   void take_result();
   void show_result();
@@ -110,6 +113,7 @@ class MainWindow : public QMainWindow {
   SceneModel model_;
   QString scene_;  // The one looked at.
   QString truth_path_;
+  QString folder_wanted_;  // The last one that was to be opened as a dataset.
   MainActions* actions_ = nullptr;
   ScenesDock* scenes_;
   ParametersDock* parameters_;
@@ -121,6 +125,7 @@ class MainWindow : public QMainWindow {
   QPointer<ImportDialog> import_;
   QPointer<FilesDialog> files_;
   QPointer<WatchWindow> watch_window_;
+  QPointer<GuideDialog> guide_;
   // Once the dataset that is being made of these is open: where to look, and what it holds already.
   std::optional<PairOptions> watch_next_;
   QStringList watch_known_;

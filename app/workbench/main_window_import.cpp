@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window's side of a new dataset from a recording.
+#include <QDir>
 #include <QFileInfo>
 #include <utility>
 
@@ -53,7 +54,9 @@ void MainWindow::open(const QString& path) {
     return;
   }
   if (!may_drop_decisions()) return;
+  folder_wanted_.clear();
   if (QFileInfo(path).isDir()) {
+    folder_wanted_ = QDir::cleanPath(QDir::current().absoluteFilePath(path));
     workspace_->open_dataset(path);
   } else {
     workspace_->open_project(path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dialogs/error_dialog.h"
 
+#include <QAction>
 #include <QClipboard>
 #include <QDialogButtonBox>
 #include <QGridLayout>
@@ -26,7 +27,9 @@ QLabel* selectable(const QString& text, QWidget* parent) {
 }  // namespace
 
 ErrorDialog::ErrorDialog(const Error& error, QWidget* parent)
-    : QDialog(parent), text_(QString::fromStdString(error.text())) {
+    : QDialog(parent),
+      text_(QString::fromStdString(error.text())),
+      buttons_(new QDialogButtonBox(QDialogButtonBox::Close, this)) {
   setAttribute(Qt::WA_DeleteOnClose);
   setObjectName(QStringLiteral("error_dialog"));
   const bool untrusted = error.kind == ErrorKind::kUntrusted;
@@ -45,8 +48,7 @@ ErrorDialog::ErrorDialog(const Error& error, QWidget* parent)
   layout->addWidget(hint, 2, 1);
   where->setHidden(error.where.empty());
   hint->setHidden(error.hint.empty());
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-  QPushButton* copy = buttons->addButton(QString(), QDialogButtonBox::ActionRole);
+  QPushButton* copy = buttons_->addButton(QString(), QDialogButtonBox::ActionRole);
   follow_language(this, [this, error, untrusted, message, where, hint, copy] {
     setWindowTitle(untrusted ? tr("No trustworthy result") : tr("This cannot be used"));
     QString text = core_text(error.message);
@@ -58,10 +60,25 @@ ErrorDialog::ErrorDialog(const Error& error, QWidget* parent)
   });
   connect(copy, &QPushButton::clicked, this,
           [this] { QGuiApplication::clipboard()->setText(text_); });
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  layout->addWidget(buttons, 3, 0, 1, 2);
+  connect(buttons_, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  layout->addWidget(buttons_, 3, 0, 1, 2);
   layout->setColumnStretch(1, 1);
   setMinimumWidth(480);
+}
+
+void ErrorDialog::offer(QAction& action) {
+  QPushButton* button = buttons_->addButton(QString(), QDialogButtonBox::ActionRole);
+  button->setObjectName(action.objectName());
+  const auto take_words = [button, &action] {
+    button->setText(action.text());
+    button->setToolTip(action.toolTip());
+  };
+  take_words();
+  connect(&action, &QAction::changed, button, take_words);
+  connect(button, &QPushButton::clicked, &action, [this, &action] {
+    close();
+    action.trigger();
+  });
 }
 
 }  // namespace lvcalib::widgets

@@ -5,6 +5,9 @@
 
 #include "base/error.h"
 
+class QAction;
+class QDialogButtonBox;
+
 namespace lvcalib::widgets {
 
 /// Says what went wrong, in which file, and what can be done; does not block.
@@ -15,9 +18,13 @@ class ErrorDialog : public QDialog {
   ErrorDialog(const Error& error, QWidget* parent);
   /// The same message as the command line gives.
   [[nodiscard]] QString text() const { return text_; }
+  /// A button for what helps: it closes the dialog and triggers the action. It has the action's
+  /// name and words.
+  void offer(QAction& action);
 
  private:
   QString text_;
+  QDialogButtonBox* buttons_;
 };
 
 }  // namespace lvcalib::widgets

@@ -108,14 +108,25 @@ void GuideDialog::retranslate() {
   showChapter();
 }
 
+void GuideDialog::show_page(int page) {
+  page_ = page;
+  show();
+  raise();
+  activateWindow();
+  QTimer::singleShot(0, this, &GuideDialog::showChapter);
+}
+
 void GuideDialog::showChapter() {
   constexpr int kModelTab = 4;
   const int chapter = page_ < 0 ? 0 : page_ == kModelTab ? 1 : page_ + 2;
   // Room below, so that the last chapters too can stand at the top.
   QTextFrame* frame = browser_->document()->rootFrame();
   QTextFrameFormat format = frame->frameFormat();
-  format.setBottomMargin(0.7 * browser_->viewport()->height());
-  frame->setFrameFormat(format);
+  const double room = 0.7 * browser_->viewport()->height();
+  if (format.bottomMargin() != room) {  // The text is laid out anew for it.
+    format.setBottomMargin(room);
+    frame->setFrameFormat(format);
+  }
   int heading = -1;
   for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
     if (block.blockFormat().headingLevel() != 1 || ++heading != chapter) continue;

@@ -14,6 +14,8 @@ class GuideDialog : public QDialog {
  public:
   /// Opens at the chapter of a page, as their tabs are counted; −1: at the beginning.
   explicit GuideDialog(int page, QWidget* parent = nullptr);
+  /// Comes to the front at the chapter of another page.
+  void show_page(int page);
 
  protected:
   void showEvent(QShowEvent* event) override;

@@ -4,6 +4,7 @@
 #include <QClipboard>
 #include <QCommandLinkButton>
 #include <QDialog>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QFile>
@@ -14,6 +15,9 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSignalSpy>
+#include <QTabWidget>
+#include <QTextBlock>
+#include <QTextBrowser>
 #include <QToolButton>
 #include <QUndoStack>
 #include <QUrl>
@@ -24,6 +28,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file_io.h"
+#include "dialogs/guide_dialog.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
 #include "pages/scene_page.h"
@@ -413,6 +418,54 @@ TEST_F(MainWindowTest, OneBadFileCostsOneScene) {
   EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
     return label->text().contains("scenes/NAME/");
   })) << "what a dataset is";
+}
+
+// Whoever opens a folder of something else has at hand what makes a dataset of it.
+TEST_F(MainWindowTest, AFolderThatIsNoDatasetOffersToMakeOne) {
+  const QString folder = folder_.filePath("photographs");
+  ASSERT_TRUE(QDir().mkpath(folder));
+  window_->open(folder);
+  ASSERT_TRUE(wait_until([&] { return find<QDialog>(*window_, "error_dialog") != nullptr; }));
+  auto* dialog = find<QDialog>(*window_, "error_dialog");
+  EXPECT_NE(find<QPushButton>(*dialog, "import_recording"), nullptr);
+  auto* files = find<QPushButton>(*dialog, "import_files");
+  ASSERT_NE(files, nullptr);
+  answers_.files = folder;
+  QTest::mouseClick(files, Qt::LeftButton);
+  EXPECT_FALSE(dialog->isVisible());
+  auto* import = find<QDialog>(*window_, "files_dialog");
+  ASSERT_NE(import, nullptr);
+  EXPECT_TRUE(import->isVisible());
+  import->close();
+  // What is wrong in a dataset is no reason to make another.
+  const QString broken = folder_.filePath("broken");
+  std::filesystem::copy(dataset().toStdString(), broken.toStdString(),
+                        std::filesystem::copy_options::recursive);
+  std::filesystem::resize_file((broken + "/camera.yaml").toStdString(), 0);
+  QTest::qWait(20);
+  window_->open(broken);
+  ASSERT_TRUE(wait_until([&] { return find<QDialog>(*window_, "error_dialog") != nullptr; }));
+  EXPECT_EQ(find<QPushButton>(*find<QDialog>(*window_, "error_dialog"), "import_files"), nullptr);
+}
+
+// The same window, at the chapter of the page in view, however often it is asked for.
+TEST_F(MainWindowTest, F1OpensTheGuideAtThePageInView) {
+  open();
+  const char* const chapters[] = {"Scene", "Refinement", "Extrinsic", "Boundary response", "Model"};
+  auto* tabs = find<QTabWidget>(*window_, "pages");
+  for (int page = 0; page < 5; ++page) {
+    tabs->setCurrentIndex(page);
+    window_->activateWindow();
+    ASSERT_TRUE(wait_until([&] { return QApplication::activeWindow() == window_.get(); }, 5000));
+    QSignalSpy asked(find<QAction>(*window_, "guide"), &QAction::triggered);
+    QTest::keyClick(window_.get(), Qt::Key_F1);
+    ASSERT_EQ(asked.count(), 1);
+    QTest::qWait(50);
+    const auto guides = window_->findChildren<widgets::GuideDialog*>();
+    ASSERT_EQ(guides.size(), 1);
+    const auto* text = guides.first()->findChild<QTextBrowser*>();
+    EXPECT_EQ(text->cursorForPosition({20, 12}).block().text().toStdString(), chapters[page]);
+  }
 }
 
 // Several folders dropped on the window are scenes for what is open; notes and the list's order are
