@@ -4673,6 +4673,18 @@ were saved. Take them up again?</source>
         <source>it contradicts the others only without the effects of this model: use it all the same (--insist) and search again</source>
         <translation>只有在不含该模型的效应时，它才与其他场景矛盾：请仍然使用它（--insist）并重新搜索</translation>
     </message>
+    <message>
+        <source>lengths are in metres</source>
+        <translation>长度单位是米</translation>
+    </message>
+    <message>
+        <source>the board is not found in any cloud, but it is if the lengths in target.yaml are %1</source>
+        <translation>在任何点云中都没有找到标定板；但若 target.yaml 中的长度%1，就能找到</translation>
+    </message>
+    <message>
+        <source>write them in metres: multiply each by %1</source>
+        <translation>请以米为单位书写：每个长度乘以 %1</translation>
+    </message>
 </context>
 <context>
     <name>Decisions</name>
@@ -6689,6 +6701,10 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Red is what no effect explains, green what the model explains now; diamonds are scenes held out. The list on the left says by how much the extrinsic has moved. Click an earlier step or undo to compare.</source>
         <translation>红色是没有效应能解释的部分，绿色是模型现在解释的部分；菱形是留出场景。左侧列表说明外参移动了多少。点击先前的步骤或撤销以作比较。</translation>
+    </message>
+    <message>
+        <source>The calibration runs; what it is at stands below on the left. Meanwhile the window can be used: the &lt;b&gt;Refinement&lt;/b&gt; page shows how the circles are found.</source>
+        <translation>标定正在进行，左下方显示进行到哪一步。其间窗口仍可使用：&lt;b&gt;精化&lt;/b&gt;页显示各圆是如何找到的。</translation>
     </message>
 </context>
 <context>

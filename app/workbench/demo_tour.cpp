@@ -65,9 +65,11 @@ void DemoTour::start() {
   };
   marks_->start({
       {tr("These scenes were simulated just now, by a LiDAR with an error that the calibration "
-          "does "
-          "not know. Press <b>Run all</b>."),
-       run_button, [this] { return workspace_.result() && !workspace_.busy(); }},
+          "does not know. Press <b>Run all</b>."),
+       run_button, [this] { return workspace_.result() || workspace_.busy(); }},
+      {tr("The calibration runs; what it is at stands below on the left. Meanwhile the window can "
+          "be used: the <b>Refinement</b> page shows how the circles are found."),
+       tab_bar, [this] { return workspace_.result() && !workspace_.busy(); }},
       {tr("The calibration is done. Below on the right stands how far it can be trusted, and the "
           "mouse over it says why. Open the <b>Model</b> page to ask what the model misses."),
        tab_bar, on_model_page},

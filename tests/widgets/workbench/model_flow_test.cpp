@@ -68,11 +68,14 @@ class Flow : public ::testing::Test {
   }
   ModelWork& work() { return window_.model_work(); }
   QTreeWidgetItem* top() { return test::find<QTreeWidget>(window_, "proposals")->topLevelItem(0); }
-  double unexplained(Channel channel) {
+  double unexplained(Channel channel) { return summary(channel).unexplained; }
+  double rms(Channel channel) { return summary(channel).rms; }
+  ChannelSummary summary(Channel channel) {
     for (const ChannelSummary& c : work().step()->channels) {
-      if (c.channel == channel) return c.unexplained;
+      if (c.channel == channel) return c;
     }
-    return NAN;
+    ADD_FAILURE() << "no such channel";
+    return {};
   }
 
   QTemporaryDir folder_;
@@ -115,6 +118,31 @@ TEST_F(Flow, TheDemosHiddenEffectIsFoundAddedTakenBackAndExported) {
   RecordProperty("largest_gap_ms", static_cast<int>(watchdog.take_largest_ms()));
 }
 
+TEST_F(Flow, AValueThatIsHeldIsTheUsersUntilItIsLetGo) {
+  ASSERT_TRUE(open_and_run(small_rig(4, {{"range_walk", 10.0}}), false));
+  QTest::mouseClick(test::find<QPushButton>(window_, "add_proposal"), Qt::LeftButton);
+  ASSERT_TRUE(test::wait_until([&] { return work().current() == 1; }));
+  ASSERT_TRUE(wait_idle());
+  const auto term = [&] { return work().step()->terms.at(0).use; };
+  const double fitted_m = term().values(0);
+  const double fitted_rms = rms(Channel::kRange);
+  auto* terms = test::find<QTreeWidget>(window_, "terms");
+  const auto row = [&] { return terms->topLevelItem(1); };
+  ASSERT_TRUE(row()->text(1).contains(QString::fromUtf8("±"))) << row()->text(1).toStdString();
+  row()->setText(1, "3");
+  ASSERT_TRUE(test::wait_until([&] { return !work().busy() && term().held; }));
+  EXPECT_DOUBLE_EQ(term().values(0), 0.003);
+  ASSERT_TRUE(test::wait_until([&] { return row()->checkState(2) == Qt::Checked; }, 5000));
+  EXPECT_FALSE(row()->text(1).contains(QString::fromUtf8("±"))) << row()->text(1).toStdString();
+  EXPECT_GT(rms(Channel::kRange), fitted_rms) << "3 mm are not what is hidden";
+  ASSERT_TRUE(wait_idle());
+  ASSERT_TRUE(
+      test::wait_until([&] { return row()->flags().testFlag(Qt::ItemIsUserCheckable); }, 5000));
+  row()->setCheckState(2, Qt::Unchecked);
+  ASSERT_TRUE(test::wait_until([&] { return !work().busy() && !term().held; }));
+  EXPECT_NEAR(term().values(0), fitted_m, 2e-4);
+}
+
 TEST_F(Flow, TheTourLeadsFromTheFirstLookToTheFallenError) {
   window_.set_demo(small_rig(4, {{"range_walk", 10.0}}));
   test::trigger(window_, "demo");
@@ -125,9 +153,13 @@ TEST_F(Flow, TheTourLeadsFromTheFirstLookToTheFallenError) {
   EXPECT_TRUE(coach->isVisible());
   EXPECT_EQ(coach->current(), 0);
   test::trigger(window_, "run");
-  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 1; }));
+  // What it asks for is done: it speaks of what is going on, until that is over.
+  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 1; }, 2000));
+  EXPECT_TRUE(window_.workspace().busy());
+  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 2; }));
+  EXPECT_FALSE(window_.workspace().busy());
   test::find<QTabWidget>(window_, "pages")->setCurrentIndex(4);
-  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 2; }, 240'000));
+  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 3; }, 240'000));
   // The bubble lies over nothing that it speaks of.
   const auto covers = [&](const char* name) {
     const auto* widget = test::find<QWidget>(window_, name);
@@ -140,16 +172,16 @@ TEST_F(Flow, TheTourLeadsFromTheFirstLookToTheFallenError) {
   // What is computed meanwhile does not turn the page for the reader.
   auto* next = test::find<QPushButton>(*coach, "coach_next");
   ASSERT_TRUE(test::wait_until([&] { return next->isEnabled(); }, 240'000));
-  EXPECT_EQ(coach->current(), 2);
-  QTest::mouseClick(next, Qt::LeftButton);
   EXPECT_EQ(coach->current(), 3);
+  QTest::mouseClick(next, Qt::LeftButton);
+  EXPECT_EQ(coach->current(), 4);
   for (const char* name : {"residual_plot", "proposals"})
     EXPECT_TRUE(test::wait_until([&] { return !covers(name); }, 2000)) << name;
   QTest::mouseClick(test::find<QPushButton>(*coach, "coach_next"), Qt::LeftButton);
-  EXPECT_EQ(coach->current(), 4);
+  EXPECT_EQ(coach->current(), 5);
   ASSERT_TRUE(wait_idle());
   QTest::mouseClick(test::find<QPushButton>(window_, "add_proposal"), Qt::LeftButton);
-  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 5; }, 240'000));
+  ASSERT_TRUE(test::wait_until([&] { return coach->current() == 6; }, 240'000));
   for (const char* name : {"budget_plot", "model_legend", "terms"})
     EXPECT_TRUE(test::wait_until([&] { return !covers(name); }, 2000)) << name;
   QTest::mouseClick(test::find<QPushButton>(*coach, "coach_next"), Qt::LeftButton);

@@ -296,6 +296,28 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
   if (wait_for_model(window)) camera.take(name("all"));
 }
 
+// Every bubble as its reader finds it; the last but one waits for an effect to be added.
+void photograph_tour(widgets::MainWindow& window, Photographer& camera) {
+  auto* coach = test::find<widgets::CoachMarks>(window, "coach_marks");
+  auto* next = test::find<QPushButton>(window, "coach_next");
+  auto* close = test::find<QPushButton>(window, "coach_close");
+  if (coach == nullptr || next == nullptr || close == nullptr) return;
+  while (coach->isVisible()) {
+    const int shown = coach->current();
+    camera.take(QStringLiteral("tour-%1").arg(shown + 1));
+    if (next->isVisible() && next->isEnabled()) {
+      next->click();
+      continue;
+    }
+    auto* add = test::find<QPushButton>(window, "add_proposal");
+    if (add == nullptr || !add->isEnabled()) break;
+    add->click();
+    test::wait_until([&] { return coach->current() != shown; }, 600'000);
+    if (!wait_for_model(window) || coach->current() == shown) break;
+  }
+  close->click();
+}
+
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset,
                bool quick, const QString& quick_theme) {
   Photographer camera(window, folder);
@@ -321,15 +343,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   tabs->setCurrentIndex(4);
   camera.take(QStringLiteral("model-looking"));
   wait_for_model(window);
-  // Every bubble as its reader finds it, up to the one that waits for an effect to be added.
-  auto* coach = test::find<widgets::CoachMarks>(window, "coach_marks");
-  auto* next = test::find<QPushButton>(window, "coach_next");
-  while (coach != nullptr && next != nullptr && coach->isVisible() && coach->current() < 5) {
-    camera.take(QStringLiteral("tour-%1").arg(coach->current() + 1));
-    if (!next->isVisible() || !next->isEnabled()) break;
-    next->click();
-  }
-  if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
+  photograph_tour(window, camera);
   if (quick) {
     choose(window, "theme", quick_theme);
     photograph_pages(window, camera, quick_theme);
