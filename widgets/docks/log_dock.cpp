@@ -17,7 +17,7 @@ LogDock::LogDock(QWidget* parent) : QDockWidget(parent), edit_(new QPlainTextEdi
   edit_->setMaximumBlockCount(kMaxLines);
   edit_->setTabChangesFocus(true);
   setWidget(edit_);
-  retranslate();
+  follow_language(this, [this] { retranslate(); });
 }
 
 void LogDock::append(const QString& line) {
@@ -26,11 +26,6 @@ void LogDock::append(const QString& line) {
 
 QString LogDock::text() const {
   return edit_->toPlainText();
-}
-
-void LogDock::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
-  QDockWidget::changeEvent(event);
 }
 
 void LogDock::retranslate() {

@@ -18,9 +18,6 @@ class LogDock : public QDockWidget {
   void append(const QString& line);
   [[nodiscard]] QString text() const;
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void retranslate();
   QPlainTextEdit* edit_;

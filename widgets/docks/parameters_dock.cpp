@@ -132,7 +132,7 @@ ParametersDock::ParametersDock(QWidget* parent) : QDockWidget(parent) {
   connect(reset_all_, &QPushButton::clicked, this, &ParametersDock::reset_all_wanted);
   layout->addWidget(reset_all_);
   setWidget(body);
-  retranslate();
+  follow_language(this, [this] { retranslate(); });
   set_options({});
 }
 
@@ -194,11 +194,6 @@ void ParametersDock::show_value(Field& field, double value) {
   } else if (auto* spin = qobject_cast<QDoubleSpinBox*>(field.editor)) {
     spin->setValue(value * field.display.factor);
   }
-}
-
-void ParametersDock::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
-  QDockWidget::changeEvent(event);
 }
 
 void ParametersDock::retranslate() {

@@ -38,9 +38,6 @@ class ParametersDock : public QDockWidget {
   void option_wanted(const lvcalib::OptionDeclaration& option, double value);
   void reset_all_wanted();
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   struct Field {
     const OptionDeclaration* option = nullptr;

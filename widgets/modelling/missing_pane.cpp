@@ -21,6 +21,7 @@
 
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
+#include "style/texts.h"
 #include "style/theme.h"
 #include "words/core_text.h"
 
@@ -173,7 +174,7 @@ MissingPane::MissingPane(QWidget* parent)
       Q_EMIT lookWanted();
     }
   });
-  retranslate();
+  follow_language(this, [this] { retranslate(); });
 }
 
 MissingPane::~MissingPane() {
@@ -301,7 +302,7 @@ void MissingPane::fillBudget() {
     if (p != ranking_->proposals.end() && p->suggested) continue;
     const QString size = QStringLiteral("%1 = %2%3")
                              .arg(QString::fromStdString(limit.parameter))
-                             .arg(limit.size, 0, 'g', 2)
+                             .arg(plain_number(limit.size, 2))
                              .arg(unit_behind(limit.unit));
     auto* item = new QTreeWidgetItem(
         budget_, {effect_title(limit.id) + QLatin1Char('\n') + tr("if %1").arg(size),
@@ -373,14 +374,13 @@ void MissingPane::describeStructure(const StructureScore& s) {
          "effect of the catalogue explains it: a smooth curve can stand in for it.</p>")
           .arg(100.0 * s.score, 0, 'f', 1)
           .arg(channel_name(s.channel), covariates_text(s))
-          .arg(s.amplitude, 0, 'g', 2)
+          .arg(plain_number(s.amplitude, 2))
           .arg(unit_text(s.channel)));
   setPattern(nullptr);
   Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
 }
 
 void MissingPane::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
   if (event->type() == QEvent::PaletteChange) fill();
   QWidget::changeEvent(event);
 }

@@ -17,6 +17,7 @@
 #include "modelling/term_list.h"
 #include "modelling/what_if_pane.h"
 #include "runner/model_work.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 
@@ -35,7 +36,7 @@ ModelPage::ModelPage(ModelWork& work, QWidget* parent)
   createLayout();
   connectParts();
   connectWork();
-  retranslate();
+  follow_language(this, [this] { retranslate(); });
   takeSteps();
 }
 
@@ -267,7 +268,6 @@ void ModelPage::forward(const std::vector<SelectedSample>& samples) {
 }
 
 void ModelPage::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
   if (event->type() == QEvent::PaletteChange) describeSteps();
   QWidget::changeEvent(event);
 }

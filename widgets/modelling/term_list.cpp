@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "modelling/model_text.h"
+#include "style/texts.h"
 #include "words/core_text.h"
 
 namespace lvcalib::widgets {
@@ -66,7 +67,7 @@ TermList::TermList(QWidget* parent)
     updateButtons();
     if (current() >= 0) Q_EMIT chosen(current());
   });
-  retranslate();
+  follow_language(this, [this] { retranslate(); });
 }
 
 TermList::~TermList() {
@@ -200,11 +201,6 @@ void TermList::take(QTreeWidgetItem* item, int column) {
   }
   // What is asked for shows once it is done.
   QMetaObject::invokeMethod(this, &TermList::fill, Qt::QueuedConnection);
-}
-
-void TermList::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
-  QWidget::changeEvent(event);
 }
 
 void TermList::retranslate() {

@@ -34,9 +34,6 @@ class TermList : public QWidget {
   /// Its pattern is worth a look.
   void chosen(int term);
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void retranslate();
   void fill();

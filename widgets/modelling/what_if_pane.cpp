@@ -14,6 +14,7 @@
 
 #include "modelling/model_text.h"
 #include "style/fitting.h"
+#include "style/texts.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -64,7 +65,7 @@ WhatIfPane::WhatIfPane(QWidget* parent)
     slider_->setValue(static_cast<int>(std::lround(kSteps * share)));
     Q_EMIT scaleChanged(scale());
   });
-  retranslate();
+  follow_language(this, [this] { retranslate(); });
 }
 
 const EffectParameter* WhatIfPane::parameter() const {
@@ -163,11 +164,6 @@ void WhatIfPane::resize() {
   const QSignalBlocker quiet(size_);
   size_->setValue(kMostMaterial * p->material / p->unit_in_si * slider_->value() / kSteps);
   Q_EMIT scaleChanged(scale());
-}
-
-void WhatIfPane::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
-  QWidget::changeEvent(event);
 }
 
 void WhatIfPane::retranslate() {

@@ -28,9 +28,6 @@ class WhatIfPane : public QWidget {
   /// Another size of the same effect: a factor on its pattern.
   void scaleChanged(double scale);
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void retranslate();
   void fill();

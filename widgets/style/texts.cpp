@@ -5,9 +5,12 @@
 #include <QCoreApplication>
 #include <QDockWidget>
 #include <QEvent>
+#include <QTimer>
 #include <QWidget>
 #include <utility>
 #include <vector>
+
+#include "style/unseen.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -19,12 +22,27 @@ class LanguageFollower : public QObject {
     widget->installEventFilter(this);
   }
   bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() == QEvent::LanguageChange) set_texts_();
+    if (event->type() == QEvent::LanguageChange) {
+      stale_ = true;
+      // What is in sight answers the click; all the rest at once with it would keep it waiting.
+      if (unseen(*static_cast<QWidget*>(watched))) {
+        QTimer::singleShot(0, this, &LanguageFollower::catch_up);
+      } else {
+        catch_up();
+      }
+    } else if (event->type() == QEvent::Show) {
+      catch_up();
+    }
     return QObject::eventFilter(watched, event);
   }
 
  private:
+  void catch_up() {
+    if (std::exchange(stale_, false)) set_texts_();
+  }
+
   std::function<void()> set_texts_;
+  bool stale_ = false;  // In the words of the language before.
 };
 
 }  // namespace

@@ -12,7 +12,9 @@
 #include <QTimer>
 #include <QTreeView>
 #include <algorithm>
+#include <ctime>
 #include <functional>
+#include <utility>
 
 #include "dialogs/choices.h"
 #include "workbench/main_window.h"
@@ -24,10 +26,18 @@ class Watchdog : public QObject {
  public:
   Watchdog() {
     timer_.setInterval(5);
-    connect(&timer_, &QTimer::timeout, this,
-            [this] { largest_ms_ = std::max(largest_ms_, clock_.restart()); });
+    connect(&timer_, &QTimer::timeout, this, [this] {
+      largest_ms_ = std::max(largest_ms_, clock_.restart());
+      turn();
+    });
     clock_.start();
     timer_.start();
+  }
+  /// The most that this thread itself has worked between two turns since the last call: what the
+  /// gap would be on a machine that does nothing else.
+  double take_busiest_ms() {
+    turn();
+    return std::exchange(busiest_ms_, 0.0);
   }
   /// Since the last call; at least the time since the loop last turned.
   qint64 take_largest_ms() {
@@ -37,9 +47,20 @@ class Watchdog : public QObject {
   }
 
  private:
+  void turn() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    const double now_ms =
+        1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+    busiest_ms_ = std::max(busiest_ms_, now_ms - worked_ms_);
+    worked_ms_ = now_ms;
+  }
+
   QTimer timer_;
   QElapsedTimer clock_;
   qint64 largest_ms_ = 0;
+  double worked_ms_ = 0.0;
+  double busiest_ms_ = 0.0;
 };
 
 /// Answers in the user's place.

@@ -6,6 +6,7 @@
 #include <QDialog>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -117,15 +118,21 @@ TEST_F(WindowMarksTest, EveryClickIsAnswered) {
   look_at_everything();
   test::Watchdog watchdog;
   double worst_ms = 0.0;
+  double busiest_ms = 0.0;
   const auto answered = [&](const std::string& what, const std::function<void()>& click) {
     QTest::qWait(60);
     watchdog.take_largest_ms();
+    watchdog.take_busiest_ms();
     click();
     QCoreApplication::processEvents();
     QTest::qWait(150);
     const auto gap = static_cast<double>(watchdog.take_largest_ms());
-    if (gap > 60.0) std::cout << "  " << gap << " ms after " << what << '\n';
+    const double work = watchdog.take_busiest_ms();
+    if (gap > 60.0 || work > 60.0)
+      std::cout << "  " << gap << " ms after " << what << ", " << std::lround(work)
+                << " ms of them its own work\n";
     worst_ms = std::max(worst_ms, gap);
+    busiest_ms = std::max(busiest_ms, work);
   };
   auto* tabs = test::find<QTabWidget>(*window_, "pages");
   for (int k = 0; k < tabs->count(); ++k)
@@ -150,7 +157,7 @@ TEST_F(WindowMarksTest, EveryClickIsAnswered) {
   answered("unticking a scene", [&] { test::click_scene(*window_, "B", true); });
   answered("undoing that", [&] { test::trigger(*window_, "undo"); });
   ASSERT_TRUE(test::wait_for_result(*window_));
-  std::printf("slowest answer to a click: %.0f ms\n", worst_ms);
+  std::printf("slowest answer to a click: %.0f ms, of work: %.0f ms\n", worst_ms, busiest_ms);
   RecordProperty("slowest_answer_ms", static_cast<int>(worst_ms));
 }
 
