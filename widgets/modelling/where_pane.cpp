@@ -16,6 +16,7 @@
 #include "modelling/model_text.h"
 #include "modelling/residual_map_plot.h"
 #include "modelling/residual_plot.h"
+#include "style/texts.h"
 #include "views/tool_row.h"
 
 namespace lvcalib::widgets {
@@ -30,7 +31,7 @@ WherePane::WherePane(FigureSource& source, QWidget* parent) : QWidget(parent), s
   connect(&source_, &FigureSource::figureReady, this, &WherePane::showFigure);
   connect(&source_, &FigureSource::boardReady, this,
           [this](const std::shared_ptr<const BoardIntensity>& board) { board_->setImages(board); });
-  retranslate();
+  follow_language(this, [this] { retranslate(); });
   setStep(nullptr, {});
 }
 
@@ -101,6 +102,7 @@ void WherePane::createFigures() {
   auto* bar = new QHBoxLayout;
   scenes_ = new QComboBox(board_page_);
   scenes_->setObjectName(QStringLiteral("board_scene"));
+  scenes_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   flicker_ = new QToolButton(board_page_);
   flicker_->setObjectName(QStringLiteral("flicker"));
   flicker_->setCheckable(true);
@@ -290,11 +292,6 @@ void WherePane::select(std::vector<std::size_t> rows) {
     }
   }
   Q_EMIT selected(samples);
-}
-
-void WherePane::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
-  QWidget::changeEvent(event);
 }
 
 void WherePane::retranslate() {

@@ -52,9 +52,6 @@ class WherePane : public QWidget {
   /// Channel or covariate were chosen by hand.
   void turned();
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void createBar();
   void createFigures();

@@ -91,7 +91,7 @@ class ResponseTable : public QTableWidget {
         if (item(r, c) != nullptr && columnSpan(r, c) == 1)
           width = std::max(width, metrics.horizontalAdvance(item(r, c)->text()));
       }
-      width += kCellMargin;
+      width = std::max(width + kCellMargin, horizontalHeader()->minimumSectionSize());
     }
     return widths;
   }

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// In the smallest window that is promised nothing may be cut off, on any page and in any dialog, in
+// either language.
+#include <QDialog>
+#include <QTabWidget>
+#include <QTemporaryDir>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "widgets/support/cut_texts.h"
+#include "widgets/workbench/main_window_fixture.h"
+#include "workbench/language.h"
+
+namespace lvcalib::cut_text_test {
+namespace {
+
+using test::find;
+using test::trigger;
+using test::wait_until;
+
+class CutTextTest : public test::MainWindowTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    settings_ = std::make_unique<widgets::AppSettings>(folder_.path());
+    window_ = std::make_unique<widgets::MainWindow>(*settings_, answers_);
+    for (QAction* action : window_->findChildren<QAction*>(QStringLiteral("language"))) {
+      if (action->data().toString() == QLatin1String(GetParam())) action->trigger();
+    }
+    window_->resize(1280, 720);
+    window_->show();
+    QTest::qWait(50);
+  }
+  void TearDown() override {
+    window_.reset();
+    widgets::use_language("en");
+  }
+  void calibrate() {
+    ASSERT_TRUE(trigger(*window_, "run"));
+    ASSERT_TRUE(test::wait_for_result(*window_));
+  }
+  void expect_whole(const QString& where, const QWidget& window) {
+    QTest::qWait(40);  // Figures and tables find their size in a turn of their own.
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
+    const QStringList found = test::CutTexts(window).found();
+    for (const QString& cut : found)
+      ADD_FAILURE() << where.toStdString() << ": " << cut.toStdString();
+  }
+  // A page or a dialog, and the pages within it.
+  void look_at(const QWidget& page, const QString& name) {
+    expect_whole(name, *page.window());
+    for (auto* inner : page.findChildren<QTabWidget*>()) {
+      for (int k = 1; k < inner->count(); ++k) {
+        inner->setCurrentIndex(k);
+        expect_whole(name + QLatin1Char(' ') + inner->tabText(k), *page.window());
+      }
+      inner->setCurrentIndex(0);
+    }
+  }
+};
+
+TEST_P(CutTextTest, NothingIsOnAnyPage) {
+  expect_whole("welcome", *window_);
+  open();
+  auto* tabs = find<QTabWidget>(*window_, "pages");
+  for (int k = 0; k < tabs->count(); ++k) {
+    tabs->setCurrentIndex(k);
+    expect_whole(tabs->tabText(k) + QStringLiteral(" before the run"), *window_);
+  }
+  ASSERT_NO_FATAL_FAILURE(calibrate());
+  for (int k = 0; k < tabs->count(); ++k) {
+    tabs->setCurrentIndex(k);
+    if (tabs->widget(k)->objectName() == QLatin1String("model_page")) {
+      auto& work = window_->model_work();
+      ASSERT_TRUE(wait_until([&] { return work.step() && !work.busy(); }, 60'000));
+    }
+    look_at(*tabs->widget(k), tabs->tabText(k));
+  }
+  for (const char* dock : {"scenes_dock", "parameters_dock", "log_dock"}) {
+    auto* shown = find<QWidget>(*window_, dock);
+    ASSERT_NE(shown, nullptr) << dock;
+    shown->show();
+    expect_whole(QString::fromLatin1(dock), *window_);
+  }
+}
+
+TEST_P(CutTextTest, NothingIsInAnyDialog) {
+  open();
+  ASSERT_NO_FATAL_FAILURE(calibrate());
+  for (const char* name : {"results", "compare_results", "check_fresh_data", "plan_scenes",
+                           "target_camera", "print_board", "correct_clouds", "guide", "about"}) {
+    ASSERT_TRUE(trigger(*window_, name)) << name;
+    QTest::qWait(100);
+    for (QDialog* dialog : window_->findChildren<QDialog*>()) {
+      if (!dialog->isVisible()) continue;
+      look_at(*dialog, name);
+      dialog->close();
+    }
+    QTest::qWait(20);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Languages, CutTextTest, ::testing::Values("en", "zh_CN"));
+
+}  // namespace
+}  // namespace lvcalib::cut_text_test
