@@ -149,6 +149,33 @@ TEST_F(ExportPaneTest, AResultWithoutBoundaryResponseSaysWhy) {
   EXPECT_FALSE(part<QPushButton>("copy_export")->isEnabled());
 }
 
+// Whatever the reader of a file looks for, it finds the names that its user gave.
+TEST_F(ExportPaneTest, NamesOfFramesAreInEveryFormat) {
+  QFile imu(folder_.filePath("imu.yaml"));
+  ASSERT_TRUE(imu.open(QIODevice::WriteOnly));
+  imu.write(
+      "T_imu_lidar:\n  translation_m: [0.05, -0.02, 0.11]\n"
+      "  quaternion_xyzw: [0, 0, 0, 1]\n");
+  imu.close();
+  answers_.transform = imu.fileName();
+  pane_.chooseFormat("r3live");
+  part<QPushButton>("choose_imu")->click();
+  for (const auto& [field, name] :
+       {std::pair{"lidar_frame", "velodyne"}, std::pair{"camera_frame", "rig/left"}}) {
+    part<QLineEdit>(field)->clear();
+    QTest::keyClicks(part<QLineEdit>(field), name);
+  }
+  int shown = 0;
+  for (const ExportFormat& format : export_formats()) {
+    pane_.chooseFormat(QString::fromStdString(format.name));
+    if (preview().isEmpty()) continue;  // No text, or no boundary response in this example.
+    ++shown;
+    EXPECT_TRUE(preview().contains("velodyne")) << format.name;
+    EXPECT_TRUE(preview().contains("rig/left")) << format.name;
+  }
+  EXPECT_GE(shown, static_cast<int>(export_formats().size()) - 2);
+}
+
 TEST_F(ExportPaneTest, FramesAreCalledWhatTheUserCallsThem) {
   QSignalSpy names(&pane_, &ExportPane::frameNamesChanged);
   pane_.chooseFormat("ros2-tf");
