@@ -15,6 +15,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/memory.h"
+#include "base/paired_moments.h"
 #include "base/parallel.h"
 #include "detection/marker_detector.h"
 
@@ -262,7 +263,7 @@ double sample(const GrayImage& image, const Eigen::Vector2d& p) {
 double cell_correlation(const GrayImage& image, const TagPattern& pattern, int border_bits,
                         const TagCorners& corners) {
   const int side = pattern.width + 2 * border_bits;
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  PairedMoments moments;
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
       const int r = row - border_bits;
@@ -274,16 +275,10 @@ double cell_correlation(const GrayImage& image, const TagPattern& pattern, int b
       const double t = (row + 0.5) / side;
       const double gray = sample(image, (1 - t) * ((1 - s) * corners[3] + s * corners[2]) +
                                             t * ((1 - s) * corners[0] + s * corners[1]));
-      n += 1;
-      sx += cell;
-      sy += gray;
-      sxx += cell * cell;
-      sxy += cell * gray;
-      syy += gray * gray;
+      moments.add(cell, gray);
     }
   }
-  const double variance = (sxx - sx * sx / n) * (syy - sy * sy / n);
-  return variance > 0.0 ? (sxy - sx * sy / n) / std::sqrt(variance) : 0.0;
+  return moments.correlation();
 }
 
 // The bits of a tag with the other border width lie at most half a bit from where this one's are

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "base/paired_moments.h"
 #include "base/statistics.h"
 #include "detection/blurred_tag.h"
 #include "detection/tag_model.h"
@@ -209,7 +210,9 @@ double TagFit::iterate(bool robust) {
 // Share and noise of the pixels that agree; correlation of image and model over the data bits, for
 // which the pixels that do not agree count as well: they are what another tag would show.
 bool TagFit::describe_agreement(TagRefinement& out) const {
-  double agreeing = 0, n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, squares = 0;
+  double agreeing = 0.0;
+  double squares = 0.0;
+  PairedMoments data;
   for (const TagPixel& pixel : pixels_) {
     const double model = state_.gray(tag_, plane_by_pixel_, pixel.plane);
     const double residual = pixel.gray - model;
@@ -219,18 +222,12 @@ bool TagFit::describe_agreement(TagRefinement& out) const {
     }
     const Eigen::Vector2d t = state_.tag_point(pixel.plane);
     if (t.cwiseAbs().maxCoeff() > tag_.data_edge()) continue;
-    n += 1;
-    sx += model;
-    sy += pixel.gray;
-    sxx += model * model;
-    sxy += model * pixel.gray;
-    syy += pixel.gray * pixel.gray;
+    data.add(model, pixel.gray);
   }
-  if (agreeing < 2 * kUnknowns || n < kUnknowns) return false;
+  if (agreeing < 2 * kUnknowns || data.n < kUnknowns) return false;
   out.inliers = agreeing / static_cast<double>(pixels_.size());
   out.noise = std::sqrt(squares / (agreeing - kUnknowns));
-  const double variance = (sxx - sx * sx / n) * (syy - sy * sy / n);
-  out.correlation = variance > 0.0 ? (sxy - sx * sy / n) / std::sqrt(variance) : 0.0;
+  out.correlation = data.correlation();
   return true;
 }
 

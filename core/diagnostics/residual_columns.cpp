@@ -156,6 +156,7 @@ std::vector<Channel> channels_of(const Effect& effect, double shape, const Fitte
   few.has_intensity = table.has_intensity;
   few.level = table.level;
   few.log_contrast = table.log_contrast;
+  few.usual_log_power = table.usual_log_power;
   const auto thin = [](const auto& from, auto& to) {
     const std::size_t stride = std::max<std::size_t>(1, from.size() / 500);
     for (std::size_t k = 0; k < from.size(); k += stride) to.push_back(from[k]);

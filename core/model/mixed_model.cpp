@@ -454,29 +454,34 @@ std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear
   return out;
 }
 
-double predictive_log_density(const ModelFit& fit, std::size_t scene) {
-  Eigen::MatrixXd information = fit.prior.information;
-  Eigen::VectorXd gradient = fit.prior.gradient;
+namespace {
+
+// What the prior and all scenes but one say.
+SceneTerm without(const ModelFit& fit, std::size_t scene) {
+  SceneTerm out;
+  out.information = fit.prior.information;
+  out.gradient = fit.prior.gradient;
   for (std::size_t s = 0; s < fit.scenes.size(); ++s) {
     if (s == scene) continue;
-    information += fit.scenes[s].information;
-    gradient += fit.scenes[s].gradient;
+    out.information += fit.scenes[s].information;
+    out.gradient += fit.scenes[s].gradient;
   }
-  const double others = log_integral(information, gradient);
-  information += fit.scenes[scene].information;
-  gradient += fit.scenes[scene].gradient;
-  return fit.scenes[scene].constant + log_integral(information, gradient) - others;
+  return out;
+}
+
+}  // namespace
+
+double predictive_log_density(const ModelFit& fit, std::size_t scene) {
+  const SceneTerm& own = fit.scenes[scene];
+  const SceneTerm others = without(fit, scene);
+  const double with =
+      log_integral(others.information + own.information, others.gradient + own.gradient);
+  return own.constant + with - log_integral(others.information, others.gradient);
 }
 
 Eigen::VectorXd solution_without(const ModelFit& fit, std::size_t scene) {
-  Eigen::MatrixXd information = fit.prior.information;
-  Eigen::VectorXd gradient = fit.prior.gradient;
-  for (std::size_t s = 0; s < fit.scenes.size(); ++s) {
-    if (s == scene) continue;
-    information += fit.scenes[s].information;
-    gradient += fit.scenes[s].gradient;
-  }
-  return information.ldlt().solve(gradient);
+  const SceneTerm others = without(fit, scene);
+  return others.information.ldlt().solve(others.gradient);
 }
 
 std::array<double, kChannels> squares_at(const Linearization& linear, std::size_t scene,
