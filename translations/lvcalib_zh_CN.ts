@@ -1690,7 +1690,7 @@ were saved. Take them up again?</source>
         <translation>改善场景比例</translation>
     </message>
     <message>
-        <source>speaking nats</source>
+        <source>informative nats</source>
         <translation>作数阈值</translation>
     </message>
     <message>

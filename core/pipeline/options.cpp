@@ -208,7 +208,7 @@ std::vector<OptionDeclaration> make_declarations() {
               &M::min_extrinsic_move),
       declare("discovery.scenes_improved", "1", 0, 1, "discover",
               "Share of scenes that must be predicted better.", &O::discovery, &M::scenes_improved),
-      declare("discovery.speaking_nats", "nat", 0, 1000, "discover",
+      declare("discovery.informative_nats", "nat", 0, 1000, "discover",
               "Scenes whose log-density changes by less say nothing.", &O::discovery,
               &M::informative_nats),
       declare("discovery.min_explained", "1", 0, 1, "discover",
@@ -265,6 +265,9 @@ const std::vector<OptionDeclaration>& option_declarations() {
 }
 
 Status set_option(CalibrationOptions& options, const std::string& key, double value) {
+  // Its name in files of version 0.1.
+  if (key == "discovery.speaking_nats")
+    return set_option(options, "discovery.informative_nats", value);
   std::vector<std::string> keys;
   for (const OptionDeclaration& d : option_declarations()) {
     keys.push_back(d.key);

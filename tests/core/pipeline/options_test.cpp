@@ -70,6 +70,12 @@ TEST(Options, UnknownKeysNameTheNearestKnownOne) {
   EXPECT_THAT(set_option(options, "xyz", 1).error().message, HasSubstr("unknown option 'xyz'"));
 }
 
+TEST(Options, AFormerNameIsHeeded) {
+  CalibrationOptions options;
+  ASSERT_TRUE(set_option(options, "discovery.speaking_nats", 3.0).ok());
+  EXPECT_EQ(options.discovery.informative_nats, 3.0);
+}
+
 TEST(OptionsFile, NestedAndFlatKeysMeanTheSame) {
   const test::TemporaryFolder folder;
   const auto nested = read_options(folder.write(
