@@ -318,6 +318,22 @@ were saved. Take them up again?</source>
         <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应；场景 %3 偏差最大：%4 mm，其余为 %5 mm</translation>
     </message>
     <message>
+        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise; scene %3 misses most: %4 mm, the others %5 mm: did the board or a sensor move while it was taken, or is an effect missing in the model?</source>
+        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）；场景 %3 偏差最大：%4 mm，其余为 %5 mm：拍摄该场景时标定板或传感器是否移动过，还是模型中缺少一个效应？</translation>
+    </message>
+    <message>
+        <source>the board is not found in any cloud, but it is if the lengths in target.yaml are %1</source>
+        <translation>在任何点云中都找不到标定板，但若 target.yaml 中的长度%1，则可以找到</translation>
+    </message>
+    <message>
+        <source>write them in metres: multiply each by %1</source>
+        <translation>请用米书写：将每个长度乘以 %1</translation>
+    </message>
+    <message>
+        <source>lengths are in metres</source>
+        <translation>长度以米为单位</translation>
+    </message>
+    <message>
         <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model</source>
         <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应</translation>
     </message>

@@ -185,6 +185,15 @@ Message misfit(const ExtrinsicSolution& x) {
         "missing in the model; scene %3 misses most",
         nodes, planes, worst->name);
   }
+  // What an effect does differs between scenes by their distances and tilts, a few times at most.
+  constexpr double kAlone = 5.0;
+  if (worst->rms_mm > kAlone * usual) {
+    return Message(
+        "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise; scene %3 misses "
+        "most: %4 mm, the others %5 mm: did the board or a sensor move while it was taken, or is "
+        "an effect missing in the model?",
+        nodes, planes, worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
+  }
   return Message(
       "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is "
       "missing in the model; scene %3 misses most: %4 mm, the others %5 mm",
@@ -325,7 +334,6 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   if (result.forward) judge_print(result, options, verdict);
   judge_place(result, verdict);
   judge_precision(x, options, verdict);
-  for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
   judge_scale(result, options, verdict);
   judge_dark_offset(result, options, verdict);
   judge_scene_scales(result, options, verdict);
@@ -355,6 +363,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     verdict.doubtful(Message("another assignment of the board is nearly as good (margin %1)",
                              formatted("%.1f", result.consensus.margin())));
   }
+  // Behind what is wrong, which may be why they are weak.
+  for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
   for (const SceneResult& scene : result.scenes) {
     if (!scene.used && !scene.reason.empty() && !scene.rejected) {
       // The image shows the board, and the cloud shows none where the other scenes say: a scene
