@@ -15,6 +15,8 @@
 namespace lvcalib::widgets {
 namespace {
 
+constexpr int kLater_ms = 250;  // What is in sight has been drawn by then.
+
 class LanguageFollower : public QObject {
  public:
   LanguageFollower(QWidget* widget, std::function<void()> set_texts)
@@ -26,7 +28,7 @@ class LanguageFollower : public QObject {
       stale_ = true;
       // What is in sight answers the click; all the rest at once with it would keep it waiting.
       if (unseen(*static_cast<QWidget*>(watched))) {
-        QTimer::singleShot(0, this, &LanguageFollower::catch_up);
+        QTimer::singleShot(kLater_ms, this, &LanguageFollower::catch_up);
       } else {
         catch_up();
       }

@@ -10,7 +10,7 @@ namespace lvcalib::widgets {
 
 /// Sets texts now and again whenever the application's language changes, as long as `widget` lives.
 /// What `set_texts` uses must live as long. It runs before the widget's own changeEvent(); of a
-/// widget that is not in sight a turn of the event loop later, or before its showEvent().
+/// widget that is not in sight a moment later, or before its showEvent().
 void follow_language(QWidget* widget, std::function<void()> set_texts);
 
 /// Tool tips of the buttons in a dock's title, which Qt gives once only.

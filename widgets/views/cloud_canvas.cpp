@@ -121,6 +121,14 @@ void CloudCanvas::initializeGL() {
   begin_ = true;
 }
 
+// Qt has a picture drawn at once; the one that follows would be drawn a second time.
+void CloudCanvas::resizeEvent(QResizeEvent* event) {
+  resizing_ = true;
+  QOpenGLWidget::resizeEvent(event);
+  resizing_ = false;
+  update();
+}
+
 void CloudCanvas::resizeGL(int /*width*/, int /*height*/) {
   const QSize size = deviceSize();
   pipeline_->resize(size.width(), size.height(), devicePixelRatioF());
@@ -128,7 +136,7 @@ void CloudCanvas::resizeGL(int /*width*/, int /*height*/) {
 }
 
 void CloudCanvas::paintGL() {
-  if (!usable_) return;
+  if (!usable_ || resizing_) return;
   QElapsedTimer clock;
   clock.start();
   const std::size_t before = begin_ ? 0 : pipeline_->drawnPoints();

@@ -55,6 +55,7 @@ class CloudCanvas : public QOpenGLWidget {
 
  protected:
   void initializeGL() override;
+  void resizeEvent(QResizeEvent* event) override;
   void resizeGL(int width, int height) override;
   void paintGL() override;
   void mousePressEvent(QMouseEvent* event) override;
@@ -84,6 +85,7 @@ class CloudCanvas : public QOpenGLWidget {
   QPointF pressed_;
   bool begin_ = true;
   bool moving_ = false;
+  bool resizing_ = false;
   bool usable_ = false;
 };
 

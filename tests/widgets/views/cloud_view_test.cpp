@@ -98,6 +98,20 @@ TEST_F(CloudViewTest, PortionsAddUpToOnePicture) {
   EXPECT_EQ(view_.canvas()->grabFramebuffer(), once);
 }
 
+// A layout that changes, as for another language, costs one picture.
+TEST_F(CloudViewTest, AnotherSizeIsDrawnOnce) {
+  view_.setScene(scene_of(wall(50'000)));
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  QTest::qWait(100);
+  const auto before = view_.canvas()->statistics().frames;
+  view_.resize(600, 500);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return view_.canvas()->statistics().frames > before; }));
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(view_.canvas()->statistics().frames, before + 1);
+  EXPECT_GT(covered(), 0.1);
+}
+
 TEST_F(CloudViewTest, AClickPicksThePointUnderIt) {
   const auto cloud = wall(200'000);
   view_.setScene(scene_of(cloud));

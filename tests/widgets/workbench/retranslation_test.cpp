@@ -176,6 +176,7 @@ TEST_F(RetranslationTest, NoEnglishIsLeftAfterASwitchToChinese) {
   ASSERT_GT(before, 400U);
   choose_language(*window_, "zh_CN");
   look_at_every_page();
+  QTest::qWait(500);  // What is out of sight follows.
   wait_for_legends("[A-Za-z]{3}");
   const std::vector<test::SaidText> said = test::TextCollector(*window_).texts();
   EXPECT_GE(said.size() + 4, before) << "only the status line may have fallen silent";
@@ -190,6 +191,7 @@ TEST_F(RetranslationTest, BackToEnglishNoChineseIsLeft) {
   show_everything();
   choose_language(*window_, "en");
   look_at_every_page();
+  QTest::qWait(500);
   wait_for_legends("\\p{Han}");
   static const QRegularExpression han("\\p{Han}");
   const std::vector<test::SaidText> said = test::TextCollector(*window_).texts();
