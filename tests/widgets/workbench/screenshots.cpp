@@ -296,26 +296,38 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
   if (wait_for_model(window)) camera.take(name("all"));
 }
 
-// Every bubble as its reader finds it; the last but one waits for an effect to be added.
+// Every bubble as its reader finds it, up to the one that waits for an effect to be added.
 void photograph_tour(widgets::MainWindow& window, Photographer& camera) {
   auto* coach = test::find<widgets::CoachMarks>(window, "coach_marks");
   auto* next = test::find<QPushButton>(window, "coach_next");
-  auto* close = test::find<QPushButton>(window, "coach_close");
-  if (coach == nullptr || next == nullptr || close == nullptr) return;
-  while (coach->isVisible()) {
-    const int shown = coach->current();
-    camera.take(QStringLiteral("tour-%1").arg(shown + 1));
-    if (next->isVisible() && next->isEnabled()) {
-      next->click();
-      continue;
-    }
-    auto* add = test::find<QPushButton>(window, "add_proposal");
-    if (add == nullptr || !add->isEnabled()) break;
-    add->click();
-    test::wait_until([&] { return coach->current() != shown; }, 600'000);
-    if (!wait_for_model(window) || coach->current() == shown) break;
+  while (coach != nullptr && next != nullptr && coach->isVisible()) {
+    camera.take(QStringLiteral("tour-%1").arg(coach->current() + 1));
+    if (!next->isVisible() || !next->isEnabled()) break;
+    next->click();
   }
-  close->click();
+  if (auto* close = test::find<QPushButton>(window, "coach_close")) close->click();
+}
+
+// The tour once more, to its end: after it the model is another one.
+void photograph_last_bubble(widgets::MainWindow& window, Photographer& camera) {
+  test::trigger(window, "demo");
+  test::wait_until([&] { return window.workspace().result() == nullptr; }, 60'000);
+  test::wait_until([&] { return window.workspace().is_open() && !window.workspace().busy(); });
+  test::trigger(window, "run");
+  if (!test::wait_for_result(window)) return;
+  test::find<QTabWidget>(window, "pages")->setCurrentIndex(4);
+  if (!wait_for_model(window)) return;
+  auto* coach = test::find<widgets::CoachMarks>(window, "coach_marks");
+  auto* next = test::find<QPushButton>(window, "coach_next");
+  if (coach == nullptr || next == nullptr) return;
+  while (next->isVisible() && next->isEnabled()) {
+    next->click();
+    QTest::qWait(300);
+  }
+  const int waiting = coach->current();
+  test::find<QPushButton>(window, "add_proposal")->click();
+  test::wait_until([&] { return coach->current() != waiting; }, 600'000);
+  if (wait_for_model(window)) camera.take(QStringLiteral("tour-%1").arg(coach->current() + 1));
 }
 
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset,
@@ -361,6 +373,8 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
     photograph_dialogs(window, camera, QString::fromLatin1(theme));
     photograph_left_out(window, camera, QString::fromLatin1(theme));
   }
+  choose(window, "theme", QStringLiteral("light"));
+  if (dataset.isEmpty()) photograph_last_bubble(window, camera);
   return 0;
 }
 
