@@ -92,6 +92,7 @@ void ModelWork::forget() {
   // What it makes belongs to what is forgotten, and another may start at once.
   const bool ran = runner_.running();
   runner_.abandon();
+  results_.abandon();
   source_ = nullptr;
   made_.clear();
   rankings_.clear();

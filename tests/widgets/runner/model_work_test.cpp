@@ -90,6 +90,21 @@ TEST_F(Work, FindsAddsAndTakesBackWhatIsHidden) {
   EXPECT_THAT(specs(), ElementsAre("range_walk"));
 }
 
+// As when a decision is taken back while the calibration with the model is still being made of it.
+TEST_F(Work, AResultOfWhatIsForgottenDoesNotArrive) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work_->result() != nullptr; }, 30'000));
+  work_->go_to(0);
+  ASSERT_EQ(work_->result(), nullptr);
+  work_->go_to(1);
+  Q_EMIT workspace_->opened();
+  EXPECT_EQ(work_->result(), nullptr);
+  EXPECT_FALSE(QTest::qWaitFor([&] { return work_->result() != nullptr; }, 1500));
+}
+
 TEST_F(Work, GoesBackInTheHistoryWithoutLosingIt) {
   work_->start();
   ASSERT_TRUE(idle());
