@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "pipeline/forward_stage.h"
 #include "pipeline/scene_loading.h"
 
 namespace lvcalib {
@@ -326,6 +327,55 @@ Message describe_bump(const SceneGroup& first, const SceneGroup& second,
       formatted("%.1f", 1e3 * rotation_distance_rad(a, b)), last_before, first_after);
 }
 
+namespace {
+
+// All scenes are in use, but miss each other by far more than an effect does: whether they split at
+// a moment into two groups, each of which would be sound.
+Message split_apart(const CalibrationResult& result) {
+  constexpr double kFar = 10.0;  // Times the noise; and by so much less each group must miss.
+  const ExtrinsicSolution& x = result.extrinsic;
+  const double together = std::max(x.node_scale, x.plane_scale);
+  if (result.model_fit || !(together > kFar)) return {};
+  std::vector<bool> use;
+  for (const SceneResult& scene : result.scenes) use.push_back(scene.used);
+  std::vector<std::size_t> index;
+  auto scenes = observations_of(result, use, index);
+  // Planes alone do not hold a scene's place.
+  std::erase_if(scenes, [](const SceneObservations& o) { return !o.use || o.nodes.empty(); });
+  // Two always differ and each agrees with itself.
+  if (scenes.size() < 3) return {};
+  std::stable_sort(scenes.begin(), scenes.end(),
+                   [](const auto& a, const auto& b) { return a.name < b.name; });
+  ExtrinsicOptions how = result.options.extrinsic;
+  how.reject_bad_scenes = false;
+  struct Split {
+    std::size_t at = 0;
+    double scale = HUGE_VAL;
+    Rigid3 before, after;
+  } best;
+  for (std::size_t at = 1; at < scenes.size(); ++at) {
+    const auto group = [&](bool later) {
+      for (std::size_t k = 0; k < scenes.size(); ++k) scenes[k].use = (k >= at) == later;
+      return solve_extrinsic(scenes, result.camera, result.target, how);
+    };
+    const auto before = group(false);
+    const auto after = group(true);
+    if (!before || !after || before->rank < 6 || after->rank < 6) continue;
+    const double scale =
+        std::max({before->node_scale, before->plane_scale, after->node_scale, after->plane_scale});
+    if (scale >= best.scale) continue;
+    best = {at, scale, before->camera_from_lidar.transform, after->camera_from_lidar.transform};
+  }
+  if (!(kFar * best.scale < together)) return {};
+  std::vector<std::string> names[2];
+  for (std::size_t k = 0; k < scenes.size(); ++k)
+    names[k < best.at ? 0 : 1].push_back(scenes[k].name);
+  return describe_bump({names[0], best.before}, {names[1], best.after}, scenes[best.at - 1].name,
+                       scenes[best.at].name);
+}
+
+}  // namespace
+
 Message diagnose_bump(const CalibrationResult& result) {
   // Scenes are taken in the order of their names.
   std::vector<std::size_t> order;
@@ -338,9 +388,10 @@ Message diagnose_bump(const CalibrationResult& result) {
   const auto used = [&](std::size_t s) { return result.scenes[s].used; };
   const auto middle = std::partition_point(
       order.begin(), order.end(), [&](std::size_t s) { return used(s) == used(order.front()); });
-  if (order.size() < 2 || middle == order.end() ||
-      std::any_of(middle, order.end(),
-                  [&](std::size_t s) { return used(s) == used(order.front()); }))
+  if (middle == order.end()) return split_apart(result);
+  if (order.size() < 2 || std::any_of(middle, order.end(), [&](std::size_t s) {
+        return used(s) == used(order.front());
+      }))
     return {};
   std::vector<SceneHypotheses> others;
   std::vector<std::string> names[2];

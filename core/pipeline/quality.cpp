@@ -321,7 +321,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   if (const Message unseen = diagnose_unseen_tags(result); !unseen.empty())
     verdict.doubtful(unseen);
   judge_count(result, verdict);
-  if (const Message bump = diagnose_bump(result); !bump.empty()) verdict.doubtful(bump);
+  const Message bump = diagnose_bump(result);
+  if (!bump.empty()) verdict.doubtful(bump);
   if (x.rank < 6)
     verdict.failed(
         Message("the scenes determine only %1 of 6 directions of the extrinsic", x.rank));
@@ -339,7 +340,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_scene_scales(result, options, verdict);
   judge_splits(result, verdict);
   judge_leverage(result, verdict);
-  judge_bump(result, verdict);
+  if (bump.empty()) judge_bump(result, verdict);
   judge_scans(result, options, verdict);
   if (!result.unverified.empty()) verdict.note(result.unverified);
   if (x.sigma_px > options.max_sigma_px) {

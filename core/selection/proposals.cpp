@@ -18,8 +18,9 @@ namespace {
 
 class Proposer {
  public:
-  Proposer(const EffectSearch& search, const DiscoveryOptions& options)
-      : search_(search), options_(options) {
+  // `in_force`: the extrinsic that is stated without the proposals.
+  Proposer(const EffectSearch& search, const Rigid3& in_force, const DiscoveryOptions& options)
+      : search_(search), in_force_(in_force), options_(options) {
     const auto& candidates = search.candidates();
     for (std::size_t k = 0; k < candidates.size(); ++k)
       first_.try_emplace(columns_of(candidates[k]).effect->info().id, k);
@@ -49,9 +50,12 @@ class Proposer {
     const Candidate& c = search_.candidates()[k];
     proposal.heldout_fall = c.heldout_gain;
     proposal.channel = c.main_channel();
-    const Vector6d move = c.fit.solution.head<6>() - search_.reference().fit.solution.head<6>();
-    proposal.gained_mm = 1e3 * move.head<3>().norm();
-    proposal.gained_mrad = 1e3 * move.tail<3>().norm();
+    // From where it is stated, which errors of the sensor may have moved towards the effect
+    // already.
+    const Rigid3 with =
+        se3_exp(Vector6d(c.fit.solution.head<6>())) * search_.state().camera_from_lidar;
+    proposal.gained_mm = 1e3 * (with.translation - in_force_.translation).norm();
+    proposal.gained_mrad = 1e3 * rotation_distance_rad(with, in_force_);
     proposal.suggested =
         is_accepted(c, search_.candidates().size(), search_.table().scenes.size(), options_);
     if (!proposal.suggested) return;
@@ -100,6 +104,7 @@ class Proposer {
   }
 
   const EffectSearch& search_;
+  const Rigid3& in_force_;
   const DiscoveryOptions& options_;
   std::map<std::string, std::size_t> first_;  // an effect's best candidate
   std::vector<EffectProposal> out_;
@@ -144,7 +149,8 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   // Those in use come first.
   const auto others = findings.begin() + static_cast<std::ptrdiff_t>(selected.size());
   out.in_use.assign(findings.begin(), others);
-  out.proposals = Proposer(search, options).run({others, findings.end()});
+  out.proposals =
+      Proposer(search, step.state.camera_from_lidar, options).run({others, findings.end()});
   if (context.stopped()) return Error::cancelled();
   const bool any = std::any_of(out.proposals.begin(), out.proposals.end(),
                                [](const EffectProposal& p) { return p.suggested; });

@@ -11,8 +11,8 @@
 namespace lvcalib::test {
 namespace {
 
-simulation::SimulatedRig small_rig() {
-  auto options = dataset_options(963, 3);
+simulation::SimulatedRig small_rig(std::uint64_t seed, int scenes) {
+  auto options = dataset_options(seed, scenes);
   options.lidar.points = 60'000;
   options.placement.clutter = false;
   auto rig = simulation::simulate(options, {});
@@ -23,9 +23,14 @@ simulation::SimulatedRig small_rig() {
   return std::move(*rig);
 }
 
+const simulation::SimulatedRig& three_scenes() {
+  static const simulation::SimulatedRig rig = small_rig(963, 3);
+  return rig;
+}
+
 // Runs the kinds whose names start with one of the words; how many those are.
-int run_kinds(const std::vector<std::string>& starts) {
-  static const simulation::SimulatedRig rig = small_rig();
+int run_kinds(const std::vector<std::string>& starts,
+              const simulation::SimulatedRig& rig = three_scenes()) {
   const TemporaryFolder folder;
   int runs = 0;
   for (const Corruption& corruption : corruptions()) {
@@ -75,6 +80,13 @@ TEST(Corruption, OfTheBoardIsNeverGood) {
                        "a second board in every cloud", "ids from 4", "ids from 100",
                        "ids from the top row"}),
             11);
+}
+
+// Two scenes against two: neither group is the odd one out.
+TEST(Corruption, OfTheRigHalfwayIsTold) {
+  EXPECT_EQ(run_kinds({"rig bumped by 50 mm halfway", "rig turned by 20 mrad halfway"},
+                      small_rig(966, 4)),
+            2);
 }
 
 TEST(Corruption, OfTheRigIsNeverGood) {

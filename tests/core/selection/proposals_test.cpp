@@ -57,6 +57,33 @@ TEST(Proposals, WhatIsHiddenComesFirstWithItsSizeAndWhatItGains) {
   EXPECT_GE(top.gained_mm, 0.0);
 }
 
+// The extrinsic that is stated has moved towards the effect already where the joint solve put it
+// down to an error of the sensor on black print.
+TEST(Proposals, WhatAddingMovesIsToldFromTheExtrinsicThatIsStated) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.008 * beam.darkness; };
+  auto made = test::synthetic_table({}, wrong);
+  constexpr double kNone = 1e-14;
+  made.table.sensor_variances = {kNone, 0.008 * 0.008, kNone};
+  const auto base = start_model(made.table, made.truth, {}, {});
+  ASSERT_TRUE(base);
+  const auto ranked = rank_effects(**base, {});
+  ASSERT_TRUE(ranked);
+  const auto added = add_effect(*base, "range_walk", std::nullopt, {});
+  ASSERT_TRUE(added);
+  const auto moved_mm = [&](const Rigid3& from) {
+    const Rigid3& to = (*added)->state.camera_from_lidar;
+    return 1e3 * (to.translation - from.translation).norm();
+  };
+  const double stated = moved_mm((*base)->state.camera_from_lidar);
+  const double searched = moved_mm((*base)->search->state().camera_from_lidar);
+  // Else nothing would be tested here.
+  ASSERT_GT(searched, 2.0 * stated + 0.2);
+  // The ranking goes by the weights of the search, the step by those of what is stated.
+  EXPECT_NEAR(proposal(*ranked, "range_walk").gained_mm, stated, 0.5 * (searched - stated))
+      << searched;
+}
+
 TEST(Proposals, NothingHiddenSuggestsNothingAndSaysSo) {
   const ModelRanking r = ranking({});
   EXPECT_TRUE(r.nothing_missing());
