@@ -45,6 +45,18 @@ double percentage_in(const std::string& text) {
   return std::stod(match[1]);
 }
 
+// Of three scenes; the others miss by 1 mm.
+void let_scene_b_miss(double rms_mm, CalibrationResult& r) {
+  r.extrinsic.node_scale = 4.0;
+  for (const char* name : {"A", "B", "C"}) {
+    SceneSolution s;
+    s.name = name;
+    s.used = true;
+    s.rms_mm = s.name == "B" ? rms_mm : 1.0;
+    r.extrinsic.scenes.push_back(s);
+  }
+}
+
 TEST(JudgeQuality, AFlawlessResultIsGoodAndSilent) {
   CalibrationResult result = flawless();
   judge_quality(result, {});
@@ -79,29 +91,10 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
       {"2.5 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 2.5; }},
       {"5.0 times (planes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.plane_scale = 5.0; }},
       {"an effect is missing in the model; scene B misses most: 4.0 mm", Quality::kDoubtful,
-       [](auto& r) {
-         r.extrinsic.node_scale = 4.0;
-         for (const char* name : {"A", "B", "C"}) {
-           SceneSolution s;
-           s.name = name;
-           s.used = true;
-           s.rms_mm = s.name == "B" ? 4.0 : 1.0;
-           r.extrinsic.scenes.push_back(s);
-         }
-       }},
+       [](auto& r) { let_scene_b_miss(4.0, r); }},
       {"scene B misses most: 6.0 mm, the others 1.0 mm: did the board or a sensor move while it "
        "was taken, or is an effect missing in the model?",
-       Quality::kDoubtful,
-       [](auto& r) {
-         r.extrinsic.node_scale = 4.0;
-         for (const char* name : {"A", "B", "C"}) {
-           SceneSolution s;
-           s.name = name;
-           s.used = true;
-           s.rms_mm = s.name == "B" ? 6.0 : 1.0;
-           r.extrinsic.scenes.push_back(s);
-         }
-       }},
+       Quality::kDoubtful, [](auto& r) { let_scene_b_miss(6.0, r); }},
       {"scene B: its board measures 4.00 ± 0.06 % larger", Quality::kDoubtful,
        [](auto& r) { r.scenes[1].refinement->scale = 1.04; }},
       {"scene B is not used: elsewhere", Quality::kDoubtful,
