@@ -29,8 +29,8 @@ constexpr std::array kSizes = {0.5, 0.55, 0.6,  0.64, 0.68, 0.74, 0.8, 0.85, 0.9
 
 // Sizes worth a look: those and units that no board of this target would be absurd in.
 std::vector<double> sizes_of(const Target& target) {
-  constexpr double kSmallest_m = 0.1;
-  constexpr double kLargest_m = 10.0;
+  constexpr double kSmallest_m = 0.1;  // A LiDAR's spots lie some centimetres apart.
+  constexpr double kLargest_m = 10.0;  // Nobody prints or carries more.
   std::vector<double> sizes(kSizes.begin(), kSizes.end());
   const double side = target.outline().size_m().maxCoeff();
   for (const LengthUnit& unit : other_length_units()) {

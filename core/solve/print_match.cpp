@@ -194,7 +194,7 @@ namespace {
 PairedMoments moments_at(const BoardReturns& returns, const BlurredPrint& print,
                          const Rigid3& lidar_from_board) {
   constexpr double kBlur_m = 0.012;
-  constexpr std::size_t kSamples = 1500;
+  constexpr std::size_t kSamples = 1500;  // As many as the search slides over the print.
   PairedMoments out;
   if (!returns.has_intensity) return out;
   const BoardPredictor predictor(print, lidar_from_board, {}, {});
