@@ -62,12 +62,24 @@ BlurredTag::BlurredTag(const TagPattern& pattern, int border_bits)
       at(row + 1, column + 1) = data && pattern.at(data_row, data_column) ? 1.0 : 0.0;
     }
   }
+  find_edges();
+}
+
+void BlurredTag::find_edges() {
+  edge_right_.assign(cells_.size(), 0.0);
+  edge_up_.assign(cells_.size(), 0.0);
+  const auto width = static_cast<std::size_t>(width_);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (i % width + 1 < width) edge_right_[i] = std::abs(cells_[i + 1] - cells_[i]);
+    if (i + width < cells_.size()) edge_up_[i] = std::abs(cells_[i + width] - cells_[i]);
+  }
 }
 
 void BlurredTag::set_quadrant(std::size_t corner, double albedo) {
   const bool right = corner == 1 || corner == 2;
   const bool top = corner >= 2;
   at(top ? width_ - 1 : 0, right ? width_ - 1 : 0) = albedo;
+  find_edges();
 }
 
 int BlurredTag::cell_index(double position) const {
@@ -100,6 +112,8 @@ void BlurredTag::profile(double position, double sigma, Profile& out) const {
     out.share[i] = cdf - normal.cdf;
     out.slope[i] = slope - edge_slope;
     out.curvature[i] = curvature - edge_curvature;
+    out.edge[i] = edge_slope;
+    out.edge_slope[i] = edge_curvature;
     cdf = normal.cdf;
     slope = edge_slope;
     curvature = edge_curvature;
@@ -108,6 +122,8 @@ void BlurredTag::profile(double position, double sigma, Profile& out) const {
   out.share[last] = cdf;
   out.slope[last] = slope;
   out.curvature[last] = curvature;
+  out.edge[last] = 0.0;
+  out.edge_slope[last] = 0.0;
 }
 
 TagSample BlurredTag::sample(double u, double v, const TagBlur& blur) const {
@@ -117,17 +133,28 @@ TagSample BlurredTag::sample(double u, double v, const TagBlur& blur) const {
   profile(v, std::sqrt(blur.vv), upwards);
   // Derivatives of orders (i in u, j in v), i and j up to 2.
   double d[3][3] = {};
+  TagSample out;
   for (int row = 0; row < upwards.count; ++row) {
-    const double* cells =
-        &cells_[static_cast<std::size_t>((upwards.first + row) * width_ + across.first)];
-    double sum = 0.0, slope = 0.0, curvature = 0.0;
+    const auto first = static_cast<std::size_t>((upwards.first + row) * width_ + across.first);
+    const double* cells = &cells_[first];
+    const double* right = &edge_right_[first];
+    const double* up = &edge_up_[first];
+    double sum = 0.0, slope = 0.0, curvature = 0.0, vertical = 0.0, horizontal = 0.0;
+    double vertical_slope = 0.0, horizontal_slope = 0.0;
     for (int column = 0; column < across.count; ++column) {
       const auto i = static_cast<std::size_t>(column);
       sum += cells[column] * across.share[i];
       slope += cells[column] * across.slope[i];
       curvature += cells[column] * across.curvature[i];
+      vertical += right[column] * across.edge[i];
+      vertical_slope += right[column] * across.edge_slope[i];
+      horizontal += up[column] * across.share[i];
+      horizontal_slope += up[column] * across.slope[i];
     }
     const auto j = static_cast<std::size_t>(row);
+    out.edges += vertical * upwards.share[j] + horizontal * upwards.edge[j];
+    out.edges_by_u += vertical_slope * upwards.share[j] + horizontal_slope * upwards.edge[j];
+    out.edges_by_v += vertical * upwards.slope[j] + horizontal * upwards.edge_slope[j];
     const double weights[3] = {upwards.share[j], upwards.slope[j], upwards.curvature[j]};
     for (int order = 0; order < 3; ++order) {
       d[0][order] += sum * weights[order];
@@ -136,7 +163,6 @@ TagSample BlurredTag::sample(double u, double v, const TagBlur& blur) const {
     }
   }
   const double c = blur.uv;
-  TagSample out;
   out.value = d[0][0] + c * d[1][1] + 0.5 * c * c * d[2][2];
   out.by_u = d[1][0] + c * d[2][1];
   out.by_v = d[0][1] + c * d[1][2];

@@ -21,6 +21,10 @@ struct TagSample {
   double by_u = 0.0, by_v = 0.0;
   /// By the blur's covariance entries; by_uv belongs to the pair of off-diagonal entries.
   double by_uu = 0.0, by_uv = 0.0, by_vv = 0.0;
+  /// Length of black's edges in the spot, weighted with the blur: −∂value/∂g where all black grows
+  /// by g. (|∇value| where one edge is near; two that face each other cancel there, not here.)
+  double edges = 0.0;
+  double edges_by_u = 0.0, edges_by_v = 0.0;
 };
 
 /// A printed tag as a grid of black and white cells, convolved with a Gaussian in closed form.
@@ -48,14 +52,16 @@ class BlurredTag {
 
  private:
   static constexpr int kMaxCells = 16;
-  // Share of each cell along one axis and its first and second derivatives.
+  // Share of each cell along one axis, its first and second derivatives,
+  // and the blur at the edge after it and its derivative.
   struct Profile {
     int first = 0;
     int count = 0;
-    std::array<double, kMaxCells> share, slope, curvature;
+    std::array<double, kMaxCells> share, slope, curvature, edge, edge_slope;
   };
   void profile(double position, double sigma, Profile& out) const;
   [[nodiscard]] int cell_index(double position) const;
+  void find_edges();
   double& at(int row, int column) {
     return cells_[static_cast<std::size_t>(row * width_ + column)];
   }
@@ -64,6 +70,8 @@ class BlurredTag {
   double data_edge_;
   int width_;                  // side plus one surrounding cell on either side
   std::vector<double> cells_;  // rows from bottom to top
+  // 1 where a cell differs from the next one to the right, or upwards.
+  std::vector<double> edge_right_, edge_up_;
 };
 
 }  // namespace lvcalib

@@ -2,11 +2,47 @@
 #include "detection/tag_model.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace lvcalib {
+namespace {
+
+// Lets black grow in what is seen of the print; returns the value's derivative by the growth.
+// What it does to a slope's dependence on the blur is that of one straight edge: the slope
+// m = φ(x/s)/s has ∂m/∂s² = (x²/s² − 1)·m/(2s²), and x/s = −s·m'/m.
+double grow(double growth, const TagBlur& blur, TagSample& sample) {
+  // A slope of less than this of the contrast over half the tag is no edge.
+  constexpr double kNoEdge = 0.01;
+  const auto sign = [](double slope) {
+    return std::abs(slope) > kNoEdge ? std::copysign(1.0, slope) : 0.0;
+  };
+  const auto by_variance = [](double slope, double curvature, double variance) {
+    const double z2 = curvature * curvature * variance / (slope * slope);
+    return (z2 - 1.0) * slope / (2.0 * variance);
+  };
+  const double su = sign(sample.by_u);
+  const double sv = sign(sample.by_v);
+  const double uu = 2.0 * sample.by_uu;
+  const double vv = 2.0 * sample.by_vv;
+  // Of a corner, what both edges sweep beyond it: a square, but a quarter of a disc where the
+  // growing colour's own corner turns round. There the mixed term has the growth's opposite sign.
+  constexpr double kRound = 0.25 * std::numbers::pi;
+  const double mixed = su * sv * sample.by_uv;
+  const double curvature =
+      su * su * uu + 2.0 * (mixed * growth < 0.0 ? kRound : 1.0) * mixed + sv * sv * vv;
+  if (su != 0.0) sample.by_uu -= growth * su * by_variance(sample.by_u, uu, blur.uu);
+  if (sv != 0.0) sample.by_vv -= growth * sv * by_variance(sample.by_v, vv, blur.vv);
+  sample.value += growth * (0.5 * growth * curvature - sample.edges);
+  sample.by_u -= growth * sample.edges_by_u;
+  sample.by_v -= growth * sample.edges_by_v;
+  return growth * curvature - sample.edges;
+}
+
+}  // namespace
 
 Eigen::Matrix3d plane_from_tag_corners(const std::array<Eigen::Vector2d, 4>& points) {
   Eigen::Matrix<double, 8, 8> a;
@@ -64,7 +100,8 @@ double TagModel::gray(const BlurredTag& tag, const Eigen::Matrix2d& plane_by_pix
   const double g_uv = by_pixel.row(0).dot(by_pixel.row(1));
   const double g_vv = by_pixel.row(1).squaredNorm();
   const double s2 = blur_px * blur_px;
-  const TagSample sample = tag.sample(u, v, {s2 * g_uu, s2 * g_uv, s2 * g_vv});
+  TagSample sample = tag.sample(u, v, {s2 * g_uu, s2 * g_uv, s2 * g_vv});
+  const double by_growth = grow(growth, {s2 * g_uu, s2 * g_uv, s2 * g_vv}, sample);
   const double bump = sample.value * (1.0 - sample.value);
   const double response = sample.value + curve * bump;
   const double white_minus_black = contrast[0] + contrast[1] * u + contrast[2] * v;
@@ -76,7 +113,8 @@ double TagModel::gray(const BlurredTag& tag, const Eigen::Matrix2d& plane_by_pix
     const double by_blur =
         gain * 2.0 * blur_px * (g_uu * sample.by_uu + g_uv * sample.by_uv + g_vv * sample.by_vv);
     *by_step << by_u * u, by_u * v, by_u, by_v * u, by_v * v, by_v, -radial * u, -radial * v,
-        by_blur, white_minus_black * bump, 1.0, u, v, response, response * u, response * v;
+        by_blur, white_minus_black * bump, 1.0, u, v, response, response * u, response * v,
+        gain * by_growth;
   }
   return black[0] + black[1] * u + black[2] * v + white_minus_black * response;
 }
@@ -93,6 +131,8 @@ TagModel TagModel::moved(const Vector& step) const {
   // The area of a pixel alone blurs by √(1/12).
   out.blur_px = std::clamp(blur_px + step[kBlur], 0.29, 10.0);
   out.curve = std::clamp(curve + step[kCurve], -0.95, 0.95);
+  // A twentieth of the tag is far more than any ink spreads.
+  out.growth = std::clamp(growth + step[kGrowth], -0.1, 0.1);
   out.black += step.segment<3>(kBlack);
   out.contrast += step.segment<3>(kContrast);
   return out;

@@ -18,16 +18,20 @@ Eigen::Matrix3d plane_from_tag_corners(const std::array<Eigen::Vector2d, 4>& poi
 
 /// What determines the grey values of a printed tag in an image, up to noise:
 /// gray = B(u, v) + C(u, v)·(a + k·a(1 − a)), where a is the blurred albedo at (u, v), the tag
-/// point of the pixel, B and C are linear over the tag, and k bends the response of camera or ink.
+/// point of the pixel, B and C are linear over the tag, and k bends the camera's response. Edges
+/// run along the tag's axes: where black has grown by g all around one sees what lay at
+/// (u − g·sign aᵤ, v − g·sign aᵥ) before, taken to second order in g.
 struct TagModel {
   /// Order of the unknowns: homography (8), blur, bend k, black level and its slopes by u and v,
-  /// contrast and its slopes.
-  static constexpr int kBlur = 8, kCurve = 9, kBlack = 10, kContrast = 13, kUnknowns = 16;
+  /// contrast and its slopes, growth of black.
+  static constexpr int kBlur = 8, kCurve = 9, kBlack = 10, kContrast = 13, kGrowth = 16;
+  static constexpr int kUnknowns = 17;
   using Vector = Eigen::Matrix<double, kUnknowns, 1>;
 
   Eigen::Matrix3d tag_from_plane = Eigen::Matrix3d::Identity();
   double blur_px = 1.0;
   double curve = 0.0;
+  double growth = 0.0;  ///< Of all black edges outwards, tag coordinates: ink that has spread.
   Eigen::Vector3d black = Eigen::Vector3d::Zero();
   Eigen::Vector3d contrast = Eigen::Vector3d::Zero();
 
@@ -42,11 +46,12 @@ struct TagModel {
   static Eigen::Matrix<double, 2, 8> tag_by_homography_step(const Eigen::Vector2d& tag);
 
   /// Grey value at a point of the plane and, if asked for, its derivatives by the unknowns at a
-  /// zero step. Neglected: the change of the blur's shape with the homography.
+  /// zero step. Neglected: the change of the blur's shape with the homography, and what the growth
+  /// does to the derivatives to second order.
   double gray(const BlurredTag& tag, const Eigen::Matrix2d& plane_by_pixel,
               const Eigen::Vector2d& plane, Vector* by_step = nullptr) const;
 
-  /// The model after a step; blur and bend are kept within what is possible.
+  /// The model after a step; blur, bend and growth are kept within what is possible.
   [[nodiscard]] TagModel moved(const Vector& step) const;
 };
 

@@ -39,11 +39,11 @@ struct TagRefinement {
 /// Aligns the whole printed tag with the image: the known bits, the black border and a strip of the
 /// white surround are rendered through a homography and a Gaussian blur, and fitted to the grey
 /// values of all pixels (Gauss–Newton, Tukey weights). Unknowns: the homography (8), the blur,
-/// black and white level, each linear over the tag, and one coefficient of a curved response of
-/// camera or ink, which otherwise moves all edges towards the dark or bright side. With a camera
-/// the homography lives in undistorted coordinates, so that curved edges do not bias the corners.
-/// Needs a start within about half a bit. Nothing if the fit fails, leaves the start by more than a
-/// bit, or does not resemble the tag.
+/// black and white level, each linear over the tag, one coefficient of the camera's curved response
+/// and how far ink has spread, which otherwise move all edges towards the dark or bright side. With
+/// a camera the homography lives in undistorted coordinates, so that curved edges do not bias the
+/// corners. Needs a start within about half a bit. Nothing if the fit fails, leaves the start by
+/// more than a bit, or does not resemble the tag.
 std::optional<TagRefinement> refine_tag(const GrayImage& image, const TagPattern& pattern,
                                         int border_bits, const TagCorners& start,
                                         const Camera* camera, const TagRefinementOptions& options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "detection/blurred_tag.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -11,8 +12,20 @@
 namespace lvcalib {
 namespace {
 
+// Albedo once all black has grown by g, or white where g is negative; sharp corners.
+double grown_albedo(const BlurredTag& tag, const Eigen::Vector2d& p, double g) {
+  double out = tag.albedo(p.x(), p.y());
+  for (const double du : {-g, 0.0, g}) {
+    for (const double dv : {-g, 0.0, g}) {
+      const double beside = tag.albedo(p.x() + du, p.y() + dv);
+      out = g > 0.0 ? std::min(out, beside) : std::max(out, beside);
+    }
+  }
+  return out;
+}
+
 // The convolution by brute force: mean over a grid of ±4.5 σ.
-double convolved(const BlurredTag& tag, double u, double v, const TagBlur& blur) {
+double convolved(const BlurredTag& tag, double u, double v, const TagBlur& blur, double g = 0.0) {
   const Eigen::Matrix2d covariance{{blur.uu, blur.uv}, {blur.uv, blur.vv}};
   const Eigen::Matrix2d root = covariance.llt().matrixL();
   double sum = 0.0, weights = 0.0;
@@ -20,7 +33,7 @@ double convolved(const BlurredTag& tag, double u, double v, const TagBlur& blur)
     for (double b = -4.5; b <= 4.5; b += 0.03) {
       const double weight = std::exp(-0.5 * (a * a + b * b));
       const Eigen::Vector2d p = Eigen::Vector2d(u, v) + root * Eigen::Vector2d(a, b);
-      sum += weight * tag.albedo(p.x(), p.y());
+      sum += weight * grown_albedo(tag, p, g);
       weights += weight;
     }
   }
@@ -54,6 +67,27 @@ TEST(BlurredTag, EqualsTheConvolution) {
     const double correlation = random.uniform(-0.35, 0.35);
     const TagBlur blur{su * su, correlation * su * sv, sv * sv};
     EXPECT_NEAR(tag.sample(u, v, blur).value, convolved(tag, u, v, blur), 0.008);
+  }
+}
+
+TEST(BlurredTag, EdgesAreWhatGrowingBlackTakesAway) {
+  constexpr double kGrowth = 0.01;
+  const BlurredTag tag(*tag_pattern("tag36h11", 12), 1);
+  Random random(6);
+  for (int i = 0; i < 25; ++i) {
+    const double u = random.uniform(-1.1, 1.1);
+    const double v = random.uniform(-1.1, 1.1);
+    const double sigma = random.uniform(0.06, 0.16);
+    const TagBlur blur{sigma * sigma, 0.0, sigma * sigma};
+    const double taken =
+        (convolved(tag, u, v, blur, -kGrowth) - convolved(tag, u, v, blur, kGrowth)) /
+        (2.0 * kGrowth);
+    const TagSample here = tag.sample(u, v, blur);
+    // Two bits that touch with their corners run into each other as they grow: to first order in g.
+    EXPECT_NEAR(here.edges, taken, 0.06 / sigma) << u << ' ' << v << ' ' << sigma;
+    const auto edges = [&](double du, double dv) { return tag.sample(u + du, v + dv, blur).edges; };
+    EXPECT_NEAR(here.edges_by_u, (edges(1e-3, 0) - edges(-1e-3, 0)) / 2e-3, 0.03 / (sigma * sigma));
+    EXPECT_NEAR(here.edges_by_v, (edges(0, 1e-3) - edges(0, -1e-3)) / 2e-3, 0.03 / (sigma * sigma));
   }
 }
 

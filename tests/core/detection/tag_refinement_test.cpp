@@ -2,7 +2,9 @@
 #include "detection/tag_refinement.h"
 
 #include <cmath>
-#include <iostream>
+#include <functional>
+#include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +31,21 @@ Camera distorted(int side_px, double focal_px) {
   return camera;
 }
 
+// Black where any print within a radius is, by trying many places.
+std::function<std::optional<double>(const Eigen::Vector2d&)> black_within(double radius_m,
+                                                                          const Target& target) {
+  return [=](const Eigen::Vector2d& p) -> std::optional<double> {
+    constexpr int kDirections = 16;
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kDirections;
+      const auto at =
+          target.albedo(p + radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      if (at && *at < 0.5) return 0.0;
+    }
+    return std::nullopt;
+  };
+}
+
 struct Measured {
   std::vector<double> outward, errors, normalized;
   int failed = 0;
@@ -39,6 +56,7 @@ struct Study {
   int border_bits = 1;
   int tags = 8;
   double start_error_px = 0.4;
+  double ink_m = 0.0;  // By which black has grown all around.
   testing::RenderOptions render;
 };
 
@@ -60,6 +78,7 @@ Measured measure(const Study& study) {
     pose.translation += distance * Eigen::Vector3d(-120, 90, 0) / focal * 1.06;
     testing::RenderOptions render = study.render;
     render.seed = 100 + static_cast<unsigned>(i);
+    if (study.ink_m > 0.0) render.cover = black_within(study.ink_m, target);
     const GrayImage image = testing::render_board(target, camera, pose, render);
     TagCorners truth, start;
     const auto board = target.tag_corners_m(target.tags()[0]);
@@ -124,6 +143,20 @@ TEST(TagRefinement, CurvedResponseDoesNotMoveTheCorners) {
   const Measured result = measure(study);
   EXPECT_EQ(result.failed, 0);
   EXPECT_LT(std::abs(mean(result.outward)), 0.02);
+}
+
+// A third of a pixel all around, as black as the print of a bad printer gets; also under a blur in
+// which both sides of a bit are seen at once.
+TEST(TagRefinement, InkThatSpreadsDoesNotMoveTheCorners) {
+  for (const auto& [blur_px, most_px] : {std::pair(0.8, 0.002), std::pair(1.4, 0.006)}) {
+    Study study;
+    study.ink_m = 0.8e-3;
+    study.tags = 12;
+    study.render.blur_px = blur_px;
+    const Measured result = measure(study);
+    EXPECT_EQ(result.failed, 0);
+    EXPECT_LT(std::abs(mean(result.outward)), most_px) << blur_px;
+  }
 }
 
 TEST(TagRefinement, WorksWithMuchAndWithoutBlur) {
