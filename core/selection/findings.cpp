@@ -108,248 +108,212 @@ bool scenes_agree(const StructureScore& score, std::size_t tried, const Discover
              options.scenes_improved * static_cast<double>(informative);
 }
 
-class Judge {
- public:
-  Judge(const EffectSearch& search, const EffectSearch& stated,
-        const std::vector<Selection>& selected, const DiscoveryOptions& options)
-      : search_(search), stated_(stated), selected_(selected), options_(options) {}
-
-  std::vector<EffectFinding> run() {
-    for (const Selection& s : selected_) add_selected(s);
-    std::set<std::string> seen;
-    for (const Candidate& c : search_.candidates()) {
-      const std::string& id = columns_of(c).effect->info().id;
-      if (seen.insert(id).second) add_other(c);
-    }
-    for (const EffectPtr& effect : effect_catalogue()) {
-      const Message reason = why_not_testable(*effect, search_.table());
-      if (reason.empty()) continue;
-      const auto blur = effect->is_in_base_model() ? search_.measured_blur() : std::nullopt;
-      if (blur) {
-        add_measured(*effect, *blur, reason);
-      } else {
-        add_untestable(*effect, reason);
-      }
-    }
-    for (std::size_t k = 0; k < out_.size(); ++k) out_[k].rank = static_cast<int>(k) + 1;
-    return std::move(out_);
+// The extrinsic's bias by an effect in use, from the final model's information.
+ExtrinsicMove bias_of(const EffectSearch& search, std::size_t k, Eigen::Index at, Eigen::Index n) {
+  const ModelFit& fit = search.reference().fit;
+  Eigen::MatrixXd h = fit.prior.information;
+  for (const SceneTerm& scene : fit.scenes) h += scene.information;
+  std::vector<Eigen::Index> rest;
+  for (Eigen::Index i = 0; i < h.rows(); ++i) {
+    if (i < at || i >= at + n) rest.push_back(i);
   }
+  const Eigen::MatrixXd hr = h(rest, rest);
+  const Eigen::VectorXd cross = h(rest, Eigen::seqN(at, n)) * search.in_use()[k].values;
+  const Eigen::VectorXd move = hr.ldlt().solve(cross);
+  return {move.head<3>().norm(), move.segment<3>(3).norm()};
+}
 
- private:
-  [[nodiscard]] const EffectColumns& columns_of(const Candidate& c) const {
-    return search_.linear().columns.list()[c.columns];
+std::string mm(const EffectFinding& f) {
+  return formatted("%.1f", f.extrinsic_move_mm);
+}
+std::string mrad(const EffectFinding& f) {
+  return formatted("%.2f", f.extrinsic_move_mrad);
+}
+
+void explain_selected(const Effect& effect, EffectFinding& f) {
+  const EffectInfo& info = effect.info();
+  const Message physics = Message::listed(info.physics);
+  if (effect.shape_name().empty()) {
+    f.explanation =
+        Message("%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad.",
+                physics, found_text(f), mm(f), mrad(f));
+  } else {
+    f.explanation = Message(
+        "%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and %6 mrad.",
+        physics, found_text(f), Message::listed(effect.shape_name()),
+        f.shape_sigma > 0.0 ? formatted("%.4g ± %.2g", f.shape, f.shape_sigma)
+                            : formatted("%.3g", f.shape),
+        mm(f), mrad(f));
   }
+  if (!f.aliases.empty()) f.explanation += not_told_apart(f, info, " or ");
+}
 
-  void add_selected(const Selection& s) {
-    const auto& in_use = stated_.in_use();
-    Eigen::Index at = 6;
-    for (std::size_t k = 0; k < in_use.size(); ++k) {
-      const Eigen::Index n = in_use[k].values.size();
-      if (in_use[k].effect->info().id == s.id) {
-        EffectFinding f;
-        f.id = s.id;
-        f.verdict = s.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
-        f.aliases = s.aliases;
-        f.heldout_gain = s.heldout_gain;
-        f.log_density_gain = s.log_density_gain;
-        f.p_value = s.p_value;
-        const Eigen::MatrixXd covariance = stated_.joint_covariance().block(at, at, n, n);
-        set_parameters(search_.linear().columns.list()[k], in_use[k].values, covariance, f);
-        f.shape_sigma = stated_.shape_sigma(k);
-        f.shape_name = in_use[k].effect->shape_name();
-        f.spec = in_use[k].effect->info().spec;
-        f.curve = found_curve(in_use[k], covariance);
-        const ExtrinsicMove move = bias_of(k, at, n);
-        set_move(move, f);
-        f.matters = move.exceeds(tolerated(options_.tolerance, search_.reference().fit));
-        f.criteria = s.criteria;
-        explain_selected(*in_use[k].effect, f);
-        out_.push_back(std::move(f));
-        return;
-      }
-      at += n;
-    }
+// What is known of an effect that is in the model. `stated`: where its values and their standard
+// deviations are read.
+EffectFinding selected_finding(const EffectSearch& search, const EffectSearch& stated,
+                               const Selection& s, const DiscoveryOptions& options) {
+  EffectFinding f;
+  f.id = s.id;
+  f.verdict = s.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
+  f.aliases = s.aliases;
+  f.heldout_gain = s.heldout_gain;
+  f.log_density_gain = s.log_density_gain;
+  f.p_value = s.p_value;
+  f.criteria = s.criteria;
+  const auto& in_use = stated.in_use();
+  std::size_t k = 0;
+  Eigen::Index at = 6;
+  for (; in_use[k].effect->info().id != s.id; ++k) at += in_use[k].values.size();
+  const Eigen::Index n = in_use[k].values.size();
+  const Eigen::MatrixXd covariance = stated.joint_covariance().block(at, at, n, n);
+  set_parameters(search.linear().columns.list()[k], in_use[k].values, covariance, f);
+  f.shape_sigma = stated.shape_sigma(k);
+  f.shape_name = in_use[k].effect->shape_name();
+  f.spec = in_use[k].effect->info().spec;
+  f.curve = found_curve(in_use[k], covariance);
+  const ExtrinsicMove move = bias_of(search, k, at, n);
+  set_move(move, f);
+  f.matters = move.exceeds(tolerated(options.tolerance, search.reference().fit));
+  explain_selected(*in_use[k].effect, f);
+  return f;
+}
+
+// Whether the data say more of it than what is believable beforehand: a third of that, or less.
+bool is_told(const EffectColumns& columns, const EffectFinding& f) {
+  constexpr double kTold = 1.0 / 3.0;
+  for (std::size_t k = 0; k < f.parameters.size(); ++k) {
+    if (f.parameters[k].sigma > kTold * columns.parameters[k].prior_sigma) return false;
   }
+  return true;
+}
 
-  // The extrinsic's bias by an effect in use, from the final model's information.
-  [[nodiscard]] ExtrinsicMove bias_of(std::size_t k, Eigen::Index at, Eigen::Index n) const {
-    const ModelFit& fit = search_.reference().fit;
-    Eigen::MatrixXd h = fit.prior.information;
-    for (const SceneTerm& scene : fit.scenes) h += scene.information;
-    std::vector<Eigen::Index> rest;
-    for (Eigen::Index i = 0; i < h.rows(); ++i) {
-      if (i < at || i >= at + n) rest.push_back(i);
-    }
-    const Eigen::MatrixXd hr = h(rest, rest);
-    const Eigen::VectorXd cross = h(rest, Eigen::seqN(at, n)) * search_.in_use()[k].values;
-    const Eigen::VectorXd move = hr.ldlt().solve(cross);
-    return {move.head<3>().norm(), move.segment<3>(3).norm()};
+// Absent if at its limit it would not move the extrinsic by more than is tolerated. Not testable
+// if the data could not exclude that even where they saw nothing of it, or hardly see it at all.
+void judge_other(const EffectSearch& search, const Candidate& c, const DiscoveryOptions& options,
+                 EffectFinding& f) {
+  const EffectColumns& columns = columns_of(search, c);
+  f.unabsorbed_share = unabsorbed_share(c.fit, c.fit.solution.tail(columns.count()));
+  set_move(c.limit.most, f);
+  const bool told = is_told(columns, f);
+  const std::string values = values_text(f.parameters);
+  const Message pose = Message::listed(columns.effect->info().discriminating_pose);
+  const bool sure = is_sure(c, search.candidates().size(), options);
+  if (!f.matters && told) {
+    f.verdict = EffectVerdict::kAbsent;
+    f.explanation =
+        sure ? Message(
+                   "Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at "
+                   "most.",
+                   values, mm(f), mrad(f))
+             : Message(
+                   "Not there as far as it matters: %1; it moves the extrinsic by %2 mm and "
+                   "%3 mrad at most.",
+                   values, mm(f), mrad(f));
+    return;
   }
-
-  static std::string mm(const EffectFinding& f) { return formatted("%.1f", f.extrinsic_move_mm); }
-  static std::string mrad(const EffectFinding& f) {
-    return formatted("%.2f", f.extrinsic_move_mrad);
+  f.verdict = EffectVerdict::kNotTestable;
+  if (c.contradiction == Contradiction::kLevels) {
+    f.explanation = Message(
+        "White and black return unlike shares of light as range and incidence change, which no "
+        "effect explains; edges are found in these intensities and cannot tell: %1.",
+        values);
+  } else if (c.contradiction == Contradiction::kScenes) {
+    f.explanation = Message(
+        "Where it fits best it predicts scenes held out worse: %1; too few of them show it. To "
+        "decide: %2.",
+        values, pose);
+  } else if (c.contradiction == Contradiction::kCurve) {
+    f.explanation = Message(
+        "Beside a curve over what is left in the %1 channel it is not there: %2; something that "
+        "no effect explains is at work.",
+        word_for(c.main_channel()), values);
+  } else if (c.contradiction == Contradiction::kPrints) {
+    f.explanation = Message(
+        "White and black print contradict each other about it: %1 of both together; something "
+        "that depends on the print is at work.",
+        values);
+  } else if (!c.possible()) {
+    f.explanation = Message(
+        "What fits best is impossible: %1, while no device has less than %2; something else is "
+        "at work.",
+        values, lowest_text(columns));
+  } else if (c.explained_share < options.min_explained && sure) {
+    f.explanation = Message(
+        "It explains %1 % of what is wrong in the %2 channel: %3; something else is at work "
+        "there.",
+        formatted("%.0f", 100.0 * std::max(0.0, c.explained_share)), word_for(c.explained_in),
+        values);
+  } else if (!told || c.limit.unknown.exceeds(c.tolerance)) {
+    f.explanation = Message(
+        "Cannot be told from these scenes: %1; it may move the extrinsic by %2 mm and %3 mrad. "
+        "To see it: %4.",
+        values, mm(f), mrad(f), pose);
+  } else {
+    f.explanation = Message(
+        "Undecided: %1 is neither excluded nor confirmed by scenes held out; it may move the "
+        "extrinsic by %2 mm and %3 mrad. To decide: %4.",
+        values, mm(f), mrad(f), pose);
   }
+}
 
-  void explain_selected(const Effect& effect, EffectFinding& f) const {
-    const EffectInfo& info = effect.info();
-    const Message physics = Message::listed(info.physics);
-    if (effect.shape_name().empty()) {
-      f.explanation =
-          Message("%1 Found: %2; leaving it out would move the extrinsic by %3 mm and %4 mrad.",
-                  physics, found_text(f), mm(f), mrad(f));
-    } else {
-      f.explanation = Message(
-          "%1 Found: %2; %3 = %4; leaving it out would move the extrinsic by %5 mm and %6 mrad.",
-          physics, found_text(f), Message::listed(effect.shape_name()),
-          f.shape_sigma > 0.0 ? formatted("%.4g ± %.2g", f.shape, f.shape_sigma)
-                              : formatted("%.3g", f.shape),
-          mm(f), mrad(f));
-    }
-    if (!f.aliases.empty()) f.explanation += not_told_apart(f, info, " or ");
+// What is known of an effect that is not in the model, from its best candidate.
+EffectFinding other_finding(const EffectSearch& search, const Candidate& c,
+                            const std::vector<Selection>& selected,
+                            const DiscoveryOptions& options) {
+  const EffectColumns& columns = columns_of(search, c);
+  EffectFinding f;
+  f.id = columns.effect->info().id;
+  f.heldout_gain = c.best_heldout_gain();
+  f.log_density_gain = c.total_gain();
+  f.p_value = c.p_value;
+  f.criteria = criteria_of(c, search.candidates().size(), search.table().scenes.size(), options);
+  f.matters = c.limit.most.exceeds(c.tolerance);
+  const Eigen::Index p = columns.count();
+  const Eigen::VectorXd theta = c.fit.solution.tail(p);
+  const Eigen::MatrixXd covariance = c.fit.covariance.bottomRightCorner(p, p);
+  set_parameters(columns, theta, covariance, f);
+  judge_other(search, c, options, f);
+  for (const Selection& s : selected) {
+    if (std::find(s.aliases.begin(), s.aliases.end(), f.id) == s.aliases.end()) continue;
+    f.verdict = EffectVerdict::kAliased;
+    f.aliases.assign(1, s.id);
+    f.explanation = Message(
+        "Explains the same as %1, which is in the model: these scenes cannot tell the two apart. "
+        "To tell: %2.",
+        s.id, Message::listed(columns.effect->info().discriminating_pose));
   }
+  return f;
+}
 
-  void add_other(const Candidate& c) {
-    const EffectColumns& columns = columns_of(c);
-    EffectFinding f;
-    f.id = columns.effect->info().id;
-    f.heldout_gain = c.best_heldout_gain();
-    f.log_density_gain = c.total_gain();
-    f.p_value = c.p_value;
-    f.criteria =
-        criteria_of(c, search_.candidates().size(), search_.table().scenes.size(), options_);
-    f.matters = c.limit.most.exceeds(c.tolerance);
-    const Eigen::Index p = columns.count();
-    const Eigen::VectorXd theta = c.fit.solution.tail(p);
-    const Eigen::MatrixXd covariance = c.fit.covariance.bottomRightCorner(p, p);
-    set_parameters(columns, theta, covariance, f);
-    judge_other(columns, c, f);
-    for (const Selection& s : selected_) {
-      if (std::find(s.aliases.begin(), s.aliases.end(), f.id) == s.aliases.end()) continue;
-      f.verdict = EffectVerdict::kAliased;
-      f.aliases.assign(1, s.id);
-      f.explanation = Message(
-          "Explains the same as %1, which is in the model: these scenes cannot tell the two apart. "
-          "To tell: %2.",
-          s.id, Message::listed(columns.effect->info().discriminating_pose));
-    }
-    out_.push_back(std::move(f));
+// Part of the beam's blur, which every model holds: the least squares of what the effect adds to
+// the three numbers of the blur. Measured, so there is nothing to test; the value is told.
+void set_measured(const Effect& effect, const MeasuredBlur& blur, const MeasurementTable& table,
+                  EffectFinding& finding) {
+  const std::vector<EffectParameter> parameters = effect.parameters(table);
+  std::vector<Eigen::Vector3d> by(parameters.size(), Eigen::Vector3d::Zero());
+  effect.blur({}, table, 0.0, by);
+  Eigen::MatrixXd columns(3, static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t k = 0; k < by.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = by[k];
+  const Eigen::MatrixXd inverse = columns.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd values = inverse * blur.rad2;
+  const Eigen::MatrixXd covariance = inverse * blur.covariance * inverse.transpose();
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    finding.parameters.push_back({parameters[k].name, parameters[k].unit, parameters[k].unit_in_si,
+                                  values(i), std::sqrt(std::max(0.0, covariance(i, i)))});
   }
+}
 
-  // Whether the data say more of it than what is believable beforehand: a third of that, or less.
-  static bool is_told(const EffectColumns& columns, const EffectFinding& f) {
-    constexpr double kTold = 1.0 / 3.0;
-    for (std::size_t k = 0; k < f.parameters.size(); ++k) {
-      if (f.parameters[k].sigma > kTold * columns.parameters[k].prior_sigma) return false;
-    }
-    return true;
-  }
-
-  // Absent if at its limit it would not move the extrinsic by more than is tolerated. Not testable
-  // if the data could not exclude that even where they saw nothing of it, or hardly see it at all.
-  void judge_other(const EffectColumns& columns, const Candidate& c, EffectFinding& f) const {
-    f.unabsorbed_share = unabsorbed_share(c.fit, c.fit.solution.tail(columns.count()));
-    set_move(c.limit.most, f);
-    const bool told = is_told(columns, f);
-    const std::string values = values_text(f.parameters);
-    const Message pose = Message::listed(columns.effect->info().discriminating_pose);
-    const bool sure = is_sure(c, search_.candidates().size(), options_);
-    if (!f.matters && told) {
-      f.verdict = EffectVerdict::kAbsent;
-      f.explanation =
-          sure ? Message(
-                     "Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at "
-                     "most.",
-                     values, mm(f), mrad(f))
-               : Message(
-                     "Not there as far as it matters: %1; it moves the extrinsic by %2 mm and "
-                     "%3 mrad at most.",
-                     values, mm(f), mrad(f));
-      return;
-    }
-    f.verdict = EffectVerdict::kNotTestable;
-    if (c.contradiction == Contradiction::kLevels) {
-      f.explanation = Message(
-          "White and black return unlike shares of light as range and incidence change, which no "
-          "effect explains; edges are found in these intensities and cannot tell: %1.",
-          values);
-    } else if (c.contradiction == Contradiction::kScenes) {
-      f.explanation = Message(
-          "Where it fits best it predicts scenes held out worse: %1; too few of them show it. To "
-          "decide: %2.",
-          values, pose);
-    } else if (c.contradiction == Contradiction::kCurve) {
-      f.explanation = Message(
-          "Beside a curve over what is left in the %1 channel it is not there: %2; something that "
-          "no "
-          "effect explains is at work.",
-          word_for(c.main_channel()), values);
-    } else if (c.contradiction == Contradiction::kPrints) {
-      f.explanation = Message(
-          "White and black print contradict each other about it: %1 of both together; something "
-          "that depends on the print is at work.",
-          values);
-    } else if (!c.possible()) {
-      f.explanation = Message(
-          "What fits best is impossible: %1, while no device has less than %2; something else is "
-          "at work.",
-          values, lowest_text(columns));
-    } else if (c.explained_share < options_.min_explained && sure) {
-      f.explanation = Message(
-          "It explains %1 % of what is wrong in the %2 channel: %3; something else is at work "
-          "there.",
-          formatted("%.0f", 100.0 * std::max(0.0, c.explained_share)), word_for(c.explained_in),
-          values);
-    } else if (!told || c.limit.unknown.exceeds(c.tolerance)) {
-      f.explanation = Message(
-          "Cannot be told from these scenes: %1; it may move the extrinsic by %2 mm and %3 mrad. "
-          "To see it: %4.",
-          values, mm(f), mrad(f), pose);
-    } else {
-      f.explanation = Message(
-          "Undecided: %1 is neither excluded nor confirmed by scenes held out; it may move the "
-          "extrinsic by %2 mm and %3 mrad. To decide: %4.",
-          values, mm(f), mrad(f), pose);
-    }
-  }
-
-  // Part of the beam's blur, which every model holds: the least squares of what the effect adds to
-  // the three numbers of the blur. Measured, so there is nothing to test; the value is told.
-  void add_measured(const Effect& effect, const MeasuredBlur& blur, const Message& reason) {
-    const std::vector<EffectParameter> parameters = effect.parameters(search_.table());
-    std::vector<Eigen::Vector3d> by(parameters.size(), Eigen::Vector3d::Zero());
-    effect.blur({}, search_.table(), 0.0, by);
-    Eigen::MatrixXd columns(3, static_cast<Eigen::Index>(parameters.size()));
-    for (std::size_t k = 0; k < by.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = by[k];
-    const Eigen::MatrixXd inverse = columns.completeOrthogonalDecomposition().pseudoInverse();
-    const Eigen::VectorXd values = inverse * blur.rad2;
-    const Eigen::MatrixXd covariance = inverse * blur.covariance * inverse.transpose();
-    EffectFinding f;
-    f.id = effect.info().id;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      f.parameters.push_back({parameters[k].name, parameters[k].unit, parameters[k].unit_in_si,
-                              values(i), std::sqrt(std::max(0.0, covariance(i, i)))});
-    }
-    f.verdict = EffectVerdict::kNotTestable;
-    f.explanation = Message("Not testable: %1.", reason);
-    out_.push_back(std::move(f));
-  }
-
-  void add_untestable(const Effect& effect, const Message& reason) {
-    EffectFinding f;
-    f.id = effect.info().id;
-    f.verdict = EffectVerdict::kNotTestable;
-    f.explanation = Message("Not testable: %1.", reason);
-    out_.push_back(std::move(f));
-  }
-
-  const EffectSearch& search_;
-  const EffectSearch& stated_;  // Where values and their standard deviations are read.
-  const std::vector<Selection>& selected_;
-  const DiscoveryOptions& options_;
-  std::vector<EffectFinding> out_;
-};
+EffectFinding untestable_finding(const EffectSearch& search, const Effect& effect,
+                                 const Message& reason) {
+  EffectFinding f;
+  f.id = effect.info().id;
+  f.verdict = EffectVerdict::kNotTestable;
+  f.explanation = Message("Not testable: %1.", reason);
+  const auto blur = effect.is_in_base_model() ? search.measured_blur() : std::nullopt;
+  if (blur) set_measured(effect, *blur, search.table(), f);
+  return f;
+}
 
 }  // namespace
 
@@ -365,6 +329,10 @@ std::string name_of(EffectVerdict verdict) {
       break;
   }
   return "not_testable";
+}
+
+const EffectColumns& columns_of(const EffectSearch& search, const Candidate& candidate) {
+  return search.linear().columns.list()[candidate.columns];
 }
 
 std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,
@@ -443,7 +411,7 @@ OpenQuestions open_questions(const EffectSearch& search,
   // Where an effect stands in the linearisation: the candidate that predicts best.
   const auto place = [&](const std::string& id) -> std::optional<std::size_t> {
     for (const Candidate& c : search.candidates()) {
-      if (search.linear().columns.list()[c.columns].effect->info().id == id) return c.columns;
+      if (columns_of(search, c).effect->info().id == id) return c.columns;
     }
     return std::nullopt;
   };
@@ -477,7 +445,20 @@ std::vector<EffectFinding> judge_effects(const EffectSearch& search,
                                          const std::vector<Selection>& selected,
                                          const DiscoveryOptions& options,
                                          const EffectSearch* stated) {
-  return Judge(search, stated != nullptr ? *stated : search, selected, options).run();
+  std::vector<EffectFinding> out;
+  for (const Selection& s : selected)
+    out.push_back(selected_finding(search, stated != nullptr ? *stated : search, s, options));
+  std::set<std::string> seen;
+  for (const Candidate& c : search.candidates()) {
+    if (seen.insert(columns_of(search, c).effect->info().id).second)
+      out.push_back(other_finding(search, c, selected, options));
+  }
+  for (const EffectPtr& effect : effect_catalogue()) {
+    const Message reason = why_not_testable(*effect, search.table());
+    if (!reason.empty()) out.push_back(untestable_finding(search, *effect, reason));
+  }
+  for (std::size_t k = 0; k < out.size(); ++k) out[k].rank = static_cast<int>(k) + 1;
+  return out;
 }
 
 }  // namespace lvcalib

@@ -10,6 +10,9 @@
 
 namespace lvcalib {
 
+/// The columns of one of a search's candidates.
+const EffectColumns& columns_of(const EffectSearch& search, const Candidate& candidate);
+
 /// Ids of accepted candidates that correlate with the one chosen, or that held-out scenes do not
 /// tell from it.
 std::vector<std::string> aliases_of(const EffectSearch& search, std::size_t chosen,

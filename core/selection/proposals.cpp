@@ -16,99 +16,86 @@
 namespace lvcalib {
 namespace {
 
-class Proposer {
- public:
-  // `in_force`: the extrinsic that is stated without the proposals.
-  Proposer(const EffectSearch& search, const Rigid3& in_force, const DiscoveryOptions& options)
-      : search_(search), in_force_(in_force), options_(options) {
-    const auto& candidates = search.candidates();
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-      first_.try_emplace(columns_of(candidates[k]).effect->info().id, k);
-  }
+Message explain(const EffectInfo& info, Channel best, const EffectProposal& proposal) {
+  Message out = Message(
+      "%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and "
+      "the extrinsic moves by %5 mm and %6 mrad.",
+      Message::listed(info.physics), values_text(proposal.finding.parameters),
+      formatted("%.0f", 100.0 * proposal.heldout_fall[static_cast<std::size_t>(best)]),
+      word_for(best), formatted("%.1f", proposal.gained_mm),
+      formatted("%.2f", proposal.gained_mrad));
+  if (!proposal.finding.aliases.empty()) out += not_told_apart(proposal.finding, info, ", ");
+  return out;
+}
 
-  std::vector<EffectProposal> run(std::vector<EffectFinding> findings) {
-    for (EffectFinding& finding : findings) {
-      EffectProposal proposal;
-      proposal.finding = std::move(finding);
-      if (const auto at = first_.find(proposal.finding.id); at != first_.end())
-        judge(at->second, proposal);
-      out_.push_back(std::move(proposal));
+// What adding the effect of candidate number k would do. `in_force`: the extrinsic that is stated
+// without it.
+void judge(const EffectSearch& search, std::size_t k, const Rigid3& in_force,
+           const DiscoveryOptions& options, EffectProposal& proposal) {
+  const Candidate& c = search.candidates()[k];
+  proposal.heldout_fall = c.heldout_gain;
+  proposal.channel = c.main_channel();
+  // From where it is stated, which errors of the sensor may have moved towards the effect
+  // already.
+  const Rigid3 with =
+      se3_exp(Vector6d(c.fit.solution.head<6>())) * search.state().camera_from_lidar;
+  proposal.gained_mm = 1e3 * (with.translation - in_force.translation).norm();
+  proposal.gained_mrad = 1e3 * rotation_distance_rad(with, in_force);
+  proposal.suggested =
+      is_accepted(c, search.candidates().size(), search.table().scenes.size(), options);
+  if (!proposal.suggested) return;
+  EffectFinding& f = proposal.finding;
+  f.aliases = aliases_of(search, k, options);
+  f.verdict = f.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
+  f.extrinsic_move_mm = proposal.gained_mm;
+  f.extrinsic_move_mrad = proposal.gained_mrad;
+  f.matters =
+      ExtrinsicMove{1e-3 * proposal.gained_mm, 1e-3 * proposal.gained_mrad}.exceeds(c.tolerance);
+  f.explanation = explain(columns_of(search, c).effect->info(), c.main_channel(), proposal);
+}
+
+// Each suggested effect takes those that it cannot be told from to its side.
+std::vector<EffectProposal> grouped_by_alias(const std::vector<EffectProposal>& proposals) {
+  std::vector<EffectProposal> out;
+  std::vector<bool> taken(proposals.size(), false);
+  for (std::size_t k = 0; k < proposals.size(); ++k) {
+    if (taken[k]) continue;
+    taken[k] = true;
+    out.push_back(proposals[k]);
+    if (!proposals[k].suggested) continue;
+    const auto& aliases = proposals[k].finding.aliases;
+    for (std::size_t j = k + 1; j < proposals.size(); ++j) {
+      const std::string& id = proposals[j].finding.id;
+      if (taken[j] || std::find(aliases.begin(), aliases.end(), id) == aliases.end()) continue;
+      taken[j] = true;
+      out.push_back(proposals[j]);
+      out.back().alias_of = proposals[k].finding.id;
+      out.back().finding.verdict = EffectVerdict::kAliased;
     }
-    std::stable_partition(out_.begin(), out_.end(),
-                          [](const EffectProposal& p) { return p.suggested; });
-    group_aliases();
-    for (std::size_t k = 0; k < out_.size(); ++k) out_[k].finding.rank = static_cast<int>(k) + 1;
-    return std::move(out_);
   }
+  return out;
+}
 
- private:
-  [[nodiscard]] const EffectColumns& columns_of(const Candidate& c) const {
-    return search_.linear().columns.list()[c.columns];
+// Of effects that are not in the model: the suggested ones first, each with its aliases.
+std::vector<EffectProposal> propose(const EffectSearch& search, const Rigid3& in_force,
+                                    const std::vector<EffectFinding>& findings,
+                                    const DiscoveryOptions& options) {
+  std::map<std::string, std::size_t> first;  // An effect's best candidate.
+  for (std::size_t k = 0; k < search.candidates().size(); ++k)
+    first.try_emplace(columns_of(search, search.candidates()[k]).effect->info().id, k);
+  std::vector<EffectProposal> out;
+  for (const EffectFinding& finding : findings) {
+    EffectProposal& proposal = out.emplace_back();
+    proposal.finding = finding;
+    if (const auto at = first.find(finding.id); at != first.end())
+      judge(search, at->second, in_force, options, proposal);
   }
-
-  void judge(std::size_t k, EffectProposal& proposal) const {
-    const Candidate& c = search_.candidates()[k];
-    proposal.heldout_fall = c.heldout_gain;
-    proposal.channel = c.main_channel();
-    // From where it is stated, which errors of the sensor may have moved towards the effect
-    // already.
-    const Rigid3 with =
-        se3_exp(Vector6d(c.fit.solution.head<6>())) * search_.state().camera_from_lidar;
-    proposal.gained_mm = 1e3 * (with.translation - in_force_.translation).norm();
-    proposal.gained_mrad = 1e3 * rotation_distance_rad(with, in_force_);
-    proposal.suggested =
-        is_accepted(c, search_.candidates().size(), search_.table().scenes.size(), options_);
-    if (!proposal.suggested) return;
-    EffectFinding& f = proposal.finding;
-    f.aliases = aliases_of(search_, k, options_);
-    f.verdict = f.aliases.empty() ? EffectVerdict::kPresent : EffectVerdict::kAliased;
-    f.extrinsic_move_mm = proposal.gained_mm;
-    f.extrinsic_move_mrad = proposal.gained_mrad;
-    f.matters =
-        ExtrinsicMove{1e-3 * proposal.gained_mm, 1e-3 * proposal.gained_mrad}.exceeds(c.tolerance);
-    f.explanation = explain(columns_of(c).effect->info(), c.main_channel(), proposal);
-  }
-
-  static Message explain(const EffectInfo& info, Channel best, const EffectProposal& proposal) {
-    Message out = Message(
-        "%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and "
-        "the extrinsic moves by %5 mm and %6 mrad.",
-        Message::listed(info.physics), values_text(proposal.finding.parameters),
-        formatted("%.0f", 100.0 * proposal.heldout_fall[static_cast<std::size_t>(best)]),
-        word_for(best), formatted("%.1f", proposal.gained_mm),
-        formatted("%.2f", proposal.gained_mrad));
-    if (!proposal.finding.aliases.empty()) out += not_told_apart(proposal.finding, info, ", ");
-    return out;
-  }
-
-  // Each suggested effect takes those that it cannot be told from to its side.
-  void group_aliases() {
-    std::vector<EffectProposal> grouped;
-    std::vector<bool> taken(out_.size(), false);
-    for (std::size_t k = 0; k < out_.size(); ++k) {
-      if (taken[k]) continue;
-      taken[k] = true;
-      grouped.push_back(out_[k]);
-      if (!out_[k].suggested) continue;
-      for (std::size_t j = k + 1; j < out_.size(); ++j) {
-        const auto& aliases = out_[k].finding.aliases;
-        const std::string& id = out_[j].finding.id;
-        if (taken[j] || std::find(aliases.begin(), aliases.end(), id) == aliases.end()) continue;
-        taken[j] = true;
-        grouped.push_back(out_[j]);
-        grouped.back().alias_of = out_[k].finding.id;
-        grouped.back().finding.verdict = EffectVerdict::kAliased;
-      }
-    }
-    out_ = std::move(grouped);
-  }
-
-  const EffectSearch& search_;
-  const Rigid3& in_force_;
-  const DiscoveryOptions& options_;
-  std::map<std::string, std::size_t> first_;  // an effect's best candidate
-  std::vector<EffectProposal> out_;
-};
+  std::stable_partition(out.begin(), out.end(),
+                        [](const EffectProposal& p) { return p.suggested; });
+  out = grouped_by_alias(out);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k].finding.rank = static_cast<int>(k) + 1;
+  return out;
+}
 
 // What is known of an effect in the model without asking whether it belongs there.
 EffectFinding finding_in_model(const ModelTerm& term) {
@@ -149,8 +136,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   // Those in use come first.
   const auto others = findings.begin() + static_cast<std::ptrdiff_t>(selected.size());
   out.in_use.assign(findings.begin(), others);
-  out.proposals =
-      Proposer(search, step.state.camera_from_lidar, options).run({others, findings.end()});
+  out.proposals = propose(search, step.state.camera_from_lidar, {others, findings.end()}, options);
   if (context.stopped()) return Error::cancelled();
   const bool any = std::any_of(out.proposals.begin(), out.proposals.end(),
                                [](const EffectProposal& p) { return p.suggested; });
