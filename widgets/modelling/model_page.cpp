@@ -17,6 +17,7 @@
 #include "modelling/term_list.h"
 #include "modelling/what_if_pane.h"
 #include "runner/model_work.h"
+#include "style/swatch.h"
 #include "style/texts.h"
 
 namespace lvcalib::widgets {
@@ -191,9 +192,8 @@ void ModelPage::takeSteps() {
 // What the colours mean, and the steps by name with the present one in bold.
 void ModelPage::describeSteps() {
   const PlotColors colors = PlotColors::of(palette());
-  const auto entry = [](const QColor& color, const QChar& sign, const QString& text) {
-    return QStringLiteral("<span style=\"color:%1\">%2</span> %3")
-        .arg(color.name(), QString(sign), text);
+  const auto entry = [this](const QColor& color, const QString& text) {
+    return QStringLiteral("%1&nbsp;%2").arg(swatch_html(color, palette()), text);
   };
   QStringList steps;
   for (std::size_t k = 0; k < work_.steps().size(); ++k) {
@@ -201,15 +201,16 @@ void ModelPage::describeSteps() {
     const QString text = step ? step_text(*step).toHtmlEscaped() : QStringLiteral("…");
     steps << (k == work_.current() ? QStringLiteral("<b>%1</b>").arg(text) : text);
   }
-  QStringList legend = {entry(BudgetPlot::noiseColor(colors), u'■', tr("within noise")),
-                        entry(colors.refused, u'■', tr("unexplained")),
-                        entry(BudgetPlot::explainedColor(colors), u'■', tr("explained")),
-                        entry(colors.mark, u'◇', tr("scenes held out"))};
+  QStringList legend = {entry(BudgetPlot::noiseColor(colors), tr("within noise")),
+                        entry(colors.refused, tr("unexplained")),
+                        entry(BudgetPlot::explainedColor(colors), tr("explained")),
+                        QStringLiteral("<span style=\"color:%1\">◇</span>&nbsp;%2")
+                            .arg(colors.mark.name(), tr("scenes held out"))};
   if (budget_->knowsTruth()) {
-    legend << entry(colors.series(0), u'■', tr("mm from the truth"))
-           << entry(colors.series(1), u'■', tr("mrad from the truth"));
+    legend << entry(colors.series(0), tr("mm from the truth"))
+           << entry(colors.series(1), tr("mrad from the truth"));
   }
-  legend_->setText(legend.join(QStringLiteral("&nbsp;&nbsp;")) +
+  legend_->setText(legend.join(QStringLiteral("&nbsp; ")) +
                    (steps.isEmpty() ? QString()
                                     : QStringLiteral("&nbsp;&nbsp;&nbsp;&nbsp;") +
                                           tr("Steps: %1").arg(steps.join(QStringLiteral(" → ")))));

@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QDir>
 #include <QDoubleSpinBox>
+#include <QEvent>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QGroupBox>
@@ -19,6 +20,7 @@
 #include <cmath>
 
 #include "runner/scene_data.h"
+#include "style/swatch.h"
 #include "style/texts.h"
 #include "views/color_map.h"
 #include "views/image_view.h"
@@ -351,9 +353,9 @@ void CheckDialog::drawLook() {
 
 // What the colours of the dots mean, of those that are shown.
 void CheckDialog::showLegend(const ColorScale& ranges) {
-  const auto entry = [](const QColor& color, const QString& text) {
-    return QStringLiteral("<span style=\"color:%1\">■</span>&nbsp;%2")
-        .arg(color.name(), QString(text).replace(QLatin1Char(' '), QChar(0xa0)));
+  const auto entry = [this](const QColor& color, const QString& text) {
+    return QStringLiteral("%1&nbsp;%2")
+        .arg(swatch_html(color, palette()), QString(text).replace(QLatin1Char(' '), QChar(0xa0)));
   };
   QStringList points;
   for (const double share : {0.0, 0.5, 1.0}) {
@@ -368,6 +370,12 @@ void CheckDialog::showLegend(const ColorScale& ranges) {
                  QLatin1Char(' ') + entry(kAlone, tr("on none"));
   }
   legend_->setText(lines.join(QStringLiteral("<br>")));
+}
+
+// The swatches' edges are of the palette's.
+void CheckDialog::changeEvent(QEvent* event) {
+  QDialog::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) drawLook();
 }
 
 void CheckDialog::drag(const QPointF& from, const QPointF& to, Qt::KeyboardModifiers modifiers) {

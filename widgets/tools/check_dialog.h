@@ -58,6 +58,9 @@ class CheckDialog : public QDialog {
   /// The pose shown is to be the rough one; nothing: none is.
   void roughPoseWanted(const std::optional<lvcalib::Rigid3>& camera_from_lidar);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   void build();
   void connectParts();

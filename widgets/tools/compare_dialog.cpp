@@ -19,6 +19,7 @@
 
 #include "modelling/model_text.h"
 #include "runner/scene_data.h"
+#include "style/swatch.h"
 #include "style/texts.h"
 #include "tools/projection_overlay.h"
 #include "views/image_view.h"
@@ -432,17 +433,22 @@ void CompareDialog::chooseScene() {
 }
 
 void CompareDialog::showLegend() {
-  const auto colored = [](const QColor& color, const QString& text, QChar sign = u'■') {
-    return QStringLiteral("<span style=\"color:%1\">%2</span>&nbsp;%3")
-        .arg(color.name(), QString(sign), text);
+  const auto swatch = [this](const QColor& color, const QString& text) {
+    return QStringLiteral("%1&nbsp;%2").arg(swatch_html(color, palette()), text);
   };
-  legend_->setText(
-      scene_.isEmpty()
-          ? QString()
-          : QStringLiteral("<b>%1</b> %2 %3 %4")
-                .arg(scene_.toHtmlEscaped(), colored(first_projection_color(), tr("from")),
-                     colored(second_projection_color(), tr("to")),
-                     colored(OverlayItem::shiftColor(), tr("shift of the board"), u'→')));
+  const auto arrow = QStringLiteral("<span style=\"color:%1\">→</span>&nbsp;%2")
+                         .arg(OverlayItem::shiftColor().name(), tr("shift of the board"));
+  legend_->setText(scene_.isEmpty() ? QString()
+                                    : QStringLiteral("<b>%1</b> %2 %3 %4")
+                                          .arg(scene_.toHtmlEscaped(),
+                                               swatch(first_projection_color(), tr("from")),
+                                               swatch(second_projection_color(), tr("to")), arrow));
+}
+
+// The swatches' edges are of the palette's.
+void CompareDialog::changeEvent(QEvent* event) {
+  QDialog::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange && legend_ != nullptr) showLegend();
 }
 
 void CompareDialog::showFactor() {

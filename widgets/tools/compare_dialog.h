@@ -38,6 +38,9 @@ class CompareDialog : public QDialog {
   /// Adds another result to those that can be chosen, and compares with it.
   void add(ComparedResult::Kind kind, const QString& path);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   void createPicture(QWidget* parent);
   void connectParts();

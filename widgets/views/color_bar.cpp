@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style/swatch.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -74,8 +76,8 @@ void ColorBar::setCategories(const std::vector<CloudCategory>& categories,
   // Names in full, and all of them, whatever room there is.
   QString all;
   for (const CloudCategory& category : categories_) {
-    all += QStringLiteral("<span style=\"color:%1\">■</span>&nbsp;%2<br>")
-               .arg(QColor(category.color).name(), category.name.toHtmlEscaped());
+    all += QStringLiteral("%1&nbsp;%2<br>")
+               .arg(swatch_html(QColor(category.color), palette()), category.name.toHtmlEscaped());
   }
   setToolTip(all);
   updateGeometry();
@@ -98,8 +100,8 @@ void ColorBar::paintCategories(QPainter& painter) const {
                        QStringLiteral("… +%1").arg(categories_.size() - k));
       return;
     }
-    painter.fillRect(QRect(kMargin, y + (line - kSwatch) / 2, kSwatch, kSwatch),
-                     QColor(categories_[k].color));
+    paint_swatch(painter, QRectF(kMargin, y + (line - kSwatch) / 2.0, kSwatch, kSwatch),
+                 QColor(categories_[k].color), palette());
     painter.drawText(QRect(left, y, room, line), Qt::AlignLeft | Qt::AlignVCenter,
                      metrics.elidedText(categories_[k].name, Qt::ElideMiddle, room));
   }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pages/scene_overlay.h"
+#include "style/swatch.h"
 #include "views/cloud_view.h"
 #include "views/color_bar.h"
 #include "widgets/support/calibrated_demo.h"
@@ -65,8 +66,9 @@ TEST_F(WorldPaneTest, EverySceneHasItsColourAndItsName) {
     const QRgb wanted = scene.categories[scene.cloud->line[scene.order[k]] - 1U].color;
     ASSERT_EQ(qRgb(scene.rgb[3 * k], scene.rgb[3 * k + 1], scene.rgb[3 * k + 2]), wanted);
   }
+  const ColorBar& legend = *pane_.view()->legend();
   for (const CloudCategory& category : scene.categories)
-    EXPECT_TRUE(pane_.view()->legend()->toolTip().contains(QColor(category.color).name()));
+    EXPECT_TRUE(legend.toolTip().contains(swatch_html(category.color, legend.palette())));
 }
 
 TEST_F(WorldPaneTest, AClickOnABoardGoesToItsScene) {
