@@ -24,6 +24,7 @@
 #include "style/texts.h"
 #include "style/theme.h"
 #include "words/core_text.h"
+#include "words/total_note.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -126,7 +127,7 @@ QString results_html(const CalibrationResult& result) {
              .arg(ResultsDialog::tr("Model:").toHtmlEscaped(), core_text(use.model).toHtmlEscaped(),
                   core_text(use.clouds).toHtmlEscaped());
   out += pose_table(result);
-  out += QStringLiteral("<p>%1</p>").arg(core_text(total_uncertainty_note()).toHtmlEscaped());
+  out += QStringLiteral("<p>%1</p>").arg(total_note(result).toHtmlEscaped());
   if (!x.weak_directions.empty()) {
     out += QStringLiteral("<h3>%1</h3>").arg(ResultsDialog::tr("Weakly determined"));
     out += list(x.weak_directions);

@@ -9,6 +9,7 @@
 #include "report/stored_model.h"
 #include "style/theme.h"
 #include "words/core_text.h"
+#include "words/total_note.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -140,7 +141,7 @@ QString pose_html(const CalibrationResult& result, const QPalette& palette) {
   html += heading(tr("Roll, pitch, yaw (R = Rz·Ry·Rx)")) + rotation_table(pose, total);
   html += "<p>" +
           (tr("Statistical: what the noise of these scenes leaves open.") + QLatin1Char(' ') +
-           core_text(total_uncertainty_note()))
+           total_note(result))
               .toHtmlEscaped() +
           "</p>";
   html += heading(tr("T_camera_lidar")) + matrix_table(pose.transform);

@@ -41,14 +41,15 @@ void UncertaintyPane::setResult(const CalibrationResult* result) {
   setText(result);
   if (result == nullptr) {
     map_->setMap(std::nullopt, {});
-    range_->setRanges({});
+    range_->setRanges({}, {});
     return;
   }
   const UncertaintyReport& report = result->uncertainty;
   const QSize image(result->camera.width_px, result->camera.height_px);
   map_->setMap(report.maps.empty() ? std::optional<ProjectedUncertainty>() : report.maps.front(),
                image);
-  range_->setRanges(report.by_range);
+  const std::optional<UncertaintyReport> total = total_report(*result);
+  range_->setRanges(report.by_range, total ? total->by_range : std::vector<RangeUncertainty>());
 }
 
 }  // namespace lvcalib::widgets

@@ -87,37 +87,73 @@ QString leave_one_out(const CalibrationResult& result) {
   return out + "</table>";
 }
 
-QString by_range(const UncertaintyReport& report) {
-  QString out = "<table>" + row({tr("Range"), tr("across the ray"), tr("along it")}, "th");
-  for (const RangeUncertainty& r : report.by_range) {
-    out += row({tr("%1 m").arg(r.range_m), tr("%1 mm").arg(r.across_mm, 0, 'f', 2),
-                tr("%1 mm").arg(r.along_mm, 0, 'f', 2)});
+QString by_range(const UncertaintyReport& report, const std::optional<UncertaintyReport>& total) {
+  const bool both = total && total->by_range.size() == report.by_range.size();
+  const auto mm = [](double value) { return tr("%1 mm").arg(value, 0, 'f', 2); };
+  QStringList titles = {tr("Range"), tr("across the ray"), tr("along it")};
+  if (both) titles << tr("across, total") << tr("along, total");
+  QString out = "<table>" + row(titles, "th");
+  for (std::size_t k = 0; k < report.by_range.size(); ++k) {
+    const RangeUncertainty& r = report.by_range[k];
+    QStringList cells = {tr("%1 m").arg(r.range_m), mm(r.across_mm), mm(r.along_mm)};
+    if (both) cells << mm(total->by_range[k].across_mm) << mm(total->by_range[k].along_mm);
+    out += row(cells);
   }
   return out + "</table>";
 }
 
-QString over_image(const UncertaintyReport& report) {
+// The best and the worst place of the image; nothing where no ray is seen.
+std::optional<std::pair<double, double>> reach_of(const ProjectedUncertainty& map) {
+  double low = HUGE_VAL;
+  double high = 0.0;
+  for (const double sigma : map.sigma_px) {
+    if (!std::isfinite(sigma)) continue;
+    low = std::min(low, sigma);
+    high = std::max(high, sigma);
+  }
+  if (low > high) return std::nullopt;
+  return std::pair(low, high);
+}
+
+QString over_image(const UncertaintyReport& report, const std::optional<UncertaintyReport>& total) {
   QString out;
-  for (const ProjectedUncertainty& map : report.maps) {
-    double low = HUGE_VAL;
-    double high = 0.0;
-    for (const double sigma : map.sigma_px) {
-      if (!std::isfinite(sigma)) continue;
-      low = std::min(low, sigma);
-      high = std::max(high, sigma);
-    }
-    if (low > high) continue;
-    out += paragraph(
+  for (std::size_t k = 0; k < report.maps.size(); ++k) {
+    const auto noise = reach_of(report.maps[k]);
+    if (!noise) continue;
+    QString text =
         tr("A LiDAR point at %1 m falls into the image with a standard deviation of %2 px where "
-           "it is best to %3 px where it is worst.")
-            .arg(map.range_m)
-            .arg(low, 0, 'f', 3)
-            .arg(high, 0, 'f', 3));
+           "it is best to %3 px where it is worst, by noise alone.")
+            .arg(report.maps[k].range_m)
+            .arg(noise->first, 0, 'f', 3)
+            .arg(noise->second, 0, 'f', 3);
+    const auto all = total && k < total->maps.size() ? reach_of(total->maps[k]) : std::nullopt;
+    if (all)
+      text +=
+          QLatin1Char(' ') +
+          tr("In total: %1 px to %2 px.").arg(all->first, 0, 'f', 3).arg(all->second, 0, 'f', 3);
+    out += paragraph(text);
   }
   return out;
 }
 
 }  // namespace
+
+std::optional<UncertaintyReport> total_report(const CalibrationResult& result) {
+  const UncertaintyReport& noise = result.uncertainty;
+  if (!(result.covariance_total.trace() > 0.0) || noise.by_range.empty()) return std::nullopt;
+  UncertaintyOptions how;
+  how.ranges_m.clear();
+  for (const RangeUncertainty& r : noise.by_range) how.ranges_m.push_back(r.range_m);
+  if (!noise.maps.empty()) {
+    how.map_range_m = noise.maps.front().range_m;
+    how.map_columns = noise.maps.front().columns;
+  }
+  ExtrinsicSolution stated;
+  stated.camera_from_lidar = result.extrinsic.camera_from_lidar;
+  stated.camera_from_lidar.covariance = result.covariance_total;
+  // Without scenes there are no halves to solve: the covariance is projected, nothing else.
+  return assess_uncertainty({}, result.camera, result.target, stated, {}, how);
+}
 
 QString uncertainty_html(const CalibrationResult& result, const QPalette& palette) {
   const UncertaintyReport& report = result.uncertainty;
@@ -126,8 +162,9 @@ QString uncertainty_html(const CalibrationResult& result, const QPalette& palett
           split_halves(report, state_colors(palette));
   html += heading(tr("Leaving one scene out")) + leave_one_out(result);
   if (!report.by_range.empty()) {
-    html += heading(tr("In the camera's view, one standard deviation")) + over_image(report) +
-            by_range(report);
+    const std::optional<UncertaintyReport> total = total_report(result);
+    html += heading(tr("In the camera's view, one standard deviation")) +
+            over_image(report, total) + by_range(report, total);
   }
   return html;
 }

@@ -456,15 +456,11 @@ void PlanDialog::refresh() {
   QString text = problem();
   if (text.isEmpty()) text = note_;
   if (text.isEmpty() && plan_) {
-    text = tr("Chosen one after the other from %1 poses that camera and LiDAR both see.")
+    text = tr("Chosen one after the other from %1 poses that camera and LiDAR both see. σ is by "
+              "noise alone.")
                .arg(plan_->poses_tried);
     for (const Message& warning : plan_->warnings) {
       QString words = core_text(warning);
-      // Effects by their names on the page, not by their ids in files.
-      for (const EffectVisibility& e : plan_->scenes.back().effects) {
-        const QString id = QString::fromStdString(e.id);
-        if (words.startsWith(id)) words = effect_title(e.id) + words.mid(id.size());
-      }
       if (!words.isEmpty()) words[0] = words[0].toUpper();
       text += QLatin1Char('\n') + words + tr(".");
     }

@@ -47,10 +47,10 @@ UncertaintyMapPlot::UncertaintyMapPlot(QWidget* parent) : PlotView(parent) {
   follow_language(this, [this] {
     xAxis->setLabel(tr("image u (px)"));
     yAxis->setLabel(tr("image v (px)"));
-    scale_->axis()->setLabel(tr("standard deviation (px)"));
+    scale_->axis()->setLabel(tr("standard deviation by noise (px)"));
     setToolTip(
         tr("Where in the image a LiDAR point falls is known to one standard deviation of so many "
-           "pixels, from the extrinsic's covariance alone. Where the colour is bright, take a "
+           "pixels, by the noise of these scenes alone. Where the colour is bright, take a "
            "scene with the board there."));
   });
   connect(this, &QCustomPlot::afterLayout, this, [this] {
@@ -152,55 +152,77 @@ UncertaintyRangePlot::UncertaintyRangePlot(QWidget* parent) : PlotView(parent) {
   follow_language(this, [this] {
     xAxis->setLabel(tr("range (m)"));
     yAxis->setLabel(tr("standard deviation (mm)"));
-    setToolTip(
-        tr("How far a LiDAR point at this range may lie beside its true place in the camera frame: "
-           "one standard deviation across the ray and along it, from the extrinsic's covariance."));
+    setToolTip(tr(
+        "How far a LiDAR point at this range may lie beside its true place in the camera frame: "
+        "one standard deviation across the ray and along it. Through: in total, with what common "
+        "errors that these scenes do not show could still do. Dashed: by noise alone."));
   });
 }
 
-void UncertaintyRangePlot::setRanges(std::vector<RangeUncertainty> ranges) {
-  ranges_ = std::move(ranges);
+void UncertaintyRangePlot::setRanges(std::vector<RangeUncertainty> noise,
+                                     std::vector<RangeUncertainty> total) {
+  noise_ = std::move(noise);
+  total_ = std::move(total);
+  if (total_.size() != noise_.size()) total_.clear();
   // Decades alone would leave a span of one or two without numbers.
   QSharedPointer<QCPAxisTickerText> ticks(new QCPAxisTickerText);
-  for (const RangeUncertainty& r : ranges_) ticks->addTick(r.range_m, QString::number(r.range_m));
+  for (const RangeUncertainty& r : noise_) ticks->addTick(r.range_m, QString::number(r.range_m));
   xAxis->setTicker(ticks);
   double low = HUGE_VAL;
   double high = 0.0;
-  for (const RangeUncertainty& r : ranges_) {
-    for (const double mm : {r.across_mm, r.along_mm}) {
-      if (!(mm > 0.0)) continue;
-      low = std::min(low, mm);
-      high = std::max(high, mm);
+  for (const auto* ranges : {&noise_, &total_}) {
+    for (const RangeUncertainty& r : *ranges) {
+      for (const double mm : {r.across_mm, r.along_mm}) {
+        if (!(mm > 0.0)) continue;
+        low = std::min(low, mm);
+        high = std::max(high, mm);
+      }
     }
   }
-  if (low <= high && ranges_.size() > 1)
-    setHome({0.8 * ranges_.front().range_m, 1.25 * ranges_.back().range_m}, {0.6 * low, 2 * high});
+  if (low <= high && noise_.size() > 1)
+    setHome({0.8 * noise_.front().range_m, 1.25 * noise_.back().range_m}, {0.6 * low, 2 * high});
   rebuild();
 }
 
-void UncertaintyRangePlot::drawCurve(bool across) {
+void UncertaintyRangePlot::drawCurve(const std::vector<RangeUncertainty>& ranges, bool across) {
   QCPGraph* graph = addGraph();
   const QColor color = colors().series(across ? 0 : 1);
-  graph->setPen(QPen(color, 2.0));
-  graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(color), color, 6});
-  for (const RangeUncertainty& r : ranges_)
+  // What is stated is drawn through; noise is only its smaller part.
+  const bool part = &ranges == &noise_ && !total_.empty();
+  graph->setPen(QPen(color, part ? 1.5 : 2.0, part ? Qt::DashLine : Qt::SolidLine));
+  graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(color), color, part ? 4.0 : 6.0});
+  for (const RangeUncertainty& r : ranges)
     graph->addData(r.range_m, across ? r.across_mm : r.along_mm);
 }
 
 void UncertaintyRangePlot::rebuild() {
   clearFigure();
   std::vector<QStringList> rows;
-  if (ranges_.empty()) {
+  if (noise_.empty()) {
     showMessage(tr("no result yet"));
   } else {
-    drawCurve(true);
-    drawCurve(false);
-    showLegend({{LegendEntry::Sign::kLine, colors().series(0), tr("across the ray")},
-                {LegendEntry::Sign::kLine, colors().series(1), tr("along the ray")}});
+    for (const bool across : {true, false}) {
+      drawCurve(noise_, across);
+      if (!total_.empty()) drawCurve(total_, across);
+    }
+    std::vector<LegendEntry> entries = {
+        {LegendEntry::Sign::kLine, colors().series(0), tr("across the ray")},
+        {LegendEntry::Sign::kLine, colors().series(1), tr("along the ray")}};
+    if (!total_.empty())
+      entries.push_back({LegendEntry::Sign::kDashed, colors().text, tr("by noise alone")});
+    showLegend(std::move(entries));
   }
-  for (const RangeUncertainty& r : ranges_)
+  for (std::size_t k = 0; k < noise_.size(); ++k) {
+    const RangeUncertainty& r = noise_[k];
     rows.push_back({csv_number(r.range_m), csv_number(r.across_mm), csv_number(r.along_mm)});
-  setTable({"range_m", "across_mm", "along_mm"}, std::move(rows));
+    if (!total_.empty())
+      rows.back() << csv_number(total_[k].across_mm) << csv_number(total_[k].along_mm);
+  }
+  QStringList titles = {"range_m", "across_mm", "along_mm"};
+  if (!total_.empty())
+    titles << "across_total_mm"
+           << "along_total_mm";
+  setTable(titles, std::move(rows));
   replot(rpQueuedReplot);
 }
 

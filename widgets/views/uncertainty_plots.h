@@ -34,22 +34,24 @@ class UncertaintyMapPlot : public PlotView {
 };
 
 /// One standard deviation (mm) of a LiDAR point in the camera frame against its range, across the
-/// ray and along it.
+/// ray and along it: by noise alone, and in total where that is known.
 class UncertaintyRangePlot : public PlotView {
   Q_OBJECT
 
  public:
   explicit UncertaintyRangePlot(QWidget* parent = nullptr);
 
-  void setRanges(std::vector<RangeUncertainty> ranges);
+  /// `total`: of the same ranges, or nothing.
+  void setRanges(std::vector<RangeUncertainty> noise, std::vector<RangeUncertainty> total);
 
  protected:
   void rebuild() override;
 
  private:
-  void drawCurve(bool across);
+  void drawCurve(const std::vector<RangeUncertainty>& ranges, bool across);
 
-  std::vector<RangeUncertainty> ranges_;
+  std::vector<RangeUncertainty> noise_;
+  std::vector<RangeUncertainty> total_;
 };
 
 }  // namespace lvcalib::widgets

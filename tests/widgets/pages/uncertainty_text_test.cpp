@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "widgets/support/calibrated_demo.h"
+
 namespace lvcalib::widgets::uncertainty_text_test {
 namespace {
 
@@ -43,6 +45,29 @@ TEST(UncertaintyText, HalvesInfluenceAndProjectionWithTheirNumbers) {
   }
   result.uncertainty.splits[0].chi_square = 5.0;
   EXPECT_FALSE(text_of(result).contains("disagree"));
+}
+
+// Beside a pose that is stated to some millimetres, tenths of them must not stand alone.
+TEST(UncertaintyText, TheTotalStandsBesideTheNoise) {
+  const CalibrationResult& result = *test::calibrated_demo().result;
+  ASSERT_GT(result.covariance_total.trace(), 0.0);
+  const std::optional<UncertaintyReport> total = total_report(result);
+  ASSERT_TRUE(total);
+  ASSERT_EQ(total->by_range.size(), result.uncertainty.by_range.size());
+  ASSERT_EQ(total->maps.size(), 1U);
+  for (std::size_t k = 0; k < total->by_range.size(); ++k) {
+    // A point at this range ahead, moved by the six errors together.
+    const Eigen::Vector3d at(0.0, 0.0, total->by_range[k].range_m);
+    Eigen::Matrix<double, 3, 6> by_pose;
+    by_pose << Eigen::Matrix3d::Identity(), -skew(at);
+    const Eigen::Matrix3d spread = by_pose * result.covariance_total * by_pose.transpose();
+    EXPECT_NEAR(total->by_range[k].along_mm, 1e3 * std::sqrt(spread(2, 2)), 1e-6);
+    EXPECT_NEAR(total->by_range[k].across_mm, 1e3 * std::sqrt(spread(0, 0) + spread(1, 1)), 1e-6);
+    EXPECT_GT(total->by_range[k].across_mm, result.uncertainty.by_range[k].across_mm);
+  }
+  const QString text = text_of(result);
+  EXPECT_TRUE(text.contains(QString::number(total->by_range[1].along_mm, 'f', 2) + " mm"));
+  EXPECT_TRUE(text.contains("In total:")) << text.toStdString();
 }
 
 TEST(UncertaintyText, TooFewScenesAreSaid) {

@@ -88,7 +88,7 @@ TEST(UncertaintyMapPlot, NothingIsSaidToBeNothing) {
 TEST(UncertaintyRangePlot, ShowsBothCurvesOverTheirRange) {
   UncertaintyRangePlot plot;
   plot.resize(400, 300);
-  plot.setRanges({{2.0, 0.5, 0.2}, {10.0, 1.5, 0.3}, {50.0, 7.0, 0.9}});
+  plot.setRanges({{2.0, 0.5, 0.2}, {10.0, 1.5, 0.3}, {50.0, 7.0, 0.9}}, {});
   const auto rows = test::rows_of(plot.csv());
   ASSERT_EQ(rows.size(), 3);
   EXPECT_EQ(rows[1], "10,1.5,0.3");
@@ -96,8 +96,21 @@ TEST(UncertaintyRangePlot, ShowsBothCurvesOverTheirRange) {
   EXPECT_TRUE(plot.yAxis->range().contains(0.2) && plot.yAxis->range().contains(7.0));
   EXPECT_TRUE(test::shows(plot, plot.colors().series(0)));
   EXPECT_TRUE(test::shows(plot, plot.colors().series(1)));
-  plot.setRanges({});
+  plot.setRanges({}, {});
   EXPECT_TRUE(plot.csv().isEmpty());
+}
+
+TEST(UncertaintyRangePlot, TheTotalIsDrawnBesideItsNoise) {
+  UncertaintyRangePlot plot;
+  plot.resize(400, 300);
+  plot.setRanges({{2.0, 0.5, 0.2}, {10.0, 1.5, 0.3}}, {{2.0, 2.5, 1.2}, {10.0, 9.5, 1.3}});
+  EXPECT_TRUE(plot.csv().startsWith("range_m,across_mm,along_mm,across_total_mm,along_total_mm"));
+  EXPECT_EQ(test::rows_of(plot.csv())[1], "10,1.5,0.3,9.5,1.3");
+  EXPECT_TRUE(plot.yAxis->range().contains(0.2) && plot.yAxis->range().contains(9.5));
+  ASSERT_EQ(plot.graphCount(), 4);
+  int dashed = 0;
+  for (int k = 0; k < 4; ++k) dashed += plot.graph(k)->pen().style() == Qt::DashLine ? 1 : 0;
+  EXPECT_EQ(dashed, 2);
 }
 
 }  // namespace
