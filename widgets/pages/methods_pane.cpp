@@ -5,10 +5,13 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QTableWidget>
+#include <algorithm>
 
+#include "report/stored_model.h"
 #include "style/fitting.h"
 #include "style/texts.h"
 #include "views/category_plots.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -21,6 +24,23 @@ QString cell_text(double value, int decimals) {
 
 QString cell_text(const std::optional<double>& value, int decimals) {
   return value ? cell_text(*value, decimals) : QStringLiteral("–");
+}
+
+double distance_mm(const MethodResult& method, const CalibrationResult& result) {
+  return 1e3 * (method.camera_from_lidar.translation -
+                result.extrinsic.camera_from_lidar.transform.translation)
+                   .norm();
+}
+
+double distance_mrad(const MethodResult& method, const CalibrationResult& result) {
+  return 1e3 * rotation_distance_rad(method.camera_from_lidar,
+                                     result.extrinsic.camera_from_lidar.transform);
+}
+
+// By its pose: which method that is depends on whether every return could be solved for.
+bool is_the_result(const MethodResult& method, const CalibrationResult& result) {
+  constexpr double kSame = 1e-6;
+  return distance_mm(method, result) < kSame && distance_mrad(method, result) < kSame;
 }
 
 }  // namespace
@@ -79,9 +99,9 @@ MethodsPane::MethodsPane(QWidget* parent) : QWidget(parent) {
 
 // What the result says is set again by whoever owns it.
 void MethodsPane::retranslate() {
-  const QStringList titles = {tr("Method, centres"), tr("corners (px)"),     tr("nodes (mm)"),
-                              tr("transfer (px)"),   tr("held out (px)"),    tr("held out (mm)"),
-                              tr("from joint (mm)"), tr("from joint (mrad)")};
+  const QStringList titles = {tr("Method, centres"),  tr("corners (px)"),      tr("nodes (mm)"),
+                              tr("transfer (px)"),    tr("held out (px)"),     tr("held out (mm)"),
+                              tr("from result (mm)"), tr("from result (mrad)")};
   const QStringList tips = {
       tr("How the extrinsic is found, and from which circle centres: as initialised (raw) or as "
          "refined"),
@@ -91,8 +111,8 @@ void MethodsPane::retranslate() {
          "undiminished by the board poses"),
       tr("Corners of scenes that the method has not seen"),
       tr("Nodes of scenes that the method has not seen"),
-      tr("Distance of the LiDAR's origin to where the joint result has it"),
-      tr("Rotation against the joint result")};
+      tr("Distance of the LiDAR's origin to where the result has it"),
+      tr("Rotation against the result")};
   table_->setAccessibleName(tr("Methods side by side"));
   table_->setHorizontalHeaderLabels(titles);
   for (int k = 0; k < kMethodColumns; ++k) table_->horizontalHeaderItem(k)->setToolTip(tips[k]);
@@ -118,32 +138,44 @@ void MethodsPane::setResult(const CalibrationResult* result) {
     text = tr("This board has no circles: there are no nodes for the other methods.");
   } else {
     text = tr("All methods measured alike; scenes: %1.").arg(shown.methods.front().scenes.size());
+    text += ' ' + resultText(shown);
     if (!shown.methods.front().heldout_px)
       text += " " + tr("Not enough scenes for held-out residuals: two are needed.");
   }
   message_->setText(text);
-  fillTable(shown.methods);
+  fillTable(shown);
   fillBoxes(shown);
 }
 
-void MethodsPane::fillTable(const std::vector<MethodResult>& methods) {
+// Which row the result is: what stands beside it is read as its rival.
+QString MethodsPane::resultText(const CalibrationResult& result) {
+  const bool listed = std::any_of(result.methods.begin(), result.methods.end(),
+                                  [&](const MethodResult& m) { return is_the_result(m, result); });
+  return listed ? tr("Bold: the result.")
+                : tr("The result is of another model, %1, which is not among them.")
+                      .arg(core_text(pose_use(result).model));
+}
+
+void MethodsPane::fillTable(const CalibrationResult& result) {
+  const std::vector<MethodResult>& methods = result.methods;
   table_->setRowCount(static_cast<int>(methods.size()));
   for (std::size_t k = 0; k < methods.size(); ++k) {
     const MethodResult& m = methods[k];
-    const bool joint = m.name == "joint_refined";
-    const QStringList cells = {method_title(m.name),
-                               cell_text(m.rms_px, 3),
-                               cell_text(m.rms_mm, 2),
-                               cell_text(m.transfer_px, 3),
-                               cell_text(m.heldout_px, 3),
-                               cell_text(m.heldout_mm, 2),
-                               joint ? QStringLiteral("–") : cell_text(m.translation_mm, 2),
-                               joint ? QStringLiteral("–") : cell_text(m.rotation_mrad, 3)};
+    const bool chosen = is_the_result(m, result);
+    const QStringList cells = {
+        method_title(m.name),
+        cell_text(m.rms_px, 3),
+        cell_text(m.rms_mm, 2),
+        cell_text(m.transfer_px, 3),
+        cell_text(m.heldout_px, 3),
+        cell_text(m.heldout_mm, 2),
+        chosen ? QStringLiteral("–") : cell_text(distance_mm(m, result), 2),
+        chosen ? QStringLiteral("–") : cell_text(distance_mrad(m, result), 3)};
     for (int c = 0; c < cells.size(); ++c) {
       auto* item = new QTableWidgetItem(cells[c]);
       item->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
       QFont font = item->font();
-      font.setBold(joint);
+      font.setBold(chosen);
       item->setFont(font);
       table_->setItem(static_cast<int>(k), c, item);
     }

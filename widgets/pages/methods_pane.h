@@ -31,7 +31,8 @@ class MethodsPane : public QWidget {
 
  private:
   void retranslate();
-  void fillTable(const std::vector<MethodResult>& methods);
+  static QString resultText(const CalibrationResult& result);
+  void fillTable(const CalibrationResult& result);
   void fillBoxes(const CalibrationResult& result);
 
   QLabel* message_ = nullptr;

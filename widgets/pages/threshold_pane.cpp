@@ -90,9 +90,9 @@ double ThresholdPane::presentGate() const {
 void ThresholdPane::retranslate() {
   intro_->setText(tr(
       "What tags and circles miss the board's final pose by, in standard deviations. Red ones are "
-      "left out. The solve judged them on its way there, so that one that it kept may lie a little "
-      "beyond the line. Drag the line (or use the arrow keys) to see what another place would "
-      "do."));
+      "left out. Hatched ones lie beyond the line and are in use all the same: they were judged "
+      "against the poses that tags and circles give alone, and every return has moved these since. "
+      "Drag the line (or use the arrow keys) to see what another place would do."));
   tags_->setValueLabel(tr("a tag's worst corner (σ)"), QStringLiteral("worst_corner_sigmas"));
   circles_->setValueLabel(tr("a circle's centre (σ)"), QStringLiteral("circle_sigmas"));
   for (ThresholdPlot* plot : {tags_, circles_})
@@ -152,7 +152,10 @@ QString ThresholdPane::moveText(const CalibrationResult& present,
                                 const CalibrationResult& preview) {
   const ExtrinsicDifference d =
       difference_of(stated_result(present).extrinsic, stated_result(preview).extrinsic);
-  const Matrix6d& covariance = preview.extrinsic.camera_from_lidar.covariance;
+  // What the page beside it states, where that is known.
+  const Matrix6d& covariance = preview.covariance_total.trace() > 0.0
+                                   ? preview.covariance_total
+                                   : preview.extrinsic.camera_from_lidar.covariance;
   return tr("The extrinsic would move by %1 mm and %2 mrad; it would be known to %3 mm and %4 "
             "mrad.")
       .arg(d.translation_mm, 0, 'f', 3)
@@ -179,7 +182,7 @@ void ThresholdPane::setPreview(const CalibrationResult& present, const Calibrati
                    .arg(r.id);
     }
     if (more > 0) names << tr("%n more", nullptr, more);
-    return names.join(QStringLiteral(", "));
+    return names.join(tr(", "));
   };
   QString text = tr("With %1 σ, %2 tags and circles are left out (now %3).")
                      .arg(preview.options.extrinsic.rejection_gate, 0, 'f', 1)

@@ -63,29 +63,33 @@ void ThresholdPlot::rebuild() {
   const double top = reach();
   const double width = top / kBins;
   std::vector<int> within(kBins, 0);
+  std::vector<int> kept(kBins, 0);  // Beyond the line and in use: whoever decided saw them nearer.
   std::vector<int> beyond(kBins, 0);
   std::vector<QStringList> rows;
   for (std::size_t k = 0; k < values_.size(); ++k) {
     const double value = values_[k];
     const bool refused = refused_.empty() ? value > threshold_ : refused_[k];
     const int bin = std::clamp(static_cast<int>(value / width), 0, kBins - 1);
-    ++(refused ? beyond : within)[static_cast<std::size_t>(bin)];
+    ++(refused ? beyond : value > threshold_ ? kept : within)[static_cast<std::size_t>(bin)];
     rows.push_back({csv_number(value), refused ? "1" : "0"});
   }
   int most = 1;
   for (int k = 0; k < kBins; ++k) {
     const auto bin = static_cast<std::size_t>(k);
-    most = std::max(most, within[bin] + beyond[bin]);
-    const auto bar = [&](int from, int to, const QColor& color) {
-      if (to == from) return;
+    int from = 0;
+    const auto bar = [&](int count, const QBrush& brush, const QColor& edge) {
+      if (count == 0) return;
       auto* rect = new QCPItemRect(this);
-      rect->topLeft->setCoords(k * width, to);
+      rect->topLeft->setCoords(k * width, from + count);
       rect->bottomRight->setCoords((k + 1) * width, from);
-      rect->setBrush(color);
-      rect->setPen(QPen(colors().background, 0.5));
+      rect->setBrush(brush);
+      rect->setPen(QPen(edge, 0.5));
+      from += count;
     };
-    bar(0, within[bin], colors().fill);
-    bar(within[bin], within[bin] + beyond[bin], colors().refused);
+    bar(within[bin], colors().fill, colors().background);
+    bar(kept[bin], QBrush(colors().fill, Qt::BDiagPattern), colors().fill);
+    bar(beyond[bin], colors().refused, colors().background);
+    most = std::max(most, from);
   }
   auto* line = new QCPItemStraightLine(this);
   line->point1->setCoords(threshold_, 0.0);

@@ -37,16 +37,34 @@ TEST(MethodsPane, TenMethodsWithTheResultsNumbers) {
     EXPECT_NEAR(table->item(k, 2)->text().toDouble(), m.rms_mm, 6e-3);
     ASSERT_TRUE(m.heldout_px);
     EXPECT_NEAR(table->item(k, 4)->text().toDouble(), *m.heldout_px, 6e-4);
-    const bool joint = m.name == "joint_refined";
-    EXPECT_EQ(table->item(k, 6)->text() == "–", joint);
-    if (!joint) {
-      EXPECT_NEAR(table->item(k, 6)->text().toDouble(), m.translation_mm, 6e-3);
+    // Bold is what the page beside it states, and distances are from that.
+    const bool chosen = m.name == "forward_model";
+    EXPECT_EQ(table->item(k, 0)->font().bold(), chosen) << m.name;
+    EXPECT_EQ(table->item(k, 6)->text() == "–", chosen) << m.name;
+    if (!chosen) {
+      const Rigid3& pose = result.extrinsic.camera_from_lidar.transform;
+      EXPECT_NEAR(table->item(k, 6)->text().toDouble(),
+                  1e3 * (m.camera_from_lidar.translation - pose.translation).norm(), 6e-3);
     }
     for (const MethodScene& scene : m.scenes) corners += scene.errors_px.size();
   }
   const auto boxes = pane.findChildren<BoxPlot*>();
   ASSERT_EQ(boxes.size(), 2);
   EXPECT_EQ(boxes[0]->csv().count('\n'), static_cast<qsizetype>(corners) + 1);
+}
+
+TEST(MethodsPane, AResultThatIsNotAmongThemIsSaid) {
+  CalibrationResult result = *test::calibrated_demo().result;
+  ASSERT_TRUE(result.forward);
+  MethodsPane pane;
+  const auto* message = pane.findChild<QLabel*>("methods-message");
+  pane.setResult(&result);
+  EXPECT_TRUE(message->text().contains("Bold: the result")) << message->text().toStdString();
+  result.extrinsic.camera_from_lidar.transform.translation.x() += 0.01;
+  pane.setResult(&result);
+  EXPECT_TRUE(message->text().contains("Base model")) << message->text().toStdString();
+  const auto* table = pane.findChild<QTableWidget*>("methods");
+  for (int k = 0; k < table->rowCount(); ++k) EXPECT_FALSE(table->item(k, 0)->font().bold());
 }
 
 TEST(MethodsPane, WhatIsMissingIsSaid) {

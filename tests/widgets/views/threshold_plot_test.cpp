@@ -52,6 +52,23 @@ TEST_F(ThresholdPlotTest, WhatIsRefusedIsSaidByTheSolveUntilTheLineMoves) {
   EXPECT_EQ(refused(), 2);
 }
 
+// A full bar beyond the line would contradict the line.
+TEST_F(ThresholdPlotTest, WhatIsKeptBeyondTheLineIsHatched) {
+  const auto brushes = [&](Qt::BrushStyle style) {
+    int out = 0;
+    for (int k = 0; k < plot_.itemCount(); ++k) {
+      const auto* rect = qobject_cast<QCPItemRect*>(plot_.item(k));
+      out += rect != nullptr && rect->brush().style() == style ? 1 : 0;
+    }
+    return out;
+  };
+  plot_.setValues({0.5, 4.0, 6.0, 7.0}, {}, {false, false, false, true});
+  EXPECT_EQ(brushes(Qt::BDiagPattern), 1);
+  EXPECT_EQ(brushes(Qt::SolidPattern), 3);
+  QTest::keyClick(&plot_, Qt::Key_Right);
+  EXPECT_EQ(brushes(Qt::BDiagPattern), 0) << "nobody has kept it there yet";
+}
+
 TEST_F(ThresholdPlotTest, ADragElsewhereMovesNoLine) {
   QTest::mousePress(&plot_, Qt::LeftButton, {}, at(2.0));
   QTest::mouseMove(&plot_, at(1.0));
