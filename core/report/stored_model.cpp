@@ -30,128 +30,130 @@ ordered_json scales_json(const ModelScales& scales) {
           {"lines", scales.lines}};
 }
 
-class Reader {
- public:
-  Reader(const nlohmann::json& model, std::string file) : model_(model), file_(std::move(file)) {}
+Error unusable(const std::string& file, const std::string& key, const Message& what) {
+  return Error::input(Message("%1 %2", key, what), file, Message("run lvcalib discover again"));
+}
 
-  Result<StoredModel> run() {
-    const auto effects = model_.find("effects");
-    if (effects == model_.end() || !effects->is_array())
-      return error("model.effects", Message("is missing or not a list"));
-    if (effects->empty()) return out_;
-    if (Status s = read_scales(); !s) return s.error();
-    for (std::size_t k = 0; k < effects->size(); ++k) {
-      if (Status s = read_effect((*effects)[k], "model.effects[" + std::to_string(k) + "]"); !s)
-        return s.error();
+Error unknown_effect(const std::string& file, const std::string& id, const std::string& where) {
+  std::vector<std::string> known;
+  for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
+  const std::string nearest = nearest_word(id, known);
+  return Error::input(
+      nearest.empty()
+          ? Message("%1.id is '%2', which is no effect that this version knows", where, id)
+          : Message("%1.id is '%2', which is no effect that this version knows; did you mean '%3'?",
+                    where, id, nearest),
+      file, Message("use the version that wrote the file, or run lvcalib discover again"));
+}
+
+std::optional<double> number(const nlohmann::json& j, const char* key) {
+  const auto at = j.find(key);
+  if (at == j.end() || !at->is_number()) return std::nullopt;
+  const double value = at->get<double>();
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+Result<std::vector<int>> read_lines(const nlohmann::json& scales, const std::string& file) {
+  std::vector<int> out;
+  const auto lines = scales.find("lines");
+  if (lines == scales.end() || !lines->is_array())
+    return unusable(file, "model.scales.lines", Message("is missing or not a list"));
+  for (const nlohmann::json& line : *lines) {
+    if (!line.is_number_integer())
+      return unusable(file, "model.scales.lines", Message("is no list of numbers"));
+    const int value = line.get<int>();
+    if (!out.empty() && value <= out.back())
+      return unusable(file, "model.scales.lines", Message("is not in ascending order"));
+    out.push_back(value);
+  }
+  return out;
+}
+
+Result<ModelScales> read_scales(const nlohmann::json& model, const std::string& file) {
+  ModelScales out;
+  const auto scales = model.find("scales");
+  if (scales == model.end() || !scales->is_object())
+    return unusable(file, "model.scales",
+                    Message("is missing: the file tells values but not what they refer to"));
+  const char* const keys[] = {"white_level", "black_level", "log_contrast",
+                              "largest_incidence_rad"};
+  double* const values[] = {&out.level[0], &out.level[1], &out.log_contrast,
+                            &out.incidence_high_rad};
+  for (std::size_t k = 0; k < std::size(keys); ++k) {
+    const auto value = number(*scales, keys[k]);
+    if (!value)
+      return unusable(file, std::string("model.scales.") + keys[k], Message("is no number"));
+    *values[k] = *value;
+  }
+  const auto darkness = scales->find("darkness");
+  if (darkness == scales->end() || !darkness->is_array() || darkness->size() != 2 ||
+      !(*darkness)[0].is_number() || !(*darkness)[1].is_number())
+    return unusable(file, "model.scales.darkness", Message("is not two numbers"));
+  out.darkness_low = (*darkness)[0];
+  out.darkness_high = (*darkness)[1];
+  if (!(out.darkness_low <= out.darkness_high))
+    return unusable(file, "model.scales.darkness", Message("is not in ascending order"));
+  auto lines = read_lines(*scales, file);
+  if (!lines) return lines.error();
+  out.lines = std::move(*lines);
+  return out;
+}
+
+Result<EffectInUse> read_effect(const nlohmann::json& j, const ModelScales& scales,
+                                const std::string& file, const std::string& where) {
+  if (!j.is_object() || !j.contains("id") || !j["id"].is_string())
+    return unusable(file, where + ".id", Message("is missing"));
+  const std::string id = j["id"].get<std::string>();
+  EffectInUse use;
+  if (j.contains("spec") && j["spec"].is_string()) {
+    auto own = make_user_effect(j["spec"].get<std::string>());
+    if (!own)
+      return unusable(file, where + ".spec",
+                      Message("is no formula or curve: %1", own.error().message));
+    use.effect = *own;
+  } else {
+    use.effect = find_effect(id);
+  }
+  if (!use.effect) return unknown_effect(file, id, where);
+  use.shape = number(j, "shape").value_or(0.0);
+  const auto parameters = use.effect->parameters(empty_table(scales));
+  use.values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  if (!j.contains("parameters") || !j["parameters"].is_array() ||
+      j["parameters"].size() != parameters.size())
+    return unusable(
+        file, where + ".parameters",
+        Message("is not the list of %1 parameters that '%2' has", parameters.size(), id));
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const nlohmann::json& p = j["parameters"][k];
+    const EffectParameter& expected = parameters[k];
+    const auto value = p.is_object() ? number(p, "value") : std::nullopt;
+    if (!value || p.value("name", nlohmann::json()) != expected.name ||
+        p.value("unit", nlohmann::json()) != expected.unit) {
+      return unusable(file, where + ".parameters[" + std::to_string(k) + "]",
+                      Message("is not a value of '%1' in %2", expected.name, expected.unit));
     }
-    return std::move(out_);
+    use.values(static_cast<Eigen::Index>(k)) = *value * expected.unit_in_si;
   }
+  return use;
+}
 
- private:
-  [[nodiscard]] Error error(const std::string& key, const Message& what) const {
-    return Error::input(Message("%1 %2", key, what), file_, Message("run lvcalib discover again"));
+Result<StoredModel> read_stored(const nlohmann::json& model, const std::string& file) {
+  StoredModel out;
+  const auto effects = model.find("effects");
+  if (effects == model.end() || !effects->is_array())
+    return unusable(file, "model.effects", Message("is missing or not a list"));
+  if (effects->empty()) return out;
+  auto scales = read_scales(model, file);
+  if (!scales) return scales.error();
+  out.scales = std::move(*scales);
+  for (std::size_t k = 0; k < effects->size(); ++k) {
+    const std::string where = "model.effects[" + std::to_string(k) + "]";
+    auto effect = read_effect((*effects)[k], out.scales, file, where);
+    if (!effect) return effect.error();
+    out.effects.push_back(std::move(*effect));
   }
-
-  static std::optional<double> number(const nlohmann::json& j, const char* key) {
-    const auto at = j.find(key);
-    if (at == j.end() || !at->is_number()) return std::nullopt;
-    const double value = at->get<double>();
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
-  }
-
-  Status read_scales() {
-    const auto scales = model_.find("scales");
-    if (scales == model_.end() || !scales->is_object())
-      return error("model.scales",
-                   Message("is missing: the file tells values but not what they refer to"));
-    const char* const keys[] = {"white_level", "black_level", "log_contrast",
-                                "largest_incidence_rad"};
-    double* const values[] = {&out_.scales.level[0], &out_.scales.level[1],
-                              &out_.scales.log_contrast, &out_.scales.incidence_high_rad};
-    for (std::size_t k = 0; k < std::size(keys); ++k) {
-      const auto value = number(*scales, keys[k]);
-      if (!value) return error(std::string("model.scales.") + keys[k], Message("is no number"));
-      *values[k] = *value;
-    }
-    const auto darkness = scales->find("darkness");
-    if (darkness == scales->end() || !darkness->is_array() || darkness->size() != 2 ||
-        !(*darkness)[0].is_number() || !(*darkness)[1].is_number())
-      return error("model.scales.darkness", Message("is not two numbers"));
-    out_.scales.darkness_low = (*darkness)[0];
-    out_.scales.darkness_high = (*darkness)[1];
-    if (!(out_.scales.darkness_low <= out_.scales.darkness_high))
-      return error("model.scales.darkness", Message("is not in ascending order"));
-    return read_lines(*scales);
-  }
-
-  Status read_lines(const nlohmann::json& scales) {
-    const auto lines = scales.find("lines");
-    if (lines == scales.end() || !lines->is_array())
-      return error("model.scales.lines", Message("is missing or not a list"));
-    for (const nlohmann::json& line : *lines) {
-      if (!line.is_number_integer())
-        return error("model.scales.lines", Message("is no list of numbers"));
-      const int value = line.get<int>();
-      if (!out_.scales.lines.empty() && value <= out_.scales.lines.back())
-        return error("model.scales.lines", Message("is not in ascending order"));
-      out_.scales.lines.push_back(value);
-    }
-    return Done{};
-  }
-
-  Status read_effect(const nlohmann::json& j, const std::string& where) {
-    if (!j.is_object() || !j.contains("id") || !j["id"].is_string())
-      return error(where + ".id", Message("is missing"));
-    const std::string id = j["id"].get<std::string>();
-    EffectInUse use;
-    if (j.contains("spec") && j["spec"].is_string()) {
-      auto own = make_user_effect(j["spec"].get<std::string>());
-      if (!own)
-        return error(where + ".spec", Message("is no formula or curve: %1", own.error().message));
-      use.effect = *own;
-    } else {
-      use.effect = find_effect(id);
-    }
-    if (!use.effect) return unknown(id, where);
-    use.shape = number(j, "shape").value_or(0.0);
-    const auto parameters = use.effect->parameters(empty_table(out_.scales));
-    use.values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
-    if (!j.contains("parameters") || !j["parameters"].is_array() ||
-        j["parameters"].size() != parameters.size())
-      return error(where + ".parameters", Message("is not the list of %1 parameters that '%2' has",
-                                                  parameters.size(), id));
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      const nlohmann::json& p = j["parameters"][k];
-      const EffectParameter& expected = parameters[k];
-      const auto value = p.is_object() ? number(p, "value") : std::nullopt;
-      if (!value || p.value("name", nlohmann::json()) != expected.name ||
-          p.value("unit", nlohmann::json()) != expected.unit) {
-        return error(where + ".parameters[" + std::to_string(k) + "]",
-                     Message("is not a value of '%1' in %2", expected.name, expected.unit));
-      }
-      use.values(static_cast<Eigen::Index>(k)) = *value * expected.unit_in_si;
-    }
-    out_.effects.push_back(std::move(use));
-    return Done{};
-  }
-
-  [[nodiscard]] Error unknown(const std::string& id, const std::string& where) const {
-    std::vector<std::string> known;
-    for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
-    const std::string nearest = nearest_word(id, known);
-    return Error::input(
-        nearest.empty()
-            ? Message("%1.id is '%2', which is no effect that this version knows", where, id)
-            : Message(
-                  "%1.id is '%2', which is no effect that this version knows; did you mean '%3'?",
-                  where, id, nearest),
-        file_, Message("use the version that wrote the file, or run lvcalib discover again"));
-  }
-
-  const nlohmann::json& model_;
-  std::string file_;
-  StoredModel out_;
-};
+  return out;
+}
 
 }  // namespace
 
@@ -177,8 +179,7 @@ nlohmann::ordered_json model_json(const CalibrationResult& result) {
 }
 
 Result<StoredModel> model_of(const CalibrationResult& result) {
-  const nlohmann::json model = model_json(result);
-  return Reader(model, "model").run();
+  return read_stored(model_json(result), "model");
 }
 
 Result<StoredModel> model_in(const std::string& result_json, const std::string& where) {
@@ -191,7 +192,7 @@ Result<StoredModel> model_in(const std::string& result_json, const std::string& 
     return Error::input(Message("holds no model"), where,
                         Message("give the result.json that lvcalib discover wrote"));
   }
-  return Reader(*model, where).run();
+  return read_stored(*model, where);
 }
 
 Result<StoredModel> read_model(const std::filesystem::path& path) {
