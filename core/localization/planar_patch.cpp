@@ -260,85 +260,60 @@ double measure_plane_noise(const VoxelCloud& cloud, const std::vector<std::uint3
   return deviations.empty() ? tolerance / 3.0 : quantile(std::move(deviations), 0.75);
 }
 
-class PatchFinder {
- public:
-  PatchFinder(const VoxelCloud& cloud, const PatchSearchOptions& options)
-      : cloud_(cloud),
-        options_(options),
-        short_side_(std::min(options.board_width_m, options.board_height_m)),
-        diagonal_(std::hypot(options.board_width_m, options.board_height_m)) {}
-
-  std::vector<PlanarPatch> run(const RunContext& context) {
-    const auto seeds = cloud_.cell_representatives();
-    const double radius = 0.3 * short_side_;
-    // A first tolerance from geometry: what still looks flat at the board's size.
-    const double first = 0.03 * short_side_;
-    tolerance_ = options_.plane_tolerance_m > 0
-                     ? options_.plane_tolerance_m
-                     : std::clamp(3.0 * measure_plane_noise(cloud_, seeds, radius, first),
-                                  0.3 * first, 2.0 * first);
-    for (const PatchConnection& connection : options_.connections) {
-      covered_.assign(cloud_.voxels().size(), 0);
-      for (const auto seed : seeds) {
-        if (context.stopped()) return {};
-        if (covered_[seed] != 0) continue;
-        cloud_.neighbours(cloud_.voxels()[seed].mean_m, radius, ids_);
-        if (auto plane = majority_plane(cloud_, ids_, tolerance_, seed))
-          grow(seed, *plane, connection);
-      }
-    }
-    return std::move(patches_);
-  }
-
- private:
-  void grow(std::uint32_t seed, LocalPlane plane, const PatchConnection& connection) {
-    const Eigen::Vector3d seed_point = cloud_.voxels()[seed].mean_m.cast<double>();
-    if (std::abs(plane.normal.dot(seed_point.normalized())) < kMinCosIncidence) return;
-    const double reach = 1.1 * diagonal_;
-    cloud_.neighbours(cloud_.voxels()[seed].mean_m, reach, ids_);
-    PlanarPatch patch;
-    // Twice: the first plane comes from a small neighbourhood, the second from the whole patch.
-    for (int round = 0; round < 2; ++round) {
-      patch.normal = plane.normal;
-      patch.center_m = plane.center;
-      plane_basis(patch.normal, patch.axis_u, patch.axis_v);
-      const auto near = within(cloud_, ids_, plane, tolerance_);
-      patch.voxels = connected_part(cloud_, near, patch, patch.to_plane(seed_point), connection,
-                                    connection.gap * short_side_, reach);
-      const auto refit = least_squares_plane(cloud_, patch.voxels);
-      if (!refit || patch.voxels.size() < kMinNeighbours) return;
-      plane = *refit;
-    }
-    for (const auto i : patch.voxels) covered_[i] = 1;
-    finish(patch, seed_point, reach);
-  }
-
-  void finish(PlanarPatch& patch, const Eigen::Vector3d& seed_point, double reach) {
-    std::vector<double> distance;
-    double farthest = 0.0;
-    for (const auto i : patch.voxels) {
-      const Eigen::Vector3d p = cloud_.voxels()[i].mean_m.cast<double>();
-      distance.push_back(std::abs(patch.normal.dot(p - patch.center_m)));
-      farthest = std::max(farthest, (p - seed_point).norm());
-    }
-    patch.thickness_m = 1.4826 * median(std::move(distance));
-    patch.open = farthest > 0.97 * reach;
-    // An open patch is at least as large as what was searched.
-    patch.extent_m =
-        patch.open ? Eigen::Vector2d::Constant(2.0 * reach) : bounding_sides(cloud_, patch);
-    if (patch.extent_m.y() < options_.smallest_side * short_side_) return;
-    patches_.push_back(std::move(patch));
-  }
-
-  const VoxelCloud& cloud_;
-  const PatchSearchOptions& options_;
-  double short_side_;
-  double diagonal_;
-  double tolerance_ = 0.0;
-  std::vector<char> covered_;
-  std::vector<std::uint32_t> ids_;
-  std::vector<PlanarPatch> patches_;
+// How patches are grown.
+struct PatchGrowth {
+  const VoxelCloud& cloud;
+  double tolerance;
+  double short_side;
+  double reach;
 };
+
+// Of planes: from their noise, within what still looks flat at the board's size.
+double tolerance_of(const VoxelCloud& cloud, const std::vector<std::uint32_t>& seeds,
+                    double short_side, double radius) {
+  const double first = 0.03 * short_side;
+  return std::clamp(3.0 * measure_plane_noise(cloud, seeds, radius, first), 0.3 * first,
+                    2.0 * first);
+}
+
+// The patch about a seed, its extent not measured yet.
+std::optional<PlanarPatch> grow(const PatchGrowth& by, std::uint32_t seed, LocalPlane plane,
+                                const PatchConnection& connection) {
+  const Eigen::Vector3d seed_point = by.cloud.voxels()[seed].mean_m.cast<double>();
+  if (std::abs(plane.normal.dot(seed_point.normalized())) < kMinCosIncidence) return std::nullopt;
+  std::vector<std::uint32_t> ids;
+  by.cloud.neighbours(by.cloud.voxels()[seed].mean_m, by.reach, ids);
+  PlanarPatch patch;
+  // Twice: the first plane comes from a small neighbourhood, the second from the whole patch.
+  for (int round = 0; round < 2; ++round) {
+    patch.normal = plane.normal;
+    patch.center_m = plane.center;
+    plane_basis(patch.normal, patch.axis_u, patch.axis_v);
+    const auto near = within(by.cloud, ids, plane, by.tolerance);
+    patch.voxels = connected_part(by.cloud, near, patch, patch.to_plane(seed_point), connection,
+                                  connection.gap * by.short_side, by.reach);
+    const auto refit = least_squares_plane(by.cloud, patch.voxels);
+    if (!refit || patch.voxels.size() < kMinNeighbours) return std::nullopt;
+    plane = *refit;
+  }
+  return patch;
+}
+
+void measure(const PatchGrowth& by, std::uint32_t seed, PlanarPatch& patch) {
+  const Eigen::Vector3d seed_point = by.cloud.voxels()[seed].mean_m.cast<double>();
+  std::vector<double> distance;
+  double farthest = 0.0;
+  for (const auto i : patch.voxels) {
+    const Eigen::Vector3d p = by.cloud.voxels()[i].mean_m.cast<double>();
+    distance.push_back(std::abs(patch.normal.dot(p - patch.center_m)));
+    farthest = std::max(farthest, (p - seed_point).norm());
+  }
+  patch.thickness_m = 1.4826 * median(std::move(distance));
+  patch.open = farthest > 0.97 * by.reach;
+  // An open patch is at least as large as what was searched.
+  patch.extent_m =
+      patch.open ? Eigen::Vector2d::Constant(2.0 * by.reach) : bounding_sides(by.cloud, patch);
+}
 
 }  // namespace
 
@@ -354,7 +329,32 @@ std::vector<PlanarPatch> find_planar_patches(const VoxelCloud& cloud,
                                              const PatchSearchOptions& options,
                                              const RunContext& context) {
   if (cloud.voxels().empty()) return {};
-  return PatchFinder(cloud, options).run(context);
+  const double short_side = std::min(options.board_width_m, options.board_height_m);
+  const double radius = 0.3 * short_side;
+  const auto seeds = cloud.cell_representatives();
+  const double tolerance = options.plane_tolerance_m > 0
+                               ? options.plane_tolerance_m
+                               : tolerance_of(cloud, seeds, short_side, radius);
+  const PatchGrowth by{cloud, tolerance, short_side,
+                       1.1 * std::hypot(options.board_width_m, options.board_height_m)};
+  std::vector<PlanarPatch> out;
+  std::vector<std::uint32_t> ids;
+  for (const PatchConnection& connection : options.connections) {
+    std::vector<char> covered(cloud.voxels().size(), 0);
+    for (const auto seed : seeds) {
+      if (context.stopped()) return {};
+      if (covered[seed] != 0) continue;
+      cloud.neighbours(cloud.voxels()[seed].mean_m, radius, ids);
+      const auto plane = majority_plane(cloud, ids, tolerance, seed);
+      auto patch = plane ? grow(by, seed, *plane, connection) : std::nullopt;
+      if (!patch) continue;
+      for (const auto i : patch->voxels) covered[i] = 1;
+      measure(by, seed, *patch);
+      if (patch->extent_m.y() < options.smallest_side * short_side) continue;
+      out.push_back(std::move(*patch));
+    }
+  }
+  return out;
 }
 
 }  // namespace lvcalib
