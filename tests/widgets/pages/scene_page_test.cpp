@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pages/scene_page.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QComboBox>
 #include <QLabel>
@@ -151,6 +152,13 @@ TEST_F(ScenePageTest, LettersInAListAreTheLists) {
   QTest::keyClick(colors, Qt::Key_C);
   EXPECT_FALSE(crop->isChecked());
   EXPECT_EQ(colors->currentText(), "Camera colour");
+  // Nor while it is open.
+  auto* brush = page_.findChild<QAction*>("cloud-brush");
+  colors->showPopup();
+  for (const Qt::Key key : {Qt::Key_C, Qt::Key_L, Qt::Key_T}) QTest::keyClick(colors->view(), key);
+  colors->hidePopup();
+  EXPECT_FALSE(crop->isChecked());
+  EXPECT_FALSE(brush->isChecked());
 }
 
 TEST_F(ScenePageTest, TheBoardIsKnownToTheViewAndDistancesAreMeasured) {

@@ -2,6 +2,7 @@
 #include "views/cloud_view.h"
 
 #include <QAction>
+#include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QMenu>
@@ -15,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "pages/cloud_pane.h"
 #include "support/timing.h"
 #include "views/cloud_scene_builder.h"
 #include "widgets/views/plots_test.h"
@@ -176,6 +178,75 @@ TEST_F(CloudViewTest, FliesFromViewToView) {
   QTest::keyClick(view_.canvas(), Qt::Key_Plus);
   ASSERT_TRUE(settle());
   EXPECT_LT((view_.canvas()->pipeline().viewer().focus_m - start.focus_m).norm(), 1e-6);
+}
+
+// Whole before the board is found, and the board large in the middle from then on; a viewer who has
+// turned away stays where he is when the same cloud is coloured anew.
+TEST_F(CloudViewTest, TheBoardIsFramedOnceItIsFound) {
+  const auto cloud = wall(50'000);
+  view_.setScene(scene_of(cloud));
+  ASSERT_TRUE(settle());
+  EXPECT_LT((view_.canvas()->pipeline().viewer().focus_m - view_.scene()->center_m).norm(), 0.2);
+  auto found = std::make_shared<CloudScene>(*scene_of(cloud));
+  found->board_center_m = {3.0, 1.2, -0.8};
+  found->board_radius_m = 0.5;
+  found->board_normal = -Eigen::Vector3d::UnitX();
+  view_.setScene(found);
+  ASSERT_TRUE(settle());
+  const auto in_view = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector4d clip = view_.canvas()->pipeline().clipFromWorld() * p.homogeneous();
+    return Eigen::Vector2d(clip.x() / clip.w(), clip.y() / clip.w());
+  };
+  EXPECT_LT(in_view(found->board_center_m).norm(), 0.1);
+  for (const double side : {-1.0, 1.0}) {
+    const double reach = in_view(found->board_center_m + Eigen::Vector3d(0, 0, 0.5 * side)).norm();
+    EXPECT_GT(reach, 0.4);
+    EXPECT_LT(reach, 1.0);
+  }
+  QTest::keyClick(view_.canvas(), Qt::Key_Left);
+  ASSERT_TRUE(settle());
+  const Viewer turned = view_.canvas()->pipeline().viewer();
+  view_.setScene(std::make_shared<CloudScene>(*found));
+  ASSERT_TRUE(settle());
+  EXPECT_LT((view_.canvas()->pipeline().viewer().eye_m - turned.eye_m).norm(), 1e-9);
+}
+
+TEST_F(CloudViewTest, PointSizeAxesAndGridAreChosenInTheToolBar) {
+  CloudPane pane;
+  pane.setPalette(test::palette_of(true));
+  pane.resize(700, 560);
+  pane.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&pane));
+  CloudSceneInput input;
+  input.full = wall(2000);
+  pane.setInput(std::move(input), {});
+  CloudView* view = pane.view();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return view->scene() != nullptr; }, 10'000));
+  const auto picture = [&] {
+    QTest::qWait(50);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return view->canvas()->complete(); }, 10'000));
+    return view->canvas()->grabFramebuffer();
+  };
+  const auto inked = [](const QImage& image) {
+    const QRgb ground = image.pixel(0, 0);
+    int out = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) out += image.pixel(x, y) != ground ? 1 : 0;
+    }
+    return out;
+  };
+  const QImage small = picture();
+  auto* size = pane.findChild<QDoubleSpinBox*>("cloud-point-size");
+  ASSERT_NE(size, nullptr);
+  size->setValue(6.0);
+  EXPECT_GT(inked(picture()), 3 * inked(small));
+  size->setValue(CloudView::kPointSize_px);
+  auto* axes = pane.findChild<QAction*>("cloud-axes");
+  ASSERT_NE(axes, nullptr);
+  axes->setChecked(true);
+  EXPECT_GT(inked(picture()), inked(small) + 500);
+  axes->setChecked(false);
+  EXPECT_EQ(inked(picture()), inked(small));
 }
 
 TEST_F(CloudViewTest, SaysWhenTheBoardIsSeenFromBehind) {
