@@ -11,6 +11,14 @@
 
 namespace lvcalib {
 
+/// What a solve by features is given, and functions of it pass on.
+struct FeatureInput {
+  const std::vector<SceneObservations>& scenes;
+  const Camera& camera;
+  const Target& target;
+  const ExtrinsicOptions& options;
+};
+
 /// Standard deviations that the joint objective uses, estimated from round to round.
 struct NoiseScales {
   double sigma_px = 0.1;

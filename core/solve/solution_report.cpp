@@ -37,122 +37,91 @@ Message describe_direction(const Vector6d& direction, double ratio, bool determi
                  std::lround(ratio), advice[main]);
 }
 
-class SolutionReport {
- public:
-  SolutionReport(const RobustFit& fit, const std::vector<SceneObservations>& scenes,
-                 const Camera& camera, const Target& target, const ExtrinsicOptions& options)
-      : fit_(fit), scenes_(scenes), camera_(camera), target_(target), options_(options) {}
-
-  ExtrinsicSolution run(bool leaving_out) const {
-    ExtrinsicSolution solution;
-    solution.camera_from_lidar.transform = fit_.fit.state.camera_from_lidar;
-    solution.sigma_px = fit_.scales.sigma_px;
-    solution.node_scale = fit_.scales.node;
-    solution.plane_scale = fit_.scales.plane;
-    solution.iterations = fit_.fit.iterations;
-    solution.used_scenes = count_used(fit_.mask);
-    describe_uncertainty(solution);
-    std::vector<double> all_px;
-    std::vector<double> all_mm;
-    for (std::size_t s = 0; s < scenes_.size(); ++s)
-      solution.scenes.push_back(report_scene(s, all_px, all_mm));
-    solution.rms_px = std::sqrt(2.0) * rms(all_px);
-    solution.rms_mm = rms(all_mm);
-    if (leaving_out) leave_one_out(solution);
-    return solution;
+// Adds the residuals of a scene in use to those of all.
+SceneSolution report_scene(const FeatureInput& in, const RobustFit& fit, std::size_t s,
+                           std::vector<double>& all_px, std::vector<double>& all_mm) {
+  const JointState& state = fit.fit.state;
+  const Rigid3& board = state.camera_from_board[s];
+  SceneSolution scene;
+  scene.name = in.scenes[s].name;
+  scene.used = fit.mask.scene[s];
+  scene.reason = fit.reasons[s];
+  scene.camera_from_board = board;
+  scene.corners = corner_residuals(in.scenes[s], in.camera, board, fit.mask.corner[s]);
+  scene.nodes = node_residuals(in.scenes[s], state.camera_from_lidar, board, fit.mask.node[s]);
+  std::vector<double> px;
+  for (const CornerResidual& c : scene.corners) {
+    if (!c.used) continue;
+    px.push_back(c.residual_px.x());
+    px.push_back(c.residual_px.y());
   }
-
- private:
-  SceneSolution report_scene(std::size_t s, std::vector<double>& all_px,
-                             std::vector<double>& all_mm) const {
-    const JointState& state = fit_.fit.state;
-    const Rigid3& board = state.camera_from_board[s];
-    SceneSolution scene;
-    scene.name = scenes_[s].name;
-    scene.used = fit_.mask.scene[s];
-    scene.reason = fit_.reasons[s];
-    scene.camera_from_board = board;
-    scene.corners = corner_residuals(scenes_[s], camera_, board, fit_.mask.corner[s]);
-    scene.nodes = node_residuals(scenes_[s], state.camera_from_lidar, board, fit_.mask.node[s]);
-    std::vector<double> px;
-    for (const CornerResidual& c : scene.corners) {
-      if (!c.used) continue;
-      px.push_back(c.residual_px.x());
-      px.push_back(c.residual_px.y());
-    }
-    std::vector<double> mm;
-    for (const NodeResidual& n : scene.nodes) {
-      if (n.used) mm.push_back(1e3 * n.residual_m.norm());
-    }
-    if (scenes_[s].nodes.empty()) {
-      mm = plane_heights_mm(scenes_[s], target_, state.camera_from_lidar, board);
-    }
-    // Distance per corner: two coordinates.
-    scene.rms_px = std::sqrt(2.0) * rms(px);
-    scene.rms_mm = rms(mm);
-    if (scene.used) {
-      all_px.insert(all_px.end(), px.begin(), px.end());
-      all_mm.insert(all_mm.end(), mm.begin(), mm.end());
-    }
-    return scene;
+  std::vector<double> mm;
+  for (const NodeResidual& n : scene.nodes) {
+    if (n.used) mm.push_back(1e3 * n.residual_m.norm());
   }
-
-  void describe_uncertainty(ExtrinsicSolution& solution) const {
-    // Rotations act over the distance to the boards: scaled so, all six directions are lengths.
-    std::vector<double> distances;
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (fit_.mask.scene[s])
-        distances.push_back(fit_.fit.state.camera_from_board[s].translation.norm());
-    }
-    const double lever = std::max(0.1, median(std::move(distances)));
-    Vector6d unit;
-    unit << 1, 1, 1, 1 / lever, 1 / lever, 1 / lever;
-    const Matrix6d scaled = unit.asDiagonal() * fit_.fit.information * unit.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(scaled);
-    const double largest = std::max(axes.eigenvalues()(5), 1e-300);
-    const double weak = options_.weak_direction_ratio * options_.weak_direction_ratio;
-    Matrix6d covariance = Matrix6d::Zero();
-    solution.rank = 0;
-    for (int k = 0; k < 6; ++k) {
-      const double eigenvalue = axes.eigenvalues()(k);
-      const Vector6d direction = axes.eigenvectors().col(k);
-      const bool determined = eigenvalue > 1e-10 * largest;
-      if (determined) ++solution.rank;
-      // An undetermined direction gets a visible, absurd standard deviation: a kilometre.
-      const double variance = determined ? 1.0 / eigenvalue : 1e6;
-      covariance += variance * direction * direction.transpose();
-      const double middle = 0.5 * (axes.eigenvalues()(2) + axes.eigenvalues()(3));
-      if (!determined || eigenvalue * weak < middle) {
-        solution.weak_directions.push_back(describe_direction(
-            direction, std::sqrt(middle / std::max(eigenvalue, 1e-300)), determined));
-      }
-    }
-    solution.camera_from_lidar.covariance = unit.asDiagonal() * covariance * unit.asDiagonal();
+  if (in.scenes[s].nodes.empty()) {
+    mm = plane_heights_mm(in.scenes[s], in.target, state.camera_from_lidar, board);
   }
+  // Distance per corner: two coordinates.
+  scene.rms_px = std::sqrt(2.0) * rms(px);
+  scene.rms_mm = rms(mm);
+  if (scene.used) {
+    all_px.insert(all_px.end(), px.begin(), px.end());
+    all_mm.insert(all_mm.end(), mm.begin(), mm.end());
+  }
+  return scene;
+}
 
-  void leave_one_out(ExtrinsicSolution& solution) const {
-    if (count_used(fit_.mask) < fewest_to_leave_one_out(target_)) return;
-    const JointState& state = fit_.fit.state;
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (!fit_.mask.scene[s]) continue;
-      ObservationMask without = fit_.mask;
-      without.scene[s] = false;
-      const JointFit other =
-          solve_joint(scenes_, camera_, target_, state, fit_.scales, without, options_);
-      const Rigid3& a = state.camera_from_lidar;
-      const Rigid3& b = other.state.camera_from_lidar;
-      solution.leave_one_out.push_back({scenes_[s].name,
-                                        1e3 * translation_distance_m(a.inverse(), b.inverse()),
-                                        1e3 * rotation_distance_rad(a, b)});
+void describe_uncertainty(const RobustFit& fit, double weak_ratio, ExtrinsicSolution& solution) {
+  // Rotations act over the distance to the boards: scaled so, all six directions are lengths.
+  std::vector<double> distances;
+  for (std::size_t s = 0; s < fit.mask.scene.size(); ++s) {
+    if (fit.mask.scene[s])
+      distances.push_back(fit.fit.state.camera_from_board[s].translation.norm());
+  }
+  const double lever = std::max(0.1, median(std::move(distances)));
+  Vector6d unit;
+  unit << 1, 1, 1, 1 / lever, 1 / lever, 1 / lever;
+  const Matrix6d scaled = unit.asDiagonal() * fit.fit.information * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(scaled);
+  const double largest = std::max(axes.eigenvalues()(5), 1e-300);
+  const double weak = weak_ratio * weak_ratio;
+  Matrix6d covariance = Matrix6d::Zero();
+  solution.rank = 0;
+  for (int k = 0; k < 6; ++k) {
+    const double eigenvalue = axes.eigenvalues()(k);
+    const Vector6d direction = axes.eigenvectors().col(k);
+    const bool determined = eigenvalue > 1e-10 * largest;
+    if (determined) ++solution.rank;
+    // An undetermined direction gets a visible, absurd standard deviation: a kilometre.
+    const double variance = determined ? 1.0 / eigenvalue : 1e6;
+    covariance += variance * direction * direction.transpose();
+    const double middle = 0.5 * (axes.eigenvalues()(2) + axes.eigenvalues()(3));
+    if (!determined || eigenvalue * weak < middle) {
+      solution.weak_directions.push_back(describe_direction(
+          direction, std::sqrt(middle / std::max(eigenvalue, 1e-300)), determined));
     }
   }
+  solution.camera_from_lidar.covariance = unit.asDiagonal() * covariance * unit.asDiagonal();
+}
 
-  const RobustFit& fit_;
-  const std::vector<SceneObservations>& scenes_;
-  const Camera& camera_;
-  const Target& target_;
-  const ExtrinsicOptions& options_;
-};
+std::vector<LeaveOneOut> leaving_out_each(const FeatureInput& in, const RobustFit& fit) {
+  std::vector<LeaveOneOut> out;
+  if (count_used(fit.mask) < fewest_to_leave_one_out(in.target)) return out;
+  const JointState& state = fit.fit.state;
+  for (std::size_t s = 0; s < in.scenes.size(); ++s) {
+    if (!fit.mask.scene[s]) continue;
+    ObservationMask without = fit.mask;
+    without.scene[s] = false;
+    const JointFit other =
+        solve_joint(in.scenes, in.camera, in.target, state, fit.scales, without, in.options);
+    const Rigid3& a = state.camera_from_lidar;
+    const Rigid3& b = other.state.camera_from_lidar;
+    out.push_back({in.scenes[s].name, 1e3 * translation_distance_m(a.inverse(), b.inverse()),
+                   1e3 * rotation_distance_rad(a, b)});
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -160,7 +129,23 @@ ExtrinsicSolution report_solution(const RobustFit& fit,
                                   const std::vector<SceneObservations>& scenes,
                                   const Camera& camera, const Target& target,
                                   const ExtrinsicOptions& options, bool leave_one_out) {
-  return SolutionReport(fit, scenes, camera, target, options).run(leave_one_out);
+  const FeatureInput in{scenes, camera, target, options};
+  ExtrinsicSolution solution;
+  solution.camera_from_lidar.transform = fit.fit.state.camera_from_lidar;
+  solution.sigma_px = fit.scales.sigma_px;
+  solution.node_scale = fit.scales.node;
+  solution.plane_scale = fit.scales.plane;
+  solution.iterations = fit.fit.iterations;
+  solution.used_scenes = count_used(fit.mask);
+  describe_uncertainty(fit, options.weak_direction_ratio, solution);
+  std::vector<double> all_px;
+  std::vector<double> all_mm;
+  for (std::size_t s = 0; s < scenes.size(); ++s)
+    solution.scenes.push_back(report_scene(in, fit, s, all_px, all_mm));
+  solution.rms_px = std::sqrt(2.0) * rms(all_px);
+  solution.rms_mm = rms(all_mm);
+  if (leave_one_out) solution.leave_one_out = leaving_out_each(in, fit);
+  return solution;
 }
 
 }  // namespace lvcalib

@@ -24,100 +24,74 @@ Eigen::Matrix3d origin_covariance(const Matrix6d& covariance, const Eigen::Vecto
   return j * covariance * j.transpose();
 }
 
-class Splitter {
- public:
-  Splitter(const std::vector<SceneObservations>& scenes, const Camera& camera, const Target& target,
-           const ExtrinsicSolution& joint, const ExtrinsicOptions& options,
-           const SubsetSolver& subset)
-      : subset_(subset),
-        scenes_(scenes),
-        camera_(camera),
-        target_(target),
-        joint_(joint),
-        options_(options) {
-    start_.camera_from_lidar = joint.camera_from_lidar.transform;
-    for (const SceneSolution& s : joint.scenes)
-      start_.camera_from_board.push_back(s.camera_from_board);
+Eigen::Vector3d board_center(const Target& target, const SceneSolution& scene) {
+  const Eigen::Vector2d c = target.outline().center_m();
+  return scene.camera_from_board * Eigen::Vector3d(c.x(), c.y(), 0.0);
+}
+
+// Angle between the board's normal and the line of sight.
+double tilt_rad(const Target& target, const SceneSolution& scene) {
+  const Eigen::Vector3d normal = scene.camera_from_board.rotation * Eigen::Vector3d::UnitZ();
+  const double cosine = std::abs(normal.dot(board_center(target, scene).normalized()));
+  return std::acos(std::min(1.0, cosine));
+}
+
+std::optional<UncertainRigid3> solve_half(const FeatureInput& in, const ExtrinsicSolution& joint,
+                                          const std::vector<std::size_t>& half) {
+  ObservationMask mask = mask_of(joint);
+  for (std::size_t s = 0; s < in.scenes.size(); ++s) {
+    mask.scene[s] = std::find(half.begin(), half.end(), s) != half.end();
   }
+  JointState start{joint.camera_from_lidar.transform, {}};
+  for (const SceneSolution& s : joint.scenes)
+    start.camera_from_board.push_back(s.camera_from_board);
+  const JointFit fit =
+      solve_joint(in.scenes, in.camera, in.target, start, scales_of(joint), mask, in.options);
+  const Eigen::LDLT<Matrix6d> factor(fit.information);
+  if (!fit.converged || factor.info() != Eigen::Success || !factor.isPositive() ||
+      factor.rcond() < 1e-12)
+    return std::nullopt;
+  return UncertainRigid3{fit.state.camera_from_lidar, factor.solve(Matrix6d::Identity())};
+}
 
-  // Halves by the order of `key`: small values first.
-  std::optional<SplitHalf> split(const Message& name,
-                                 const std::function<double(std::size_t)>& key) const {
-    std::vector<std::size_t> order;
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (joint_.scenes[s].used) order.push_back(s);
-    }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
-    const std::vector<std::size_t> first(order.begin(), middle);
-    const std::vector<std::size_t> second(middle, order.end());
-    const auto a = solve(first);
-    const auto b = solve(second);
-    if (!a || !b) return std::nullopt;
-    SplitHalf out = compare(*a, *b);
-    out.name = name;
-    for (const std::size_t s : first) out.first.push_back(scenes_[s].name);
-    for (const std::size_t s : second) out.second.push_back(scenes_[s].name);
-    return out;
+SplitHalf compare_extrinsics(const UncertainRigid3& a, const UncertainRigid3& b) {
+  SplitHalf out;
+  const Matrix6d covariance = a.covariance + b.covariance;
+  const Vector6d xi = se3_log(a.transform * b.transform.inverse());
+  out.chi_square = xi.dot(covariance.ldlt().solve(xi));
+  out.gate = chi_square_gate(6, kSplitTail);
+  out.translation_mm = 1e3 * translation_distance_m(a.transform, b.transform);
+  out.rotation_mrad = 1e3 * rotation_distance_rad(a.transform, b.transform);
+  out.expected_translation_mm =
+      1e3 * std::sqrt(origin_covariance(covariance, a.transform.translation).trace());
+  out.expected_rotation_mrad = 1e3 * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  return out;
+}
+
+// Halves by the order of `key`: small values first.
+std::optional<SplitHalf> split(const ExtrinsicSolution& joint, const SubsetSolver& subset,
+                               const std::function<double(const SceneSolution&)>& key) {
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < joint.scenes.size(); ++s) {
+    if (joint.scenes[s].used) order.push_back(s);
   }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return key(joint.scenes[a]) < key(joint.scenes[b]);
+  });
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+  const std::vector<std::size_t> first(order.begin(), middle);
+  const std::vector<std::size_t> second(middle, order.end());
+  const auto a = subset(first);
+  const auto b = subset(second);
+  if (!a || !b) return std::nullopt;
+  SplitHalf out = compare_extrinsics(*a, *b);
+  for (const std::size_t s : first) out.first.push_back(joint.scenes[s].name);
+  for (const std::size_t s : second) out.second.push_back(joint.scenes[s].name);
+  return out;
+}
 
-  [[nodiscard]] Eigen::Vector3d board_center(std::size_t s) const {
-    const Eigen::Vector2d c = target_.outline().center_m();
-    return joint_.scenes[s].camera_from_board * Eigen::Vector3d(c.x(), c.y(), 0.0);
-  }
-
-  // Angle between the board's normal and the line of sight.
-  [[nodiscard]] double tilt_rad(std::size_t s) const {
-    const Eigen::Vector3d normal =
-        joint_.scenes[s].camera_from_board.rotation * Eigen::Vector3d::UnitZ();
-    const double cosine = std::abs(normal.dot(board_center(s).normalized()));
-    return std::acos(std::min(1.0, cosine));
-  }
-
- private:
-  [[nodiscard]] std::optional<UncertainRigid3> solve(const std::vector<std::size_t>& half) const {
-    if (subset_) return subset_(half);
-    ObservationMask mask = mask_of(joint_);
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      mask.scene[s] = std::find(half.begin(), half.end(), s) != half.end();
-    }
-    const JointFit fit =
-        solve_joint(scenes_, camera_, target_, start_, scales_of(joint_), mask, options_);
-    const Eigen::LDLT<Matrix6d> factor(fit.information);
-    if (!fit.converged || factor.info() != Eigen::Success || !factor.isPositive() ||
-        factor.rcond() < 1e-12)
-      return std::nullopt;
-    return UncertainRigid3{fit.state.camera_from_lidar, factor.solve(Matrix6d::Identity())};
-  }
-
-  static SplitHalf compare(const UncertainRigid3& a, const UncertainRigid3& b) {
-    SplitHalf out;
-    const Matrix6d covariance = a.covariance + b.covariance;
-    const Vector6d xi = se3_log(a.transform * b.transform.inverse());
-    out.chi_square = xi.dot(covariance.ldlt().solve(xi));
-    out.gate = chi_square_gate(6, kSplitTail);
-    out.translation_mm = 1e3 * translation_distance_m(a.transform, b.transform);
-    out.rotation_mrad = 1e3 * rotation_distance_rad(a.transform, b.transform);
-    out.expected_translation_mm =
-        1e3 * std::sqrt(origin_covariance(covariance, a.transform.translation).trace());
-    out.expected_rotation_mrad = 1e3 * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
-    return out;
-  }
-
-  const SubsetSolver& subset_;
-  const std::vector<SceneObservations>& scenes_;
-  const Camera& camera_;
-  const Target& target_;
-  const ExtrinsicSolution& joint_;
-  const ExtrinsicOptions& options_;
-  JointState start_;
-};
-
-void compare_halves(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                    const Target& target, const ExtrinsicSolution& joint,
-                    const ExtrinsicOptions& options, const SubsetSolver& subset,
-                    UncertaintyReport& report) {
+void compare_halves(const Target& target, const ExtrinsicSolution& joint,
+                    const SubsetSolver& subset, UncertaintyReport& report) {
   const int needed = target.has_circles() ? 4 : 6;
   if (joint.used_scenes < needed) {
     report.splits_reason =
@@ -125,16 +99,18 @@ void compare_halves(const std::vector<SceneObservations>& scenes, const Camera& 
                 joint.used_scenes, needed);
     return;
   }
-  const Splitter splitter(scenes, camera, target, joint, options, subset);
-  const auto add = [&](const Message& name, const std::function<double(std::size_t)>& key) {
-    if (auto split = splitter.split(name, key)) report.splits.push_back(std::move(*split));
+  const auto add = [&](const Message& name, const auto& key) {
+    auto halves = split(joint, subset, key);
+    if (!halves) return;
+    halves->name = name;
+    report.splits.push_back(std::move(*halves));
   };
-  add(Message("near/far"), [&](std::size_t s) { return splitter.board_center(s).norm(); });
-  add(Message("left/right"), [&](std::size_t s) {
-    const Eigen::Vector3d c = splitter.board_center(s);
+  add(Message("near/far"), [&](const SceneSolution& s) { return board_center(target, s).norm(); });
+  add(Message("left/right"), [&](const SceneSolution& s) {
+    const Eigen::Vector3d c = board_center(target, s);
     return c.x() / c.z();
   });
-  add(Message("flat/tilted"), [&](std::size_t s) { return splitter.tilt_rad(s); });
+  add(Message("flat/tilted"), [&](const SceneSolution& s) { return tilt_rad(target, s); });
   if (report.splits.empty())
     report.splits_reason = Message(
         "not enough scenes for a comparison of halves: neither half alone determines the "
@@ -181,7 +157,10 @@ UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scene
                                      const ExtrinsicOptions& options, const UncertaintyOptions& how,
                                      const SubsetSolver& subset) {
   UncertaintyReport report;
-  compare_halves(scenes, camera, target, joint, options, subset, report);
+  const SubsetSolver by_features = [&](const std::vector<std::size_t>& half) {
+    return solve_half({scenes, camera, target, options}, joint, half);
+  };
+  compare_halves(target, joint, subset ? subset : by_features, report);
   const Matrix6d& covariance = joint.camera_from_lidar.covariance;
   report.maps.push_back(map_over_image(camera, covariance, how.map_range_m, how.map_columns));
   for (const double range : how.ranges_m) {
