@@ -59,193 +59,181 @@ bool has_three_nodes(const ObservationMask& mask) {
   return nodes >= 3;
 }
 
-class Comparison {
- public:
-  Comparison(const std::vector<SceneObservations>& scenes, const Camera& camera,
-             const Target& target, const ExtrinsicSolution& joint, const ExtrinsicOptions& options)
-      : joint_(joint),
-        raw_scenes_(with_raw_nodes(scenes)),
-        refined_(input_of(scenes, camera, target, joint, options)),
-        raw_(input_of(raw_scenes_, camera, target, joint, options)) {}
-
-  MethodResult evaluate(const Method& method, bool held_out) const {
-    const bool is_joint = method.objective == Objective::kJoint && method.refined;
-    const MethodInput& input = method.refined ? refined_ : raw_;
-    MethodResult result =
-        measured(method.name, is_joint ? joint_.camera_from_lidar.transform : solve(method, input));
-    if (!held_out) return result;
-    hold_out(result, [&](std::size_t s) -> std::optional<Rigid3> {
-      MethodInput without = input;
-      without.mask.scene[s] = false;
-      return solve(method, without);
-    });
-    return result;
-  }
-
-  MethodResult evaluate(const OtherMethod& other, bool held_out) const {
-    MethodResult result = measured(other.name, other.camera_from_lidar);
-    if (!held_out || !other.subset) return result;
-    hold_out(result, [&](std::size_t s) -> std::optional<Rigid3> {
-      std::vector<std::size_t> rest;
-      for (std::size_t i = 0; i < refined_.scenes.size(); ++i) {
-        if (i != s && refined_.mask.scene[i]) rest.push_back(i);
-      }
-      const auto solved = other.subset(rest);
-      return solved ? std::optional(solved->transform) : std::nullopt;
-    });
-    return result;
-  }
-
-  std::optional<MethodResult> evaluate(const JointVariant& variant, bool held_out) const {
-    NoiseScales scales;
-    scales.sigma_px = refined_.scales.sigma_px;
-    const MethodInput input{variant.scenes,
-                            refined_.camera,
-                            refined_.target,
-                            variant.options,
-                            whole_mask(variant.scenes, refined_.mask.scene),
-                            scales,
-                            refined_.camera_from_board};
-    if (!has_three_nodes(input.mask)) return std::nullopt;
-    const Rigid3& start = joint_.camera_from_lidar.transform;
-    MethodResult result = measured(variant.name, solve_as_stated(input, start));
-    if (!held_out) return result;
-    hold_out(result, [&](std::size_t s) -> std::optional<Rigid3> {
-      MethodInput without = input;
-      without.mask.scene[s] = false;
-      if (!has_three_nodes(without.mask)) return std::nullopt;
-      return solve_as_stated(without, start);
-    });
-    return result;
-  }
-
- private:
-  MethodResult measured(const std::string& name, const Rigid3& camera_from_lidar) const {
-    MethodResult result;
-    result.name = name;
-    result.camera_from_lidar = camera_from_lidar;
-    const Rigid3& joint = joint_.camera_from_lidar.transform;
-    result.translation_mm = 1e3 * translation_distance_m(camera_from_lidar, joint);
-    result.rotation_mrad = 1e3 * rotation_distance_rad(camera_from_lidar, joint);
-    measure_all(result);
-    return result;
-  }
-
-  Rigid3 solve(const Method& method, const MethodInput& input) const {
-    switch (method.objective) {
-      case Objective::kSvd:
-        return solve_by_alignment(input, false);
-      case Objective::kWeightedSvd:
-        return solve_by_alignment(input, true);
-      case Objective::kPnp:
-        return solve_by_reprojection(input);
-      case Objective::kJoint:
-        break;
-    }
-    return solve_by_joint(input, joint_.camera_from_lidar.transform);
-  }
-
-  void measure_all(MethodResult& result) const {
-    const JointState start = state_with(result.camera_from_lidar);
-    const std::vector<Rigid3> boards =
-        solve_boards(refined_.scenes, refined_.camera, refined_.target, start, refined_.scales,
-                     refined_.mask, refined_.options);
-    std::vector<double> px;
-    std::vector<double> mm;
-    std::vector<double> transfer;
-    for (std::size_t s = 0; s < refined_.scenes.size(); ++s) {
-      if (!refined_.mask.scene[s]) continue;
-      MethodScene scene = measure(s, result.camera_from_lidar, boards[s]);
-      px.insert(px.end(), scene.errors_px.begin(), scene.errors_px.end());
-      mm.insert(mm.end(), scene.errors_mm.begin(), scene.errors_mm.end());
-      const auto by_lidar =
-          corner_errors(s, result.camera_from_lidar * refined_.scenes[s].lidar_from_board);
-      transfer.insert(transfer.end(), by_lidar.begin(), by_lidar.end());
-      result.scenes.push_back(std::move(scene));
-    }
-    result.rms_px = rms(px);
-    result.rms_mm = rms(mm);
-    result.transfer_px = rms(transfer);
-  }
-
-  [[nodiscard]] JointState state_with(const Rigid3& camera_from_lidar) const {
-    JointState state{camera_from_lidar, {}};
-    for (const SceneSolution& scene : joint_.scenes)
-      state.camera_from_board.push_back(scene.camera_from_board);
-    return state;
-  }
-
-  [[nodiscard]] std::vector<double> corner_errors(std::size_t s, const Rigid3& board) const {
-    std::vector<double> errors;
-    const SceneObservations& scene = refined_.scenes[s];
-    for (std::size_t k = 0; k < scene.corners.size(); ++k) {
-      if (!refined_.mask.corner[s][k]) continue;
-      const CornerObservation& c = scene.corners[k];
-      const auto p =
-          refined_.camera.project(board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
-      if (p) errors.push_back((c.pixel - *p).norm());
-    }
-    return errors;
-  }
-
-  [[nodiscard]] MethodScene measure(std::size_t s, const Rigid3& camera_from_lidar,
-                                    const Rigid3& camera_from_board) const {
-    const SceneObservations& scene = refined_.scenes[s];
-    MethodScene out;
-    out.name = scene.name;
-    out.errors_px = corner_errors(s, camera_from_board);
-    const Rigid3 board_from_lidar = camera_from_board.inverse() * camera_from_lidar;
-    for (std::size_t k = 0; k < scene.nodes.size(); ++k) {
-      if (!refined_.mask.node[s][k]) continue;
-      const RefinedNode& node = scene.nodes[k];
-      const Eigen::Vector3d model(node.board_m.x(), node.board_m.y(), 0.0);
-      out.errors_mm.push_back(1e3 * (board_from_lidar * node.center_lidar_m - model).norm());
-    }
-    if (scene.nodes.empty()) {
-      const Eigen::Matrix3d probes = plane_probe_points(refined_.target);
-      const Rigid3 lidar_from_board = board_from_lidar.inverse();
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d p = lidar_from_board * Eigen::Vector3d(probes.col(k));
-        out.errors_mm.push_back(1e3 * std::abs(scene.plane.normal.dot(p - scene.plane.center_m)));
-      }
-    }
-    out.rms_px = rms(out.errors_px);
-    out.rms_mm = rms(out.errors_mm);
-    return out;
-  }
-
-  // `without` solves without one scene; a scene without which nothing is solved is not counted.
-  void hold_out(MethodResult& result,
-                const std::function<std::optional<Rigid3>(std::size_t)>& without) const {
-    std::vector<double> px;
-    std::vector<double> mm;
-    std::size_t at = 0;
-    for (std::size_t s = 0; s < refined_.scenes.size(); ++s) {
-      if (!refined_.mask.scene[s]) continue;
-      const std::size_t place = at++;
-      const auto extrinsic = without(s);
-      if (!extrinsic) continue;
-      ObservationMask only = refined_.mask;
-      std::fill(only.scene.begin(), only.scene.end(), false);
-      only.scene[s] = true;
-      const auto boards =
-          solve_boards(refined_.scenes, refined_.camera, refined_.target, state_with(*extrinsic),
-                       refined_.scales, only, refined_.options);
-      const MethodScene scene = measure(s, *extrinsic, boards[s]);
-      result.scenes[place].heldout_px = scene.rms_px;
-      result.scenes[place].heldout_mm = scene.rms_mm;
-      px.insert(px.end(), scene.errors_px.begin(), scene.errors_px.end());
-      mm.insert(mm.end(), scene.errors_mm.begin(), scene.errors_mm.end());
-    }
-    result.heldout_px = rms(px);
-    result.heldout_mm = rms(mm);
-  }
-
-  const ExtrinsicSolution& joint_;
-  std::vector<SceneObservations> raw_scenes_;
-  MethodInput refined_;
-  MethodInput raw_;
+// Board poses that fit best beside an extrinsic.
+// What all methods are measured by: the refined observations, and their joint solve.
+struct Yardstick {
+  MethodInput refined;
+  const ExtrinsicSolution& joint;
 };
+
+// Board poses that fit best beside an extrinsic.
+std::vector<Rigid3> boards_beside(const Yardstick& by, const Rigid3& camera_from_lidar,
+                                  const ObservationMask& mask) {
+  JointState start{camera_from_lidar, {}};
+  for (const SceneSolution& scene : by.joint.scenes)
+    start.camera_from_board.push_back(scene.camera_from_board);
+  return solve_boards(by.refined.scenes, by.refined.camera, by.refined.target, start,
+                      by.refined.scales, mask, by.refined.options);
+}
+
+std::vector<double> corner_errors(const MethodInput& input, std::size_t s, const Rigid3& board) {
+  std::vector<double> errors;
+  const SceneObservations& scene = input.scenes[s];
+  for (std::size_t k = 0; k < scene.corners.size(); ++k) {
+    if (!input.mask.corner[s][k]) continue;
+    const CornerObservation& c = scene.corners[k];
+    const auto p = input.camera.project(board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
+    if (p) errors.push_back((c.pixel - *p).norm());
+  }
+  return errors;
+}
+
+MethodScene measure(const MethodInput& input, std::size_t s, const Rigid3& camera_from_lidar,
+                    const Rigid3& camera_from_board) {
+  const SceneObservations& scene = input.scenes[s];
+  MethodScene out;
+  out.name = scene.name;
+  out.errors_px = corner_errors(input, s, camera_from_board);
+  const Rigid3 board_from_lidar = camera_from_board.inverse() * camera_from_lidar;
+  for (std::size_t k = 0; k < scene.nodes.size(); ++k) {
+    if (!input.mask.node[s][k]) continue;
+    const RefinedNode& node = scene.nodes[k];
+    const Eigen::Vector3d model(node.board_m.x(), node.board_m.y(), 0.0);
+    out.errors_mm.push_back(1e3 * (board_from_lidar * node.center_lidar_m - model).norm());
+  }
+  if (scene.nodes.empty()) {
+    const Eigen::Matrix3d probes = plane_probe_points(input.target);
+    const Rigid3 lidar_from_board = board_from_lidar.inverse();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d p = lidar_from_board * Eigen::Vector3d(probes.col(k));
+      out.errors_mm.push_back(1e3 * std::abs(scene.plane.normal.dot(p - scene.plane.center_m)));
+    }
+  }
+  out.rms_px = rms(out.errors_px);
+  out.rms_mm = rms(out.errors_mm);
+  return out;
+}
+
+// What an extrinsic leaves of the observations, and how far it is from that of the joint solve.
+MethodResult measured(const Yardstick& by, const std::string& name,
+                      const Rigid3& camera_from_lidar) {
+  MethodResult result;
+  result.name = name;
+  result.camera_from_lidar = camera_from_lidar;
+  const Rigid3& by_joint = by.joint.camera_from_lidar.transform;
+  result.translation_mm = 1e3 * translation_distance_m(camera_from_lidar, by_joint);
+  result.rotation_mrad = 1e3 * rotation_distance_rad(camera_from_lidar, by_joint);
+  const std::vector<Rigid3> boards = boards_beside(by, camera_from_lidar, by.refined.mask);
+  std::vector<double> px;
+  std::vector<double> mm;
+  std::vector<double> transfer;
+  for (std::size_t s = 0; s < by.refined.scenes.size(); ++s) {
+    if (!by.refined.mask.scene[s]) continue;
+    MethodScene scene = measure(by.refined, s, camera_from_lidar, boards[s]);
+    px.insert(px.end(), scene.errors_px.begin(), scene.errors_px.end());
+    mm.insert(mm.end(), scene.errors_mm.begin(), scene.errors_mm.end());
+    const auto by_lidar =
+        corner_errors(by.refined, s, camera_from_lidar * by.refined.scenes[s].lidar_from_board);
+    transfer.insert(transfer.end(), by_lidar.begin(), by_lidar.end());
+    result.scenes.push_back(std::move(scene));
+  }
+  result.rms_px = rms(px);
+  result.rms_mm = rms(mm);
+  result.transfer_px = rms(transfer);
+  return result;
+}
+
+// `without` solves without one scene; a scene without which nothing is solved is not counted.
+void hold_out(const Yardstick& by, MethodResult& result,
+              const std::function<std::optional<Rigid3>(std::size_t)>& without) {
+  std::vector<double> px;
+  std::vector<double> mm;
+  std::size_t at = 0;
+  for (std::size_t s = 0; s < by.refined.scenes.size(); ++s) {
+    if (!by.refined.mask.scene[s]) continue;
+    const std::size_t place = at++;
+    const auto extrinsic = without(s);
+    if (!extrinsic) continue;
+    ObservationMask only = by.refined.mask;
+    std::fill(only.scene.begin(), only.scene.end(), false);
+    only.scene[s] = true;
+    const auto boards = boards_beside(by, *extrinsic, only);
+    const MethodScene scene = measure(by.refined, s, *extrinsic, boards[s]);
+    result.scenes[place].heldout_px = scene.rms_px;
+    result.scenes[place].heldout_mm = scene.rms_mm;
+    px.insert(px.end(), scene.errors_px.begin(), scene.errors_px.end());
+    mm.insert(mm.end(), scene.errors_mm.begin(), scene.errors_mm.end());
+  }
+  result.heldout_px = rms(px);
+  result.heldout_mm = rms(mm);
+}
+
+Rigid3 solve(Objective objective, const MethodInput& input, const Rigid3& start) {
+  switch (objective) {
+    case Objective::kSvd:
+      return solve_by_alignment(input, false);
+    case Objective::kWeightedSvd:
+      return solve_by_alignment(input, true);
+    case Objective::kPnp:
+      return solve_by_reprojection(input);
+    case Objective::kJoint:
+      break;
+  }
+  return solve_by_joint(input, start);
+}
+
+MethodResult evaluate(const Yardstick& by, const Method& method, const MethodInput& input,
+                      bool held_out) {
+  const bool is_joint = method.objective == Objective::kJoint && method.refined;
+  const Rigid3& start = by.joint.camera_from_lidar.transform;
+  MethodResult result =
+      measured(by, method.name, is_joint ? start : solve(method.objective, input, start));
+  if (!held_out) return result;
+  hold_out(by, result, [&](std::size_t s) -> std::optional<Rigid3> {
+    MethodInput without = input;
+    without.mask.scene[s] = false;
+    return solve(method.objective, without, start);
+  });
+  return result;
+}
+
+MethodResult evaluate(const Yardstick& by, const OtherMethod& other, bool held_out) {
+  MethodResult result = measured(by, other.name, other.camera_from_lidar);
+  if (!held_out || !other.subset) return result;
+  hold_out(by, result, [&](std::size_t s) -> std::optional<Rigid3> {
+    std::vector<std::size_t> rest;
+    for (std::size_t i = 0; i < by.refined.scenes.size(); ++i) {
+      if (i != s && by.refined.mask.scene[i]) rest.push_back(i);
+    }
+    const auto solved = other.subset(rest);
+    return solved ? std::optional(solved->transform) : std::nullopt;
+  });
+  return result;
+}
+
+std::optional<MethodResult> evaluate(const Yardstick& by, const JointVariant& variant,
+                                     bool held_out) {
+  NoiseScales scales;
+  scales.sigma_px = by.refined.scales.sigma_px;
+  const MethodInput input{variant.scenes,
+                          by.refined.camera,
+                          by.refined.target,
+                          variant.options,
+                          whole_mask(variant.scenes, by.refined.mask.scene),
+                          scales,
+                          by.refined.camera_from_board};
+  if (!has_three_nodes(input.mask)) return std::nullopt;
+  const Rigid3& start = by.joint.camera_from_lidar.transform;
+  MethodResult result = measured(by, variant.name, solve_as_stated(input, start));
+  if (!held_out) return result;
+  hold_out(by, result, [&](std::size_t s) -> std::optional<Rigid3> {
+    MethodInput without = input;
+    without.mask.scene[s] = false;
+    if (!has_three_nodes(without.mask)) return std::nullopt;
+    return solve_as_stated(without, start);
+  });
+  return result;
+}
 
 }  // namespace
 
@@ -260,7 +248,9 @@ std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& 
                                           const ExtrinsicSolution& joint,
                                           const ExtrinsicOptions& options,
                                           const MethodOptions& method_options) {
-  const Comparison comparison(scenes, camera, target, joint, options);
+  const std::vector<SceneObservations> raw_scenes = with_raw_nodes(scenes);
+  const MethodInput raw = input_of(raw_scenes, camera, target, joint, options);
+  const Yardstick by{input_of(scenes, camera, target, joint, options), joint};
   const auto held_out = [&](int fewest) {
     return method_options.held_out && joint.used_scenes >= fewest;
   };
@@ -271,12 +261,13 @@ std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& 
     if (!target.has_circles() && !is_joint) continue;
     // Without circles a scene less may leave too few to solve.
     const int fewest = target.has_circles() ? 2 : 4;
-    tasks.emplace_back([&, fewest] { return comparison.evaluate(method, held_out(fewest)); });
+    const MethodInput& input = method.refined ? by.refined : raw;
+    tasks.emplace_back([&, fewest] { return evaluate(by, method, input, held_out(fewest)); });
   }
   if (method_options.paper && target.has_circles())
-    tasks.emplace_back([&] { return comparison.evaluate(*method_options.paper, held_out(2)); });
+    tasks.emplace_back([&] { return evaluate(by, *method_options.paper, held_out(2)); });
   if (method_options.other)
-    tasks.emplace_back([&] { return comparison.evaluate(*method_options.other, held_out(2)); });
+    tasks.emplace_back([&] { return evaluate(by, *method_options.other, held_out(2)); });
   std::vector<std::optional<MethodResult>> done(tasks.size());
   // The last ones take longest.
   parallel_for(tasks.size(), method_options.threads, [&](std::size_t k) {
@@ -296,10 +287,10 @@ std::vector<MethodResult> compare_variants(const std::vector<SceneObservations>&
                                            const ExtrinsicOptions& options,
                                            const std::vector<JointVariant>& variants,
                                            bool held_out) {
-  const Comparison comparison(scenes, camera, target, joint, options);
+  const Yardstick by{input_of(scenes, camera, target, joint, options), joint};
   std::vector<MethodResult> results;
   for (const JointVariant& variant : variants) {
-    auto result = comparison.evaluate(variant, held_out && joint.used_scenes >= 2);
+    auto result = evaluate(by, variant, held_out && joint.used_scenes >= 2);
     if (result) results.push_back(std::move(*result));
   }
   return results;

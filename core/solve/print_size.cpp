@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
@@ -22,160 +23,171 @@ constexpr double kCoarsest = 0.25;
 constexpr double kCoarseStep = 0.015;
 constexpr double kLargestSigma = 0.05;
 
-class SizeFit {
- public:
-  SizeFit(const BoardReturns& returns, const BlurredPrint& print, const Rigid3& lidar_from_board,
-          const BoardLevels& levels, const BeamSpread& beam, const SceneNoise& noise)
-      : print_(print),
-        lidar_from_board_(lidar_from_board),
-        levels_(levels),
-        beam_(beam),
-        noise_(noise),
-        center_(print.outline().center_m()) {
-    const BoardPredictor predictor(print, lidar_from_board, levels, beam);
-    const std::size_t stride = std::max<std::size_t>(1, returns.size() / kMostReturns);
-    std::vector<double> farther;
-    for (std::size_t k = 0; k < returns.size(); k += stride) {
-      const Eigen::Vector3d point = returns.point_m(k);
-      const auto hit = predictor.hit(point.normalized());
-      if (!hit) continue;
-      places_.push_back({hit->board_m, returns.intensity(k), {}});
-      if (returns.intensity(k) > 0.5 * (levels.white + levels.black))
-        farther.push_back(point.norm() / hit->range_m);
-    }
-    if (!farther.empty()) distance_ = median(std::move(farther));
-  }
+// How the board is seen.
+struct SeenBoard {
+  const BlurredPrint& print;
+  const Rigid3& lidar_from_board;
+  const BeamSpread& beam;
+  const SceneNoise& noise;
+};
 
-  PrintSize run() {
-    PrintSize out;
-    if (places_.size() < 10 * kUnknowns) return out;
-    scale_ *= coarse_scale();
-    constexpr int kIterations = 15;
-    bool settled = false;
-    for (int i = 0; i < kIterations && !settled; ++i) {
-      if (!step()) return out;
-      settled = last_.head<2>().norm() < 1e-5;
-    }
-    if (!settled || (scale_.array() - 1.0).abs().maxCoeff() > 1.5 * kCoarsest) return out;
-    const Matrix7 covariance = normal_.ldlt().solve(Matrix7::Identity());
-    const double excess = std::max(1.0, chi_square_);
-    // Beams tell angles; the board may stand elsewhere than where its returns are, if the joint
-    // solve weighs corners against ranges.
-    out.scale = distance_ * scale_;
-    out.sigma = (excess * noise_.intensity_inflation * covariance.diagonal().head<2>())
-                    .cwiseMax(0.0)
-                    .cwiseSqrt();
-    out.measured =
-        out.sigma.allFinite() && out.sigma.minCoeff() > 0.0 && out.sigma.maxCoeff() < kLargestSigma;
-    return out;
-  }
+// Where a return met the board.
+struct Place {
+  Eigen::Vector2d board_m;
+  double intensity;
+  LocalPrint seen = {};  // The print as it was seen here last.
+};
 
- private:
-  struct Place {
-    Eigen::Vector2d board_m;
-    double intensity;
-    LocalPrint seen = {};  // The print as it was seen here last.
-  };
+struct Places {
+  std::vector<Place> list;
+  double distance = 1.0;  // Of the white returns, over that of the board as solved.
+};
+
+Places places_of(const BoardReturns& returns, const SeenBoard& board, const BoardLevels& levels) {
+  const BoardPredictor predictor(board.print, board.lidar_from_board, levels, board.beam);
+  const std::size_t stride = std::max<std::size_t>(1, returns.size() / kMostReturns);
+  Places out;
+  std::vector<double> farther;
+  for (std::size_t k = 0; k < returns.size(); k += stride) {
+    const Eigen::Vector3d point = returns.point_m(k);
+    const auto hit = predictor.hit(point.normalized());
+    if (!hit) continue;
+    out.list.push_back({hit->board_m, returns.intensity(k), {}});
+    if (returns.intensity(k) > 0.5 * (levels.white + levels.black))
+      farther.push_back(point.norm() / hit->range_m);
+  }
+  if (!farther.empty()) out.distance = median(std::move(farther));
+  return out;
+}
+
+// The stretch, alike in x and y, under which intensities and print correlate best.
+double coarse_scale(const std::vector<Place>& places, const BlurredPrint& blurred) {
+  const BlurredPrint::Coarse print = blurred.coarse(0.01);
+  const Eigen::Vector2d center = blurred.outline().center_m();
+  double best = 1.0;
+  double largest = 0.0;
+  const int steps = static_cast<int>(kCoarsest / kCoarseStep);
+  for (int k = -steps; k <= steps; ++k) {
+    const double scale = 1.0 + kCoarseStep * k;
+    PairedMoments moments;
+    const std::size_t stride = std::max<std::size_t>(1, places.size() / 1500);
+    for (std::size_t q = 0; q < places.size(); q += stride) {
+      moments.add(print.at(center + (places[q].board_m - center) / scale), places[q].intensity);
+    }
+    const double rho = moments.correlation();
+    if (rho > largest) {
+      largest = rho;
+      best = scale;
+    }
+  }
+  return best;
+}
+
+// How the print lies on the board as solved: what is fitted.
+struct PrintOnBoard {
+  Eigen::Vector2d scale = Eigen::Vector2d::Ones();
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  double spin = 0.0;
+  BoardLevels levels;
 
   // Where on the drawing the print at a place of the board comes from.
-  [[nodiscard]] Eigen::Vector2d on_drawing(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d d = p - center_ - shift_;
-    const double c = std::cos(spin_);
-    const double s = std::sin(spin_);
-    return center_ +
-           Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y()).cwiseQuotient(scale_);
+  [[nodiscard]] Eigen::Vector2d on_drawing(const Eigen::Vector2d& p,
+                                           const Eigen::Vector2d& center) const {
+    const Eigen::Vector2d d = p - center - shift;
+    const double c = std::cos(spin);
+    const double s = std::sin(spin);
+    return center +
+           Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y()).cwiseQuotient(scale);
   }
-
-  // The stretch, alike in x and y, under which intensities and print correlate best.
-  [[nodiscard]] double coarse_scale() const {
-    const BlurredPrint::Coarse print = print_.coarse(0.01);
-    double best = 1.0;
-    double largest = 0.0;
-    const int steps = static_cast<int>(kCoarsest / kCoarseStep);
-    for (int k = -steps; k <= steps; ++k) {
-      const double scale = 1.0 + kCoarseStep * k;
-      PairedMoments moments;
-      const std::size_t stride = std::max<std::size_t>(1, places_.size() / 1500);
-      for (std::size_t q = 0; q < places_.size(); q += stride) {
-        moments.add(print.at(center_ + (places_[q].board_m - center_) / scale),
-                    places_[q].intensity);
-      }
-      const double rho = moments.correlation();
-      if (rho > largest) {
-        largest = rho;
-        best = scale;
-      }
-    }
-    return best;
-  }
-
-  bool step() {
-    const BoardPredictor predictor(print_, lidar_from_board_, levels_, beam_);
-    normal_.setZero();
-    Vector7 gradient = Vector7::Zero();
-    double squares = 0.0;
-    double rows = 0.0;
-    for (Place& place : places_) {
-      const Eigen::Vector2d q = on_drawing(place.board_m);
-      const Eigen::Vector3d at = lidar_from_board_ * Eigen::Vector3d(q.x(), q.y(), 0.0);
-      const auto p = predictor.predict(at.normalized(), {}, &place.seen, &place.seen);
-      if (!p) continue;
-      const double plain = std::exp(p->white * std::log(noise_.intensity_white) +
-                                    (1.0 - p->white) * std::log(noise_.intensity_black));
-      const double variance = plain * plain + p->intensity_by_angle * beam_.jitter_rad2 *
-                                                  p->intensity_by_angle.transpose();
-      const double e = place.intensity - p->intensity;
-      const double z = e / std::sqrt(variance);
-      const double w = huber_weight(z, 3.0) / variance;
-      const Eigen::RowVector2d by_shift = p->intensity_by_shift;
-      const Eigen::Vector2d d = q - center_;
-      Vector7 j;
-      j << by_shift(0) * d.x(), by_shift(1) * d.y(), by_shift(0), by_shift(1),
-          by_shift(1) * d.x() - by_shift(0) * d.y(), p->intensity_by_levels(0),
-          p->intensity_by_levels(1);
-      normal_ += w * j * j.transpose();
-      gradient += w * e * j;
-      squares += std::min(z * z, 9.0);
-      rows += 1.0;
-    }
-    if (rows < 10 * kUnknowns) return false;
-    chi_square_ = squares / (rows - kUnknowns);
-    const Eigen::LDLT<Matrix7> solver(normal_);
-    last_ = solver.solve(gradient);
-    if (solver.info() != Eigen::Success || !last_.allFinite()) return false;
-    // Beyond a feature's width the slopes say nothing.
-    const double most = last_.head<2>().norm() * print_.outline().size_m().norm() / 2.0;
-    const double shrink = std::min(1.0, 0.01 / std::max(1e-12, most));
-    scale_ += shrink * last_.head<2>();
-    shift_ += shrink * last_.segment<2>(2);
-    spin_ += shrink * last_(4);
-    levels_.white += shrink * last_(5);
-    levels_.black += shrink * last_(6);
-    return true;
-  }
-
-  const BlurredPrint& print_;
-  const Rigid3& lidar_from_board_;
-  BoardLevels levels_;
-  const BeamSpread& beam_;
-  const SceneNoise& noise_;
-  Eigen::Vector2d center_;
-  std::vector<Place> places_;
-  Eigen::Vector2d scale_ = Eigen::Vector2d::Ones();
-  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
-  double spin_ = 0.0;
-  Matrix7 normal_ = Matrix7::Zero();
-  Vector7 last_ = Vector7::Zero();
-  double chi_square_ = 1.0;
-  double distance_ = 1.0;  // Of the white returns, over that of the board as solved.
 };
+
+struct SizeStep {
+  Vector7 step = Vector7::Zero();
+  Matrix7 normal = Matrix7::Zero();
+  double chi_square = 1.0;
+};
+
+// One Gauss–Newton step; nothing where it is not solvable.
+std::optional<SizeStep> take_step(const SeenBoard& board, std::vector<Place>& places,
+                                  PrintOnBoard& on_board) {
+  const BoardPredictor predictor(board.print, board.lidar_from_board, on_board.levels, board.beam);
+  const Eigen::Vector2d center = board.print.outline().center_m();
+  SizeStep out;
+  Vector7 gradient = Vector7::Zero();
+  double squares = 0.0;
+  double rows = 0.0;
+  for (Place& place : places) {
+    const Eigen::Vector2d q = on_board.on_drawing(place.board_m, center);
+    const Eigen::Vector3d at = board.lidar_from_board * Eigen::Vector3d(q.x(), q.y(), 0.0);
+    const auto p = predictor.predict(at.normalized(), {}, &place.seen, &place.seen);
+    if (!p) continue;
+    const double plain = std::exp(p->white * std::log(board.noise.intensity_white) +
+                                  (1.0 - p->white) * std::log(board.noise.intensity_black));
+    const double variance = plain * plain + p->intensity_by_angle * board.beam.jitter_rad2 *
+                                                p->intensity_by_angle.transpose();
+    const double e = place.intensity - p->intensity;
+    const double z = e / std::sqrt(variance);
+    const double w = huber_weight(z, 3.0) / variance;
+    const Eigen::RowVector2d by_shift = p->intensity_by_shift;
+    const Eigen::Vector2d d = q - center;
+    Vector7 j;
+    j << by_shift(0) * d.x(), by_shift(1) * d.y(), by_shift(0), by_shift(1),
+        by_shift(1) * d.x() - by_shift(0) * d.y(), p->intensity_by_levels(0),
+        p->intensity_by_levels(1);
+    out.normal += w * j * j.transpose();
+    gradient += w * e * j;
+    squares += std::min(z * z, 9.0);
+    rows += 1.0;
+  }
+  if (rows < 10 * kUnknowns) return std::nullopt;
+  out.chi_square = squares / (rows - kUnknowns);
+  const Eigen::LDLT<Matrix7> solver(out.normal);
+  out.step = solver.solve(gradient);
+  if (solver.info() != Eigen::Success || !out.step.allFinite()) return std::nullopt;
+  // Beyond a feature's width the slopes say nothing.
+  const double most = out.step.head<2>().norm() * board.print.outline().size_m().norm() / 2.0;
+  const double shrink = std::min(1.0, 0.01 / std::max(1e-12, most));
+  on_board.scale += shrink * out.step.head<2>();
+  on_board.shift += shrink * out.step.segment<2>(2);
+  on_board.spin += shrink * out.step(4);
+  on_board.levels.white += shrink * out.step(5);
+  on_board.levels.black += shrink * out.step(6);
+  return out;
+}
 
 }  // namespace
 
 PrintSize measure_print_size(const BoardReturns& returns, const BlurredPrint& print,
                              const Rigid3& lidar_from_board, const BoardLevels& levels,
                              const BeamSpread& beam, const SceneNoise& noise) {
-  return SizeFit(returns, print, lidar_from_board, levels, beam, noise).run();
+  const SeenBoard board{print, lidar_from_board, beam, noise};
+  Places places = places_of(returns, board, levels);
+  PrintSize out;
+  if (places.list.size() < 10 * kUnknowns) return out;
+  PrintOnBoard on_board;
+  on_board.levels = levels;
+  on_board.scale *= coarse_scale(places.list, print);
+  constexpr int kIterations = 15;
+  SizeStep last;
+  bool settled = false;
+  for (int i = 0; i < kIterations && !settled; ++i) {
+    const auto step = take_step(board, places.list, on_board);
+    if (!step) return out;
+    last = *step;
+    settled = last.step.head<2>().norm() < 1e-5;
+  }
+  if (!settled || (on_board.scale.array() - 1.0).abs().maxCoeff() > 1.5 * kCoarsest) return out;
+  const Matrix7 covariance = last.normal.ldlt().solve(Matrix7::Identity());
+  const double excess = std::max(1.0, last.chi_square);
+  // Beams tell angles; the board may stand elsewhere than where its returns are, if the joint
+  // solve weighs corners against ranges.
+  out.scale = places.distance * on_board.scale;
+  out.sigma = (excess * noise.intensity_inflation * covariance.diagonal().head<2>())
+                  .cwiseMax(0.0)
+                  .cwiseSqrt();
+  out.measured =
+      out.sigma.allFinite() && out.sigma.minCoeff() > 0.0 && out.sigma.maxCoeff() < kLargestSigma;
+  return out;
 }
 
 PrintSize size_from_places(const std::vector<Rigid3>& camera_from_board,
