@@ -73,211 +73,192 @@ FittedPlane plane_guess(const Rigid3& lidar_from_board, const Target& target) {
   return plane;
 }
 
-class NodeRefiner {
- public:
-  NodeRefiner(const Cloud& cloud, const Target& target, const RefinementOptions& options,
-              BoardRefinement& result)
-      : options_(options),
-        result_(result),
-        window_(node_window(target)),
-        nodes_(target.nodes()),
-        model_(kFirstFootprint * target.circle_radius_m) {
-    // The layout starts where the coarse pose puts it.
-    const Eigen::Vector2d origin = result.plane.to_plane(result.lidar_from_board.translation);
-    const Eigen::Vector3d x_axis = result.lidar_from_board.rotation * Eigen::Vector3d::UnitX();
-    layout_.translation_m = origin;
-    layout_.angle_rad =
-        std::atan2(result.plane.axis_v.dot(x_axis), result.plane.axis_u.dot(x_axis));
-    collect_samples(cloud);
-  }
-
-  bool run(const RunContext& context, const RefinementObserver& on_iteration) {
-    for (const TargetNode& node : nodes_) raw_.push_back(layout_ * node.center_m);
-    for (int i = 0; i < options_.max_iterations; ++i) {
-      if (context.stopped()) return false;
-      const double update = iterate(i);
-      if (on_iteration) on_iteration(result_);
-      // The footprint settles during the first rounds; a still layout before that means nothing.
-      if (update < options_.tolerance_m && i >= 2) {
-        result_.converged = true;
-        break;
-      }
-    }
-    finish();
-    return true;
-  }
-
- private:
-  [[nodiscard]] bool by_midpoints() const {
-    return options_.estimator == CenterEstimator::kMidpoint;
-  }
-
-  void collect_samples(const Cloud& cloud) {
-    // Samples that the nodes may still reach while the layout moves.
-    const double reach = window_.radius_m + window_.outside_m + 4.0 * options_.max_step_m;
-    samples_.resize(nodes_.size());
-    const auto& sigmas = result_.plane.group_sigma_m;
-    const double gate = 5.0 * std::max(sigmas[0], sigmas[1]);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
-      const auto residual = result_.plane.range_residual_m(p);
-      if (!residual || std::abs(*residual) > gate) continue;
-      const auto uv =
-          options_.along_rays ? result_.plane.ray_hit(p) : std::optional(result_.plane.to_plane(p));
-      if (!uv) continue;
-      for (std::size_t n = 0; n < nodes_.size(); ++n) {
-        if ((*uv - layout_ * nodes_[n].center_m).squaredNorm() < reach * reach) {
-          samples_[n].push_back({*uv, cloud.intensity[i]});
-        }
-      }
-    }
-  }
-
-  double iterate(int iteration) {
-    IterationRecord record;
-    std::vector<std::vector<UnwrappedSample>> unwrapped(nodes_.size());
-    std::vector<NodeRecord> records(nodes_.size());
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      records[n].id = nodes_[n].id;
-      unwrapped[n] = unwrap_node(samples_[n], layout_ * nodes_[n].center_m, window_,
-                                 model_.mean_sigma_m(), records[n]);
-    }
-    fits_.clear();
-    std::vector<UnwrappedSample> centred;
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      if (unwrapped[n].empty()) {
-        NodeFit none;
-        none.record = records[n];
-        fits_.push_back(std::move(none));
-        continue;
-      }
-      fits_.push_back(fit_node(unwrapped[n], records[n], window_, model_, options_));
-      if (fits_.back().record.valid) append_centred(unwrapped[n], fits_.back(), centred);
-    }
-    if (!centred.empty() && iteration < kSettlingRounds && !by_midpoints()) {
-      model_.update(centred, kSmallestFootprint * window_.radius_m,
-                    kLargestFootprint * window_.radius_m);
-    }
-    record.transition_sigma_m = model_.mean_sigma_m();
-    record.max_update_m = move_layout(1.0 / std::max(1, iteration - kDampedFrom + 2));
-    for (const NodeFit& fit : fits_) record.nodes.push_back(fit.record);
-    result_.history.push_back(std::move(record));
-    return result_.history.back().max_update_m;
-  }
-
-  // Distances measured from the fitted circle instead of the predicted one.
-  void append_centred(const std::vector<UnwrappedSample>& samples, const NodeFit& fit,
-                      std::vector<UnwrappedSample>& out) const {
-    for (UnwrappedSample s : samples) {
-      const Eigen::Vector3d by_wave(s.cos_psi, s.sin_psi, 1.0);
-      s.distance_m -= by_wave.dot(fit.record.wave_m);
-      s.leverage = model_.leverage(s, by_wave.dot(fit.covariance_m2 * by_wave));
-      out.push_back(s);
-    }
-  }
-
-  // Projects the step-limited centres to the layout; returns the largest move of a node.
-  double move_layout(double share) {
-    std::vector<Eigen::Vector2d> centers;
-    std::vector<Eigen::Vector2d> model;
-    std::vector<double> weights;
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      if (!fits_[n].record.valid) continue;
-      Eigen::Vector2d step = fits_[n].record.wave_m.head<2>();
-      if (step.norm() > options_.max_step_m) step *= options_.max_step_m / step.norm();
-      centers.push_back(fits_[n].record.center_uv_m + share * step);
-      model.push_back(nodes_[n].center_m);
-      weights.push_back(fits_[n].weight);
-    }
-    if (centers.size() < 2) return 0.0;
-    const LayoutPose next = fit_layout(centers, model, weights);
-    double largest = 0.0;
-    for (const TargetNode& node : nodes_) {
-      largest = std::max(largest, (next * node.center_m - layout_ * node.center_m).norm());
-    }
-    layout_ = next;
-    return largest;
-  }
-
-  // The centres as the paper has them: constrained to the layout, and one σ from the scatter of the
-  // circle's midpoints about their wave.
-  void place_on_layout(const NodeFit& fit, RefinedNode& node) const {
-    node.center_uv_m = layout_ * node.board_m;
-    double weights = 0.0;
-    for (const BinRecord& bin : fit.record.bins) {
-      if (bin.state == BinState::kUsed) weights += 1.0 / (bin.sigma_m * bin.sigma_m);
-    }
-    const double scatter = weights > 0.0 ? std::sqrt(fit.chi_square / weights) : 0.0;
-    const double sigma = std::max(options_.midpoint_sigma_floor_m, scatter);
-    node.covariance_m2 = sigma * sigma * Eigen::Matrix2d::Identity();
-  }
-
-  void finish() {
-    // Bins that scatter more than their standard deviations say: widen all by the common factor.
-    double chi_square = 0.0;
-    int freedom = 0;
-    for (const NodeFit& fit : fits_) {
-      if (!fit.record.valid) continue;
-      chi_square += fit.chi_square;
-      freedom += fit.degrees_of_freedom;
-    }
-    const double excess = freedom > 0 ? std::max(1.0, chi_square / freedom) : 1.0;
-    std::vector<Eigen::Vector2d> centers;
-    std::vector<Eigen::Vector2d> model;
-    std::vector<double> variances;
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      const NodeFit& fit = fits_[n];
-      RefinedNode node;
-      node.id = nodes_[n].id;
-      node.valid = fit.record.valid;
-      node.reason = fit.record.reason;
-      node.board_m = nodes_[n].center_m;
-      node.center_uv_m = fit.record.center_uv_m + fit.record.wave_m.head<2>();
-      node.covariance_m2 = excess * fit.covariance_m2.topLeftCorner<2, 2>();
-      if (node.valid) {
-        centers.push_back(node.center_uv_m);
-        model.push_back(node.board_m);
-        variances.push_back(0.5 * node.covariance_m2.trace());
-      }
-      if (by_midpoints()) place_on_layout(fit, node);
-      node.center_lidar_m = result_.plane.to_lidar(node.center_uv_m);
-      node.raw_lidar_m = result_.plane.to_lidar(raw_[n]);
-      node.valid_bins = static_cast<int>(
-          std::count_if(fit.record.bins.begin(), fit.record.bins.end(),
-                        [](const BinRecord& b) { return b.state == BinState::kUsed; }));
-      result_.nodes.push_back(std::move(node));
-    }
-    const LayoutScale scale = measure_scale(centers, model, variances);
-    result_.scale = scale.scale;
-    result_.scale_sigma = scale.sigma;
-    result_.footprint_m2 = model_.footprint_m2();
-    const TransitionNoise& noise = model_.noise();
-    result_.transition_noise = noise;
-    result_.intensity_noise = std::sqrt(0.5 * (noise.variance(-4.0) + noise.variance(4.0)));
-    store_pose();
-  }
-
-  void store_pose() {
-    const double c = std::cos(layout_.angle_rad);
-    const double s = std::sin(layout_.angle_rad);
-    Eigen::Matrix3d R;
-    R.col(0) = c * result_.plane.axis_u + s * result_.plane.axis_v;
-    R.col(1) = -s * result_.plane.axis_u + c * result_.plane.axis_v;
-    R.col(2) = result_.plane.normal;
-    result_.lidar_from_board =
-        Rigid3::from_matrix(R, result_.plane.to_lidar(layout_.translation_m));
-  }
-
-  const RefinementOptions& options_;
-  BoardRefinement& result_;
-  NodeWindow window_;
-  std::vector<TargetNode> nodes_;
-  TransitionModel model_;
-  LayoutPose layout_;
-  std::vector<std::vector<PlaneSample>> samples_;  // per node
-  std::vector<NodeFit> fits_;
-  std::vector<Eigen::Vector2d> raw_;
+// What all iterations are given.
+struct NodeInput {
+  const RefinementOptions& options;
+  NodeWindow window;
+  std::vector<TargetNode> nodes;
+  std::vector<std::vector<PlaneSample>> samples;  // per node
 };
+
+// Where the iteration stands.
+struct NodeState {
+  TransitionModel model;
+  LayoutPose layout;
+  std::vector<NodeFit> fits;  // per node
+};
+
+bool by_midpoints(const RefinementOptions& options) {
+  return options.estimator == CenterEstimator::kMidpoint;
+}
+
+// The layout where the coarse pose puts it.
+LayoutPose first_layout(const FittedPlane& plane, const Rigid3& lidar_from_board) {
+  const Eigen::Vector3d x_axis = lidar_from_board.rotation * Eigen::Vector3d::UnitX();
+  LayoutPose out;
+  out.translation_m = plane.to_plane(lidar_from_board.translation);
+  out.angle_rad = std::atan2(plane.axis_v.dot(x_axis), plane.axis_u.dot(x_axis));
+  return out;
+}
+
+// Samples that the nodes may still reach while the layout moves, per node.
+std::vector<std::vector<PlaneSample>> samples_about(const NodeInput& in, const FittedPlane& plane,
+                                                    const LayoutPose& layout, const Cloud& cloud) {
+  const double reach = in.window.radius_m + in.window.outside_m + 4.0 * in.options.max_step_m;
+  std::vector<std::vector<PlaneSample>> out(in.nodes.size());
+  const auto& sigmas = plane.group_sigma_m;
+  const double gate = 5.0 * std::max(sigmas[0], sigmas[1]);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d p = cloud.points_m[i].cast<double>();
+    const auto residual = plane.range_residual_m(p);
+    if (!residual || std::abs(*residual) > gate) continue;
+    const auto uv = in.options.along_rays ? plane.ray_hit(p) : std::optional(plane.to_plane(p));
+    if (!uv) continue;
+    for (std::size_t n = 0; n < in.nodes.size(); ++n) {
+      if ((*uv - layout * in.nodes[n].center_m).squaredNorm() < reach * reach) {
+        out[n].push_back({*uv, cloud.intensity[i]});
+      }
+    }
+  }
+  return out;
+}
+
+// Distances measured from the fitted circle instead of the predicted one.
+void append_centred(const TransitionModel& model, const std::vector<UnwrappedSample>& samples,
+                    const NodeFit& fit, std::vector<UnwrappedSample>& out) {
+  for (UnwrappedSample s : samples) {
+    const Eigen::Vector3d by_wave(s.cos_psi, s.sin_psi, 1.0);
+    s.distance_m -= by_wave.dot(fit.record.wave_m);
+    s.leverage = model.leverage(s, by_wave.dot(fit.covariance_m2 * by_wave));
+    out.push_back(s);
+  }
+}
+
+// Projects the step-limited centres to the layout; returns the largest move of a node.
+double move_layout(const NodeInput& in, double share, NodeState& at) {
+  std::vector<Eigen::Vector2d> centers;
+  std::vector<Eigen::Vector2d> model;
+  std::vector<double> weights;
+  for (std::size_t n = 0; n < in.nodes.size(); ++n) {
+    if (!at.fits[n].record.valid) continue;
+    Eigen::Vector2d step = at.fits[n].record.wave_m.head<2>();
+    if (step.norm() > in.options.max_step_m) step *= in.options.max_step_m / step.norm();
+    centers.push_back(at.fits[n].record.center_uv_m + share * step);
+    model.push_back(in.nodes[n].center_m);
+    weights.push_back(at.fits[n].weight);
+  }
+  if (centers.size() < 2) return 0.0;
+  const LayoutPose next = fit_layout(centers, model, weights);
+  double largest = 0.0;
+  for (const TargetNode& node : in.nodes) {
+    largest = std::max(largest, (next * node.center_m - at.layout * node.center_m).norm());
+  }
+  at.layout = next;
+  return largest;
+}
+
+IterationRecord iterate(const NodeInput& in, int iteration, NodeState& at) {
+  IterationRecord record;
+  std::vector<std::vector<UnwrappedSample>> unwrapped(in.nodes.size());
+  std::vector<NodeRecord> records(in.nodes.size());
+  for (std::size_t n = 0; n < in.nodes.size(); ++n) {
+    records[n].id = in.nodes[n].id;
+    unwrapped[n] = unwrap_node(in.samples[n], at.layout * in.nodes[n].center_m, in.window,
+                               at.model.mean_sigma_m(), records[n]);
+  }
+  at.fits.clear();
+  std::vector<UnwrappedSample> centred;
+  for (std::size_t n = 0; n < in.nodes.size(); ++n) {
+    if (unwrapped[n].empty()) {
+      NodeFit none;
+      none.record = records[n];
+      at.fits.push_back(std::move(none));
+      continue;
+    }
+    at.fits.push_back(fit_node(unwrapped[n], records[n], in.window, at.model, in.options));
+    if (at.fits.back().record.valid)
+      append_centred(at.model, unwrapped[n], at.fits.back(), centred);
+  }
+  if (!centred.empty() && iteration < kSettlingRounds && !by_midpoints(in.options)) {
+    at.model.update(centred, kSmallestFootprint * in.window.radius_m,
+                    kLargestFootprint * in.window.radius_m);
+  }
+  record.transition_sigma_m = at.model.mean_sigma_m();
+  record.max_update_m = move_layout(in, 1.0 / std::max(1, iteration - kDampedFrom + 2), at);
+  for (const NodeFit& fit : at.fits) record.nodes.push_back(fit.record);
+  return record;
+}
+
+// The centres as the paper has them: constrained to the layout, and one σ from the scatter of the
+// circle's midpoints about their wave.
+void place_on_layout(const LayoutPose& layout, double sigma_floor_m, const NodeFit& fit,
+                     RefinedNode& node) {
+  node.center_uv_m = layout * node.board_m;
+  double weights = 0.0;
+  for (const BinRecord& bin : fit.record.bins) {
+    if (bin.state == BinState::kUsed) weights += 1.0 / (bin.sigma_m * bin.sigma_m);
+  }
+  const double scatter = weights > 0.0 ? std::sqrt(fit.chi_square / weights) : 0.0;
+  const double sigma = std::max(sigma_floor_m, scatter);
+  node.covariance_m2 = sigma * sigma * Eigen::Matrix2d::Identity();
+}
+
+Rigid3 pose_of(const LayoutPose& layout, const FittedPlane& plane) {
+  const double c = std::cos(layout.angle_rad);
+  const double s = std::sin(layout.angle_rad);
+  Eigen::Matrix3d R;
+  R.col(0) = c * plane.axis_u + s * plane.axis_v;
+  R.col(1) = -s * plane.axis_u + c * plane.axis_v;
+  R.col(2) = plane.normal;
+  return Rigid3::from_matrix(R, plane.to_lidar(layout.translation_m));
+}
+
+void finish(const NodeInput& in, const NodeState& at, const LayoutPose& first,
+            BoardRefinement& result) {
+  // Bins that scatter more than their standard deviations say: widen all by the common factor.
+  double chi_square = 0.0;
+  int freedom = 0;
+  for (const NodeFit& fit : at.fits) {
+    if (!fit.record.valid) continue;
+    chi_square += fit.chi_square;
+    freedom += fit.degrees_of_freedom;
+  }
+  const double excess = freedom > 0 ? std::max(1.0, chi_square / freedom) : 1.0;
+  std::vector<Eigen::Vector2d> centers;
+  std::vector<Eigen::Vector2d> model;
+  std::vector<double> variances;
+  for (std::size_t n = 0; n < in.nodes.size(); ++n) {
+    const NodeFit& fit = at.fits[n];
+    RefinedNode node;
+    node.id = in.nodes[n].id;
+    node.valid = fit.record.valid;
+    node.reason = fit.record.reason;
+    node.board_m = in.nodes[n].center_m;
+    node.center_uv_m = fit.record.center_uv_m + fit.record.wave_m.head<2>();
+    node.covariance_m2 = excess * fit.covariance_m2.topLeftCorner<2, 2>();
+    if (node.valid) {
+      centers.push_back(node.center_uv_m);
+      model.push_back(node.board_m);
+      variances.push_back(0.5 * node.covariance_m2.trace());
+    }
+    if (by_midpoints(in.options))
+      place_on_layout(at.layout, in.options.midpoint_sigma_floor_m, fit, node);
+    node.center_lidar_m = result.plane.to_lidar(node.center_uv_m);
+    node.raw_lidar_m = result.plane.to_lidar(first * node.board_m);
+    node.valid_bins = static_cast<int>(
+        std::count_if(fit.record.bins.begin(), fit.record.bins.end(),
+                      [](const BinRecord& b) { return b.state == BinState::kUsed; }));
+    result.nodes.push_back(std::move(node));
+  }
+  const LayoutScale scale = measure_scale(centers, model, variances);
+  result.scale = scale.scale;
+  result.scale_sigma = scale.sigma;
+  result.footprint_m2 = at.model.footprint_m2();
+  const TransitionNoise& noise = at.model.noise();
+  result.transition_noise = noise;
+  result.intensity_noise = std::sqrt(0.5 * (noise.variance(-4.0) + noise.variance(4.0)));
+  result.lidar_from_board = pose_of(at.layout, result.plane);
+}
 
 }  // namespace
 
@@ -369,8 +350,18 @@ Result<BoardRefinement> refine_nodes(const Cloud& board_points, const Target& ta
     result.converged = true;
     return result;
   }
-  NodeRefiner refiner(board_points, target, options, result);
-  if (!refiner.run(context, on_iteration)) return Error::cancelled();
+  const LayoutPose first = first_layout(result.plane, result.lidar_from_board);
+  NodeInput in{options, node_window(target), target.nodes(), {}};
+  in.samples = samples_about(in, result.plane, first, board_points);
+  NodeState at{TransitionModel(kFirstFootprint * target.circle_radius_m), first, {}};
+  for (int i = 0; i < options.max_iterations && !result.converged; ++i) {
+    if (context.stopped()) return Error::cancelled();
+    result.history.push_back(iterate(in, i, at));
+    if (on_iteration) on_iteration(result);
+    // The footprint settles during the first rounds; a still layout before that means nothing.
+    result.converged = result.history.back().max_update_m < options.tolerance_m && i >= 2;
+  }
+  finish(in, at, first, result);
   if (!result.converged)
     result.warnings.push_back(Message("refinement did not settle within its iterations"));
   return result;
