@@ -18,32 +18,14 @@ double board_distance(const BoardView& view, const Target& target) {
   return (view.camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0)).norm();
 }
 
+// Looks at images and clouds of scenes in several threads at once; what they share is guarded.
 class SceneLoader {
  public:
   SceneLoader(const Dataset& dataset, const CalibrationRequest& request, const RunContext& context,
               CalibrationResult& result, StageCache* cache)
       : dataset_(dataset), request_(request), context_(context), result_(result), cache_(cache) {}
 
-  Status run() {
-    const std::size_t n = dataset_.scenes.size();
-    // Images first, then clouds: with few scenes both cores stay busy to the end.
-    parallel_two_steps(
-        n, context_.thread_count(),
-        [&](std::size_t s) {
-          if (wanted(s)) look_at_image(s);
-          report("detect", s);
-        },
-        [&](std::size_t s) {
-          if (wanted(s) && result_.scenes[s].view) look_at_cloud(s);
-          report("localize", s);
-        });
-    if (context_.stopped()) return Error::cancelled();
-    if (failure_) return *failure_;
-    return Done{};
-  }
-
- private:
-  [[nodiscard]] bool wanted(std::size_t s) {
+  [[nodiscard]] bool wants(std::size_t s) {
     if (context_.stopped()) return false;
     const std::lock_guard lock(mutex_);
     return !failure_ && result_.scenes[s].reason.empty();
@@ -91,11 +73,6 @@ class SceneLoader {
     }
   }
 
-  [[nodiscard]] bool size_differs(const GrayImage& image) const {
-    return image.width_px != dataset_.camera.width_px ||
-           image.height_px != dataset_.camera.height_px;
-  }
-
   void look_at_cloud(std::size_t s) {
     const SceneFiles& files = dataset_.scenes[s];
     const std::string key = cache_ ? search_key(dataset_, files, request_) : "";
@@ -138,6 +115,23 @@ class SceneLoader {
     result_.scenes[s].search = std::move(search);
   }
 
+  void report(const char* stage, std::size_t s) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    const double tasks = 2.0 * static_cast<double>(dataset_.scenes.size());
+    context_.report(stage, 0.7 * static_cast<double>(done_) / tasks,
+                    Message::verbatim(dataset_.scenes[s].name));
+  }
+
+  // The error that stops the loading, if there is one.
+  [[nodiscard]] Status outcome() const { return failure_ ? Status(*failure_) : Status(Done{}); }
+
+ private:
+  [[nodiscard]] bool size_differs(const GrayImage& image) const {
+    return image.width_px != dataset_.camera.width_px ||
+           image.height_px != dataset_.camera.height_px;
+  }
+
   // Made by the first cloud's thread, while others are still busy with images.
   const PatternPyramid& pyramid() {
     std::call_once(pyramid_made_, [this] { pyramid_.emplace(dataset_.target); });
@@ -164,14 +158,6 @@ class SceneLoader {
       return;
     }
     if (!failure_) failure_ = std::move(error);
-  }
-
-  void report(const char* stage, std::size_t s) {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    const double tasks = 2.0 * static_cast<double>(dataset_.scenes.size());
-    context_.report(stage, 0.7 * static_cast<double>(done_) / tasks,
-                    Message::verbatim(dataset_.scenes[s].name));
   }
 
   const Dataset& dataset_;
@@ -203,7 +189,19 @@ Result<Cloud> read_scene_cloud(const SceneFiles& files, const CalibrationRequest
 
 Status load_scenes(const Dataset& dataset, const CalibrationRequest& request,
                    const RunContext& context, CalibrationResult& result, StageCache* cache) {
-  return SceneLoader(dataset, request, context, result, cache).run();
+  SceneLoader loader(dataset, request, context, result, cache);
+  // Images first, then clouds: with few scenes both cores stay busy to the end.
+  parallel_two_steps(
+      dataset.scenes.size(), context.thread_count(),
+      [&](std::size_t s) {
+        if (loader.wants(s)) loader.look_at_image(s);
+        loader.report("detect", s);
+      },
+      [&](std::size_t s) {
+        if (loader.wants(s) && result.scenes[s].view) loader.look_at_cloud(s);
+        loader.report("localize", s);
+      });
+  return context.stopped() ? Status(Error::cancelled()) : loader.outcome();
 }
 
 Status load_extra_images(const Dataset& dataset, const CalibrationRequest& request,
