@@ -99,12 +99,10 @@ void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& re
   QString text = up_to_date ? word : tr("%1 (out of date)").arg(word);
   QStringList more;
   if (!result->quality_reason.empty()) more << core_text(result->quality_reason);
-  // Whose verdict it is, once that is another model's than the calibration's own.
-  if (!result->model.empty()) {
-    const PoseUse use = pose_use(*result);
-    text = tr("%1: %2").arg(core_text(use.model), text);
-    more << core_text(use.clouds);
-  }
+  // Whose verdict it is.
+  const PoseUse use = pose_use(*result);
+  text = tr("%1: %2").arg(core_text(use.model), text);
+  more << core_text(use.clouds);
   quality_->setText(text);
   quality_->setToolTip(more.join(QLatin1Char('\n')));
 }

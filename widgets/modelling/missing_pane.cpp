@@ -301,7 +301,7 @@ void MissingPane::fillBudget() {
     // What is seen is said to be missing, not to be out of sight.
     if (p != ranking_->proposals.end() && p->suggested) continue;
     const QString size = QStringLiteral("%1 = %2%3")
-                             .arg(QString::fromStdString(limit.parameter))
+                             .arg(parameter_name(limit.parameter))
                              .arg(plain_number(limit.size, 2))
                              .arg(unit_behind(limit.unit));
     auto* item = new QTreeWidgetItem(
@@ -326,7 +326,14 @@ void MissingPane::updateVerdict() {
     verdict_->setText(tr("<b>Something is left</b> that no known effect explains."));
   } else {
     const auto& top = ranking_->proposals.front();
-    verdict_->setText(tr("<b>%1 is missing.</b>").arg(effect_title(top.finding.id)));
+    QString text = tr("<b>%1 is missing.</b>").arg(effect_title(top.finding.id));
+    // One cause makes several candidates fit better: nobody shall add them all.
+    const auto suggested = std::count_if(ranking_->proposals.begin(), ranking_->proposals.end(),
+                                         [](const EffectProposal& p) { return p.suggested; });
+    if (suggested > 1)
+      text += QLatin1Char(' ') + tr("Others may only stand in for it: they are judged again once "
+                                    "it is added.");
+    verdict_->setText(text);
   }
 }
 

@@ -36,6 +36,22 @@ TEST(MissingPaneTest, TheTopSuggestionIsChosenAndExplained) {
   EXPECT_EQ(add.last().at(0).toString(), "range_walk");
 }
 
+// One cause makes several effects fit better: whoever adds them all has as many wrong ones.
+TEST(MissingPaneTest, SeveralSuggestionsAreSaidToStandForOne) {
+  ModelRanking ranking = *test::model_example().missing;
+  ASSERT_GT(ranking.proposals.size(), 1U);
+  const char* const caution = "stand in for it";
+  MissingPane pane;
+  const auto* verdict = pane.findChild<QLabel*>("missing_verdict");
+  for (EffectProposal& p : ranking.proposals) p.suggested = false;
+  ranking.proposals[0].suggested = true;
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  EXPECT_FALSE(verdict->text().contains(caution)) << verdict->text().toStdString();
+  ranking.proposals[1].suggested = true;
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  EXPECT_TRUE(verdict->text().contains(caution)) << verdict->text().toStdString();
+}
+
 TEST(MissingPaneTest, NothingMissingIsSaid) {
   const auto clean = test::make_model_example(false);
   MissingPane pane;

@@ -37,7 +37,7 @@ TEST(StatusLine, SaysWhenTheQualityIsOfOlderDecisions) {
   auto result = std::make_shared<CalibrationResult>();
   result->quality = Quality::kGood;
   line.show_quality(result, true);
-  EXPECT_EQ(quality->text(), "good");
+  EXPECT_EQ(quality->text(), "Base model: good");
   auto modelled = std::make_shared<CalibrationResult>(*result);
   modelled->model = {{"range_walk", {{"a", "mm", 1e-3, 0.01, 0.001}}}};
   modelled->model_scales.darkness_high = 1.0;
