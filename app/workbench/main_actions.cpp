@@ -160,7 +160,7 @@ void MainActions::follow(AppSettings& settings) {
 void MainActions::describe_undo() {
   if (undo_stack_ == nullptr) return;
   const auto words = [this](int index) {
-    const auto* command = dynamic_cast<const DecisionCommand*>(undo_stack_->command(index));
+    const auto* command = dynamic_cast<const DescribedCommand*>(undo_stack_->command(index));
     return command != nullptr ? command->description() : QString();
   };
   const int index = undo_stack_->index();

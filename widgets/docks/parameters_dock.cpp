@@ -60,13 +60,6 @@ QDoubleSpinBox* make_spin_box(const OptionDeclaration& option, const OptionDispl
 
 }  // namespace
 
-QString label_of(const OptionDeclaration& option) {
-  QString name = QString::fromStdString(option.key).section(QLatin1Char('.'), 1);
-  const QString suffix = QLatin1Char('_') + QString::fromStdString(option.unit);
-  if (name.endsWith(suffix)) name.chop(suffix.size());
-  return name.replace(QLatin1Char('_'), QLatin1Char(' '));
-}
-
 OptionDisplay display_of(const OptionDeclaration& option) {
   OptionDisplay display;
   display.unit = QString::fromStdString(option.unit);
@@ -227,10 +220,10 @@ void ParametersDock::retranslate() {
     const QString tip = QStringLiteral("<p>%1</p><p>%2</p><p><code>%3</code></p>")
                             .arg(description.toHtmlEscaped(), range.toHtmlEscaped(),
                                  QString::fromStdString(option.key));
-    field.label->setText(core_text(Message::listed(label_of(option).toStdString())));
+    field.label->setText(core_text(option_name(option)));
     field.label->setToolTip(tip);
     field.editor->setToolTip(tip);
-    field.editor->setAccessibleName(core_text(Message::listed(label_of(option).toStdString())));
+    field.editor->setAccessibleName(core_text(option_name(option)));
     field.reset->setToolTip(tr("Back to the default %1").arg(shown(option.default_value())));
   }
 }

@@ -22,9 +22,6 @@ struct OptionDisplay {
 };
 OptionDisplay display_of(const OptionDeclaration& option);
 
-/// An option's name for people, in English: "refinement.max_step_m" → "max step".
-QString label_of(const OptionDeclaration& option);
-
 /// A form of all options, made from their one declaration: units, ranges, defaults, tool tips.
 /// Changes are asked for by a signal; the form shows what set_options() says.
 class ParametersDock : public QDockWidget {

@@ -4,17 +4,28 @@
 #include <QCoreApplication>
 #include <utility>
 
+#include "words/core_text.h"
+
 namespace lvcalib::widgets {
+
+DescribedCommand::DescribedCommand(const char* context, Words words)
+    : context_(context), words_(std::move(words)) {
+  setText(description());
+}
+
+QString DescribedCommand::description() const {
+  const QString text = QCoreApplication::translate(context_, words_.source);
+  const QString about = words_.called.empty() ? words_.about : core_text(words_.called);
+  return about.isEmpty() ? text : text.arg(about);
+}
 
 DecisionCommand::DecisionCommand(Apply apply, Decisions before, Decisions after, Words words,
                                  QString merge_key)
-    : apply_(std::move(apply)),
+    : DescribedCommand("Decisions", std::move(words)),
+      apply_(std::move(apply)),
       before_(std::move(before)),
       after_(std::move(after)),
-      words_(std::move(words)),
-      merge_key_(std::move(merge_key)) {
-  setText(description());
-}
+      merge_key_(std::move(merge_key)) {}
 
 // Turning one spin box is one decision.
 bool DecisionCommand::mergeWith(const QUndoCommand* other) {
@@ -22,11 +33,6 @@ bool DecisionCommand::mergeWith(const QUndoCommand* other) {
   if (next == nullptr || next->merge_key_ != merge_key_) return false;
   after_ = next->after_;
   return true;
-}
-
-QString DecisionCommand::description() const {
-  const QString text = QCoreApplication::translate("Decisions", words_.source);
-  return words_.about.isEmpty() ? text : text.arg(words_.about);
 }
 
 }  // namespace lvcalib::widgets

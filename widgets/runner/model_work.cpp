@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "runner/model_work.h"
 
-#include <QUndoCommand>
 #include <algorithm>
 #include <utility>
 
@@ -22,6 +21,13 @@ std::string key_of(const std::vector<ModelDecision>& decisions) {
   return key;
 }
 
+constexpr char kContext[] = "lvcalib::widgets::ModelWork";
+
+// An effect by its title; a formula or curve as it was entered.
+DescribedCommand::Words words_of(const char* text, const std::string& spec) {
+  return {text, {}, Message::verbatim(spec)};
+}
+
 }  // namespace
 
 std::vector<ModelDecision> ModelWork::Place::in_force() const {
@@ -29,10 +35,13 @@ std::vector<ModelDecision> ModelWork::Place::in_force() const {
 }
 
 // A change of the model; steps are kept elsewhere, so going back and forth only shows others.
-class ModelWork::Command : public QUndoCommand {
+class ModelWork::Command : public DescribedCommand {
  public:
-  Command(ModelWork& work, const QString& text, Place after)
-      : QUndoCommand(text), work_(work), before_(work.place_), after_(std::move(after)) {}
+  Command(ModelWork& work, const Words& words, Place after)
+      : DescribedCommand(kContext, words),
+        work_(work),
+        before_(work.place_),
+        after_(std::move(after)) {}
   void undo() override { work_.arrive(before_); }
   void redo() override { work_.arrive(after_); }
 
@@ -111,7 +120,7 @@ void ModelWork::start() {
     if (!ranking()) rank();
     return;
   }
-  run(place_, QString());
+  run(place_, {});
 }
 
 ModelStepPtr ModelWork::find(const std::vector<ModelDecision>& decisions) const {
@@ -157,26 +166,27 @@ void ModelWork::arrive(const Place& place) {
   }
   result_ = nullptr;
   Q_EMIT result_changed();
-  if (workspace_.result()) run(place_, QString());
+  if (workspace_.result()) run(place_, {});
 }
 
-void ModelWork::push(Place place, const QString& text) {
-  workspace_.undo_stack().push(new Command(*this, text, std::move(place)));
+void ModelWork::push(Place place, const DescribedCommand::Words& words) {
+  workspace_.undo_stack().push(new Command(*this, words, std::move(place)));
 }
 
-void ModelWork::decide(ModelDecision decision, const QString& text) {
+void ModelWork::decide(ModelDecision decision, const char* text) {
   if (!step() || !workspace_.result()) return;
+  const DescribedCommand::Words words = words_of(text, decision.spec);
   Place goal{place_.in_force(), place_.current + 1};
   goal.decisions.push_back(std::move(decision));
-  run(std::move(goal), text);
+  run(std::move(goal), words);
 }
 
-// Makes the steps up to a place that are not there yet, shows it (as a change named `text`; empty:
+// Makes the steps up to a place that are not there yet, shows it (as a change of these words; none:
 // it is decided already), and looks for what is missing there.
-void ModelWork::run(Place goal, const QString& text) {
+void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
   const auto source = workspace_.result();
   source_ = source;
-  runner_.start([this, source, goal, text, made = made_](
+  runner_.start([this, source, goal, words, made = made_](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
     const auto fail = [this](const Error& error) -> Runner::Deliver {
       if (error.kind == ErrorKind::kCancelled) return {};
@@ -201,11 +211,11 @@ void ModelWork::run(Place goal, const QString& text) {
       step = *next;
       post([this, done, step] { keep(done, step); });
     }
-    post([this, goal, text] {
-      if (text.isEmpty()) {
+    post([this, goal, words] {
+      if (words.source == nullptr) {
         arrive(goal);
       } else {
-        push(goal, text);
+        push(goal, words);
       }
     });
     auto ranking = rank_effects(*step, context);
@@ -228,21 +238,20 @@ void ModelWork::rank() {
 }
 
 void ModelWork::add(const QString& spec) {
-  decide({ModelChange::kAdd, spec.toStdString(), {}}, tr("add %1").arg(spec));
+  decide({ModelChange::kAdd, spec.toStdString(), {}}, QT_TR_NOOP("add %1"));
 }
 
 void ModelWork::remove(std::size_t k) {
   if (!step() || k >= step()->terms.size()) return;
   const std::string& spec = step()->terms[k].spec;
-  decide({ModelChange::kRemove, spec, {}}, tr("remove %1").arg(QString::fromStdString(spec)));
+  decide({ModelChange::kRemove, spec, {}}, QT_TR_NOOP("remove %1"));
 }
 
 void ModelWork::set_on(std::size_t k, bool on) {
   if (!step() || k >= step()->terms.size() || step()->terms[k].on == on) return;
   const std::string& spec = step()->terms[k].spec;
   decide({on ? ModelChange::kSwitchOn : ModelChange::kSwitchOff, spec, {}},
-         on ? tr("switch %1 on").arg(QString::fromStdString(spec))
-            : tr("switch %1 off").arg(QString::fromStdString(spec)));
+         on ? QT_TR_NOOP("switch %1 on") : QT_TR_NOOP("switch %1 off"));
 }
 
 void ModelWork::hold(std::size_t k, const std::optional<Eigen::VectorXd>& values) {
@@ -250,8 +259,7 @@ void ModelWork::hold(std::size_t k, const std::optional<Eigen::VectorXd>& values
   const std::string& spec = step()->terms[k].spec;
   ModelDecision decision{values ? ModelChange::kHold : ModelChange::kRelease, spec, {}};
   if (values) decision.values.assign(values->data(), values->data() + values->size());
-  decide(std::move(decision), values ? tr("hold %1").arg(QString::fromStdString(spec))
-                                     : tr("fit %1 again").arg(QString::fromStdString(spec)));
+  decide(std::move(decision), values ? QT_TR_NOOP("hold %1") : QT_TR_NOOP("fit %1 again"));
 }
 
 void ModelWork::find_all() {
@@ -271,8 +279,7 @@ void ModelWork::run_find_all() {
           last = next;
           post([this, next, decisions] {
             keep(decisions, next);
-            push({decisions, decisions.size()},
-                 tr("add %1").arg(QString::fromStdString(next->changed)));
+            push({decisions, decisions.size()}, words_of(QT_TR_NOOP("add %1"), next->changed));
           });
         },
         context);
@@ -288,7 +295,7 @@ void ModelWork::run_find_all() {
 
 void ModelWork::go_to(std::size_t step) {
   if (step == place_.current || step > place_.decisions.size() || !this->step()) return;
-  push({place_.decisions, step}, tr("go to step %1").arg(step));
+  push({place_.decisions, step}, {QT_TR_NOOP("go to step %1"), QString::number(step)});
   if (!ranking() && !busy()) rank();
 }
 

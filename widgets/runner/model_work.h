@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/calibration.h"
+#include "runner/decision_command.h"
 #include "runner/runner.h"
 #include "selection/proposals.h"
 
@@ -88,11 +89,11 @@ class ModelWork : public QObject {
 
   void take_workspace();
   void forget();
-  void decide(ModelDecision decision, const QString& text);
-  void run(Place goal, const QString& text);
+  void decide(ModelDecision decision, const char* text);
+  void run(Place goal, const DescribedCommand::Words& words);
   void run_find_all();
   void arrive(const Place& place);
-  void push(Place place, const QString& text);
+  void push(Place place, const DescribedCommand::Words& words);
   void keep(const std::vector<ModelDecision>& decisions, const ModelStepPtr& step);
   void keep_ranking(const Key& key, ModelRanking ranking);
   void update_steps();

@@ -298,8 +298,8 @@ void Workspace::set_option(const OptionDeclaration& option, double value) {
     Q_EMIT failed(s.error(), false);
     return;
   }
-  decide({QT_TRANSLATE_NOOP("Decisions", "change %1"), QString::fromStdString(option.key)},
-         std::move(after), QString::fromStdString(option.key));
+  decide({QT_TRANSLATE_NOOP("Decisions", "change %1"), {}, option_name(option)}, std::move(after),
+         QString::fromStdString(option.key));
 }
 
 void Workspace::reset_options() {

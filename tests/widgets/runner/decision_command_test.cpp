@@ -28,6 +28,11 @@ TEST(DecisionCommand, IsDoneUndoneAndDescribed) {
   EXPECT_EQ(dynamic_cast<const DecisionCommand*>(stack.command(0))->description(), "reject A, %1");
 }
 
+TEST(DecisionCommand, WhatTheCoreNamesIsSaidAsTheWindowSaysIt) {
+  DescribedCommand command("Decisions", {"change %1", {}, Message::verbatim("range_walk")});
+  EXPECT_EQ(command.description(), "change Range walk");
+}
+
 TEST(DecisionCommand, OneKeyIsOneDecision) {
   Decisions now = with_crops(false);
   QUndoStack stack;

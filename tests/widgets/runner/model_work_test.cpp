@@ -72,6 +72,10 @@ TEST_F(Work, FindsAddsAndTakesBackWhatIsHidden) {
   ASSERT_TRUE(idle());
   EXPECT_THAT(specs(), ElementsAre("range_walk"));
   EXPECT_EQ(work_->steps().size(), 2U);
+  // By the name that the page gives it, in the language of the day.
+  const auto* command = dynamic_cast<const DescribedCommand*>(workspace_->undo_stack().command(0));
+  ASSERT_NE(command, nullptr);
+  EXPECT_EQ(command->description(), "add Range walk");
   ASSERT_EQ(workspace_->model().size(), 1U);
   ASSERT_TRUE(QTest::qWaitFor([&] { return work_->result() != nullptr; }, 30'000));
   EXPECT_EQ(work_->result()->model.size(), 1U);

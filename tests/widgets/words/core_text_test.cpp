@@ -28,6 +28,8 @@ class Upside : public QTranslator {
       {"%1 is known %2 times worse than the typical direction: %3", "%2-fold: %1 (%3)"},
       {"rotation about the camera's x axis", "RX"},
       {"file not found", "NO FILE"},
+      {"horizontal", "ACROSS"},
+      {"Range offset", "OFFSET"},
       {"used", "in use"}};
 };
 
@@ -53,6 +55,24 @@ TEST_F(CoreTextTest, SentencesAndWhatFillsThem) {
 TEST_F(CoreTextTest, NamesAreNobodysToTranslate) {
   EXPECT_EQ(core_text(Message::verbatim("used")), "used");
   EXPECT_EQ(core_text(Message("scene %1: %2", "used", Message("used"))), "<in use> in used");
+}
+
+// As the core fills its sentences: "name = value unit, …".
+TEST_F(CoreTextTest, ParametersThatAreWordsAreTranslated) {
+  EXPECT_EQ(core_text(Message("scene %1: %2", "horizontal = 1.2 ± 0.1 mm, vertical = 3 mm", 1)),
+            "<1> in ACROSS = 1.2 ± 0.1 mm, vertical = 3 mm");
+  EXPECT_EQ(parameter_name("horizontal"), "ACROSS");
+  EXPECT_EQ(parameter_name("δf"), "δf");
+  // No parameter of the catalogue, though the core has a sentence of these letters.
+  EXPECT_EQ(parameter_name("used"), "used");
+  EXPECT_EQ(core_text(Message::verbatim("nonhorizontal = 1")), "nonhorizontal = 1");
+}
+
+TEST_F(CoreTextTest, EffectsAreSaidByTheirTitles) {
+  EXPECT_EQ(core_text(Message::verbatim("range_offset")), "OFFSET");
+  EXPECT_EQ(core_text(Message::verbatim("range_offset or blooming")), "OFFSET or Blooming");
+  EXPECT_EQ(core_text(Message::verbatim("/data/range_offset")), "/data/range_offset");
+  EXPECT_EQ(core_text(Message::verbatim("range_offset, rig")), "range_offset, rig");
 }
 
 TEST_F(CoreTextTest, AnErrorSaysWhereAndWhatToDo) {
