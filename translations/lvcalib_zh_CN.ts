@@ -4690,16 +4690,127 @@ were saved. Take them up again?</source>
         <translation>只有在不含该模型的效应时，它才与其他场景矛盾：请仍然使用它（--insist）并重新搜索</translation>
     </message>
     <message>
-        <source>lengths are in metres</source>
-        <translation>长度单位是米</translation>
+        <source>anisotropy</source>
+        <translation>各向异性</translation>
     </message>
     <message>
-        <source>the board is not found in any cloud, but it is if the lengths in target.yaml are %1</source>
-        <translation>在任何点云中都没有找到标定板；但若 target.yaml 中的长度%1，就能找到</translation>
+        <source>azimuth</source>
+        <translation>方位角</translation>
     </message>
     <message>
-        <source>write them in metres: multiply each by %1</source>
-        <translation>请以米为单位书写：每个长度乘以 %1</translation>
+        <source>elevation</source>
+        <translation>仰角</translation>
+    </message>
+    <message>
+        <source>horizontal</source>
+        <translation>水平</translation>
+    </message>
+    <message>
+        <source>scale</source>
+        <translation>比例</translation>
+    </message>
+    <message>
+        <source>shear</source>
+        <translation>剪切</translation>
+    </message>
+    <message>
+        <source>vertical</source>
+        <translation>垂直</translation>
+    </message>
+    <message>
+        <source>A = print * N(0, S), S += ½ diag(a, −a), a = γh² − γv²</source>
+        <translation>A = 印刷图案 * N(0, S), S += ½ diag(a, −a), a = γh² − γv²</translation>
+    </message>
+    <message>
+        <source>A = print * N(0, S), S += γ² I</source>
+        <translation>A = 印刷图案 * N(0, S), S += γ² I</translation>
+    </message>
+    <message>
+        <source>I = (true I)^(1+g): the mid-level crossing of edges moves</source>
+        <translation>I = (真实 I)^(1+g)：边缘的半高交点移动</translation>
+    </message>
+    <message>
+        <source>angle error o/r</source>
+        <translation>角度误差 o/r</translation>
+    </message>
+    <message>
+        <source>corners move by b away from the tag&apos;s centre in the image</source>
+        <translation>角点在图像中背离标签中心移动 b</translation>
+    </message>
+    <message>
+        <source>dd = r (βh cos ψ&apos; + βv sin ψ&apos;), in the board: over cos θ up the slope</source>
+        <translation>dd = r (βh cos ψ&apos; + βv sin ψ&apos;)，在标定板面内沿坡向上除以 cos θ</translation>
+    </message>
+    <message>
+        <source>dd = v τ cos(scan direction - ψ), in the board: over cos θ up the slope</source>
+        <translation>dd = v τ cos(扫描方向 - ψ)，在标定板面内沿坡向上除以 cos θ</translation>
+    </message>
+    <message>
+        <source>del = b(line), daz = c(line), each with sum zero</source>
+        <translation>del = b(线), daz = c(线)，各自之和为零</translation>
+    </message>
+    <message>
+        <source>direction shifted by τ ω</source>
+        <translation>方向移动 τ ω</translation>
+    </message>
+    <message>
+        <source>dr = a g(P), g = 0 for the usual white and 1 for the usual black, a power of 1/P or ln P; P from the intensity, or from print, range and incidence</source>
+        <translation>dr = a g(P)，通常的白色处 g = 0，通常的黑色处 g = 1，为 1/P 的幂或 ln P；P 取自强度，或由印刷图案、距离和入射角推得</translation>
+    </message>
+    <message>
+        <source>dr = a τ (1 - exp(-t/τ)), t from the start of the scan</source>
+        <translation>dr = a τ (1 - exp(-t/τ))，t 从扫描开始计</translation>
+    </message>
+    <message>
+        <source>dr = a(line), sum zero</source>
+        <translation>dr = a(线)，和为零</translation>
+    </message>
+    <message>
+        <source>dr = b exp(-t/τ) over the order of the scenes</source>
+        <translation>dr = b exp(-t/τ)，按场景的先后次序</translation>
+    </message>
+    <message>
+        <source>du = y/H (v (1+x²) + w x y), dv = y/H (v x y + w (1+y²)), y/H the row</source>
+        <translation>du = y/H (v (1+x²) + w x y), dv = y/H (v x y + w (1+y²))，y/H 为行的位置</translation>
+    </message>
+    <message>
+        <source>dx = x (k ρ²) + tangential (p1, p2)</source>
+        <translation>dx = x (k ρ²) + 切向项 (p1, p2)</translation>
+    </message>
+    <message>
+        <source>edges move out by g</source>
+        <translation>边缘外移 g</translation>
+    </message>
+    <message>
+        <source>ln I = n ln cos θ - p ln r + g(line)</source>
+        <translation>ln I = n ln cos θ - p ln r + g(线)</translation>
+    </message>
+    <message>
+        <source>x = ln(P/Ps) where the power P exceeds Ps, else 0; dr = a x, ln I -= c x</source>
+        <translation>功率 P 超过 Ps 处 x = ln(P/Ps)，否则为 0；dr = a x, ln I -= c x</translation>
+    </message>
+    <message>
+        <source>z = kx (1-x²) + ky (1-y²) + kxy x y, x and y from -1 to 1</source>
+        <translation>z = kx (1-x²) + ky (1-y²) + kxy x y，x 和 y 从 -1 到 1</translation>
+    </message>
+</context>
+<context>
+    <name>CoreWords</name>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1、%2</translation>
+    </message>
+    <message>
+        <source>%1 or %2</source>
+        <translation>%1 或 %2</translation>
+    </message>
+    <message>
+        <source>%1 and %2</source>
+        <translation>%1 和 %2</translation>
+    </message>
+    <message>
+        <source>These totals are still the base model&apos;s: this model&apos;s follow once the effects that it may lack have been looked for.</source>
+        <translation>目前的总计仍是基础模型的：查找完此模型可能缺少的效应后，才会给出此模型的总计。</translation>
     </message>
 </context>
 <context>
@@ -4807,6 +4918,10 @@ were saved. Take them up again?</source>
     <message>
         <source>circle no. %1</source>
         <translation>圆（编号 %1）</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
     </message>
 </context>
 <context>
@@ -5232,6 +5347,10 @@ were saved. Take them up again?</source>
         <source>Kept: %1.</source>
         <translation>沿用：%1。</translation>
     </message>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets</name>
@@ -5432,10 +5551,6 @@ were saved. Take them up again?</source>
         <translation>%1 mm</translation>
     </message>
     <message>
-        <source>A LiDAR point at %1 m falls into the image with a standard deviation of %2 px where it is best to %3 px where it is worst.</source>
-        <translation>%1 m 处的激光点投影到图像上的标准差：最好处 %2 px，最差处 %3 px。</translation>
-    </message>
-    <message>
         <source>Halves of the scenes against each other</source>
         <translation>两半场景相互比较</translation>
     </message>
@@ -5462,6 +5577,22 @@ were saved. Take them up again?</source>
     <message>
         <source>Statistical: what the noise of these scenes leaves open.</source>
         <translation>统计：这些场景的噪声所留下的不确定。</translation>
+    </message>
+    <message>
+        <source>across, total</source>
+        <translation>垂直于光线，总计</translation>
+    </message>
+    <message>
+        <source>along, total</source>
+        <translation>沿光线，总计</translation>
+    </message>
+    <message>
+        <source>A LiDAR point at %1 m falls into the image with a standard deviation of %2 px where it is best to %3 px where it is worst, by noise alone.</source>
+        <translation>%1 m 处的激光点投影到图像上的标准差（仅由噪声引起）：最好处 %2 px，最差处 %3 px。</translation>
+    </message>
+    <message>
+        <source>In total: %1 px to %2 px.</source>
+        <translation>总计：%1 px 至 %2 px。</translation>
     </message>
 </context>
 <context>
@@ -7877,14 +8008,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>留出 (mm)</translation>
     </message>
     <message>
-        <source>from joint (mm)</source>
-        <translation>距联合解 (mm)</translation>
-    </message>
-    <message>
-        <source>from joint (mrad)</source>
-        <translation>距联合解 (mrad)</translation>
-    </message>
-    <message>
         <source>How the extrinsic is found, and from which circle centres: as initialised (raw) or as refined</source>
         <translation>外参的求法，以及所用的圆心：初始（原始）或精化</translation>
     </message>
@@ -7907,14 +8030,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Nodes of scenes that the method has not seen</source>
         <translation>该方法未使用的场景的节点</translation>
-    </message>
-    <message>
-        <source>Distance of the LiDAR&apos;s origin to where the joint result has it</source>
-        <translation>激光雷达原点与联合解中位置的距离</translation>
-    </message>
-    <message>
-        <source>Rotation against the joint result</source>
-        <translation>相对联合解的旋转</translation>
     </message>
     <message>
         <source>Methods side by side</source>
@@ -7959,6 +8074,30 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>All methods measured alike; scenes: %1.</source>
         <translation>所有方法以同样方式度量；场景数：%1。</translation>
+    </message>
+    <message>
+        <source>from result (mm)</source>
+        <translation>距结果 (mm)</translation>
+    </message>
+    <message>
+        <source>from result (mrad)</source>
+        <translation>距结果 (mrad)</translation>
+    </message>
+    <message>
+        <source>Distance of the LiDAR&apos;s origin to where the result has it</source>
+        <translation>激光雷达原点与结果中其位置的距离</translation>
+    </message>
+    <message>
+        <source>Rotation against the result</source>
+        <translation>相对于结果的转动</translation>
+    </message>
+    <message>
+        <source>Bold: the result.</source>
+        <translation>粗体：即所给结果。</translation>
+    </message>
+    <message>
+        <source>The result is of another model, %1, which is not among them.</source>
+        <translation>结果来自另一个模型（%1），不在其中。</translation>
     </message>
 </context>
 <context>
@@ -8094,6 +8233,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Predicted fall of the squared error in scenes held out, where it helps most</source>
         <translation>在其作用最大的通道中，留出场景平方误差的预计降幅</translation>
+    </message>
+    <message>
+        <source>Others may only stand in for it: they are judged again once it is added.</source>
+        <translation>其他效应可能只是它的替代：加入它之后会重新判断。</translation>
     </message>
 </context>
 <context>
@@ -8359,10 +8502,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>暂无</translation>
     </message>
     <message>
-        <source>Chosen one after the other from %1 poses that camera and LiDAR both see.</source>
-        <translation>从相机与激光雷达都能看到的 %1 个位姿中逐个选出。</translation>
-    </message>
-    <message>
         <source>.</source>
         <translation>。</translation>
     </message>
@@ -8469,6 +8608,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>, </source>
         <translation>，</translation>
+    </message>
+    <message>
+        <source>Chosen one after the other from %1 poses that camera and LiDAR both see. σ is by noise alone.</source>
+        <translation>从相机与激光雷达都能看到的 %1 个位姿中逐个选出。σ 仅由噪声引起。</translation>
     </message>
 </context>
 <context>
@@ -8742,7 +8885,7 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     </message>
     <message>
         <source>mean residual (%1)</source>
-        <translation>平均残差（%1）</translation>
+        <translation>平均残差 (%1)</translation>
     </message>
     <message>
         <source>longest arrow: %1 px</source>
@@ -8761,7 +8904,7 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     </message>
     <message>
         <source>residual (%1)</source>
-        <translation>残差（%1）</translation>
+        <translation>残差 (%1)</translation>
     </message>
     <message>
         <source>residuals</source>
@@ -9292,6 +9435,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>circle no. %1</source>
         <translation>圆（编号 %1）</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
     </message>
 </context>
 <context>
@@ -9871,10 +10018,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>针孔相机、刚性标定板位姿和一个外参</translation>
     </message>
     <message>
-        <source>Extrinsic moved by %1; it is known to %2.</source>
-        <translation>外参移动了 %1；其已知精度为 %2。</translation>
-    </message>
-    <message>
         <source>Held: the value is yours and is not fitted</source>
         <translation>固定：采用您的值，不拟合</translation>
     </message>
@@ -9917,6 +10060,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Take the chosen effect out of the model</source>
         <translation>把所选效应移出模型</translation>
+    </message>
+    <message>
+        <source>Extrinsic moved by %1; by noise alone it is known to %2.</source>
+        <translation>外参移动了 %1；仅就噪声而言，其精度为 %2。</translation>
     </message>
 </context>
 <context>
@@ -9980,12 +10127,16 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>外参将移动 %1 mm 和 %2 mrad；其不确定度为 %3 mm 和 %4 mrad。</translation>
     </message>
     <message>
-        <source>What tags and circles miss the board&apos;s final pose by, in standard deviations. Red ones are left out. The solve judged them on its way there, so that one that it kept may lie a little beyond the line. Drag the line (or use the arrow keys) to see what another place would do.</source>
-        <translation>标签和圆偏离标定板最终位姿的距离，以标准差计。红色的被舍弃。求解在途中作出判断，因此保留下来的个别可能略超出此线。拖动此线（或用方向键）可查看放在别处的效果。</translation>
-    </message>
-    <message>
         <source>Red: left out at this place of the line. Before the solve has answered, what lies beyond the line; the solve may judge a few of them otherwise, since the board moves too.</source>
         <translation>红色：线在此处时未采用。求解给出结果之前，指线以外的部分；由于标定板也会移动，求解可能对其中少数作出不同判断。</translation>
+    </message>
+    <message>
+        <source>What tags and circles miss the board&apos;s final pose by, in standard deviations. Red ones are left out. Hatched ones lie beyond the line and are in use all the same: they were judged against the poses that tags and circles give alone, and every return has moved these since. Drag the line (or use the arrow keys) to see what another place would do.</source>
+        <translation>标签和圆偏离标定板最终位姿的距离，以标准差计。红色的被舍弃。带斜线的超出此线但仍被采用：它们是按仅由标签和圆求得的位姿判断的，此后全部回波又使位姿有所移动。拖动此线（或用方向键）可查看放在别处的效果。</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
     </message>
 </context>
 <context>
@@ -10109,16 +10260,16 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>图像 v (px)</translation>
     </message>
     <message>
-        <source>standard deviation (px)</source>
-        <translation>标准差 (px)</translation>
-    </message>
-    <message>
-        <source>Where in the image a LiDAR point falls is known to one standard deviation of so many pixels, from the extrinsic&apos;s covariance alone. Where the colour is bright, take a scene with the board there.</source>
-        <translation>激光点投影到图像中的位置以一倍标准差计有这么多像素的不确定度，仅由外参协方差得出。颜色明亮处，请在那里采集一个标定板场景。</translation>
-    </message>
-    <message>
         <source>no result yet</source>
         <translation>尚无结果</translation>
+    </message>
+    <message>
+        <source>standard deviation by noise (px)</source>
+        <translation>噪声引起的标准差 (px)</translation>
+    </message>
+    <message>
+        <source>Where in the image a LiDAR point falls is known to one standard deviation of so many pixels, by the noise of these scenes alone. Where the colour is bright, take a scene with the board there.</source>
+        <translation>激光点落在图像中的位置的一倍标准差（像素），仅由这些场景的噪声引起。在颜色明亮处，请拍摄标定板位于该处的场景。</translation>
     </message>
 </context>
 <context>
@@ -10139,10 +10290,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>标准差 (mm)</translation>
     </message>
     <message>
-        <source>How far a LiDAR point at this range may lie beside its true place in the camera frame: one standard deviation across the ray and along it, from the extrinsic&apos;s covariance.</source>
-        <translation>该距离处的激光点在相机坐标系中可能偏离真实位置多远：垂直于光线和沿光线的一倍标准差，由外参协方差得出。</translation>
-    </message>
-    <message>
         <source>across the ray</source>
         <translation>垂直于光线</translation>
     </message>
@@ -10153,6 +10300,14 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>no result yet</source>
         <translation>尚无结果</translation>
+    </message>
+    <message>
+        <source>How far a LiDAR point at this range may lie beside its true place in the camera frame: one standard deviation across the ray and along it. Through: in total, with what common errors that these scenes do not show could still do. Dashed: by noise alone.</source>
+        <translation>该距离处的激光点在相机坐标系中可能偏离真实位置多远：垂直于光线和沿光线的一倍标准差。实线：总计，再加上这些场景看不出的常见误差可能造成的影响。虚线：仅由噪声引起。</translation>
+    </message>
+    <message>
+        <source>by noise alone</source>
+        <translation>仅由噪声引起</translation>
     </message>
 </context>
 <context>

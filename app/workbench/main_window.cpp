@@ -478,7 +478,7 @@ bool MainWindow::save(bool ask_for_path) {
 }
 
 ErrorDialog* MainWindow::show_error(const Error& error) {
-  log_->append(QString::fromStdString(error.text()));
+  log_->append(core_text(error));
   auto* dialog = new ErrorDialog(error, this);
   dialog->show();
   return dialog;

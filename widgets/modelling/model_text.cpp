@@ -148,7 +148,7 @@ QString values_text(const std::vector<ParameterEstimate>& parameters, bool held)
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (k == kShown) return out + QStringLiteral(", …");
     if (k > 0) out += QStringLiteral(", ");
-    out += QString::fromStdString(parameters[k].name) + QStringLiteral(" = ") +
+    out += parameter_name(parameters[k].name) + QStringLiteral(" = ") +
            value_text(parameters[k], held);
   }
   return out;

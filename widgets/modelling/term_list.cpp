@@ -121,7 +121,7 @@ void TermList::fill() {
   const double mm = 1e3 * (now.translation - was.translation).norm();
   const double mrad = 1e3 * now.rotation.angularDistance(was.rotation);
   const Vector6d sigma = step_->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  pose_->setText(tr("Extrinsic moved by %1; it is known to %2.")
+  pose_->setText(tr("Extrinsic moved by %1; by noise alone it is known to %2.")
                      .arg(move_text(mm, mrad),
                           move_text(1e3 * sigma.head<3>().norm(), 1e3 * sigma.tail<3>().norm())));
 }
@@ -144,7 +144,7 @@ void TermList::addTerm(int k) {
   item->setData(kName, kParameter, estimates.size() == 1 ? 0 : -1);
   const EffectInfo& info = term.use.effect->info();
   item->setToolTip(kName, core_text(Message::listed(info.physics)) + QLatin1Char('\n') +
-                              QString::fromStdString(info.formula));
+                              core_text(Message::listed(info.formula)));
   auto flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
   if (changeable_) flags |= Qt::ItemIsUserCheckable;
   item->setCheckState(kName, term.on ? Qt::Checked : Qt::Unchecked);
@@ -165,7 +165,7 @@ void TermList::addTerm(int k) {
   }
   item->setFlags(flags & ~Qt::ItemIsEditable);
   for (std::size_t p = 0; p < estimates.size(); ++p) {
-    auto* row = new QTreeWidgetItem(item, {QString::fromStdString(estimates[p].name)});
+    auto* row = new QTreeWidgetItem(item, {parameter_name(estimates[p].name)});
     row->setData(kName, kTerm, k);
     row->setData(kName, kParameter, static_cast<int>(p));
     row->setFlags(flags & ~Qt::ItemIsUserCheckable);

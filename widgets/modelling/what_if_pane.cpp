@@ -113,7 +113,7 @@ void WhatIfPane::fillParameters() {
     names_->clear();
     if (effect_) {
       parameters_ = effect_->parameters(step_->table());
-      for (const EffectParameter& p : parameters_) names_->addItem(QString::fromStdString(p.name));
+      for (const EffectParameter& p : parameters_) names_->addItem(parameter_name(p.name));
     }
     names_->setVisible(names_->count() > 1);
   }

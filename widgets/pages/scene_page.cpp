@@ -488,7 +488,7 @@ void ScenePage::select(SceneSelection selection, bool add) {
   if (!selection.tags.empty()) parts << tr("tag no. %1").arg(ids_text(selection.tags));
   if (!selection.circles.empty()) parts << tr("circle no. %1").arg(ids_text(selection.circles));
   selection_->setText(parts.isEmpty() ? tr("Nothing is selected.")
-                                      : tr("Selected: %1").arg(parts.join(QStringLiteral(", "))));
+                                      : tr("Selected: %1").arg(parts.join(tr(", "))));
   selection_->setSelection(std::move(selection), result_.get(), current());
 }
 

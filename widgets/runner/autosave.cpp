@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/file_io.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -62,7 +63,7 @@ void Autosave::write() {
     if (status) {
       Q_EMIT written();
     } else {
-      Q_EMIT failed(QString::fromStdString(status.error().text()));
+      Q_EMIT failed(core_text(status.error()));
     }
   });
 }

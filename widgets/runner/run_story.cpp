@@ -67,11 +67,10 @@ QString run_story(const SessionState& before, const SessionRun& run) {
   took(QCoreApplication::translate("RunStory", "joint solve"), times.optimize_ms);
   QString text = QCoreApplication::translate("RunStory", "Ran (%1): %2.")
                      .arg(reasons(before, run).join(QStringLiteral("; ")))
-                     .arg(ran.join(QStringLiteral(", ")));
+                     .arg(ran.join(QCoreApplication::translate("RunStory", ", ")));
   if (!kept.isEmpty())
-    text +=
-        QLatin1Char(' ') +
-        QCoreApplication::translate("RunStory", "Kept: %1.").arg(kept.join(QStringLiteral(", ")));
+    text += QLatin1Char(' ') + QCoreApplication::translate("RunStory", "Kept: %1.")
+                                   .arg(kept.join(QCoreApplication::translate("RunStory", ", ")));
   return text;
 }
 

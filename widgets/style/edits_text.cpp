@@ -19,7 +19,7 @@ struct EditsText {
 QString ids_text(const std::vector<int>& ids) {
   QStringList texts;
   for (const int id : ids) texts << QString::number(id);
-  return texts.join(QStringLiteral(", "));
+  return texts.join(EditsText::tr(", "));
 }
 
 QString edits_text(const SceneResult& scene) {
@@ -32,13 +32,13 @@ QString edits_text(const SceneResult& scene) {
   if (!edits.circles.empty()) out << EditsText::tr("circle no. %1").arg(ids_text(edits.circles));
   QStringList all;
   if (!out.isEmpty())
-    all << EditsText::tr("Left out by hand: %1.").arg(out.join(QStringLiteral(", ")));
+    all << EditsText::tr("Left out by hand: %1.").arg(out.join(EditsText::tr(", ")));
   QStringList kept;
   if (!edits.kept_tags.empty()) kept << EditsText::tr("tag no. %1").arg(ids_text(edits.kept_tags));
   if (!edits.kept_circles.empty())
     kept << EditsText::tr("circle no. %1").arg(ids_text(edits.kept_circles));
   if (!kept.isEmpty())
-    all << EditsText::tr("Used all the same: %1.").arg(kept.join(QStringLiteral(", ")));
+    all << EditsText::tr("Used all the same: %1.").arg(kept.join(EditsText::tr(", ")));
   return all.join(QLatin1Char(' '));
 }
 
@@ -58,7 +58,7 @@ QString refusals_text(const CalibrationResult& result, const std::string& scene)
   if (!tags.empty()) out << EditsText::tr("tag no. %1").arg(ids_text(tags));
   if (!circles.empty()) out << EditsText::tr("circle no. %1").arg(ids_text(circles));
   if (out.isEmpty()) return {};
-  return EditsText::tr("Left out by the program: %1.").arg(out.join(QStringLiteral(", ")));
+  return EditsText::tr("Left out by the program: %1.").arg(out.join(EditsText::tr(", ")));
 }
 
 }  // namespace lvcalib::widgets

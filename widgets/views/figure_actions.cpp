@@ -12,6 +12,7 @@
 #include <QPointer>
 
 #include "base/file_io.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 
@@ -58,7 +59,7 @@ void FigureActions::choose(const QString& suffix, const QString& filter) {
   if (self == nullptr || path.isEmpty()) return;
   if (QFileInfo(path).suffix().toLower() != suffix) path += "." + suffix;
   if (const Status saved = save(path); !saved) {
-    Q_EMIT failed(QString::fromStdString(saved.error().text()));
+    Q_EMIT failed(core_text(saved.error()));
   }
 }
 
