@@ -79,151 +79,133 @@ double by_chance(double sets) {
   return 2.0 * std::log(sets / kFalseAlarm);
 }
 
-// Whitened cross products of one scene after its nuisance: all terms' columns, then the residual.
-struct SceneCrossSums {
-  Eigen::MatrixXd products;
+// Whitened cross products after each scene's nuisance: all terms' columns, then the residual.
+struct FormSums {
+  std::vector<Term> terms;
+  std::vector<Eigen::Index> first;  // Each term's first column.
+  std::vector<double> scale;        // Of each column.
+  std::vector<Eigen::MatrixXd> scenes;
+  Eigen::MatrixXd total;
+  double before = 0.0;  // Squares of the residuals.
+  [[nodiscard]] Eigen::Index columns() const { return static_cast<Eigen::Index>(scale.size()); }
 };
 
-class FormSearch {
- public:
-  FormSearch(const Covariate& covariate, const ChannelResiduals& residuals, int scenes)
-      : terms_(terms_for(covariate.values)) {
-    drop_undefined(covariate);
-    scale(covariate);
-    accumulate(covariate, residuals, scenes);
-  }
-
-  // The best set of at most two terms; the smaller within one standard error.
-  std::vector<std::size_t> run() {
-    std::vector<std::size_t> best_one;
-    std::vector<std::size_t> best_two;
-    for (std::size_t a = 0; a < terms_.size(); ++a) keep_better({a}, best_one);
-    for (std::size_t a = 0; a < terms_.size(); ++a) {
-      for (std::size_t b = a + 1; b < terms_.size(); ++b) keep_better({a, b}, best_two);
-    }
-    const auto n = static_cast<double>(terms_.size());
-    const auto one = drops(best_one);
-    if (!is_gain(one) || total(one) < by_chance(n)) best_one.clear();
-    if (best_two.empty()) return best_one;
-    const auto two = drops(best_two);
-    std::vector<double> more;
-    for (std::size_t s = 0; s < two.size(); ++s)
-      more.push_back(two[s] - (best_one.empty() ? 0.0 : one[s]));
-    return is_gain(more) && total(more) > by_chance(0.5 * n * (n - 1.0)) ? best_two : best_one;
-  }
-
-  [[nodiscard]] double score(const std::vector<std::size_t>& set) const {
-    return before_ > 0.0 ? total(drops(set)) / before_ : 0.0;
-  }
-
-  [[nodiscard]] std::vector<std::string> texts(const std::vector<std::size_t>& set) const {
-    std::vector<std::string> out;
-    for (const std::size_t t : set)
-      out.insert(out.end(), terms_[t].text.begin(), terms_[t].text.end());
-    return out;
-  }
-
- private:
-  void drop_undefined(const Covariate& covariate) {
-    std::erase_if(terms_, [&](const Term& term) {
-      return std::any_of(covariate.values.begin(), covariate.values.end(), [&](float x) {
-        const double v = term.value.front()(x);
-        return !std::isfinite(v) || std::abs(v) > 1e6;
-      });
+// Those of all terms that are defined wherever there are rows.
+std::vector<Term> defined_terms(const std::vector<float>& values) {
+  std::vector<Term> out = terms_for(values);
+  std::erase_if(out, [&](const Term& term) {
+    return std::any_of(values.begin(), values.end(), [&](float x) {
+      const double v = term.value.front()(x);
+      return !std::isfinite(v) || std::abs(v) > 1e6;
     });
-  }
+  });
+  return out;
+}
 
-  void scale(const Covariate& covariate) {
-    for (const Term& term : terms_) {
-      first_.push_back(columns_);
-      for (const auto& f : term.value) {
-        double squares = 0.0;
-        for (const float x : covariate.values) squares += f(x) * f(x);
-        const double rms = std::sqrt(squares / static_cast<double>(covariate.values.size()));
-        scale_.push_back(rms > 0.0 ? 1.0 / rms : 0.0);
-        ++columns_;
-      }
+// Each column as large as the others.
+void scale_columns(const std::vector<float>& values, FormSums& out) {
+  for (const Term& term : out.terms) {
+    out.first.push_back(out.columns());
+    for (const auto& f : term.value) {
+      double squares = 0.0;
+      for (const float x : values) squares += f(x) * f(x);
+      const double rms = std::sqrt(squares / static_cast<double>(values.size()));
+      out.scale.push_back(rms > 0.0 ? 1.0 / rms : 0.0);
     }
   }
+}
 
-  void accumulate(const Covariate& covariate, const ChannelResiduals& residuals, int scenes) {
-    const Eigen::Index all = columns_ + 1;
-    std::vector<Eigen::MatrixXd> cross(static_cast<std::size_t>(scenes));
-    std::vector<Eigen::MatrixXd> nuisance(static_cast<std::size_t>(scenes));
-    for (auto& m : cross) m.setZero(LocalLayout::kFixed, all);
-    for (auto& m : nuisance) m.setZero(LocalLayout::kFixed, LocalLayout::kFixed);
-    sums_.assign(static_cast<std::size_t>(scenes), {Eigen::MatrixXd::Zero(all, all)});
-    Eigen::VectorXd row(all);
-    const std::size_t stride = 1 + residuals.values.size() / kMostRows;
-    for (std::size_t k = 0; k < residuals.values.size(); k += stride) {
-      const auto s = static_cast<std::size_t>(residuals.scene[k]);
-      fill(covariate.values[k], residuals.values[k], row);
-      row /= residuals.sigma[k];
-      const NuisanceRow z = residuals.nuisance[k] / residuals.sigma[k];
-      sums_[s].products.selfadjointView<Eigen::Upper>().rankUpdate(row);
-      cross[s].noalias() += z * row.transpose();
-      nuisance[s].noalias() += z * z.transpose();
-    }
-    total_.setZero(all, all);
-    for (std::size_t s = 0; s < sums_.size(); ++s) {
-      Eigen::MatrixXd& m = sums_[s].products;
-      m = Eigen::MatrixXd(m.selfadjointView<Eigen::Upper>());
-      for (int c = 0; c < LocalLayout::kFixed; ++c) {
-        if (nuisance[s](c, c) <= 0.0) nuisance[s](c, c) = 1.0;
-      }
-      m -= cross[s].transpose() * nuisance[s].ldlt().solve(cross[s]);
-      total_ += m;
-      before_ += m(columns_, columns_);
+void fill(const FormSums& form, double x, double residual, Eigen::VectorXd& row) {
+  Eigen::Index c = 0;
+  for (const Term& term : form.terms) {
+    for (const auto& f : term.value) {
+      row(c) = form.scale[static_cast<std::size_t>(c)] * f(x);
+      ++c;
     }
   }
+  row(c) = residual;
+}
 
-  void fill(double x, double residual, Eigen::VectorXd& row) const {
-    Eigen::Index c = 0;
-    for (const Term& term : terms_) {
-      for (const auto& f : term.value) {
-        row(c) = scale_[static_cast<std::size_t>(c)] * f(x);
-        ++c;
-      }
-    }
-    row(c) = residual;
+void add_rows(const Covariate& covariate, const ChannelResiduals& residuals, int scenes,
+              FormSums& out) {
+  const Eigen::Index last = out.columns();
+  const Eigen::Index all = last + 1;
+  std::vector<Eigen::MatrixXd> cross(static_cast<std::size_t>(scenes));
+  std::vector<Eigen::MatrixXd> nuisance(static_cast<std::size_t>(scenes));
+  for (auto& m : cross) m.setZero(LocalLayout::kFixed, all);
+  for (auto& m : nuisance) m.setZero(LocalLayout::kFixed, LocalLayout::kFixed);
+  out.scenes.assign(static_cast<std::size_t>(scenes), Eigen::MatrixXd::Zero(all, all));
+  Eigen::VectorXd row(all);
+  const std::size_t stride = 1 + residuals.values.size() / kMostRows;
+  for (std::size_t k = 0; k < residuals.values.size(); k += stride) {
+    const auto s = static_cast<std::size_t>(residuals.scene[k]);
+    fill(out, covariate.values[k], residuals.values[k], row);
+    row /= residuals.sigma[k];
+    const NuisanceRow z = residuals.nuisance[k] / residuals.sigma[k];
+    out.scenes[s].selfadjointView<Eigen::Upper>().rankUpdate(row);
+    cross[s].noalias() += z * row.transpose();
+    nuisance[s].noalias() += z * z.transpose();
   }
-
-  // Fall of each scene's squares when the others predict it.
-  [[nodiscard]] std::vector<double> drops(const std::vector<std::size_t>& set) const {
-    std::vector<Eigen::Index> at;
-    for (const std::size_t t : set) {
-      for (std::size_t k = 0; k < terms_[t].value.size(); ++k)
-        at.push_back(first_[t] + static_cast<Eigen::Index>(k));
+  out.total.setZero(all, all);
+  for (std::size_t s = 0; s < out.scenes.size(); ++s) {
+    Eigen::MatrixXd& m = out.scenes[s];
+    m = Eigen::MatrixXd(m.selfadjointView<Eigen::Upper>());
+    for (int c = 0; c < LocalLayout::kFixed; ++c) {
+      if (nuisance[s](c, c) <= 0.0) nuisance[s](c, c) = 1.0;
     }
-    std::vector<double> out;
-    if (at.empty()) return std::vector<double>(sums_.size(), 0.0);
-    for (const SceneCrossSums& s : sums_) {
-      Eigen::MatrixXd others = total_(at, at) - s.products(at, at);
-      others.diagonal().array() += 1e-6 * (1.0 + others.trace());
-      const Eigen::VectorXd c =
-          others.ldlt().solve(total_(at, columns_) - s.products(at, columns_));
-      out.push_back(2.0 * c.dot(Eigen::VectorXd(s.products(at, columns_))) -
-                    c.dot(Eigen::MatrixXd(s.products(at, at)) * c));
-    }
-    return out;
+    m -= cross[s].transpose() * nuisance[s].ldlt().solve(cross[s]);
+    out.total += m;
+    out.before += m(last, last);
   }
+}
 
-  void keep_better(const std::vector<std::size_t>& set, std::vector<std::size_t>& best) const {
-    // What comes earlier is simpler and stays if the later is no better than rounding of the data.
-    constexpr double kBetter = 2.0;
-    const double value = total(drops(set));
-    if (std::isfinite(value) && value > (best.empty() ? 0.0 : total(drops(best)) + kBetter))
-      best = set;
+// Fall of each scene's squares when the others predict it.
+std::vector<double> drops(const FormSums& form, const std::vector<std::size_t>& set) {
+  std::vector<Eigen::Index> at;
+  for (const std::size_t t : set) {
+    for (std::size_t k = 0; k < form.terms[t].value.size(); ++k)
+      at.push_back(form.first[t] + static_cast<Eigen::Index>(k));
   }
+  std::vector<double> out;
+  if (at.empty()) return std::vector<double>(form.scenes.size(), 0.0);
+  for (const Eigen::MatrixXd& scene : form.scenes) {
+    Eigen::MatrixXd others = form.total(at, at) - scene(at, at);
+    others.diagonal().array() += 1e-6 * (1.0 + others.trace());
+    const Eigen::VectorXd c =
+        others.ldlt().solve(form.total(at, form.columns()) - scene(at, form.columns()));
+    out.push_back(2.0 * c.dot(Eigen::VectorXd(scene(at, form.columns()))) -
+                  c.dot(Eigen::MatrixXd(scene(at, at)) * c));
+  }
+  return out;
+}
 
-  std::vector<Term> terms_;
-  std::vector<Eigen::Index> first_;
-  std::vector<double> scale_;
-  Eigen::Index columns_ = 0;
-  std::vector<SceneCrossSums> sums_;
-  Eigen::MatrixXd total_;
-  double before_ = 0.0;
-};
+void keep_better(const FormSums& form, const std::vector<std::size_t>& set,
+                 std::vector<std::size_t>& best) {
+  // What comes earlier is simpler and stays if the later is no better than rounding of the data.
+  constexpr double kBetter = 2.0;
+  const double value = total(drops(form, set));
+  if (std::isfinite(value) && value > (best.empty() ? 0.0 : total(drops(form, best)) + kBetter))
+    best = set;
+}
+
+// The best set of at most two terms; the smaller within one standard error.
+std::vector<std::size_t> best_set(const FormSums& form) {
+  std::vector<std::size_t> best_one;
+  std::vector<std::size_t> best_two;
+  for (std::size_t a = 0; a < form.terms.size(); ++a) keep_better(form, {a}, best_one);
+  for (std::size_t a = 0; a < form.terms.size(); ++a) {
+    for (std::size_t b = a + 1; b < form.terms.size(); ++b) keep_better(form, {a, b}, best_two);
+  }
+  const auto n = static_cast<double>(form.terms.size());
+  const auto one = drops(form, best_one);
+  if (!is_gain(one) || total(one) < by_chance(n)) best_one.clear();
+  if (best_two.empty()) return best_one;
+  const auto two = drops(form, best_two);
+  std::vector<double> more;
+  for (std::size_t s = 0; s < two.size(); ++s)
+    more.push_back(two[s] - (best_one.empty() ? 0.0 : one[s]));
+  return is_gain(more) && total(more) > by_chance(0.5 * n * (n - 1.0)) ? best_two : best_one;
+}
 
 // "a*t1+b*t2" with the covariate's identifier in place.
 std::string as_formula(const std::vector<std::string>& texts, Channel channel,
@@ -248,10 +230,17 @@ ClosedForm closed_form_of(const Covariate& covariate, Channel channel,
   if (covariate.categories || covariate.values.empty()) return {};
   const RowCovariate* described = find_covariate(channel, covariate.name);
   if (described == nullptr) return {};
-  FormSearch search(covariate, residuals, scenes);
-  const auto set = search.run();
+  FormSums form;
+  form.terms = defined_terms(covariate.values);
+  scale_columns(covariate.values, form);
+  add_rows(covariate, residuals, scenes, form);
+  const auto set = best_set(form);
   if (set.empty()) return {};
-  return {as_formula(search.texts(set), channel, described->identifier()), search.score(set)};
+  std::vector<std::string> texts;
+  for (const std::size_t t : set)
+    texts.insert(texts.end(), form.terms[t].text.begin(), form.terms[t].text.end());
+  return {as_formula(texts, channel, described->identifier()),
+          form.before > 0.0 ? total(drops(form, set)) / form.before : 0.0};
 }
 
 void suggest_closed_forms(const MeasurementTable& table, const ModelState& state,
