@@ -125,7 +125,7 @@ class SceneAccumulator {
   }
 
   // Sums the rows of one channel into its place.
-  void run(Channel channel, SceneProducts& out) {
+  void sum_into(SceneProducts& out, Channel channel) {
     switch (channel) {
       case Channel::kRange:
         for (const RangeRow& row : rows_of(table_.range, scene_)) range(row);
@@ -402,7 +402,7 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
     if (context.stopped() || !channels[channel]) return;
     SceneProducts& scene = out.scenes[s];
     SceneAccumulator(table, state, in_use, columns, scene.layout, s, memory)
-        .run(kAllChannels[channel], scene);
+        .sum_into(scene, kAllChannels[channel]);
   });
   if (context.stopped()) out.scenes.assign(table.scenes.size(), {});
   return out;

@@ -111,190 +111,200 @@ double squares_of(const Eigen::MatrixXd& products, const Eigen::VectorXd& local,
   return std::max(0.0, full.dot(products * full));
 }
 
-class Fitter {
- public:
-  Fitter(const Linearization& linear, const ColumnSubset& subset, const ModelVariances& start,
-         const MixedModelOptions& options)
-      : linear_(linear), options_(options) {
-    fit_.subset = subset;
-    fit_.variances = start;
-    for (const SceneProducts& scene : linear.scenes) {
-      columns_.push_back(columns_of(scene, subset, start, Locals::kPresent));
-      products_.push_back(gather(scene, columns_.back()));
-    }
-    const auto g = static_cast<Eigen::Index>(6 + subset.columns.size());
-    fit_.prior.information.setZero(g, g);
-    fit_.prior.gradient.setZero(g);
-    for (std::size_t k = 0; k < subset.columns.size(); ++k) {
-      const double weight = 1.0 / (subset.prior_sigma[k] * subset.prior_sigma[k]);
-      const auto i = static_cast<Eigen::Index>(6 + k);
-      fit_.prior.information(i, i) = weight;
-      fit_.prior.gradient(i) = weight * subset.prior_mean[k];
-      fit_.prior.constant +=
-          0.5 * std::log(weight) - 0.5 * weight * subset.prior_mean[k] * subset.prior_mean[k];
-    }
-    for (const auto& [first, count] : subset.zero_sums) hold_sum(first, count);
-  }
-
-  ModelFit run() {
-    solve();
-    for (int round = 0; round < options_.rounds; ++round) {
-      const double change = update_variances();
-      solve();
-      if (change < options_.tolerance) break;
-    }
-    return std::move(fit_);
-  }
-
-  // What each scene's rows scatter by, correlation of neighbours included, per channel: a scene
-  // with few of them takes what all have.
-  std::vector<ChannelVariances> scene_variances() {
-    constexpr double kFewest = 20.0;  // A variance from fewer is known to a third at best, √(2/n).
-    solve();
-    std::vector<ChannelVariances> out(linear_.scenes.size(), fit_.variances.channel);
-    for (std::size_t s = 0; s < linear_.scenes.size(); ++s) {
-      std::array<double, kVarianceGroups> squares{}, determined{};
-      ChannelVariances residual{}, freedom{};
-      collect(s, squares, determined, residual, freedom);
-      for (std::size_t c = 0; c < kChannels; ++c) {
-        if (freedom[c] >= kFewest) out[s][c] = std::clamp(residual[c] / freedom[c], 0.05, 1e4);
-        out[s][c] *= linear_.scenes[s].inflation[c];
-      }
-    }
-    return out;
-  }
-
- private:
-  // A measurement of the sum, a thousand times as precise as what is believable of one of them.
-  void hold_sum(std::size_t first, std::size_t count) {
-    constexpr double kPrecise = 1e-3;
-    const ColumnSubset& subset = fit_.subset;
-    const double weight = std::pow(kPrecise * subset.prior_sigma[first], -2.0);
-    const auto at = static_cast<Eigen::Index>(6 + first);
-    const auto n = static_cast<Eigen::Index>(count);
-    double mean = 0.0;
-    for (std::size_t k = 0; k < count; ++k) mean += subset.prior_mean[first + k];
-    fit_.prior.information.block(at, at, n, n).array() += weight;
-    fit_.prior.gradient.segment(at, n).array() += weight * mean;
-    fit_.prior.constant += 0.5 * std::log(weight) - 0.5 * weight * mean * mean;
-  }
-
-  void solve() {
-    fit_.scenes.clear();
-    factors_.clear();
-    blocks_.clear();
-    Eigen::MatrixXd information = fit_.prior.information;
-    Eigen::VectorXd gradient = fit_.prior.gradient;
-    double constant = fit_.prior.constant;
-    for (std::size_t s = 0; s < linear_.scenes.size(); ++s) {
-      eliminate(s);
-      information += fit_.scenes.back().information;
-      gradient += fit_.scenes.back().gradient;
-      constant += fit_.scenes.back().constant;
-    }
-    const Eigen::LDLT<Eigen::MatrixXd> ldlt(information);
-    fit_.solution = ldlt.solve(gradient);
-    fit_.covariance = ldlt.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
-    fit_.log_likelihood = constant + 0.5 * gradient.dot(fit_.solution) -
-                          0.5 * ldlt.vectorD().cwiseAbs().array().max(1e-300).log().sum();
-    fit_.local.clear();
-    for (std::size_t s = 0; s < linear_.scenes.size(); ++s) {
-      fit_.local.push_back(
-          factors_[s].solve(blocks_[s].local_gradient - blocks_[s].cross * fit_.solution));
-    }
-  }
-
-  void eliminate(std::size_t s) {
-    const SceneProducts& scene = linear_.scenes[s];
-    Blocks b = blocks_of(products_[s], columns_[s], fit_.variances, s);
-    double log_prior = 0.0;
-    for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-      log_prior -= 0.5 * static_cast<double>(columns_[s].groups[k].second) *
-                   std::log(fit_.variances.group[k]);
-    }
-    Eigen::LLT<Eigen::MatrixXd> llt(b.local);
-    SceneTerm term;
-    const Eigen::MatrixXd x = llt.solve(b.cross);
-    const Eigen::VectorXd y = llt.solve(b.local_gradient);
-    term.information = b.global - b.cross.transpose() * x;
-    term.gradient = b.global_gradient - b.cross.transpose() * y;
-    term.constant = -0.5 * (b.squares - b.local_gradient.dot(y)) + log_prior -
-                    llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
-    for (std::size_t c = 0; c < kChannels; ++c)
-      term.constant -= 0.5 * scene.rows[c] * std::log(fit_.variances.channel_of(s)[c]);
-    fit_.scenes.push_back(std::move(term));
-    factors_.push_back(std::move(llt));
-    blocks_.push_back(std::move(b));
-  }
-
-  // Largest move of a log-variance.
-  double update_variances() {
-    std::array<double, kVarianceGroups> squares{};
-    std::array<double, kVarianceGroups> determined{};
-    std::array<double, kChannels> residual{};
-    std::array<double, kChannels> freedom{};
-    for (std::size_t s = 0; s < linear_.scenes.size(); ++s)
-      collect(s, squares, determined, residual, freedom);
-    double change = 0.0;
-    const auto move = [&change](double& value, double next) {
-      change = std::max(change, std::abs(std::log(next / value)));
-      value = next;
-    };
-    for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-      double& value = fit_.variances.group[k];
-      if (value <= kAbsentVariance[k]) continue;
-      if (options_.estimated == Estimated::kBoards && !moves_board(k)) continue;
-      // At most a hundredfold at a time, either way.
-      const double next = squares[k] / std::max(determined[k], 1e-3);
-      move(value, std::max(kAbsentVariance[k], std::clamp(next, 0.01 * value, 100.0 * value)));
-    }
-    const bool channels =
-        options_.estimated == Estimated::kAll && fit_.variances.scene_channel.empty();
-    for (std::size_t c = 0; c < kChannels; ++c) {
-      if (!channels || freedom[c] < 2.0) continue;
-      move(fit_.variances.channel[c], std::clamp(residual[c] / freedom[c], 0.05, 1e4));
-    }
-    return change;
-  }
-
-  void collect(std::size_t s, std::array<double, kVarianceGroups>& squares,
-               std::array<double, kVarianceGroups>& determined,
-               std::array<double, kChannels>& residual, std::array<double, kChannels>& freedom) {
-    const Columns& at = columns_[s];
-    const Eigen::Index n = at.locals;
-    const Eigen::Index g = at.globals;
-    // Covariance of local and global unknowns together.
-    const Eigen::MatrixXd x = factors_[s].solve(blocks_[s].cross);
-    Eigen::MatrixXd covariance(n + g, n + g);
-    covariance.topRightCorner(n, g).noalias() = -x * fit_.covariance;
-    covariance.bottomLeftCorner(g, n) = covariance.topRightCorner(n, g).transpose();
-    covariance.bottomRightCorner(g, g) = fit_.covariance;
-    covariance.topLeftCorner(n, n) = factors_[s].solve(Eigen::MatrixXd::Identity(n, n));
-    covariance.topLeftCorner(n, n).noalias() -= covariance.topRightCorner(n, g) * x.transpose();
-    for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-      const auto [first, count] = at.groups[k];
-      if (count == 0) continue;
-      squares[k] += fit_.local[s].segment(first, count).squaredNorm();
-      determined[k] += static_cast<double>(count) -
-                       covariance.diagonal().segment(first, count).sum() / fit_.variances.group[k];
-    }
-    for (std::size_t c = 0; c < kChannels; ++c) {
-      const Eigen::MatrixXd& m = products_[s][c];
-      if (m.size() == 0) continue;
-      residual[c] += squares_of(m, fit_.local[s], fit_.solution);
-      const double used = covariance.cwiseProduct(m.topLeftCorner(n + g, n + g)).sum();
-      freedom[c] += linear_.scenes[s].rows[c] - used / fit_.variances.channel_of(s)[c];
-    }
-  }
-
-  const Linearization& linear_;
-  const MixedModelOptions& options_;
-  ModelFit fit_;
-  std::vector<Columns> columns_;  // Per scene, as the next ones.
-  std::vector<JointProducts> products_;
-  std::vector<Blocks> blocks_;
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
+// What a fit reads of one scene, whatever the variances.
+struct GatheredScene {
+  Columns columns;
+  JointProducts products;
+  std::array<int, kChannels> rows;
 };
+
+std::vector<GatheredScene> gather_scenes(const Linearization& linear, const ColumnSubset& subset,
+                                         const ModelVariances& variances) {
+  std::vector<GatheredScene> out;
+  for (const SceneProducts& scene : linear.scenes) {
+    const Columns columns = columns_of(scene, subset, variances, Locals::kPresent);
+    out.push_back({columns, gather(scene, columns), scene.rows});
+  }
+  return out;
+}
+
+// A measurement of the sum, a thousand times as precise as what is believable of one of them.
+void hold_sum(const ColumnSubset& subset, std::size_t first, std::size_t count, SceneTerm& prior) {
+  constexpr double kPrecise = 1e-3;
+  const double weight = std::pow(kPrecise * subset.prior_sigma[first], -2.0);
+  const auto at = static_cast<Eigen::Index>(6 + first);
+  const auto n = static_cast<Eigen::Index>(count);
+  double mean = 0.0;
+  for (std::size_t k = 0; k < count; ++k) mean += subset.prior_mean[first + k];
+  prior.information.block(at, at, n, n).array() += weight;
+  prior.gradient.segment(at, n).array() += weight * mean;
+  prior.constant += 0.5 * std::log(weight) - 0.5 * weight * mean * mean;
+}
+
+// What is believed of the extrinsic and the effects beforehand.
+SceneTerm prior_of(const ColumnSubset& subset) {
+  SceneTerm prior;
+  const auto g = static_cast<Eigen::Index>(6 + subset.columns.size());
+  prior.information.setZero(g, g);
+  prior.gradient.setZero(g);
+  for (std::size_t k = 0; k < subset.columns.size(); ++k) {
+    const double weight = 1.0 / (subset.prior_sigma[k] * subset.prior_sigma[k]);
+    const auto i = static_cast<Eigen::Index>(6 + k);
+    prior.information(i, i) = weight;
+    prior.gradient(i) = weight * subset.prior_mean[k];
+    prior.constant +=
+        0.5 * std::log(weight) - 0.5 * weight * subset.prior_mean[k] * subset.prior_mean[k];
+  }
+  for (const auto& [first, count] : subset.zero_sums) hold_sum(subset, first, count, prior);
+  return prior;
+}
+
+// A scene at given variances, its own unknowns eliminated from its term.
+struct Eliminated {
+  SceneTerm term;
+  Blocks blocks;
+  Eigen::LLT<Eigen::MatrixXd> factor;  // Of the local block.
+};
+
+Eliminated eliminate(const GatheredScene& scene, const ModelVariances& variances, std::size_t s) {
+  Blocks b = blocks_of(scene.products, scene.columns, variances, s);
+  double log_prior = 0.0;
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+    log_prior -=
+        0.5 * static_cast<double>(scene.columns.groups[k].second) * std::log(variances.group[k]);
+  }
+  Eigen::LLT<Eigen::MatrixXd> llt(b.local);
+  SceneTerm term;
+  const Eigen::MatrixXd x = llt.solve(b.cross);
+  const Eigen::VectorXd y = llt.solve(b.local_gradient);
+  term.information = b.global - b.cross.transpose() * x;
+  term.gradient = b.global_gradient - b.cross.transpose() * y;
+  term.constant = -0.5 * (b.squares - b.local_gradient.dot(y)) + log_prior -
+                  llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
+  for (std::size_t c = 0; c < kChannels; ++c)
+    term.constant -= 0.5 * scene.rows[c] * std::log(variances.channel_of(s)[c]);
+  return {std::move(term), std::move(b), std::move(llt)};
+}
+
+// Solves for everything linear at the variances in `fit`. Returns the scenes as they were
+// eliminated.
+std::vector<Eliminated> solve(const std::vector<GatheredScene>& scenes, ModelFit& fit) {
+  fit.scenes.clear();
+  std::vector<Eliminated> out;
+  Eigen::MatrixXd information = fit.prior.information;
+  Eigen::VectorXd gradient = fit.prior.gradient;
+  double constant = fit.prior.constant;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    out.push_back(eliminate(scenes[s], fit.variances, s));
+    fit.scenes.push_back(std::move(out.back().term));
+    information += fit.scenes.back().information;
+    gradient += fit.scenes.back().gradient;
+    constant += fit.scenes.back().constant;
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(information);
+  fit.solution = ldlt.solve(gradient);
+  fit.covariance = ldlt.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  fit.log_likelihood = constant + 0.5 * gradient.dot(fit.solution) -
+                       0.5 * ldlt.vectorD().cwiseAbs().array().max(1e-300).log().sum();
+  fit.local.clear();
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    fit.local.push_back(
+        out[s].factor.solve(out[s].blocks.local_gradient - out[s].blocks.cross * fit.solution));
+  }
+  return out;
+}
+
+// What variances are estimated from: squares of the random effects and how many of them the rows
+// determine; squares of the residuals and their degrees of freedom.
+struct VarianceSums {
+  std::array<double, kVarianceGroups> squares{};
+  std::array<double, kVarianceGroups> determined{};
+  std::array<double, kChannels> residual{};
+  std::array<double, kChannels> freedom{};
+};
+
+void collect(const GatheredScene& scene, const Eliminated& eliminated, const ModelFit& fit,
+             std::size_t s, VarianceSums& sums) {
+  const Columns& at = scene.columns;
+  const Eigen::Index n = at.locals;
+  const Eigen::Index g = at.globals;
+  // Covariance of local and global unknowns together.
+  const Eigen::MatrixXd x = eliminated.factor.solve(eliminated.blocks.cross);
+  Eigen::MatrixXd covariance(n + g, n + g);
+  covariance.topRightCorner(n, g).noalias() = -x * fit.covariance;
+  covariance.bottomLeftCorner(g, n) = covariance.topRightCorner(n, g).transpose();
+  covariance.bottomRightCorner(g, g) = fit.covariance;
+  covariance.topLeftCorner(n, n) = eliminated.factor.solve(Eigen::MatrixXd::Identity(n, n));
+  covariance.topLeftCorner(n, n).noalias() -= covariance.topRightCorner(n, g) * x.transpose();
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+    const auto [first, count] = at.groups[k];
+    if (count == 0) continue;
+    sums.squares[k] += fit.local[s].segment(first, count).squaredNorm();
+    sums.determined[k] +=
+        static_cast<double>(count) -
+        covariance.diagonal().segment(first, count).sum() / fit.variances.group[k];
+  }
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    const Eigen::MatrixXd& m = scene.products[c];
+    if (m.size() == 0) continue;
+    sums.residual[c] += squares_of(m, fit.local[s], fit.solution);
+    const double used = covariance.cwiseProduct(m.topLeftCorner(n + g, n + g)).sum();
+    sums.freedom[c] += scene.rows[c] - used / fit.variances.channel_of(s)[c];
+  }
+}
+
+// Returns the largest move of a log-variance.
+double update_variances(const VarianceSums& sums, Estimated estimated, ModelVariances& variances) {
+  double change = 0.0;
+  const auto move = [&change](double& value, double next) {
+    change = std::max(change, std::abs(std::log(next / value)));
+    value = next;
+  };
+  for (std::size_t k = 0; k < kVarianceGroups; ++k) {
+    double& value = variances.group[k];
+    if (value <= kAbsentVariance[k]) continue;
+    if (estimated == Estimated::kBoards && !moves_board(k)) continue;
+    // At most a hundredfold at a time, either way.
+    const double next = sums.squares[k] / std::max(sums.determined[k], 1e-3);
+    move(value, std::max(kAbsentVariance[k], std::clamp(next, 0.01 * value, 100.0 * value)));
+  }
+  const bool channels = estimated == Estimated::kAll && variances.scene_channel.empty();
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    if (!channels || sums.freedom[c] < 2.0) continue;
+    move(variances.channel[c], std::clamp(sums.residual[c] / sums.freedom[c], 0.05, 1e4));
+  }
+  return change;
+}
+
+ModelFit fit_at_start(const ColumnSubset& subset, const ModelVariances& variances) {
+  ModelFit fit;
+  fit.subset = subset;
+  fit.variances = variances;
+  fit.prior = prior_of(subset);
+  return fit;
+}
+
+// What each scene's rows scatter by, correlation of neighbours included, per channel: a scene
+// with few of them takes what all have.
+std::vector<ChannelVariances> scene_variances(const Linearization& linear,
+                                              const ColumnSubset& subset,
+                                              const ModelVariances& variances) {
+  constexpr double kFewest = 20.0;  // A variance from fewer is known to a third at best, √(2/n).
+  const std::vector<GatheredScene> scenes = gather_scenes(linear, subset, variances);
+  ModelFit fit = fit_at_start(subset, variances);
+  const std::vector<Eliminated> eliminated = solve(scenes, fit);
+  std::vector<ChannelVariances> out(scenes.size(), variances.channel);
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    VarianceSums sums;
+    collect(scenes[s], eliminated[s], fit, s, sums);
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      if (sums.freedom[c] >= kFewest)
+        out[s][c] = std::clamp(sums.residual[c] / sums.freedom[c], 0.05, 1e4);
+      out[s][c] *= linear.scenes[s].inflation[c];
+    }
+  }
+  return out;
+}
 
 // What the gradient of the globals scatters by motions of the whole board that have no weight.
 Eigen::MatrixXd board_spread(const Linearization& linear, std::size_t scene,
@@ -351,7 +361,17 @@ void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
 
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options) {
-  return Fitter(linear, subset, start, options).run();
+  const std::vector<GatheredScene> scenes = gather_scenes(linear, subset, start);
+  ModelFit fit = fit_at_start(subset, start);
+  std::vector<Eliminated> eliminated = solve(scenes, fit);
+  for (int round = 0; round < options.rounds; ++round) {
+    VarianceSums sums;
+    for (std::size_t s = 0; s < scenes.size(); ++s) collect(scenes[s], eliminated[s], fit, s, sums);
+    const double change = update_variances(sums, options.estimated, fit.variances);
+    eliminated = solve(scenes, fit);
+    if (change < options.tolerance) break;
+  }
+  return fit;
 }
 
 bool moves_boards(const ModelVariances& variances) {
@@ -364,7 +384,7 @@ bool moves_boards(const ModelVariances& variances) {
 StatedVariances stated_variances(const Linearization& linear, const ColumnSubset& subset,
                                  const ModelVariances& variances) {
   StatedVariances out{variances, variances};
-  out.weights.scene_channel = Fitter(linear, subset, variances, {.rounds = 0}).scene_variances();
+  out.weights.scene_channel = scene_variances(linear, subset, variances);
   for (const VarianceGroup group : kBoardMotions) {
     const auto k = static_cast<std::size_t>(group);
     out.weights.group[k] = kAbsentVariance[k];
