@@ -53,160 +53,135 @@ BoardLevels levels_of(const MeasurementTable& table) {
   return {table.level_of(Print::kWhite), table.level_of(Print::kBlack), Eigen::Vector2d::Zero()};
 }
 
-class ScenePredictor {
- public:
-  ScenePredictor(const GridPose& pose, const SensorModel& sensors, MeasurementTable& table,
-                 const ModelState& state)
-      : sensors_(sensors),
-        table_(table),
-        scene_(static_cast<int>(table.scenes.size())),
-        camera_from_board_(pose.camera_from_board),
-        geometry_(state.camera_from_lidar, pose.camera_from_board),
-        levels_(levels_of(table)),
-        beam_(beam_of(sensors)),
-        predictor_(*table.print, geometry_.lidar_from_board(), levels_, beam_) {
-    scene_info_.name = pose.text();
-    scene_info_.clock = 0.5;
-    geometry_.tell_middle(table.target.outline().center_m(), scene_info_);
-  }
-
-  void run() {
-    add_returns();
-    add_corners();
-    table_.scenes.push_back(std::move(scene_info_));
-  }
-
- private:
-  bool beam_at(const Eigen::Vector2d& board_m, BeamPoint& beam) {
-    beam.scene = scene_;
-    const Eigen::Vector3d p =
-        geometry_.lidar_from_board() * Eigen::Vector3d(board_m.x(), board_m.y(), 0.0);
-    if (!geometry_.describe(p.normalized(), beam)) return false;
-    const BeamTrait& trait = sensors_.traits[next_trait_++ % sensors_.traits.size()];
-    beam.time_s = trait.time_s;
-    beam.scan_rad_s = trait.scan_rad_s;
-    beam.line = trait.line;
-    if (sensors_.lines_by_elevation > 0) {
-      const double low = sensors_.elevation_rad.x();
-      const double share = (beam.elevation_rad - low) / (sensors_.elevation_rad.y() - low);
-      const int lines = sensors_.lines_by_elevation;
-      beam.line = std::clamp(static_cast<int>(share * lines), 0, lines - 1);
-    }
-    return true;
-  }
-
-  void set_darkness(double intensity, BeamPoint& beam) const {
-    if (table_.log_contrast > 0.0 && intensity > 0.0)
-      beam.darkness = std::log(table_.level_of(Print::kWhite) / intensity) / table_.log_contrast;
-  }
-
-  void add_returns() {
-    const BoardOutline outline = table_.target.outline();
-    const double cell = board_area_m2(table_.target) / kPlaces;
-    for (int k = 0; k < kPlaces; ++k) {
-      BeamPoint beam;
-      const Eigen::Vector2d at =
-          outline.lower_left_m + quasi_random(k).cwiseProduct(outline.size_m());
-      if (!beam_at(at, beam)) continue;
-      const auto p = predictor_.predict(beam.direction);
-      if (!p) continue;
-      const double points =
-          std::clamp(points_per_m2(sensors_, beam) * cell, 1e-3, kMostPoints / kPlaces);
-      add_return(*p, beam, std::sqrt(points));
-    }
-  }
-
-  // A return that weighs as `root` squared of them.
-  void add_return(const ReturnPrediction& p, BeamPoint beam, double root) {
-    set_darkness(p.intensity, beam);
-    beam.white = p.white;
-    const PrintView view = view_print(p, levels_, beam_);
-    if (view.slope > 0.0) {
-      beam.edge = NearEdge{view.distance_m, view.psi_rad, view.width_m,
-                           view.kind == PrintView::Kind::kPlain};
-    }
-    const Print print = p.white > 0.5 ? Print::kWhite : Print::kBlack;
-    RangeRow range;
-    range.beam = beam;
-    range.print = print;
-    range.measured_m = p.range_m;
-    range.intensity = p.intensity;
-    range.sigma_m = sensors_.range_sigma_m / root;
-    table_.range.push_back(range);
-    if (!table_.has_intensity) return;
-    if (view.kind == PrintView::Kind::kPlain) {
-      table_.intensity.push_back({beam,
-                                  print,
-                                  std::log(p.intensity),
-                                  sensors_.intensity_sigma / root,
-                                  {p.intensity, p.intensity, {}}});
-    } else if (view.kind == PrintView::Kind::kEdge) {
-      BoundaryRow edge;
-      edge.beam = beam;
-      edge.psi_rad = view.psi_rad;
-      edge.transition_m = view.width_m;
-      edge.log_contrast = table_.log_contrast;
-      edge.sigma_m =
-          sensors_.edge_noise * std::abs(levels_.white - levels_.black) / view.slope / root;
-      edge.reading = {p.intensity, -view.slope, {}};
-      const AngleAxes axes = angle_axes(beam);
-      const Eigen::Vector3d outward(std::cos(view.psi_rad), std::sin(view.psi_rad), 0.0);
-      const Eigen::Vector3d a =
-          geometry_.edge_row(beam.direction, geometry_.lidar_from_board().rotation * outward);
-      edge.edge_normal_rad << a.dot(axes.azimuth_m), a.dot(axes.elevation_m);
-      table_.boundary.push_back(edge);
-    }
-  }
-
-  void add_corner(int feature, int corner, const Eigen::Vector2d& at,
-                  const std::optional<Eigen::Vector2d>& center) {
-    CornerRow row;
-    row.scene = scene_;
-    row.feature = feature;
-    row.corner = corner;
-    row.board_m = at;
-    row.sigma_px = sensors_.corner_sigma_px;
-    const auto pixel =
-        table_.camera.project(camera_from_board_ * Eigen::Vector3d(at.x(), at.y(), 0.0));
-    if (!pixel) return;
-    row.pixel = *pixel;
-    if (center) {
-      row.from_tag_m = at - *center;
-      const auto middle = table_.camera.project(camera_from_board_ *
-                                                Eigen::Vector3d(center->x(), center->y(), 0.0));
-      if (middle) row.from_tag_px = *pixel - *middle;
-    }
-    table_.corner.push_back(row);
-  }
-
-  void add_corners() {
-    if (!table_.target.has_tags()) {
-      const auto corners = table_.target.checkerboard_corners_m();
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        scene_info_.features.push_back(static_cast<int>(k));
-        add_corner(static_cast<int>(k), 0, corners[k], std::nullopt);
-      }
-      return;
-    }
-    for (const TargetTag& tag : table_.target.tags()) {
-      scene_info_.features.push_back(tag.id);
-      const auto corners = table_.target.tag_corners_m(tag);
-      for (int k = 0; k < 4; ++k)
-        add_corner(tag.id, k, corners[static_cast<std::size_t>(k)], tag.center_m);
-    }
-  }
-
-  const SensorModel& sensors_;
-  MeasurementTable& table_;
-  int scene_;
-  Rigid3 camera_from_board_;
-  SceneGeometry geometry_;
-  BoardLevels levels_;
-  BeamSpread beam_;
-  BoardPredictor predictor_;
-  TableScene scene_info_;
-  std::size_t next_trait_ = 0;
+// A board as a pose of it is seen.
+struct SeenBoard {
+  const SensorModel& sensors;
+  const SceneGeometry& geometry;
+  BoardLevels levels;
+  BeamSpread beam;
 };
+
+// What the LiDAR tells of a beam besides its direction.
+void set_trait(const SensorModel& sensors, const BeamTrait& trait, BeamPoint& beam) {
+  beam.time_s = trait.time_s;
+  beam.scan_rad_s = trait.scan_rad_s;
+  beam.line = trait.line;
+  if (sensors.lines_by_elevation > 0) {
+    const double low = sensors.elevation_rad.x();
+    const double share = (beam.elevation_rad - low) / (sensors.elevation_rad.y() - low);
+    const int lines = sensors.lines_by_elevation;
+    beam.line = std::clamp(static_cast<int>(share * lines), 0, lines - 1);
+  }
+}
+
+// A return that weighs as `root` squared of them.
+void add_return(const SeenBoard& board, const ReturnPrediction& p, BeamPoint beam, double root,
+                MeasurementTable& table) {
+  if (table.log_contrast > 0.0 && p.intensity > 0.0)
+    beam.darkness = std::log(table.level_of(Print::kWhite) / p.intensity) / table.log_contrast;
+  beam.white = p.white;
+  const PrintView view = view_print(p, board.levels, board.beam);
+  if (view.slope > 0.0) {
+    beam.edge =
+        NearEdge{view.distance_m, view.psi_rad, view.width_m, view.kind == PrintView::Kind::kPlain};
+  }
+  const Print print = p.white > 0.5 ? Print::kWhite : Print::kBlack;
+  RangeRow range;
+  range.beam = beam;
+  range.print = print;
+  range.measured_m = p.range_m;
+  range.intensity = p.intensity;
+  range.sigma_m = board.sensors.range_sigma_m / root;
+  table.range.push_back(range);
+  if (!table.has_intensity) return;
+  if (view.kind == PrintView::Kind::kPlain) {
+    table.intensity.push_back({beam,
+                               print,
+                               std::log(p.intensity),
+                               board.sensors.intensity_sigma / root,
+                               {p.intensity, p.intensity, {}}});
+  } else if (view.kind == PrintView::Kind::kEdge) {
+    BoundaryRow edge;
+    edge.beam = beam;
+    edge.psi_rad = view.psi_rad;
+    edge.transition_m = view.width_m;
+    edge.log_contrast = table.log_contrast;
+    edge.sigma_m = board.sensors.edge_noise * std::abs(board.levels.white - board.levels.black) /
+                   view.slope / root;
+    edge.reading = {p.intensity, -view.slope, {}};
+    const AngleAxes axes = angle_axes(beam);
+    const Eigen::Vector3d outward(std::cos(view.psi_rad), std::sin(view.psi_rad), 0.0);
+    const Eigen::Vector3d a = board.geometry.edge_row(
+        beam.direction, board.geometry.lidar_from_board().rotation * outward);
+    edge.edge_normal_rad << a.dot(axes.azimuth_m), a.dot(axes.elevation_m);
+    table.boundary.push_back(edge);
+  }
+}
+
+void add_returns(const SeenBoard& board, MeasurementTable& table) {
+  const BoardOutline outline = table.target.outline();
+  const Rigid3& lidar_from_board = board.geometry.lidar_from_board();
+  const BoardPredictor predictor(*table.print, lidar_from_board, board.levels, board.beam);
+  const double cell = board_area_m2(table.target) / kPlaces;
+  std::size_t next_trait = 0;
+  for (int k = 0; k < kPlaces; ++k) {
+    const Eigen::Vector2d at =
+        outline.lower_left_m + quasi_random(k).cwiseProduct(outline.size_m());
+    const Eigen::Vector3d p = lidar_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0);
+    BeamPoint beam;
+    beam.scene = static_cast<int>(table.scenes.size());
+    if (!board.geometry.describe(p.normalized(), beam)) continue;
+    set_trait(board.sensors, board.sensors.traits[next_trait++ % board.sensors.traits.size()],
+              beam);
+    const auto seen = predictor.predict(beam.direction);
+    if (!seen) continue;
+    const double points =
+        std::clamp(points_per_m2(board.sensors, beam) * cell, 1e-3, kMostPoints / kPlaces);
+    add_return(board, *seen, beam, std::sqrt(points), table);
+  }
+}
+
+void add_corner(const Rigid3& camera_from_board, CornerRow row,
+                const std::optional<Eigen::Vector2d>& center, MeasurementTable& table) {
+  const auto pixel_of = [&](const Eigen::Vector2d& at) {
+    return table.camera.project(camera_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0));
+  };
+  const auto pixel = pixel_of(row.board_m);
+  if (!pixel) return;
+  row.pixel = *pixel;
+  if (center) {
+    row.from_tag_m = row.board_m - *center;
+    if (const auto middle = pixel_of(*center)) row.from_tag_px = *pixel - *middle;
+  }
+  table.corner.push_back(row);
+}
+
+// Lists the features that they belong to in `scene`, which is the table's next one.
+void add_corners(const Rigid3& camera_from_board, double sigma_px, TableScene& scene,
+                 MeasurementTable& table) {
+  CornerRow row;
+  row.scene = static_cast<int>(table.scenes.size());
+  row.sigma_px = sigma_px;
+  if (!table.target.has_tags()) {
+    for (const Eigen::Vector2d& corner : table.target.checkerboard_corners_m()) {
+      row.feature = static_cast<int>(scene.features.size());
+      row.board_m = corner;
+      scene.features.push_back(row.feature);
+      add_corner(camera_from_board, row, std::nullopt, table);
+    }
+    return;
+  }
+  for (const TargetTag& tag : table.target.tags()) {
+    scene.features.push_back(tag.id);
+    row.feature = tag.id;
+    const auto corners = table.target.tag_corners_m(tag);
+    for (int k = 0; k < 4; ++k) {
+      row.corner = k;
+      row.board_m = corners[static_cast<std::size_t>(k)];
+      add_corner(camera_from_board, row, tag.center_m, table);
+    }
+  }
+}
 
 void measure_field_of_view(const MeasurementTable& table, SensorModel& out) {
   constexpr double kWider = 0.25;
@@ -354,7 +329,14 @@ bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& 
 
 void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
                             MeasurementTable& table, ModelState& state) {
-  ScenePredictor(pose, sensors, table, state).run();
+  const SceneGeometry geometry(state.camera_from_lidar, pose.camera_from_board);
+  TableScene scene;
+  scene.name = pose.text();
+  scene.clock = 0.5;
+  geometry.tell_middle(table.target.outline().center_m(), scene);
+  add_returns({sensors, geometry, levels_of(table), beam_of(sensors)}, table);
+  add_corners(pose.camera_from_board, sensors.corner_sigma_px, scene, table);
+  table.scenes.push_back(std::move(scene));
   state.beam = beam_of(sensors);
   state.levels.push_back(levels_of(table));
   state.camera_from_board.push_back(pose.camera_from_board);
@@ -364,16 +346,8 @@ std::vector<Eigen::MatrixXd> predicted_information(
     const std::vector<GridPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
     const Rigid3& camera_from_lidar, const EffectColumnsList& columns, const ColumnSubset& subset,
     const ModelVariances& variances, const RunContext& context) {
-  MeasurementTable empty;
-  empty.target = like.target;
-  empty.camera = like.camera;
-  empty.print = like.print;
-  empty.lines = like.lines;
-  empty.has_time = like.has_time;
-  empty.has_intensity = like.has_intensity;
-  empty.level = like.level;
-  empty.log_contrast = like.log_contrast;
-  empty.usual_log_power = like.usual_log_power;
+  MeasurementTable empty = like.without_rows();
+  empty.scenes.clear();
   std::vector<Eigen::MatrixXd> out(poses.size());
   for (std::size_t first = 0; first < poses.size() && !context.stopped(); first += kChunk) {
     const std::size_t count = std::min(kChunk, poses.size() - first);

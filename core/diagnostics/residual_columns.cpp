@@ -145,18 +145,8 @@ std::vector<float> effect_pattern(const FittedModel& model, const EffectInUse& e
 
 std::vector<Channel> channels_of(const Effect& effect, double shape, const FittedModel& model) {
   // A few rows of each channel tell.
-  MeasurementTable few;
   const MeasurementTable& table = model.table;
-  few.target = table.target;
-  few.camera = table.camera;
-  few.print = table.print;
-  few.scenes = table.scenes;
-  few.lines = table.lines;
-  few.has_time = table.has_time;
-  few.has_intensity = table.has_intensity;
-  few.level = table.level;
-  few.log_contrast = table.log_contrast;
-  few.usual_log_power = table.usual_log_power;
+  MeasurementTable few = table.without_rows();
   const auto thin = [](const auto& from, auto& to) {
     const std::size_t stride = std::max<std::size_t>(1, from.size() / 500);
     for (std::size_t k = 0; k < from.size(); k += stride) to.push_back(from[k]);

@@ -172,6 +172,9 @@ struct MeasurementTable {
   std::vector<double> sensor_variances;
 
   [[nodiscard]] std::size_t size(Channel channel) const;
+
+  /// Everything but the rows, and what makes them again: for other rows of the same scenes.
+  [[nodiscard]] MeasurementTable without_rows() const;
 };
 
 }  // namespace lvcalib
