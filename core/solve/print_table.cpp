@@ -461,7 +461,8 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
                             const TableOptions& options, const RunContext& context,
                             const FirstTable* like, FirstTable* first,
                             const std::vector<EffectInUse>& in_use) {
-  MeasurementTable table;
+  MeasurementTable table = like != nullptr ? like->table : MeasurementTable();
+  table.scenes.clear();
   table.print = print;
   table.target = print->target();
   table.camera = camera;
@@ -483,13 +484,6 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
     has_line = has_line && scenes[s].cloud.has_line();
     SceneGeometry(state.camera_from_lidar, state.camera_from_board[s])
         .tell_middle(table.target.outline().center_m(), table.scenes.back());
-  }
-  if (like != nullptr) {
-    table.level = like->table.level;
-    table.log_contrast = like->table.log_contrast;
-    table.lines = like->table.lines;
-    table.usual_log_power = like->table.usual_log_power;
-    table.has_intensity = like->table.has_intensity;
   }
   std::vector<std::optional<SceneRows>> rows(scenes.size());
   parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
@@ -579,10 +573,7 @@ MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
   MeasurementTable table = make_table(*kept, print, camera, state, noise, sigma_px, options,
                                       context, nullptr, first.get(), {});
   if (context.stopped()) return table;
-  first->table.level = table.level;
-  first->table.log_contrast = table.log_contrast;
-  first->table.lines = table.lines;
-  first->table.has_intensity = table.has_intensity;
+  first->table = table.without_rows();
   table.again = [=](const ModelState& at, const std::vector<EffectInUse>& in_use,
                     const RunContext& now) {
     return make_table(*kept, print, camera, at, noise, sigma_px, options, now, first.get(), nullptr,

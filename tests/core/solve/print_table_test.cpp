@@ -84,6 +84,23 @@ TEST_F(PrintTable, HasEveryKindOfRow) {
   }
 }
 
+// What effects refer to stays, whatever the model is by then.
+TEST_F(PrintTable, MadeAgainItRefersToTheSameLevels) {
+  ModelState elsewhere = state_;
+  elsewhere.camera_from_lidar.translation.x() += 0.001;
+  const MeasurementTable again = table_.again(elsewhere, {}, {});
+  EXPECT_NE(table_.usual_log_power, 0.0);
+  EXPECT_EQ(again.usual_log_power, table_.usual_log_power);
+  EXPECT_EQ(again.log_contrast, table_.log_contrast);
+  EXPECT_EQ(again.level, table_.level);
+  EXPECT_EQ(again.lines, table_.lines);
+  EXPECT_EQ(again.has_intensity, table_.has_intensity);
+  EXPECT_EQ(again.has_time, table_.has_time);
+  EXPECT_EQ(again.scenes.size(), table_.scenes.size());
+  EXPECT_NEAR(static_cast<double>(again.range.size()), static_cast<double>(table_.range.size()),
+              0.01 * static_cast<double>(table_.range.size()));
+}
+
 TEST_F(PrintTable, RowsAreAsNoisyAsStated) {
   for (const Channel channel : {Channel::kRange, Channel::kIntensity, Channel::kBoundary}) {
     const ChannelResiduals r = residuals_of(table_, state_, {}, channel);
