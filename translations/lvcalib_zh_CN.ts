@@ -282,12 +282,12 @@ were saved. Take them up again?</source>
         <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 小 %1 %；请测量打印件并修正 tagSize</translation>
     </message>
     <message>
-        <source>black print reads %1 mm farther than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
-        <translation>黑色印刷区测距比白色远 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
+        <source>darker returns lie %1 mm farther than brighter ones: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
+        <translation>较暗的回波比较亮的回波远 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
-        <source>black print reads %1 mm nearer than white: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
-        <translation>黑色印刷区测距比白色近 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
+        <source>darker returns lie %1 mm nearer than brighter ones: the LiDAR&apos;s range depends on the reflectivity, an effect is missing in the model</source>
+        <translation>较暗的回波比较亮的回波近 %1 mm：激光雷达的测距与反射率有关，模型中缺少一个效应</translation>
     </message>
     <message>
         <source>scene %1: its board measures %2 % larger than in the other scenes: is it another print?</source>

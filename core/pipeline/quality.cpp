@@ -120,15 +120,19 @@ void judge_dark_offset(const CalibrationResult& result, const QualityOptions& op
   if (result.modelled_dark_offset_m * offset > 0.0) return;
   if (std::abs(offset) < options.max_dark_offset_m || std::abs(offset) < 5.0 / std::sqrt(weight))
     return;
+  // Some of the darker half see an edge: black print itself reads farther still, by what the model
+  // says once the effect is in it.
   const std::string size =
       formatted("%.1f ± %.1f", 1e3 * std::abs(offset), 1e3 / std::sqrt(weight));
   verdict.doubtful(
-      offset > 0 ? Message("black print reads %1 mm farther than white: the LiDAR's range depends "
-                           "on the reflectivity, an effect is missing in the model",
-                           size)
-                 : Message("black print reads %1 mm nearer than white: the LiDAR's range depends "
-                           "on the reflectivity, an effect is missing in the model",
-                           size));
+      offset > 0
+          ? Message(
+                "darker returns lie %1 mm farther than brighter ones: the LiDAR's range depends "
+                "on the reflectivity, an effect is missing in the model",
+                size)
+          : Message("darker returns lie %1 mm nearer than brighter ones: the LiDAR's range depends "
+                    "on the reflectivity, an effect is missing in the model",
+                    size));
 }
 
 bool is_deviating(const MeasuredScale& relative, double outlier) {
