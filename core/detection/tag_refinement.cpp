@@ -30,8 +30,8 @@ struct TagPixel {
 class TagFit {
  public:
   TagFit(const GrayImage& image, const UndistortedPatch& patch, BlurredTag tag,
-         const TagCorners& start, const TagRefinementOptions& options)
-      : image_(image), patch_(patch), tag_(std::move(tag)), options_(options) {
+         const TagCorners& start, const TagRefinementOptions& options, bool grows)
+      : image_(image), patch_(patch), tag_(std::move(tag)), options_(options), grows_(grows) {
     std::array<Eigen::Vector2d, 4> points;
     std::transform(start.begin(), start.end(), points.begin(),
                    [&](const Eigen::Vector2d& p) { return patch.to_plane(p); });
@@ -60,6 +60,7 @@ class TagFit {
   const UndistortedPatch& patch_;
   BlurredTag tag_;
   const TagRefinementOptions& options_;
+  bool grows_;  // Whether black may have grown.
   Eigen::Vector2d center_;
   Eigen::Matrix2d plane_by_pixel_;
   std::vector<TagPixel> pixels_;
@@ -68,6 +69,8 @@ class TagFit {
   std::vector<double> residuals_;
   Matrix information_ = Matrix::Zero();
   int iterations_ = 0;
+  double growth_step_ = 0.0;
+  bool swings_ = false;
 };
 
 // Pixels of the tag and its surround. The outer quadrants at the corners are left out: circles and
@@ -201,22 +204,25 @@ double TagFit::iterate(bool robust) {
   if (robust) measure_noise();  // from the residuals of the iteration before
   const Vector gradient = accumulate(robust);
   // Curvature and growth are small corrections; half the range and a tenth of a bit as their
-  // priors keep them so when the tag is too small to tell them from the blur. Where pixels hardly
-  // resolve the edges the two are hardly told from each other, and steps along that would swing:
-  // they are held to a fifth of that at a time, which moves no solution.
+  // priors keep them so when the tag is too small to tell them from the blur.
   const double noise = noise_ > 0.0 ? noise_ : 0.05 * state_.contrast[0];
   Vector prior = Vector::Zero();
   prior(TagModel::kCurve) = std::pow(noise / 0.5, 2);
-  prior(TagModel::kGrowth) = std::pow(noise / (0.1 * tag_.cell()), 2);
+  const double most = grows_ ? 0.1 * tag_.cell() : 1e-9;
+  prior(TagModel::kGrowth) = std::pow(noise / most, 2);
   Vector values = Vector::Zero();
   values(TagModel::kCurve) = state_.curve;
   values(TagModel::kGrowth) = state_.growth;
   information_.diagonal() += prior;
+  // Where pixels hardly resolve the edges the two are hardly told from each other, and steps along
+  // that swing to and fro: they are held to a fifth of that at a time, which moves no solution.
   Matrix damped = information_;
-  damped.diagonal() += 25.0 * prior;
+  if (swings_) damped.diagonal() += 25.0 * prior;
   const Eigen::LDLT<Matrix> solver(damped);
   if (solver.info() != Eigen::Success || !solver.isPositive()) return -1.0;
   const Vector step = solver.solve(gradient - prior.cwiseProduct(values));
+  swings_ = swings_ || (robust && step(TagModel::kGrowth) * growth_step_ < 0.0);
+  growth_step_ = step(TagModel::kGrowth);
   if (!step.allFinite()) return -1.0;
   const auto before = state_.plane_corners();
   state_ = state_.moved(step);
@@ -274,6 +280,25 @@ std::optional<TagRefinement> TagFit::result() const {
   return out;
 }
 
+// The fit iterated to its end; nothing if it does not get there or does not show the tag.
+std::optional<TagRefinement> refined(TagFit& fit, const TagRefinementOptions& options) {
+  if (fit.pixel_count() < 4 * kUnknowns || !fit.start_levels()) return std::nullopt;
+  // Outliers can be told only once the edges are about right.
+  bool robust = false;
+  bool done = false;
+  for (int i = 0; i < options.max_iterations && !done; ++i) {
+    const double motion = fit.iterate(robust);
+    if (motion < 0.0) return std::nullopt;
+    done = robust && motion < options.stop_px;
+    robust = robust || i >= 1;
+  }
+  auto out = fit.result();
+  if (!done || !out || out->inliers < options.min_inliers ||
+      out->correlation < options.min_correlation)
+    return std::nullopt;
+  return out;
+}
+
 bool plausible(const TagCorners& corners, const GrayImage& image) {
   const auto usable = [&](const Eigen::Vector2d& p) {
     return p.allFinite() && p.x() > -image.width_px && p.y() > -image.height_px &&
@@ -299,27 +324,17 @@ std::optional<TagRefinement> refine_tag(const GrayImage& image, const TagPattern
   const auto patch = UndistortedPatch::create(camera, center, reach);
   if (!patch) return std::nullopt;
   const double bit_px = radius * tag.cell();
-  TagFit fit(image, *patch, std::move(tag), start, options);
-  if (fit.pixel_count() < 4 * kUnknowns || !fit.start_levels()) return std::nullopt;
-
-  // Outliers can be told only once the edges are about right.
-  bool robust = false;
-  bool done = false;
-  for (int i = 0; i < options.max_iterations && !done; ++i) {
-    const double motion = fit.iterate(robust);
-    if (motion < 0.0) return std::nullopt;
-    done = robust && motion < options.stop_px;
-    robust = robust || i >= 1;
+  // Where something covers a part of the tag the growth may follow that; without it the fit holds.
+  for (const bool grows : {true, false}) {
+    TagFit fit(image, *patch, tag, start, options, grows);
+    auto out = refined(fit, options);
+    if (!out) continue;
+    const bool near = std::equal(
+        start.begin(), start.end(), out->corners.begin(),
+        [&](const auto& a, const auto& b) { return (a - b).norm() <= std::max(bit_px, 1.5); });
+    if (near) return out;
   }
-  auto out = fit.result();
-  if (!done || !out || out->inliers < options.min_inliers ||
-      out->correlation < options.min_correlation) {
-    return std::nullopt;
-  }
-  for (std::size_t k = 0; k < 4; ++k) {
-    if ((out->corners[k] - start[k]).norm() > std::max(bit_px, 1.5)) return std::nullopt;
-  }
-  return out;
+  return std::nullopt;
 }
 
 }  // namespace lvcalib
