@@ -4793,21 +4793,13 @@ were saved. Take them up again?</source>
         <source>z = kx (1-x²) + ky (1-y²) + kxy x y, x and y from -1 to 1</source>
         <translation>z = kx (1-x²) + ky (1-y²) + kxy x y，x 和 y 从 -1 到 1</translation>
     </message>
-</context>
-<context>
-    <name>CoreWords</name>
-    <message>
-        <source>%1, %2</source>
-        <translation>%1、%2</translation>
-    </message>
     <message>
         <source>%1 or %2</source>
         <translation>%1 或 %2</translation>
     </message>
-    <message>
-        <source>%1 and %2</source>
-        <translation>%1 和 %2</translation>
-    </message>
+</context>
+<context>
+    <name>CoreWords</name>
     <message>
         <source>These totals are still the base model&apos;s: this model&apos;s follow once the effects that it may lack have been looked for.</source>
         <translation>目前的总计仍是基础模型的：查找完此模型可能缺少的效应后，才会给出此模型的总计。</translation>

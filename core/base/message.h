@@ -25,7 +25,8 @@ class Message {
     static_assert(sizeof...(Arguments) <= 9, "places are single digits");
   }
 
-  /// A sentence that the program declares in a list (an option's description, an effect's title).
+  /// A sentence that the program declares in a list (an option's description, an effect's title or
+  /// id, which a window says as its title).
   static Message listed(std::string id);
 
   /// Words that nobody translates: a name, a number, what a library or a file says.

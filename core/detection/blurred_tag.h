@@ -52,8 +52,8 @@ class BlurredTag {
 
  private:
   static constexpr int kMaxCells = 16;
-  // Share of each cell along one axis, its first and second derivatives,
-  // and the blur at the edge after it and its derivative.
+  // Share of each cell along one axis with its first and second derivatives, and of the edge after
+  // it the density of the blur there with its derivative.
   struct Profile {
     int first = 0;
     int count = 0;

@@ -15,7 +15,8 @@ namespace {
 // What it does to a slope's dependence on the blur is that of one straight edge: the slope
 // m = φ(x/s)/s has ∂m/∂s² = (x²/s² − 1)·m/(2s²), and x/s = −s·m'/m.
 double grow(double growth, const TagBlur& blur, TagSample& sample) {
-  // A slope of less than this of the contrast over half the tag is no edge.
+  // A slope of less than this of the contrast over half the tag is no edge: the largest growth
+  // makes a thousandth of the contrast of it, less than a grey level.
   constexpr double kNoEdge = 0.01;
   const auto sign = [](double slope) {
     return std::abs(slope) > kNoEdge ? std::copysign(1.0, slope) : 0.0;
@@ -100,8 +101,9 @@ double TagModel::gray(const BlurredTag& tag, const Eigen::Matrix2d& plane_by_pix
   const double g_uv = by_pixel.row(0).dot(by_pixel.row(1));
   const double g_vv = by_pixel.row(1).squaredNorm();
   const double s2 = blur_px * blur_px;
-  TagSample sample = tag.sample(u, v, {s2 * g_uu, s2 * g_uv, s2 * g_vv});
-  const double by_growth = grow(growth, {s2 * g_uu, s2 * g_uv, s2 * g_vv}, sample);
+  const TagBlur blur{s2 * g_uu, s2 * g_uv, s2 * g_vv};
+  TagSample sample = tag.sample(u, v, blur);
+  const double by_growth = grow(growth, blur, sample);
   const double bump = sample.value * (1.0 - sample.value);
   const double response = sample.value + curve * bump;
   const double white_minus_black = contrast[0] + contrast[1] * u + contrast[2] * v;

@@ -70,7 +70,7 @@ class TagFit {
   Matrix information_ = Matrix::Zero();
   int iterations_ = 0;
   double growth_step_ = 0.0;
-  bool swings_ = false;
+  bool swings_ = false;  // Steps of the growth went to and fro.
 };
 
 // Pixels of the tag and its surround. The outer quadrants at the corners are left out: circles and
@@ -208,7 +208,7 @@ double TagFit::iterate(bool robust) {
   const double noise = noise_ > 0.0 ? noise_ : 0.05 * state_.contrast[0];
   Vector prior = Vector::Zero();
   prior(TagModel::kCurve) = std::pow(noise / 0.5, 2);
-  const double most = grows_ ? 0.1 * tag_.cell() : 1e-9;
+  const double most = grows_ ? 0.1 * tag_.cell() : 1e-9;  // That small, it stays zero.
   prior(TagModel::kGrowth) = std::pow(noise / most, 2);
   Vector values = Vector::Zero();
   values(TagModel::kCurve) = state_.curve;

@@ -121,6 +121,12 @@ const std::vector<EffectPtr>& effect_catalogue();
 
 /// An effect by id; nullptr if there is none.
 EffectPtr find_effect(const std::string& id);
+/// An effect as a sentence names it: by its id, which is what one types; a window says the title of
+/// one of the catalogue.
+Message effect_named(const std::string& id);
+/// "name = value" of a parameter of the effect `id`. Names of the catalogue are translated, those
+/// of the user's own effects are his.
+Message parameter_is(const std::string& id, const std::string& name, const std::string& value);
 
 /// Why an effect cannot be tested on this table ("no time in these clouds"); empty if it can.
 Message why_not_testable(const Effect& effect, const MeasurementTable& table);

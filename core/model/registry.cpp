@@ -24,6 +24,15 @@ EffectPtr find_effect(const std::string& id) {
   return at == all.end() ? nullptr : *at;
 }
 
+Message effect_named(const std::string& id) {
+  return find_effect(id) != nullptr ? Message::listed(id) : Message::verbatim(id);
+}
+
+Message parameter_is(const std::string& id, const std::string& name, const std::string& value) {
+  return (find_effect(id) != nullptr ? Message::listed(name) : Message::verbatim(name)) +
+         Message::verbatim(" = " + value);
+}
+
 Message why_not_testable(const Effect& effect, const MeasurementTable& table) {
   const EffectNeeds& needs = effect.info().needs;
   if (needs.time && !table.has_time) return Message("no time in these clouds");

@@ -118,7 +118,7 @@ void take_out_tags(std::vector<SceneResult>& scenes) {
   for (SceneResult& scene : scenes) {
     if (!scene.view || scene.edits.tags.empty()) continue;
     scene.left_out_corners = take_out(*scene.view, scene.edits);
-    constexpr std::size_t kFewest = 4;
+    constexpr std::size_t kFewest = 4;  // Points that a pose takes.
     if (scene.view->corners.size() >= kFewest) continue;
     scene.view.reset();
     if (scene.reason.empty())

@@ -115,13 +115,12 @@ void judge_dark_offset(const CalibrationResult& result, const QualityOptions& op
   }
   if (weight <= 0) return;
   const double offset = sum / weight;
-  // The planes' two groups are told by the middle level and mix what the model keeps apart: its own
-  // size is the better one, and what it leaves shows in its residuals.
+  // The planes' two groups are told by the middle level and mix what the model keeps apart, as some
+  // darker returns see an edge: its own size is the better one, and what it leaves shows in its
+  // residuals.
   if (result.modelled_dark_offset_m * offset > 0.0) return;
   if (std::abs(offset) < options.max_dark_offset_m || std::abs(offset) < 5.0 / std::sqrt(weight))
     return;
-  // Some of the darker half see an edge: black print itself reads farther still, by what the model
-  // says once the effect is in it.
   const std::string size =
       formatted("%.1f ± %.1f", 1e3 * std::abs(offset), 1e3 / std::sqrt(weight));
   verdict.doubtful(

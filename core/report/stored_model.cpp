@@ -209,15 +209,15 @@ PoseUse pose_use(const StoredModel& model) {
   for (const EffectInUse& use : model.effects) {
     const Message title = Message::listed(use.effect->info().title);
     out.model = Message("%1 + %2", out.model, title);
-    std::string values;
+    std::vector<Message> values;
     const auto parameters = use.effect->parameters(table);
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const EffectParameter& p = parameters[k];
       const double value = use.values(static_cast<Eigen::Index>(k)) / p.unit_in_si;
-      values +=
-          (k == 0 ? "" : ", ") + p.name + " = " + formatted("%.4g", value) + behind_number(p.unit);
+      values.push_back(parameter_is(use.effect->info().id, p.name,
+                                    formatted("%.4g", value) + behind_number(p.unit)));
     }
-    out.effects.push_back(Message("%1: %2", title, values));
+    out.effects.push_back(Message("%1: %2", title, joined(values, ", ")));
     if (!correction_reads(use, model.scales).moves_points) continue;
     taken_out = taken_out ? Message("%1, %2", *taken_out, title) : title;
   }
@@ -236,7 +236,7 @@ PoseUse pose_use(const CalibrationResult& result) {
   // A model that no file could hold: named as far as it can be, and nothing promised of raw clouds.
   PoseUse out = pose_use(StoredModel());
   for (const ModelEffect& effect : result.model)
-    out.model = Message("%1 + %2", out.model, effect.id);
+    out.model = Message("%1 + %2", out.model, effect_named(effect.id));
   out.corrected = true;
   out.clouds = Message("It cannot be told which clouds the pose is for: its model is not whole.");
   return out;

@@ -122,6 +122,8 @@ std::optional<AngularWidth> fit_angular_width(const std::vector<const BoundarySa
   const double round = std::pow(median(std::move(width)), 2);
   Unknowns x;
   x << round, 0.0, round, 0.0, levels->in, levels->out;
+  // The spread is measured about the fit: the first rounds settle it together with the fit, then it
+  // stands, so that the last ones converge.
   constexpr int kIterations = 30;
   constexpr int kSpreadRounds = 8;
   constexpr int kFewestRounds = 4;

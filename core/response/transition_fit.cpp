@@ -73,6 +73,8 @@ System system_at(const Vector4d& x, std::span<const TransitionPoint> points, con
 // mean square at their place; only what no mixture of black and white gives is left out.
 bool fit(std::span<const TransitionPoint> points, const Levels& levels, Vector4d& x,
          TransitionSpread& spread) {
+  // The spread is measured about the fit: the first rounds settle it together with the fit, then it
+  // stands, so that the last ones converge.
   constexpr int kIterations = 30;
   constexpr int kSpreadRounds = 8;
   constexpr int kFewestRounds = 4;

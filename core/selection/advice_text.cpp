@@ -19,23 +19,28 @@ std::string curve_spec(const StructureScore& s) {
   return spec;
 }
 
-std::string values_text(const std::vector<ParameterEstimate>& parameters) {
+Message values_text(const EffectFinding& finding) {
   constexpr std::size_t kShown = 4;  // What a sentence bears; the others are in the table.
-  std::vector<std::string> parts;
-  for (const ParameterEstimate& p : parameters) {
+  std::vector<Message> parts;
+  for (const ParameterEstimate& p : finding.parameters) {
     if (parts.size() == kShown) {
-      parts.emplace_back("…");
+      parts.push_back(Message::verbatim("…"));
       break;
     }
-    parts.push_back(p.name + " = " + with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) +
-                    behind_number(p.unit));
+    parts.push_back(parameter_is(
+        finding.id, p.name,
+        with_sigma(p.value / p.unit_in_si, p.sigma / p.unit_in_si) + behind_number(p.unit)));
   }
   return joined(parts, ", ");
 }
 
-Message not_told_apart(const EffectFinding& finding, const EffectInfo& info, const char* between) {
-  return Message(" These scenes cannot tell it from %1; to tell: %2.",
-                 joined(finding.aliases, between), Message::listed(info.discriminating_pose));
+Message not_told_apart(const EffectFinding& finding, const EffectInfo& info) {
+  Message others;
+  for (const std::string& id : finding.aliases) {
+    others = others.empty() ? effect_named(id) : Message("%1 or %2", others, effect_named(id));
+  }
+  return Message(" These scenes cannot tell it from %1; to tell: %2.", others,
+                 Message::listed(info.discriminating_pose));
 }
 
 std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown) {
@@ -63,7 +68,11 @@ std::vector<Message> advise(const std::vector<EffectFinding>& findings) {
     if (f.parameters.empty()) continue;
     const EffectPtr effect = find_effect(f.id);
     if (effect == nullptr) continue;  // the user's own
-    out.push_back(Message("To tell %1 from %2, take: %3", f.id, joined(f.aliases, " and "),
+    Message others;
+    for (const std::string& id : f.aliases) {
+      others = others.empty() ? effect_named(id) : Message("%1 and %2", others, effect_named(id));
+    }
+    out.push_back(Message("To tell %1 from %2, take: %3", effect_named(f.id), others,
                           Message::listed(effect->info().discriminating_pose)));
   }
   std::vector<const EffectFinding*> unseen;
@@ -79,7 +88,8 @@ std::vector<Message> advise(const std::vector<EffectFinding>& findings) {
     if (f->extrinsic_move_mm < 1.0) continue;
     out.push_back(Message(
         "To see whether %1 is there (it could move the extrinsic by %2 mm and %3 mrad), take: %4",
-        f->id, formatted("%.1f", f->extrinsic_move_mm), formatted("%.2f", f->extrinsic_move_mrad),
+        effect_named(f->id), formatted("%.1f", f->extrinsic_move_mm),
+        formatted("%.2f", f->extrinsic_move_mrad),
         Message::listed(find_effect(f->id)->info().discriminating_pose)));
   }
   return out;

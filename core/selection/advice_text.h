@@ -14,11 +14,11 @@ namespace lvcalib {
 /// The curve that takes structure out, as one asks for it with `--with`.
 std::string curve_spec(const StructureScore& structure);
 
-/// "a = 1.20 ± 0.10 mm, b = …": parameters with their standard deviations, the first four.
-std::string values_text(const std::vector<ParameterEstimate>& parameters);
+/// "a = 1.20 ± 0.10 mm, b = …": what was found of an effect's parameters, the first four.
+Message values_text(const EffectFinding& finding);
 
 /// " These scenes cannot tell it from a or b; to tell: …": what a found effect may be as well.
-Message not_told_apart(const EffectFinding& finding, const EffectInfo& info, const char* between);
+Message not_told_apart(const EffectFinding& finding, const EffectInfo& info);
 
 /// What to do about structure that no effect explains: the curve, and the closed form if there is
 /// one, to ask for with `--with`; the strongest few, one covariate per channel.

@@ -18,12 +18,13 @@
 namespace lvcalib {
 namespace {
 
-std::string lowest_text(const EffectColumns& columns) {
-  std::vector<std::string> parts;
+Message lowest_text(const EffectColumns& columns) {
+  std::vector<Message> parts;
   for (const EffectParameter& p : columns.parameters) {
     if (std::isfinite(p.lowest))
-      parts.push_back(p.name + " = " + formatted("%.3g", p.lowest / p.unit_in_si) +
-                      behind_number(p.unit));
+      parts.push_back(
+          parameter_is(columns.effect->info().id, p.name,
+                       formatted("%.3g", p.lowest / p.unit_in_si) + behind_number(p.unit)));
   }
   return joined(parts, ", ");
 }
@@ -76,7 +77,7 @@ FoundCurve found_curve(const EffectInUse& use, const Eigen::MatrixXd& covariance
 
 // What was found of an effect: its values, or of a curve how far it reaches.
 Message found_text(const EffectFinding& f) {
-  if (f.curve.points.empty()) return Message::verbatim(values_text(f.parameters));
+  if (f.curve.points.empty()) return values_text(f);
   const auto& p = f.curve.points;
   const auto [low, high] = std::minmax_element(
       p.begin(), p.end(),
@@ -145,7 +146,7 @@ void explain_selected(const Effect& effect, EffectFinding& f) {
                             : formatted("%.3g", f.shape),
         mm(f), mrad(f));
   }
-  if (!f.aliases.empty()) f.explanation += not_told_apart(f, info, " or ");
+  if (!f.aliases.empty()) f.explanation += not_told_apart(f, info);
 }
 
 // What is known of an effect that is in the model. `stated`: where its values and their standard
@@ -195,7 +196,7 @@ void judge_other(const EffectSearch& search, const Candidate& c, const Discovery
   f.unabsorbed_share = unabsorbed_share(c.fit, c.fit.solution.tail(columns.count()));
   set_move(c.limit.most, f);
   const bool told = is_told(columns, f);
-  const std::string values = values_text(f.parameters);
+  const Message values = values_text(f);
   const Message pose = Message::listed(columns.effect->info().discriminating_pose);
   const bool sure = is_sure(c, search.candidates().size(), options);
   if (!f.matters && told) {
@@ -280,7 +281,7 @@ EffectFinding other_finding(const EffectSearch& search, const Candidate& c,
     f.explanation = Message(
         "Explains the same as %1, which is in the model: these scenes cannot tell the two apart. "
         "To tell: %2.",
-        s.id, Message::listed(columns.effect->info().discriminating_pose));
+        effect_named(s.id), Message::listed(columns.effect->info().discriminating_pose));
   }
   return f;
 }

@@ -123,9 +123,10 @@ Message singular_with(const EffectSearch& search) {
   std::vector<Message> others = {Message("the extrinsic and the board poses")};
   const std::size_t before = in_use.size() - 1;
   for (std::size_t k = 0; k + 1 < before; ++k)
-    others.push_back(Message::verbatim(in_use[k].effect->info().id));
+    others.push_back(effect_named(in_use[k].effect->info().id));
   if (before == 0) return others.front();
-  return Message("%1 and %2", joined(others, ", "), in_use[before - 1].effect->info().id);
+  return Message("%1 and %2", joined(others, ", "),
+                 effect_named(in_use[before - 1].effect->info().id));
 }
 
 std::vector<Selection> selections_of(const std::vector<ModelTerm>& terms) {

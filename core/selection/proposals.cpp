@@ -20,11 +20,11 @@ Message explain(const EffectInfo& info, Channel best, const EffectProposal& prop
   Message out = Message(
       "%1 Found: %2. With it, scenes held out have %3 % less squared error in the %4 channel and "
       "the extrinsic moves by %5 mm and %6 mrad.",
-      Message::listed(info.physics), values_text(proposal.finding.parameters),
+      Message::listed(info.physics), values_text(proposal.finding),
       formatted("%.0f", 100.0 * proposal.heldout_fall[static_cast<std::size_t>(best)]),
       word_for(best), formatted("%.1f", proposal.gained_mm),
       formatted("%.2f", proposal.gained_mrad));
-  if (!proposal.finding.aliases.empty()) out += not_told_apart(proposal.finding, info, ", ");
+  if (!proposal.finding.aliases.empty()) out += not_told_apart(proposal.finding, info);
   return out;
 }
 
@@ -105,7 +105,7 @@ EffectFinding finding_in_model(const ModelTerm& term) {
   f.parameters = term.estimates();
   f.shape = term.use.shape;
   const Message physics = Message::listed(term.use.effect->info().physics);
-  const std::string values = values_text(f.parameters);
+  const Message values = values_text(f);
   f.explanation = term.use.held ? Message("%1 In the model, held: %2.", physics, values)
                                 : Message("%1 In the model: %2.", physics, values);
   return f;

@@ -151,23 +151,28 @@ std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
   return j * covariance * j.transpose();
 }
 
-UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
-                                     const Camera& camera, const Target& target,
-                                     const ExtrinsicSolution& joint,
-                                     const ExtrinsicOptions& options, const UncertaintyOptions& how,
-                                     const SubsetSolver& subset) {
+UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance,
+                                      const UncertaintyOptions& how) {
   UncertaintyReport report;
-  const SubsetSolver by_features = [&](const std::vector<std::size_t>& half) {
-    return solve_half({scenes, camera, target, options}, joint, half);
-  };
-  compare_halves(target, joint, subset ? subset : by_features, report);
-  const Matrix6d& covariance = joint.camera_from_lidar.covariance;
   report.maps.push_back(map_over_image(camera, covariance, how.map_range_m, how.map_columns));
   for (const double range : how.ranges_m) {
     const Eigen::Matrix3d at = origin_covariance(covariance, {0.0, 0.0, range});
     report.by_range.push_back(
         {range, 1e3 * std::sqrt(at(0, 0) + at(1, 1)), 1e3 * std::sqrt(at(2, 2))});
   }
+  return report;
+}
+
+UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
+                                     const Camera& camera, const Target& target,
+                                     const ExtrinsicSolution& joint,
+                                     const ExtrinsicOptions& options, const UncertaintyOptions& how,
+                                     const SubsetSolver& subset) {
+  UncertaintyReport report = project_uncertainty(camera, joint.camera_from_lidar.covariance, how);
+  const SubsetSolver by_features = [&](const std::vector<std::size_t>& half) {
+    return solve_half({scenes, camera, target, options}, joint, half);
+  };
+  compare_halves(target, joint, subset ? subset : by_features, report);
   return report;
 }
 

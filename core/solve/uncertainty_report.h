@@ -67,6 +67,10 @@ UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scene
                                      const UncertaintyOptions& how = {},
                                      const SubsetSolver& subset = {});
 
+/// The same projections of another covariance of the extrinsic (its total one), without halves.
+UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance,
+                                      const UncertaintyOptions& how = {});
+
 /// Covariance (px²) of the pixel of a point (camera frame) when the extrinsic has this one.
 /// Nothing where the camera sees no such point.
 std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,

@@ -39,7 +39,7 @@ double distance_mrad(const MethodResult& method, const CalibrationResult& result
 
 // By its pose: which method that is depends on whether every return could be solved for.
 bool is_the_result(const MethodResult& method, const CalibrationResult& result) {
-  constexpr double kSame = 1e-6;
+  constexpr double kSame = 1e-6;  // A nanometre: the same numbers but for rounding.
   return distance_mm(method, result) < kSame && distance_mrad(method, result) < kSame;
 }
 

@@ -139,20 +139,9 @@ QString over_image(const UncertaintyReport& report, const std::optional<Uncertai
 }  // namespace
 
 std::optional<UncertaintyReport> total_report(const CalibrationResult& result) {
-  const UncertaintyReport& noise = result.uncertainty;
-  if (!(result.covariance_total.trace() > 0.0) || noise.by_range.empty()) return std::nullopt;
-  UncertaintyOptions how;
-  how.ranges_m.clear();
-  for (const RangeUncertainty& r : noise.by_range) how.ranges_m.push_back(r.range_m);
-  if (!noise.maps.empty()) {
-    how.map_range_m = noise.maps.front().range_m;
-    how.map_columns = noise.maps.front().columns;
-  }
-  ExtrinsicSolution stated;
-  stated.camera_from_lidar = result.extrinsic.camera_from_lidar;
-  stated.camera_from_lidar.covariance = result.covariance_total;
-  // Without scenes there are no halves to solve: the covariance is projected, nothing else.
-  return assess_uncertainty({}, result.camera, result.target, stated, {}, how);
+  if (!(result.covariance_total.trace() > 0.0) || result.uncertainty.by_range.empty())
+    return std::nullopt;
+  return project_uncertainty(result.camera, result.covariance_total);
 }
 
 QString uncertainty_html(const CalibrationResult& result, const QPalette& palette) {

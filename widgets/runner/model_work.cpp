@@ -25,7 +25,7 @@ constexpr char kContext[] = "lvcalib::widgets::ModelWork";
 
 // An effect by its title; a formula or curve as it was entered.
 DescribedCommand::Words words_of(const char* text, const std::string& spec) {
-  return {text, {}, Message::verbatim(spec)};
+  return {text, {}, effect_named(spec)};
 }
 
 }  // namespace

@@ -10,51 +10,9 @@
 #include "model/measurement_table.h"
 
 namespace lvcalib::widgets {
-namespace {
-
-QString translated(const char* text) {
-  return QCoreApplication::translate("CoreWords", text);
-}
-
-// Effects by their titles, where words are nothing but their ids, as the core lists them: "a, b",
-// "a or b".
-QString by_titles(const QString& words) {
-  const std::pair<QString, const char*> signs[] = {
-      {QStringLiteral(", "), QT_TRANSLATE_NOOP("CoreWords", "%1, %2")},
-      {QStringLiteral(" or "), QT_TRANSLATE_NOOP("CoreWords", "%1 or %2")},
-      {QStringLiteral(" and "), QT_TRANSLATE_NOOP("CoreWords", "%1 and %2")}};
-  for (const auto& [sign, pattern] : signs) {
-    QString out;
-    for (const QString& id : words.split(sign)) {
-      const EffectPtr effect = find_effect(id.toStdString());
-      if (!effect || effect->info().title.empty()) {
-        out.clear();
-        break;
-      }
-      const QString title = core_text(Message::listed(effect->info().title));
-      out = out.isEmpty() ? title : translated(pattern).arg(out, title);
-    }
-    if (!out.isEmpty()) return out;
-  }
-  return words;
-}
-
-// "horizontal = 1.2 ± 0.1 mm, vertical = …": the names are put into the language.
-QString with_parameter_names(QString words) {
-  for (const std::string& name : parameter_words()) {
-    const QString before = QString::fromStdString(name) + QStringLiteral(" = ");
-    for (qsizetype at = 0; (at = words.indexOf(before, at)) >= 0; ++at) {
-      if (at > 0 && words[at - 1] != QLatin1Char(' ')) continue;
-      words.replace(at, qsizetype(name.size()), parameter_name(name));
-    }
-  }
-  return words;
-}
-
-}  // namespace
-
 const std::set<std::string>& parameter_words() {
   static const std::set<std::string> words = [] {
+    // Shorter ones are letters of a formula and their likes (fx, mrad).
     constexpr std::size_t kShortestWord = 4;
     std::set<std::string> out;
     MeasurementTable one_line;
@@ -79,12 +37,11 @@ QString parameter_name(const std::string& name) {
 
 QString core_text(const Message& message) {
   const std::string& id = message.id();
-  if (!message.translatable()) {
-    const QString words = QString::fromStdString(id);
-    return words.contains(QLatin1String(" = ")) ? with_parameter_names(words) : by_titles(words);
-  }
-  const QString text = QCoreApplication::translate("Core", id.c_str());
+  if (!message.translatable()) return QString::fromStdString(id);
   const std::vector<Message>& arguments = message.arguments();
+  if (const EffectPtr effect = arguments.empty() ? find_effect(id) : nullptr)
+    return core_text(Message::listed(effect->info().title));
+  const QString text = QCoreApplication::translate("Core", id.c_str());
   if (arguments.empty()) return text;
   // Places are filled in one pass: what is filled in may itself hold a %1.
   QString out;

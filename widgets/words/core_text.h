@@ -12,8 +12,8 @@
 namespace lvcalib::widgets {
 
 /// A sentence of the core library in the present language: its places are filled with its
-/// arguments, translated alike. What the language's table lacks is said in English. Effects that
-/// it names by their ids, as the command line takes them, stand there by their titles.
+/// arguments, translated alike. What the language's table lacks is said in English. An effect that
+/// it names (effect_named()) stands there by its title.
 QString core_text(const Message& message);
 /// A warning of a result, without the word for the whole of it that heads the line on a terminal:
 /// where the window shows it, what it is about stands above.

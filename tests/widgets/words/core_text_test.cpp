@@ -57,22 +57,29 @@ TEST_F(CoreTextTest, NamesAreNobodysToTranslate) {
   EXPECT_EQ(core_text(Message("scene %1: %2", "used", Message("used"))), "<in use> in used");
 }
 
-// As the core fills its sentences: "name = value unit, …".
 TEST_F(CoreTextTest, ParametersThatAreWordsAreTranslated) {
-  EXPECT_EQ(core_text(Message("scene %1: %2", "horizontal = 1.2 ± 0.1 mm, vertical = 3 mm", 1)),
+  const std::vector<Message> values = {
+      parameter_is("footprint_offset", "horizontal", "1.2 ± 0.1 mm"),
+      parameter_is("footprint_offset", "vertical", "3 mm")};
+  EXPECT_EQ(core_text(Message("scene %1: %2", joined(values, ", "), 1)),
             "<1> in ACROSS = 1.2 ± 0.1 mm, vertical = 3 mm");
   EXPECT_EQ(parameter_name("horizontal"), "ACROSS");
   EXPECT_EQ(parameter_name("δf"), "δf");
   // No parameter of the catalogue, though the core has a sentence of these letters.
   EXPECT_EQ(parameter_name("used"), "used");
-  EXPECT_EQ(core_text(Message::verbatim("nonhorizontal = 1")), "nonhorizontal = 1");
+  // What the user calls a coefficient of his own stays, as do words of a file.
+  EXPECT_EQ(core_text(parameter_is("mine", "horizontal", "1")), "horizontal = 1");
+  EXPECT_EQ(core_text(Message::verbatim("horizontal = 1")), "horizontal = 1");
 }
 
 TEST_F(CoreTextTest, EffectsAreSaidByTheirTitles) {
-  EXPECT_EQ(core_text(Message::verbatim("range_offset")), "OFFSET");
-  EXPECT_EQ(core_text(Message::verbatim("range_offset or blooming")), "OFFSET or Blooming");
-  EXPECT_EQ(core_text(Message::verbatim("/data/range_offset")), "/data/range_offset");
-  EXPECT_EQ(core_text(Message::verbatim("range_offset, rig")), "range_offset, rig");
+  EXPECT_EQ(core_text(effect_named("range_offset")), "OFFSET");
+  EXPECT_EQ(core_text(Message("%1 or %2", effect_named("range_offset"), effect_named("blooming"))),
+            "OFFSET or Blooming");
+  EXPECT_EQ(effect_named("range_offset").text(), "range_offset");
+  EXPECT_EQ(core_text(effect_named("mine")), "mine");
+  // A scene or a file may be called like an effect.
+  EXPECT_EQ(core_text(Message("scene %1: %2", "range_offset", 1)), "<1> in range_offset");
 }
 
 TEST_F(CoreTextTest, AnErrorSaysWhereAndWhatToDo) {
