@@ -27,7 +27,6 @@ MeasurementTable MeasurementTable::without_rows() const {
   out.has_intensity = has_intensity;
   out.level = level;
   out.log_contrast = log_contrast;
-  out.usual_log_power = usual_log_power;
   out.placed_by = placed_by;
   out.print = print;
   out.structure_variances = structure_variances;

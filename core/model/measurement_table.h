@@ -46,7 +46,9 @@ struct BeamPoint {
   /// Received power as the print and the scene's two levels predict it, on a logarithmic scale
   /// common to all scenes: 0 for the usual white, 1 for the usual black.
   double darkness = 0.0;
-  double white = 1.0;            ///< Share of white print in the blurred spot, as predicted.
+  double white = 1.0;  ///< Share of white print in the blurred spot, as predicted.
+  /// Share of the pointing jitter in the blur's variance across the edge that it sees, 0 … 1.
+  double jitter_share = 0.0;
   std::optional<NearEdge> edge;  ///< Of which at least a trace is seen.
   double time_s = 0.0;           ///< From the start of the scan; 0 if absent.
   int line = 0;                  ///< 0 if absent.
@@ -152,10 +154,7 @@ struct MeasurementTable {
   }
   /// ln(white/black): what darkness 1 stands for.
   double log_contrast = 0.0;
-  /// ln of the power that white sends back from the middle of the usual scene's board (see
-  /// log_power()).
-  double usual_log_power = 0.0;
-  /// The state by which points were told to lie on which print.
+  /// The state by which points were told to lie on which print; its jitter is that of the rows.
   ModelState placed_by;
   /// The print that every return is predicted from.
   std::shared_ptr<const BlurredPrint> print;

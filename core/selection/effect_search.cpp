@@ -406,6 +406,7 @@ void EffectSearch::remake() {
     next->again = base_->again;
     remade_ = std::move(next);
     table_ = remade_.get();
+    state_.beam.jitter_rad2 = table_->placed_by.beam.jitter_rad2;
     memory_ = PrintMemory(table());
     refit();
     if (admit_structure()) refit();

@@ -13,19 +13,16 @@ namespace {
 constexpr int kTried = 9;            // shapes at a time
 constexpr double kPrecision = 1e-3;  // of the bracket
 
-// Neighbours of a value on a grid.
+// Neighbours of the place on a grid that is nearest to a value: the grid follows the table, and a
+// value that was on it may lie just beside it after the table was made again.
 std::pair<double, double> bracket(std::vector<double> grid, double value) {
   std::sort(grid.begin(), grid.end());
-  double low = grid.front();
-  double high = grid.back();
-  for (const double g : grid) {
-    if (g < value) low = g;
-    if (g > value) {
-      high = g;
-      break;
-    }
-  }
-  return {low, high};
+  const auto nearest = std::min_element(grid.begin(), grid.end(), [&](double a, double b) {
+    return std::abs(a - value) < std::abs(b - value);
+  });
+  const double low = nearest == grid.begin() ? *nearest : *(nearest - 1);
+  const double high = nearest + 1 == grid.end() ? *nearest : *(nearest + 1);
+  return {std::min(low, value), std::max(high, value)};
 }
 
 // Puts what an effect in use explains back into the residuals of one channel's products.
@@ -139,12 +136,25 @@ void EffectSearch::refine_shape(std::size_t k) {
   if (move_shape(k)) refit();
 }
 
+// What the likelihood says of other shapes is known to first order, and the table's rows follow the
+// shapes in use: both are taken again until the shapes stand.
 void EffectSearch::refine_shapes() {
-  bool moved = false;
-  for (std::size_t k = 0; k < in_use_.size() && !context_.stopped(); ++k)
-    moved = move_shape(k) || moved;
-  if (moved) refit();
-  estimate_joint_covariance();
+  constexpr int kRounds = 4;
+  constexpr double kStands = 0.2;  // Of a standard deviation: nothing beside what is known.
+  for (int round = 0; round < kRounds && !context_.stopped(); ++round) {
+    std::vector<double> before;
+    for (const EffectInUse& use : in_use_) before.push_back(use.shape);
+    bool moved = false;
+    for (std::size_t k = 0; k < in_use_.size() && !context_.stopped(); ++k)
+      moved = move_shape(k) || moved;
+    if (moved) refit();
+    estimate_joint_covariance();
+    bool stand = true;
+    for (std::size_t k = 0; k < in_use_.size(); ++k)
+      stand = stand && std::abs(in_use_[k].shape - before[k]) <= kStands * shape_sigma(k);
+    if (stand || round + 1 == kRounds) return;
+    remake();
+  }
 }
 
 void EffectSearch::estimate_joint_covariance() {

@@ -19,10 +19,6 @@ namespace {
 // Print plainer than this counts as white or black when their noise is measured: what is left of an
 // edge then adds a hundredth of the contrast, less than any intensity noise seen.
 constexpr double kPlainShare = 0.01;
-// Residuals are cut here before they are squared and averaged, and the mean corrected for what
-// Gaussian noise loses: E[min(z², 9)] = 0.9904.
-constexpr double kCut = 3.0;
-constexpr double kCutMean = 0.9904;
 // Light changes over a board by some per cent; this is one σ.
 constexpr double kSlopeSigma = 0.1;
 
@@ -178,8 +174,7 @@ struct Accumulator {
     fit.intensity_rows += other.fit.intensity_rows;
     fit.range_squares += other.fit.range_squares;
     fit.intensity_squares += other.fit.intensity_squares;
-    fit.jitter_normal += other.fit.jitter_normal;
-    for (std::size_t k = 0; k < 2; ++k) fit.jitter_sums[k] += other.fit.jitter_sums[k];
+    fit.jitter.add(other.fit.jitter);
     for (std::size_t k = 0; k < 4; ++k) {
       cut_squares[k] += other.cut_squares[k];
       cut_rows[k] += other.cut_rows[k];
@@ -341,13 +336,7 @@ class LidarRows {
     out.squares += robust * intensity * intensity;
     out.residual_squares += robust * e * e;
     note_noise(p.white, e, sigma, 2, out);
-    // Jitter: what edges scatter beyond plain print, by axis.
-    const Eigen::Vector2d g = by_angle.transpose().cwiseAbs2();
-    const double wanted = std::min(e * e, kCut * kCut * variance) / kCutMean - plain * plain;
-    const double w = 1.0 / (variance * variance);
-    out.fit.jitter_normal += w * g * g.transpose();
-    for (std::size_t i = 0; i < 2; ++i)
-      out.fit.jitter_sums[i] += w * g(static_cast<Eigen::Index>(i)) * wanted;
+    out.fit.jitter.add(by_angle, e, plain * plain, variance);
   }
 
   [[nodiscard]] double time_s(std::size_t k) const {

@@ -17,6 +17,7 @@
 #include "detection/board_view.h"
 #include "model/board_prediction.h"
 #include "solve/board_returns.h"
+#include "solve/pointing_jitter.h"
 
 namespace lvcalib {
 
@@ -178,8 +179,7 @@ struct SceneFit {
   double corner_squares = 0.0;
   double intensity_variance_share = 1.0;  ///< Var(residual)/Var(intensity), robust weights applied.
   SceneNoise noise;                       ///< Re-estimated from these residuals.
-  std::array<double, 2> jitter_sums{};    ///< Σ w g (e² − σ²): see estimate_jitter().
-  Eigen::Matrix2d jitter_normal = Eigen::Matrix2d::Zero();
+  JitterRegression jitter;
 };
 
 struct LinearizationOptions {

@@ -316,32 +316,19 @@ bool admit_shared(const GlobalSolution& step, bool boards, double false_alarm,
 }
 
 void update_noise(double sigma_px_floor, Iteration& it) {
-  std::array<double, 2> sums{};
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  JitterRegression jitter;
   double corner = 0.0;
   double rows = 0.0;
   double groups = 0.0;
   for (std::size_t s = 0; s < it.fits.size(); ++s) {
     it.noise.scenes[s] = it.fits[s].noise;
-    normal += it.fits[s].jitter_normal;
-    for (std::size_t k = 0; k < 2; ++k) sums[k] += it.fits[s].jitter_sums[k];
+    jitter.add(it.fits[s].jitter);
     corner += it.fits[s].corner_squares;
     rows += static_cast<double>(it.fits[s].corner_rows);
     groups += 6.0;
   }
-  // Jitter per axis by regression, never negative, never more than the whole blur.
-  if (normal.trace() > 0.0) {
-    Eigen::Vector2d j = normal.ldlt().solve(Eigen::Vector2d(sums[0], sums[1]));
-    for (Eigen::Index k = 0; k < 2; ++k) {
-      if (j(k) >= 0.0) continue;
-      const Eigen::Index other = 1 - k;
-      j(k) = 0.0;
-      j(other) = std::max(0.0, sums[static_cast<std::size_t>(other)] / normal(other, other));
-    }
-    const Eigen::Matrix2d& blur = it.state.beam.blur_rad2;
-    it.state.beam.jitter_rad2 =
-        Eigen::Vector2d(std::min(j(0), blur(0, 0)), std::min(j(1), blur(1, 1))).asDiagonal();
-  }
+  if (const auto found = jitter.jitter_rad2(it.state.beam.blur_rad2))
+    it.state.beam.jitter_rad2 = *found;
   if (rows > groups + 1.0) {
     it.noise.corner_px =
         std::max(sigma_px_floor, it.noise.corner_px * std::sqrt(corner / (rows - groups)));

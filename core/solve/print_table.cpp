@@ -20,6 +20,7 @@
 #include "model/scene_geometry.h"
 #include "model/sensor_errors.h"
 #include "solve/board_returns.h"
+#include "solve/pointing_jitter.h"
 #include "solve/surface_noise.h"
 
 namespace lvcalib {
@@ -43,10 +44,10 @@ struct Return {
   double white = 1.0;        // Share in the blurred spot.
   double slope = 0.0;        // Of the intensity across the edge, per metre.
   PrintView::Kind print = PrintView::Kind::kPlain;
-  double jitter = 0.0;  // Standard deviation that the jitter gives the intensity.
-  LocalPrint seen;      // The print at the place that the ray meets,
-  LocalPrint moved;     // at the one that effects displace under its light,
-  LocalPrint ranged;    // and under what is ranged.
+  Eigen::RowVector2d by_angle = Eigen::RowVector2d::Zero();  // Of the intensity, per radian.
+  LocalPrint seen;    // The print at the place that the ray meets,
+  LocalPrint moved;   // at the one that effects displace under its light,
+  LocalPrint ranged;  // and under what is ranged.
 
   [[nodiscard]] bool is_plain() const { return print == PrintView::Kind::kPlain; }
   [[nodiscard]] bool is_edge() const { return print == PrintView::Kind::kEdge; }
@@ -184,6 +185,7 @@ class SceneRows {
         scene_(scene),
         print_(print),
         levels_(state.levels[static_cast<std::size_t>(scene)]),
+        jitter_rad2_(state.beam.jitter_rad2),
         geometry_(state.camera_from_lidar,
                   state.camera_from_board[static_cast<std::size_t>(scene)]) {
     collect(state.beam, noise, effects);
@@ -198,6 +200,19 @@ class SceneRows {
     for (const Return& r : returns_) out[r.point] = r.seen;
     return out;
   }
+
+  // What the scene's edges say of the jitter, and the jitter as all scenes say it.
+  [[nodiscard]] JitterRegression scatter() const {
+    JitterRegression out;
+    for (const Return& r : returns_) {
+      if (r.by_angle.isZero()) continue;
+      const double plain = noise_between(noise_.intensity[0], noise_.intensity[1], r.white);
+      out.add(r.by_angle, r.intensity - r.predicted, plain * plain,
+              plain * plain + jitter_variance(r));
+    }
+    return out;
+  }
+  void set_jitter(const Eigen::Matrix2d& jitter_rad2) { jitter_rad2_ = jitter_rad2; }
 
   // `usual`: has the levels of all scenes, to which darkness refers.
   [[nodiscard]] TableRows rows(const MeasurementTable& usual, std::size_t most) {
@@ -237,6 +252,7 @@ class SceneRows {
       if (!velocities_.empty()) r.beam.scan_rad_s = velocities_[i];
       const PrintView view = view_print(*p, levels_, beam);
       r.beam.white = p->white;
+      r.beam.jitter_share = jitter_share(*p, beam);
       const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
                                                 edge_of(*p, view), log_contrast(levels_));
       r.ranged = r.moved = r.seen;
@@ -265,6 +281,13 @@ class SceneRows {
               [&](const Return& a, const Return& b) { return key(a) < key(b); });
   }
 
+  // Of the jitter in the blur's variance across the print's edge.
+  [[nodiscard]] static double jitter_share(const ReturnPrediction& p, const BeamSpread& beam) {
+    const Eigen::RowVector2d& g = p.intensity_by_angle;
+    const double blur = g.dot(g * beam.blur_rad2);
+    return blur > 0.0 ? std::clamp(g.dot(g * beam.jitter_rad2) / blur, 0.0, 1.0) : 0.0;
+  }
+
   // The edge that a spot sees, or of which plain print has a trace.
   [[nodiscard]] static std::optional<NearEdge> near_edge(const PrintView& view) {
     if (!(view.slope > 0.0)) return std::nullopt;
@@ -283,8 +306,7 @@ class SceneRows {
                       double gain, Return& r) const {
     r.intensity = intensity;
     r.predicted = gain * p.intensity;
-    const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
-    r.jitter = std::sqrt(std::max(0.0, by_angle.dot(by_angle * beam.jitter_rad2)));
+    r.by_angle = gain * p.intensity_by_angle;
     const PrintView view = view_print(p, levels_, beam);
     r.print = view.kind;
     r.slope = view.slope;
@@ -358,9 +380,13 @@ class SceneRows {
     return row;
   }
 
+  [[nodiscard]] double jitter_variance(const Return& r) const {
+    return std::max(0.0, r.by_angle.dot(r.by_angle * jitter_rad2_));
+  }
+
   [[nodiscard]] double intensity_sigma(const Return& r) const {
     const double plain = noise_between(noise_.intensity[0], noise_.intensity[1], r.white);
-    return robust_sigma(std::hypot(plain, r.jitter), r.intensity - r.predicted);
+    return robust_sigma(std::sqrt(plain * plain + jitter_variance(r)), r.intensity - r.predicted);
   }
 
   [[nodiscard]] BoundaryRow edge_row(const Return& r) const {
@@ -398,6 +424,7 @@ class SceneRows {
   int scene_;
   const BlurredPrint& print_;
   BoardLevels levels_;
+  Eigen::Matrix2d jitter_rad2_;
   SceneGeometry geometry_;
   std::vector<Return> returns_;
   SurfaceNoise noise_;
@@ -445,13 +472,6 @@ struct FirstTable {
 template <class Row>
 void append(const std::vector<Row>& rows, std::vector<Row>& to) {
   to.insert(to.end(), rows.begin(), rows.end());
-}
-
-double usual_log_power(const std::vector<TableScene>& scenes) {
-  std::vector<double> middles;
-  for (const TableScene& scene : scenes)
-    middles.push_back(log_power(scene.middle_range_m, scene.middle_incidence_rad));
-  return median(middles);
 }
 
 // `like`: the first table if another replaces it. `first`: where the first one is kept.
@@ -505,7 +525,15 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
     if (table.has_intensity) {
       table.level = {median(white), median(black)};
       table.log_contrast = std::log(table.level[0] / table.level[1]);
-      table.usual_log_power = usual_log_power(table.scenes);
+    }
+  }
+  if (like != nullptr && table.has_intensity) {
+    // What an effect explains is no jitter.
+    JitterRegression jitter;
+    for (const auto& scene : rows) jitter.add(scene->scatter());
+    if (const auto found = jitter.jitter_rad2(state.beam.blur_rad2)) {
+      table.placed_by.beam.jitter_rad2 = *found;
+      for (auto& scene : rows) scene->set_jitter(*found);
     }
   }
   std::vector<TableRows> lidar(scenes.size());

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include <boost/math/distributions/normal.hpp>
+
+#include "base/statistics.h"
 #include "model/catalogue_effect.h"
+#include "model/effect_rows.h"
 
 namespace lvcalib {
 namespace {
@@ -49,8 +54,7 @@ class ReceiverSaturation final : public CatalogueEffect {
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {
-    const double black = reflectivity_of_black(table, shape);
-    by[0] = excess(beam, reflectivity(white_share(beam), black), shape) * beam.direction;
+    by[0] = clipped(beam, table, shape).excess * beam.direction;
   }
 
   // Beside the scene's levels, which are those of clipped print in the board's middle: what a
@@ -59,13 +63,11 @@ class ReceiverSaturation final : public CatalogueEffect {
                  std::span<double> by) const override {
     const TableScene& scene = table.scenes[static_cast<std::size_t>(row.beam.scene)];
     const double middle = log_power(scene.middle_range_m, scene.middle_incidence_rad) - shape;
-    const double black = reflectivity_of_black(table, shape);
+    const double black = reflectivity_of_black(row.beam.scene, table, shape);
     const double white_level = std::exp(-std::max(0.0, middle));
     const double black_level = black * std::exp(-std::max(0.0, middle + std::log(black)));
-    const double share = white_share(row.beam);
-    const double seen = reflectivity(share, black);
-    by[1] = std::log(seen) - excess(row.beam, seen, shape) -
-            std::log(black_level + (white_level - black_level) * share);
+    by[1] = std::log(clipped(row.beam, table, shape).reflectivity) -
+            std::log(black_level + (white_level - black_level) * white_share(row.beam));
   }
 
  private:
@@ -74,16 +76,63 @@ class ReceiverSaturation final : public CatalogueEffect {
 
   static double reflectivity(double white, double black) { return black + (1.0 - black) * white; }
 
-  // Beside white. The usual levels are those of the usual scene, whose white may be clipped.
-  static double reflectivity_of_black(const MeasurementTable& table, double shape) {
-    return std::exp(-std::max(0.0, table.log_contrast) -
-                    std::max(0.0, table.usual_log_power - shape));
+  // Beside white, whose level may be that of clipped white.
+  static double reflectivity_of_black(int scene, const MeasurementTable& table, double shape) {
+    const auto at = static_cast<std::size_t>(scene);
+    if (at >= table.placed_by.levels.size()) return std::exp(-std::max(0.0, table.log_contrast));
+    const TableScene& s = table.scenes[at];
+    return std::exp(-std::max(0.0, log_contrast(table.placed_by.levels[at])) -
+                    std::max(0.0, log_power(s.middle_range_m, s.middle_incidence_rad) - shape));
   }
 
-  // ln(P/Ps) where the receiver saturates.
-  static double excess(const BeamPoint& beam, double reflectivity, double shape) {
-    return std::max(0.0,
-                    log_power(beam.range_m, beam.incidence_rad) + std::log(reflectivity) - shape);
+  // What returns show on average beside unclipped white, and by how much ln P exceeds ln Ps.
+  struct Clipped {
+    double reflectivity = 1.0;
+    double excess = 0.0;
+  };
+
+  // An echo is clipped before returns are averaged, and the jitter lets single ones see more and
+  // less white than their mean. Across one straight edge a share Φ(z) of white in the whole blur is
+  // Φ((z + √q u)/√(1 − q)) in the footprint, with u of the standard normal distribution and q the
+  // jitter's share of the blur's variance. Integrated over p = Φ(u) on either side of the limit by
+  // Gauss and Legendre's rule.
+  static Clipped clipped(const BeamPoint& beam, const MeasurementTable& table, double shape) {
+    constexpr std::array<double, 4> kAt{0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558};
+    constexpr std::array<double, 4> kWeight{0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226};
+    constexpr double kPlain = 1e-4;
+    constexpr double kMost = 0.99;
+    const double black = reflectivity_of_black(beam.scene, table, shape);
+    const double log_limit = shape - log_power(beam.range_m, beam.incidence_rad);
+    const double limit = std::exp(log_limit);
+    const double mean = white_share(beam);
+    const double seen = reflectivity(mean, black);
+    if (limit >= 1.0) return {seen, 0.0};
+    const double q = std::min(beam.jitter_share, kMost);
+    if (!(q > 0.0) || mean < kPlain || mean > 1.0 - kPlain)
+      return {std::min(seen, limit), std::max(0.0, std::log(seen) - log_limit)};
+    const boost::math::normal normal;
+    const double z = boost::math::quantile(normal, mean);
+    const auto reflectivity_at = [&](double p) {
+      const double u = boost::math::quantile(normal, p);
+      return reflectivity(normal_cdf((z + std::sqrt(q) * u) / std::sqrt(1.0 - q)), black);
+    };
+    double below = 0.0;  // Share of returns that are not clipped.
+    if (const double share = (limit - black) / (1.0 - black); share > 0.0) {
+      const double u = std::sqrt(1.0 - q) * boost::math::quantile(normal, share) - z;
+      below = normal_cdf(u / std::sqrt(q));
+      // One return in ten thousand is none.
+      if (below < kPlain) below = 0.0;
+      if (below > 1.0 - kPlain) below = 1.0;
+    }
+    Clipped out{(1.0 - below) * limit, 0.0};
+    for (std::size_t k = 0; k < kAt.size(); ++k) {
+      if (below > 0.0) out.reflectivity += below * kWeight[k] * reflectivity_at(below * kAt[k]);
+      if (below < 1.0) {
+        const double above = reflectivity_at(below + (1.0 - below) * kAt[k]);
+        out.excess += (1.0 - below) * kWeight[k] * (std::log(above) - log_limit);
+      }
+    }
+    return out;
   }
 };
 

@@ -179,6 +179,20 @@ std::vector<HandCase> range_cases() {
          p.beam.range_m = 3.0;
          p.beam.white = 0.0;
        }},
+      // Half of the variance is jitter's: the mean of ln 2ρ over what lies above 1/2.
+      {"SaturatedAtTimes",
+       "receiver_saturation",
+       Hook::kLidar,
+       {along_x(32.0 / 31.0 * (std::log(2.0) - 0.5)), along_x(0.0)},
+       std::log(0.5),
+       [](Place& p) {
+         p.table.scenes[0].middle_range_m = 3.0;
+         p.beam.range_m = 3.0;
+         p.beam.incidence_rad = 0.0;
+         p.beam.white = 0.5;
+         p.beam.jitter_share = 0.5;
+         p.table.placed_by.levels = {{32.0, 2.0, {}}};
+       }},
       // ½ · 0.01 m · pdf(0) · (20/20).
       {"RangePull",
        "boundary_range_pull",
@@ -278,6 +292,21 @@ std::vector<HandCase> intensity_cases() {
          p.intensity.beam.range_m = 3.0;
          p.intensity.beam.incidence_rad = 0.0;
          p.intensity.beam.white = 0.5;
+         p.table.placed_by.levels = {{32.0, 2.0, {}}};
+       }},
+      // Half of the variance is jitter's: single returns see all shares of white alike often.
+      {"SaturationOfReturnsThatJitter",
+       "receiver_saturation",
+       Hook::kIntensity,
+       {along_x(0.0), along_x(std::log(0.3865927 * 64.0 / 17.0))},
+       std::log(0.5),
+       [](Place& p) {
+         p.table.scenes[0].middle_range_m = 3.0;
+         p.intensity.beam.range_m = 3.0;
+         p.intensity.beam.incidence_rad = 0.0;
+         p.intensity.beam.white = 0.5;
+         p.intensity.beam.jitter_share = 0.5;
+         p.table.placed_by.levels = {{32.0, 2.0, {}}};
        }},
   };
 }
