@@ -50,7 +50,8 @@ std::string summary_of(const Discovery& discovery, Quality before, const Calibra
   };
   char part[96];
   std::snprintf(part, sizeof part, "; sigma %.2g mm, %.2g mm with what effects left out could do",
-                sigma_mm(discovery.covariance), sigma_mm(discovery.covariance_with_budget));
+                sigma_mm(final.extrinsic.camera_from_lidar.covariance),
+                sigma_mm(final.covariance_total));
   return text + part +
          (use.corrected ? "; the pose is for corrected clouds (lvcalib correct)" : "") + " -> " +
          output;
@@ -61,7 +62,7 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
   if (Status s = check_wanted(options.with); !s) return s.error();
   auto result = run_calibration(options.calibration, session);
   if (!result) return result.error();
-  DiscoveryOptions how = discovery_options(result->options);
+  DiscoveryOptions how = discovery_options(*result);
   how.max_effects = options.max_effects.value_or(how.max_effects);
   how.with = options.with;
   auto discovery = discover(*result, how, session.context);

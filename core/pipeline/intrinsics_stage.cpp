@@ -306,6 +306,15 @@ void free_camera(CalibrationResult& result) {
   report.evidence = intrinsics_evidence(extra_views(report), result.camera, fit->sigma_px);
 }
 
+LeftOutSizes left_out_sizes(const CalibrationResult& result) {
+  LeftOutSizes out;
+  if (result.intrinsics.mode == IntrinsicsMode::kFixed)
+    out.intrinsics = result.intrinsics.prior_sigma;
+  // A print of another size is, but for the extrinsic's own length, ranges of another scale.
+  out.range_scale = std::hypot(out.range_scale, result.target.size_sigma);
+  return out;
+}
+
 Message contradicted_by_corners(const CalibrationResult& result) {
   if (result.intrinsics.mode != IntrinsicsMode::kFixed) return {};
   const std::vector<CornerView> views = views_of(result);

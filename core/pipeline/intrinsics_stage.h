@@ -12,6 +12,7 @@
 #include "pipeline/options.h"
 #include "solve/feature_solver.h"
 #include "solve/intrinsics_fit.h"
+#include "solve/total_uncertainty.h"
 
 namespace lvcalib {
 
@@ -58,6 +59,9 @@ void free_camera(CalibrationResult& result);
 
 /// Standard deviations with which the joint solve draws the intrinsics to the given ones.
 IntrinsicsVector solve_prior(const IntrinsicsReport& report);
+
+/// Sizes of the faults that the calibration's solve leaves out.
+LeftOutSizes left_out_sizes(const CalibrationResult& result);
 
 /// If the images' corners alone contradict the given intrinsics: in words what is wrong.
 Message contradicted_by_corners(const CalibrationResult& result);

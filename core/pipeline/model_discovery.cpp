@@ -361,10 +361,14 @@ DiscoveryInput discovery_input(const CalibrationResult& result) {
   return input;
 }
 
-DiscoveryOptions discovery_options(const CalibrationOptions& options) {
-  DiscoveryOptions out = options.discovery;
-  const QualityOptions& q = options.quality;
+DiscoveryOptions discovery_options(const CalibrationResult& result) {
+  DiscoveryOptions out = result.options.discovery;
+  const QualityOptions& q = result.options.quality;
   out.tolerance = {{q.tolerance_m, q.tolerance_rad}, q.tolerance_sigmas};
+  out.left_out = left_out_sizes(result);
+  // The search holds the intrinsics wherever the calibration had estimated them.
+  if (result.intrinsics.mode != IntrinsicsMode::kFixed)
+    out.left_out.intrinsics = result.intrinsics.sigma;
   return out;
 }
 
@@ -379,12 +383,12 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   const ModelledMovements movements(discovery);
   result.budget = discovery.budget;
   result.covariance_with_budget = discovery.covariance_with_budget;
-  // What an effect of the model explains is no longer left out. Before the budget is known, what
+  // What an effect of the model explains is no longer left out. Before the total is known, what
   // was left out of the base model stands for it.
-  if (changed && discovery.budget.empty()) {
+  if (changed && discovery.covariance_total.isZero(0.0)) {
     result.covariance_total += discovery.covariance - result.extrinsic.camera_from_lidar.covariance;
   } else if (changed) {
-    result.covariance_total = discovery.covariance_with_budget;
+    result.covariance_total = discovery.covariance_total;
   }
   result.model_scales = discovery.scales;
   result.model.clear();

@@ -15,8 +15,9 @@ namespace lvcalib {
 /// `result`, which must outlive it.
 DiscoveryInput discovery_input(const CalibrationResult& result);
 
-/// How effects are searched in a calibration: its options for that, and its tolerance.
-DiscoveryOptions discovery_options(const CalibrationOptions& options);
+/// How effects are searched in a calibration: its options for that, its tolerance, and what its
+/// total uncertainty counts of faults left out.
+DiscoveryOptions discovery_options(const CalibrationResult& result);
 
 /// Looks for effects that the calibration's model misses.
 /// Errors: as discover_effects.

@@ -476,7 +476,7 @@ Result<std::shared_ptr<const CalibrationResult>> calibrate_project(const Project
   if (run.error) return *run.error;
   const auto base = run.state.latest;
   if (project.model.empty()) return base;
-  auto step = start_model(discovery_input(*base), discovery_options(base->options), context);
+  auto step = start_model(discovery_input(*base), discovery_options(*base), context);
   if (!step) return step.error();
   std::vector<ModelStepPtr> steps = {*step};
   for (const ModelDecision& decision : project.model) {

@@ -10,7 +10,6 @@
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
 #include "pipeline/stopwatch.h"
-#include "solve/total_uncertainty.h"
 
 namespace lvcalib {
 namespace {
@@ -74,12 +73,7 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
   result.extrinsic =
       report_forward(pose_of(*result.forward), forward_subsets(*result.forward, nodes), nodes,
                      observations, result.camera, target, extrinsic);
-  LeftOutSizes sizes;
-  if (result.intrinsics.mode == IntrinsicsMode::kFixed)
-    sizes.intrinsics = result.intrinsics.prior_sigma;
-  // A print of another size is, but for the extrinsic's own length, ranges of another scale.
-  sizes.range_scale = std::hypot(sizes.range_scale, target.size_sigma);
-  result.covariance_total = total_covariance(*result.forward, sizes);
+  result.covariance_total = total_covariance(*result.forward, left_out_sizes(result));
   return Done{};
 }
 

@@ -141,13 +141,15 @@ std::string budget_lines(const Discovery& d) {
   const auto sigma_mrad = [](const Matrix6d& m) {
     return 1e3 * std::sqrt(m.diagonal().tail<3>().sum());
   };
-  char text[240];
+  char text[320];
   std::snprintf(text, sizeof text,
                 "\nUncertainty of the extrinsic (one standard deviation)\n"
                 "  of the model          %8.2f mm %8.3f mrad\n"
+                "  in total              %8.2f mm %8.3f mrad\n"
                 "  with the budget below %8.2f mm %8.3f mrad\n",
-                sigma_mm(d.covariance), sigma_mrad(d.covariance),
-                sigma_mm(d.covariance_with_budget), sigma_mrad(d.covariance_with_budget));
+                sigma_mm(d.covariance), sigma_mrad(d.covariance), sigma_mm(d.covariance_total),
+                sigma_mrad(d.covariance_total), sigma_mm(d.covariance_with_budget),
+                sigma_mrad(d.covariance_with_budget));
   std::string out = text;
   if (d.budget.empty()) return out;
   out += "\nWhat effects that are not in the model could still do (upper 95 % limits)\n";

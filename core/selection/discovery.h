@@ -36,6 +36,8 @@ struct Discovery {
   std::vector<BudgetItem> budget;  ///< Sensitivity budget, largest movement first.
   /// `covariance` plus the moments of the budget: what is not in the model counted as well.
   Matrix6d covariance_with_budget = Matrix6d::Zero();
+  /// As ModelRanking has it; zero where nothing was ranked.
+  Matrix6d covariance_total = Matrix6d::Zero();
   /// The final model.
   ModelState state;
   Matrix6d covariance = Matrix6d::Zero();  ///< Left perturbation, camera frame.

@@ -9,6 +9,7 @@
 #include "model/user_effect.h"
 #include "solve/fit_inference.h"
 #include "solve/print_table.h"
+#include "solve/total_uncertainty.h"
 
 namespace lvcalib {
 
@@ -33,6 +34,7 @@ struct DiscoveryOptions {
   std::size_t closed_forms = 3;       ///< Covariates with unknown structure that get a formula.
   TableOptions table;
   UserEffectOptions user;
+  LeftOutSizes left_out;      ///< What the total uncertainty counts of faults left out.
   bool advise_scenes = true;  ///< Compute the board poses worth taking next.
   BoardGridOptions grid;      ///< Where they are looked for.
 };

@@ -571,6 +571,38 @@ EffectSearch EffectSearch::with_faint() const {
   return out;
 }
 
+std::vector<ModelFit> EffectSearch::fits_with(const std::vector<LeftOutGroup>& groups) const {
+  EffectColumnsList columns = own_columns();
+  std::vector<ColumnSubset> subsets(1 + groups.size(), own_subset(columns));
+  const auto append = [&](const LeftOut& other, ColumnSubset& subset) {
+    append_columns(columns.list().back(), nullptr, subset);
+    const auto count = static_cast<std::size_t>(other.sigma.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      double& sigma = subset.prior_sigma[subset.prior_sigma.size() - count + k];
+      // What cannot be there keeps a trace of what is believable.
+      sigma = std::max(other.sigma(static_cast<Eigen::Index>(k)), 1e-6 * sigma);
+    }
+  };
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const LeftOut& other : groups[g]) {
+      const std::string& id = other.effect->info().id;
+      const bool used = std::any_of(in_use_.begin(), in_use_.end(), [&](const EffectInUse& use) {
+        return use.effect->info().id == id;
+      });
+      if (used || !why_not_testable(*other.effect, table()).empty()) continue;
+      columns.add(other.effect, 0.0, table());
+      append(other, subsets.front());
+      append(other, subsets[1 + g]);
+    }
+  }
+  const Linearization linear =
+      linearize(table(), state_, fitted(), columns, context_, kEveryChannel, &memory_);
+  if (context_.stopped()) return {};
+  std::vector<ModelFit> out;
+  for (const ColumnSubset& subset : subsets) out.push_back(fit_as_it_stands(linear, subset));
+  return out;
+}
+
 std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect) const {
   const double shape = preferred_shape(effect);
   if (context_.stopped()) return std::nullopt;

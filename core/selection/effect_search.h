@@ -89,6 +89,16 @@ class EffectSearch {
   /// each channel the one that gains most. What it leaves is what no effect of the catalogue
   /// explains.
   [[nodiscard]] EffectSearch with_faint() const;
+  /// An effect that is not in the model, drawn to zero by sizes (one standard deviation, SI).
+  struct LeftOut {
+    EffectPtr effect;
+    Eigen::VectorXd sigma;
+  };
+  using LeftOutGroup = std::vector<LeftOut>;
+  /// The model's fit as it stands with effects that it leaves out as further unknowns: with those
+  /// of all groups, then with each group's alone. What is in the model is passed over. Empty if
+  /// stopped.
+  [[nodiscard]] std::vector<ModelFit> fits_with(const std::vector<LeftOutGroup>& groups) const;
   /// What leaving an effect out does to the extrinsic, at what the data say of it beside the model;
   /// nothing if they say nothing.
   [[nodiscard]] std::optional<ExtrinsicMove> move_without(const EffectPtr& effect) const;

@@ -158,7 +158,16 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   const auto about_unknown = advise_unknown(out.unknown);
   out.advice.insert(out.advice.end(), about_unknown.begin(), about_unknown.end());
   out.budget = sensitivity_budget(search);
-  if (context.stopped()) return Error::cancelled();
+  const auto total =
+      total_covariance(step.stated ? *step.stated : search, step.covariance, options.left_out);
+  if (!total || context.stopped()) return Error::cancelled();
+  out.covariance_total = *total;
+  if (const auto best = search.best()) {
+    const std::string& id = columns_of(search, search.candidates()[*best]).effect->info().id;
+    for (const BudgetItem& item : out.budget) {
+      if (item.id == id) out.covariance_total += item.moment;
+    }
+  }
   context.report("verdicts", 1.0, Message("done"));
   return out;
 }
@@ -182,6 +191,7 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
     out.unknown = ranking->unknown;
     out.advice = ranking->advice;
     out.budget = ranking->budget;
+    out.covariance_total = ranking->covariance_total;
   }
   for (std::size_t k = 0; k < out.effects.size(); ++k)
     out.effects[k].rank = static_cast<int>(k) + 1;

@@ -34,6 +34,9 @@ struct ModelRanking {
   std::vector<Message> advice;  ///< Scenes worth taking, and what else would tell.
   /// What effects that are not in the model could still do to the extrinsic, largest first.
   std::vector<BudgetItem> budget;
+  /// Of the extrinsic, with what faults left out of the model could still do (see
+  /// total_covariance()) and what the best proposal would move it by.
+  Matrix6d covariance_total = Matrix6d::Zero();
 
   [[nodiscard]] bool nothing_missing() const;
 };

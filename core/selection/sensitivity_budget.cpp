@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "model/camera_intrinsics.h"
 #include "selection/effect_search.h"
+#include "solve/total_uncertainty.h"
 
 namespace lvcalib {
 namespace {
@@ -59,7 +63,43 @@ BudgetItem item_of(const EffectColumns& columns, const Candidate& candidate) {
   return out;
 }
 
+// The faults that a calibration's total uncertainty holds: those that the data are asked for
+// (angles, origin, intrinsics), then ranges.
+std::vector<EffectSearch::LeftOutGroup> left_out_effects(const LeftOutSizes& sizes) {
+  const auto of = [](const char* id, std::initializer_list<double> sigma) {
+    Eigen::VectorXd out(static_cast<Eigen::Index>(sigma.size()));
+    std::copy(sigma.begin(), sigma.end(), out.begin());
+    return EffectSearch::LeftOut{find_effect(id), out};
+  };
+  return {{of("angle_scale", {sizes.angle_scale, sizes.angle_scale}),
+           of("encoder_eccentricity", {sizes.eccentricity_rad, sizes.eccentricity_rad}),
+           of("axis_wobble", {0.0, sizes.axis_tilt_rad})},
+          {of("beam_origin_offset", {sizes.origin_m, sizes.origin_m})},
+          {{camera_intrinsics(), sizes.intrinsics}},
+          {of("range_offset", {sizes.range_offset_m}), of("range_scale", {sizes.range_scale})}};
+}
+
 }  // namespace
+
+std::optional<Matrix6d> total_covariance(const EffectSearch& search, const Matrix6d& own,
+                                         const LeftOutSizes& sizes) {
+  constexpr std::size_t kAsked = 3;
+  const ModelFit& fit = search.reference().fit;
+  const auto with = search.fits_with(left_out_effects(sizes));
+  if (with.empty()) return std::nullopt;
+  Matrix6d more =
+      with.front().covariance.topLeftCorner<6, 6>() - fit.covariance.topLeftCorner<6, 6>();
+  // Estimation with more unknowns cannot be better; rounding may say so.
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(0.5 * (more + more.transpose()));
+  more = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         axes.eigenvectors().transpose();
+  for (std::size_t k = 1; k <= kAsked; ++k) {
+    const Vector6d asked = with[k].solution.head<6>() - fit.solution.head<6>();
+    more += asked * asked.transpose();
+  }
+  if (!more.allFinite()) return own;
+  return own + more;
+}
 
 std::vector<BudgetItem> sensitivity_budget(const EffectSearch& search) {
   const auto& columns = search.linear().columns.list();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 namespace lvcalib {
 
 class EffectSearch;
+struct LeftOutSizes;
 
 /// What an effect that is not in the model could still do to the extrinsic.
 struct BudgetItem {
@@ -35,5 +37,11 @@ std::vector<BudgetItem> sensitivity_budget(const EffectSearch& search);
 /// The covariance with the moments of the budget added: effects left out count as independent
 /// errors.
 Matrix6d covariance_with_budget(const Matrix6d& covariance, const std::vector<BudgetItem>& budget);
+
+/// The extrinsic's covariance `own` of the search's model if faults that every device has, and that
+/// the model leaves out, may be there: what total_covariance() says of a calibration. Nothing if
+/// stopped.
+std::optional<Matrix6d> total_covariance(const EffectSearch& search, const Matrix6d& own,
+                                         const LeftOutSizes& sizes);
 
 }  // namespace lvcalib

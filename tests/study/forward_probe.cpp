@@ -178,7 +178,7 @@ void print_splits_of_model(const CalibrationResult& result, const std::vector<st
   };
   print_splits("first order", used.size(), splits,
                halves(forward_subsets(*result.forward, result.extrinsic)));
-  DiscoveryOptions options = discovery_options(result.options);
+  DiscoveryOptions options = discovery_options(result);
   options.with = with;
   if (given) options.max_effects = 0;
   options.advise_scenes = false;

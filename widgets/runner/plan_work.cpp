@@ -23,7 +23,7 @@ Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunCo
                 .toStdString()),
         {}, Message::verbatim(PlanWork::tr("choose a description of the LiDAR").toStdString()));
   }
-  const MeasurementTable table = table_of(input, discovery_options(result.options).table);
+  const MeasurementTable table = table_of(input, discovery_options(result).table);
   LidarDescription out = lidar_of(table, result.extrinsic.camera_from_lidar.transform);
   if (request.cloud.empty()) return out;
   if (const auto cloud = read_cloud(request.cloud, context.stop))

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/hidden_rig.h"
 #include "support/pose_matchers.h"
 #include "support/synthetic_observations.h"
 
@@ -108,7 +109,7 @@ TEST(WithModel, PutsPoseBoardsEffectsAndScalesIntoTheResult) {
 }
 
 // Between a step and its ranking nothing may look surer than it is.
-TEST(WithModel, TotalUncertaintyHoldsWhatIsLeftOutBeforeAndAfterTheBudgetIsKnown) {
+TEST(WithModel, TotalUncertaintyHoldsWhatIsLeftOutBeforeAndAfterTheTotalIsKnown) {
   CalibrationResult before = four_scenes();
   const Matrix6d left_out = 4e-6 * Matrix6d::Identity();
   before.covariance_total = before.extrinsic.camera_from_lidar.covariance + left_out;
@@ -118,10 +119,49 @@ TEST(WithModel, TotalUncertaintyHoldsWhatIsLeftOutBeforeAndAfterTheBudgetIsKnown
   discovery.model.push_back({find_effect("range_near"), 1.2, Eigen::VectorXd::Constant(1, 0.02)});
   const CalibrationResult at_once = with_model(before, discovery);
   EXPECT_NEAR((at_once.covariance_total - discovery.covariance - left_out).norm(), 0.0, 1e-12);
-  discovery.budget.push_back({});
-  discovery.covariance_with_budget = 2e-6 * Matrix6d::Identity();
+  discovery.covariance_total = 2e-6 * Matrix6d::Identity();
   const CalibrationResult later = with_model(before, discovery);
-  EXPECT_EQ(later.covariance_total, discovery.covariance_with_budget);
+  EXPECT_EQ(later.covariance_total, discovery.covariance_total);
+}
+
+double deviation(const Matrix6d& covariance, int first) {
+  return std::sqrt(covariance.diagonal().segment<3>(first).sum());
+}
+
+// One total uncertainty: a model without effects states what its calibration does.
+TEST(DiscoveredTotal, WithoutEffectsIsTheCalibrations) {
+  const test::HiddenRig rig(test::hidden_options(61, {}));
+  ASSERT_TRUE(rig.ok());
+  DiscoveryOptions options = discovery_options(rig.result());
+  options.max_effects = 0;
+  options.advise_scenes = false;
+  const auto discovery = discover(rig.result(), options, {});
+  ASSERT_TRUE(discovery.ok()) << discovery.error().text();
+  for (const int first : {0, 3}) {
+    const double base = deviation(rig.result().covariance_total, first);
+    EXPECT_GT(base, 1.1 * deviation(discovery->covariance, first));
+    EXPECT_NEAR(deviation(discovery->covariance_total, first), base, 0.25 * base) << first;
+  }
+}
+
+// What an effect of the model explains is no longer left out.
+TEST(DiscoveredTotal, FallsAsTheMissingEffectComesIn) {
+  const test::HiddenRig rig(test::hidden_options(62, {{"beam_origin_offset", 8.0}}));
+  ASSERT_TRUE(rig.ok());
+  DiscoveryOptions options = discovery_options(rig.result());
+  options.with = {"beam_origin_offset"};
+  options.max_effects = 0;
+  options.advise_scenes = false;
+  const auto discovery = discover(rig.result(), options, {});
+  ASSERT_TRUE(discovery.ok()) << discovery.error().text();
+  ASSERT_EQ(discovery->model.size(), 1U);
+  EXPECT_LT(deviation(discovery->covariance_total, 0),
+            0.7 * deviation(rig.result().covariance_total, 0));
+  EXPECT_LT(deviation(discovery->covariance_total, 3),
+            1.1 * deviation(rig.result().covariance_total, 3));
+  const Vector6d error =
+      se3_log(rig.rig().camera_from_lidar * discovery->state.camera_from_lidar.inverse());
+  EXPECT_LT(error.dot(discovery->covariance_total.ldlt().solve(error)), 16.8);  // χ², 99 %.
 }
 
 // A model whose effect moves nothing: what is told of the scenes stays what it is.

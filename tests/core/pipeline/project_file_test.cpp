@@ -215,7 +215,7 @@ TEST_F(CalibrateProject, DecisionsAboutScenesAndTheModelCount) {
   auto three = calibrate(data_->open(), request, {});
   ASSERT_TRUE(three.ok()) << three.error().text();
   const auto base = std::make_shared<const CalibrationResult>(std::move(*three));
-  const auto start = start_model(discovery_input(*base), discovery_options(base->options), {});
+  const auto start = start_model(discovery_input(*base), discovery_options(*base), {});
   ASSERT_TRUE(start.ok()) << start.error().text();
   const auto next = apply_decision(*start, with.model[0], {});
   ASSERT_TRUE(next.ok()) << next.error().text();

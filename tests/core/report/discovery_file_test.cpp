@@ -64,6 +64,7 @@ TEST(DiscoveryFile, TheSummarySaysWhatIsLeftOpen) {
   EXPECT_THAT(text, HasSubstr("Warning: something was left out"));
   EXPECT_THAT(text, HasSubstr("could still do"));
   EXPECT_THAT(text, HasSubstr("range_offset"));
+  EXPECT_THAT(text, HasSubstr("in total"));
   EXPECT_THAT(text, HasSubstr("with the budget below"));
 }
 

@@ -129,7 +129,7 @@ TEST_F(CompareDialogTest, AnotherFileIsOneMessage) {
 
 TEST_F(CompareDialogTest, StepsShowEveryScenesResidualsAndTheMoveInThePicture) {
   const auto source = test::calibrated_demo().result;
-  const auto base = start_model(discovery_input(*source), discovery_options(source->options), {});
+  const auto base = start_model(discovery_input(*source), discovery_options(*source), {});
   ASSERT_TRUE(base.ok()) << base.error().text();
   const auto next = add_effect(*base, "range_offset", 0.0, {});
   ASSERT_TRUE(next.ok()) << next.error().text();
