@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "model/effect.h"
+
 namespace lvcalib::widgets::decision_command_test {
 namespace {
 
@@ -29,7 +31,7 @@ TEST(DecisionCommand, IsDoneUndoneAndDescribed) {
 }
 
 TEST(DecisionCommand, WhatTheCoreNamesIsSaidAsTheWindowSaysIt) {
-  DescribedCommand command("Decisions", {"change %1", {}, Message::verbatim("range_walk")});
+  DescribedCommand command("Decisions", {"change %1", {}, effect_named("range_walk")});
   EXPECT_EQ(command.description(), "change Range walk");
 }
 
