@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <boost/math/distributions/normal.hpp>
+
+#include "base/semidefinite.h"
 
 namespace lvcalib {
 namespace {
@@ -19,9 +20,7 @@ constexpr double kSmallestPowerShare = 0.02;
 }  // namespace
 
 Eigen::Matrix2d BeamSpread::footprint_rad2() const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(blur_rad2 - jitter_rad2);
-  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         axes.eigenvectors().transpose();
+  return without_negative_axes<2>(blur_rad2 - jitter_rad2);
 }
 
 BeamAxes beam_axes(const Eigen::Vector3d& direction) {

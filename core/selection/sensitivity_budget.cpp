@@ -7,8 +7,8 @@
 #include <map>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
+#include "base/semidefinite.h"
 #include "base/statistics.h"
 #include "model/camera_intrinsics.h"
 #include "selection/effect_search.h"
@@ -87,12 +87,9 @@ std::optional<Matrix6d> total_covariance(const EffectSearch& search, const Matri
   const ModelFit& fit = search.reference().fit;
   const auto with = search.fits_with(left_out_effects(sizes));
   if (with.empty()) return std::nullopt;
-  Matrix6d more =
-      with.front().covariance.topLeftCorner<6, 6>() - fit.covariance.topLeftCorner<6, 6>();
   // Estimation with more unknowns cannot be better; rounding may say so.
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(0.5 * (more + more.transpose()));
-  more = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         axes.eigenvectors().transpose();
+  Matrix6d more = without_negative_axes<6>(with.front().covariance.topLeftCorner<6, 6>() -
+                                           fit.covariance.topLeftCorner<6, 6>());
   for (std::size_t k = 1; k <= kAsked; ++k) {
     const Vector6d asked = with[k].solution.head<6>() - fit.solution.head<6>();
     more += asked * asked.transpose();

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+
+#include "base/semidefinite.h"
 
 namespace lvcalib {
 
@@ -59,11 +60,7 @@ Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& s
   }
   if (!total.allFinite()) return own;
   // Estimation with more unknowns cannot be better; rounding may say so.
-  Matrix6d more = total - own;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(0.5 * (more + more.transpose()));
-  more = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         axes.eigenvectors().transpose();
-  return own + more;
+  return own + without_negative_axes<6>(total - own);
 }
 
 }  // namespace lvcalib

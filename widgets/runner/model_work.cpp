@@ -204,9 +204,9 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
         step = at->second;
         continue;
       }
-      auto next = k == 0 ? start_model(discovery_input(*source), discovery_options(*source),
-                                       context)
-                         : apply_decision(step, wanted[k - 1], context);
+      auto next = k == 0
+                      ? start_model(discovery_input(*source), discovery_options(*source), context)
+                      : apply_decision(step, wanted[k - 1], context);
       if (!next) return fail(next.error());
       step = *next;
       post([this, done, step] { keep(done, step); });
