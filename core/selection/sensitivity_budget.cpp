@@ -83,7 +83,7 @@ std::vector<EffectSearch::LeftOutGroup> left_out_effects(const LeftOutSizes& siz
 
 std::optional<Matrix6d> total_covariance(const EffectSearch& search, const Matrix6d& own,
                                          const LeftOutSizes& sizes) {
-  constexpr std::size_t kAsked = 3;
+  constexpr std::size_t kAsked = 3;  // Groups, from the first on.
   const ModelFit& fit = search.reference().fit;
   const auto with = search.fits_with(left_out_effects(sizes));
   if (with.empty()) return std::nullopt;

@@ -139,7 +139,7 @@ void EffectSearch::refine_shape(std::size_t k) {
 // What the likelihood says of other shapes is known to first order, and the table's rows follow the
 // shapes in use: both are taken again until the shapes stand.
 void EffectSearch::refine_shapes() {
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 4;       // Two are usual.
   constexpr double kStands = 0.2;  // Of a standard deviation: nothing beside what is known.
   for (int round = 0; round < kRounds && !context_.stopped(); ++round) {
     std::vector<double> before;

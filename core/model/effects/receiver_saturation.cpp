@@ -99,8 +99,8 @@ class ReceiverSaturation final : public CatalogueEffect {
   static Clipped clipped(const BeamPoint& beam, const MeasurementTable& table, double shape) {
     constexpr std::array<double, 4> kAt{0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558};
     constexpr std::array<double, 4> kWeight{0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226};
-    constexpr double kPlain = 1e-4;
-    constexpr double kMost = 0.99;
+    constexpr double kPlain = 1e-4;  // Print of one kind, to less than any noise.
+    constexpr double kMost = 0.99;   // All of a blur being jitter has no slope.
     const double black = reflectivity_of_black(beam.scene, table, shape);
     const double log_limit = shape - log_power(beam.range_m, beam.incidence_rad);
     const double limit = std::exp(log_limit);

@@ -252,6 +252,13 @@ std::vector<HandCase> edge_cases() {
 
 std::vector<HandCase> intensity_cases() {
   const auto white = [](Place& p) { p.intensity.print = Print::kWhite; };
+  const auto half_white = [](Place& p) {
+    p.table.scenes[0].middle_range_m = 3.0;
+    p.intensity.beam.range_m = 3.0;
+    p.intensity.beam.incidence_rad = 0.0;
+    p.intensity.beam.white = 0.5;
+    p.table.placed_by.levels = {{32.0, 2.0, {}}};
+  };
   return {
       // A quarter of white, four fifths of the way to black: ln ¼ + 0.8 · (1/16) · ln 16 / ¼.
       {"Nonlinearity",
@@ -287,26 +294,16 @@ std::vector<HandCase> intensity_cases() {
        Hook::kIntensity,
        {along_x(0.0), along_x(std::log(32.0 / 17.0))},
        std::log(0.5),
-       [](Place& p) {
-         p.table.scenes[0].middle_range_m = 3.0;
-         p.intensity.beam.range_m = 3.0;
-         p.intensity.beam.incidence_rad = 0.0;
-         p.intensity.beam.white = 0.5;
-         p.table.placed_by.levels = {{32.0, 2.0, {}}};
-       }},
+       half_white},
       // Half of the variance is jitter's: single returns see all shares of white alike often.
       {"SaturationOfReturnsThatJitter",
        "receiver_saturation",
        Hook::kIntensity,
        {along_x(0.0), along_x(std::log(0.3865927 * 64.0 / 17.0))},
        std::log(0.5),
-       [](Place& p) {
-         p.table.scenes[0].middle_range_m = 3.0;
-         p.intensity.beam.range_m = 3.0;
-         p.intensity.beam.incidence_rad = 0.0;
-         p.intensity.beam.white = 0.5;
+       [half_white](Place& p) {
+         half_white(p);
          p.intensity.beam.jitter_share = 0.5;
-         p.table.placed_by.levels = {{32.0, 2.0, {}}};
        }},
   };
 }
