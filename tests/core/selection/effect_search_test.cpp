@@ -314,6 +314,26 @@ TEST_F(SearchState, ADriftWithinEveryScanIsNoMotion) {
   EXPECT_FALSE(search.best().has_value());
 }
 
+// The grid follows the table: once that is made again, a shape that was on it lies beside it, and
+// the truth may lie beyond the place of the grid that it was on.
+TEST_F(SearchState, AShapeJustBesideTheGridIsRefinedToBothSides) {
+  const EffectPtr effect = find_effect("range_near");
+  const auto plain = test::synthetic_table({}, {});
+  std::vector<double> grid = effect->shapes(plain.table);
+  std::sort(grid.begin(), grid.end());
+  ASSERT_GE(grid.size(), 4U);
+  const double on_grid = grid[grid.size() / 2];
+  const double truth = 0.6 * on_grid + 0.4 * grid[grid.size() / 2 - 1];
+  test::Disturbance wrong;
+  wrong.range_m = [truth](const BeamPoint& beam) { return 0.1 * std::exp(-beam.range_m / truth); };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.add(effect, 1.001 * on_grid);
+  search.refine_shapes();
+  EXPECT_NEAR(search.in_use()[0].shape, truth, 4.0 * search.shape_sigma(0));
+  EXPECT_LT(5.0 * search.shape_sigma(0), on_grid - truth);
+}
+
 // A near effect beside a walk between the prints: their sum contradicts neither.
 TEST_F(SearchState, AConstantDifferenceBetweenPrintsIsNoContradiction) {
   test::Disturbance wrong;
