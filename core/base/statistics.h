@@ -46,6 +46,9 @@ double tukey_weight(double residual, double threshold = 4.685);
 /// Standard normal cumulative distribution function.
 double normal_cdf(double x);
 
+/// Its inverse, to 10⁻¹⁵ relative to 1 + |x|, for 0 < p < 1.
+double normal_quantile(double p);
+
 /// Standard normal density.
 double normal_pdf(double x);
 

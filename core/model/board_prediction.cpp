@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <boost/math/distributions/normal.hpp>
 
 #include "base/semidefinite.h"
+#include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
@@ -165,10 +165,8 @@ PrintView view_print(const ReturnPrediction& p, const BoardLevels& levels, const
   const double width = std::sqrt(by_angle.dot(by_angle * beam.blur_rad2)) / std::max(slope, 1e-12);
   // Of one straight edge the slope follows from the share of white; where it does not, the spot
   // sees several edges, and what widens dark print is not what moves them.
-  const boost::math::normal normal;
-  const double z = boost::math::quantile(normal, std::clamp(p.white, 1e-4, 1.0 - 1e-4));
-  const double one_edge =
-      std::abs(levels.white - levels.black) * boost::math::pdf(normal, z) / width;
+  const double z = normal_quantile(std::clamp(p.white, 1e-4, 1.0 - 1e-4));
+  const double one_edge = std::abs(levels.white - levels.black) * normal_pdf(z) / width;
   if (p.white <= 1.0 - kPlainPrint && p.white >= kPlainPrint) {
     out.kind = std::abs(std::log(slope / one_edge)) <= kOneEdge ? PrintView::Kind::kEdge
                                                                 : PrintView::Kind::kMixed;

@@ -95,6 +95,21 @@ std::span<const Row> rows_of(const std::vector<Row>& rows, int scene) {
   return {first, last};
 }
 
+std::size_t row_count(const MeasurementTable& table, std::size_t scene, std::size_t channel) {
+  const auto at = static_cast<int>(scene);
+  switch (kAllChannels[channel]) {
+    case Channel::kRange:
+      return rows_of(table.range, at).size();
+    case Channel::kBoundary:
+      return rows_of(table.boundary, at).size();
+    case Channel::kCorner:
+      return rows_of(table.corner, at).size();
+    case Channel::kIntensity:
+      break;
+  }
+  return rows_of(table.intensity, at).size();
+}
+
 // Accumulates one channel of one scene.
 class SceneAccumulator {
  public:
@@ -395,11 +410,21 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
       out.scenes[s].fourth_powers[at].setZero(columns.columns());
     }
   }
-  // Scene by scene and channel by channel, so that few scenes fill all threads.
-  parallel_for(table.scenes.size() * kChannels, context.thread_count(), [&](std::size_t task) {
-    const std::size_t s = task / kChannels;
-    const std::size_t channel = task % kChannels;
-    if (context.stopped() || !channels[channel]) return;
+  // Scene by scene and channel by channel, the longest first, so that all threads end together.
+  struct Task {
+    std::size_t scene, channel, rows;
+  };
+  std::vector<Task> tasks;
+  for (std::size_t s = 0; s < table.scenes.size(); ++s) {
+    for (std::size_t channel = 0; channel < kChannels; ++channel) {
+      if (channels[channel]) tasks.push_back({s, channel, row_count(table, s, channel)});
+    }
+  }
+  std::stable_sort(tasks.begin(), tasks.end(),
+                   [](const Task& a, const Task& b) { return a.rows > b.rows; });
+  parallel_for(tasks.size(), context.thread_count(), [&](std::size_t task) {
+    const auto [s, channel, rows] = tasks[task];
+    if (context.stopped()) return;
     SceneProducts& scene = out.scenes[s];
     SceneAccumulator(table, state, in_use, columns, scene.layout, s, memory)
         .sum_into(scene, kAllChannels[channel]);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/math/distributions/normal.hpp>
-
 #include "base/statistics.h"
 #include "model/catalogue_effect.h"
 #include "model/effect_rows.h"
@@ -54,7 +52,7 @@ class ReceiverSaturation final : public CatalogueEffect {
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {
-    by[0] = clipped(beam, table, shape).excess * beam.direction;
+    by[0] = Echoes(beam, table, shape).mean_excess() * beam.direction;
   }
 
   // Beside the scene's levels, which are those of clipped print in the board's middle: what a
@@ -63,10 +61,11 @@ class ReceiverSaturation final : public CatalogueEffect {
                  std::span<double> by) const override {
     const TableScene& scene = table.scenes[static_cast<std::size_t>(row.beam.scene)];
     const double middle = log_power(scene.middle_range_m, scene.middle_incidence_rad) - shape;
-    const double black = reflectivity_of_black(row.beam.scene, table, shape);
+    const Echoes echoes(row.beam, table, shape);
+    const double black = echoes.black();
     const double white_level = std::exp(-std::max(0.0, middle));
     const double black_level = black * std::exp(-std::max(0.0, middle + std::log(black)));
-    by[1] = std::log(clipped(row.beam, table, shape).reflectivity) -
+    by[1] = std::log(echoes.mean_reflectivity()) -
             std::log(black_level + (white_level - black_level) * white_share(row.beam));
   }
 
@@ -85,55 +84,93 @@ class ReceiverSaturation final : public CatalogueEffect {
                     std::max(0.0, log_power(s.middle_range_m, s.middle_incidence_rad) - shape));
   }
 
-  // What returns show on average beside unclipped white, and by how much ln P exceeds ln Ps.
-  struct Clipped {
-    double reflectivity = 1.0;
-    double excess = 0.0;
-  };
-
-  // An echo is clipped before returns are averaged, and the jitter lets single ones see more and
-  // less white than their mean. Across one straight edge a share Φ(z) of white in the whole blur is
-  // Φ((z + √q u)/√(1 − q)) in the footprint, with u of the standard normal distribution and q the
-  // jitter's share of the blur's variance. Integrated over p = Φ(u) on either side of the limit by
-  // Gauss and Legendre's rule.
-  static Clipped clipped(const BeamPoint& beam, const MeasurementTable& table, double shape) {
-    constexpr std::array<double, 4> kAt{0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558};
-    constexpr std::array<double, 4> kWeight{0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226};
-    constexpr double kPlain = 1e-4;  // Print of one kind, to less than any noise.
-    constexpr double kMost = 0.99;   // All of a blur being jitter has no slope.
-    const double black = reflectivity_of_black(beam.scene, table, shape);
-    const double log_limit = shape - log_power(beam.range_m, beam.incidence_rad);
-    const double limit = std::exp(log_limit);
-    const double mean = white_share(beam);
-    const double seen = reflectivity(mean, black);
-    if (limit >= 1.0) return {seen, 0.0};
-    const double q = std::min(beam.jitter_share, kMost);
-    if (!(q > 0.0) || mean < kPlain || mean > 1.0 - kPlain)
-      return {std::min(seen, limit), std::max(0.0, std::log(seen) - log_limit)};
-    const boost::math::normal normal;
-    const double z = boost::math::quantile(normal, mean);
-    const auto reflectivity_at = [&](double p) {
-      const double u = boost::math::quantile(normal, p);
-      return reflectivity(normal_cdf((z + std::sqrt(q) * u) / std::sqrt(1.0 - q)), black);
-    };
-    double below = 0.0;  // Share of returns that are not clipped.
-    if (const double share = (limit - black) / (1.0 - black); share > 0.0) {
-      const double u = std::sqrt(1.0 - q) * boost::math::quantile(normal, share) - z;
-      below = normal_cdf(u / std::sqrt(q));
+  // Echoes of one return's place that jitter makes see more or less white than their mean. Across
+  // one straight edge a share Φ(z) of white in the whole blur is Φ((z + √q u)/√(1 − q)) in the
+  // footprint, with u of the standard normal distribution and q the jitter's share of the blur's
+  // variance. An echo is clipped before returns are averaged: what they show is integrated over
+  // p = Φ(u) on either side of the limit by Gauss and Legendre's rule.
+  class Echoes {
+   public:
+    Echoes(const BeamPoint& beam, const MeasurementTable& table, double shape)
+        : black_(reflectivity_of_black(beam.scene, table, shape)),
+          log_limit_(shape - log_power(beam.range_m, beam.incidence_rad)),
+          limit_(std::exp(log_limit_)) {
+      constexpr double kPlain = 1e-4;  // Print of one kind, to less than any noise.
+      constexpr double kMost = 0.99;   // All of a blur being jitter has no slope.
+      const double mean = white_share(beam);
+      seen_ = reflectivity(mean, black_);
+      const double q = std::min(beam.jitter_share, kMost);
+      alike_ = limit_ >= 1.0 || !(q > 0.0) || mean < kPlain || mean > 1.0 - kPlain;
+      if (alike_) return;
+      jitter_ = std::sqrt(q);
+      footprint_ = std::sqrt(1.0 - q);
+      z_ = normal_quantile(mean);
+      const double share = (limit_ - black_) / (1.0 - black_);
+      if (!(share > 0.0)) return;
+      below_ = normal_cdf((footprint_ * normal_quantile(share) - z_) / jitter_);
       // One return in ten thousand is none.
-      if (below < kPlain) below = 0.0;
-      if (below > 1.0 - kPlain) below = 1.0;
+      if (below_ < kPlain) below_ = 0.0;
+      if (below_ > 1.0 - kPlain) below_ = 1.0;
     }
-    Clipped out{(1.0 - below) * limit, 0.0};
-    for (std::size_t k = 0; k < kAt.size(); ++k) {
-      if (below > 0.0) out.reflectivity += below * kWeight[k] * reflectivity_at(below * kAt[k]);
-      if (below < 1.0) {
-        const double above = reflectivity_at(below + (1.0 - below) * kAt[k]);
-        out.excess += (1.0 - below) * kWeight[k] * (std::log(above) - log_limit);
+
+    [[nodiscard]] double black() const { return black_; }
+
+    // What they show on average, beside unclipped white.
+    [[nodiscard]] double mean_reflectivity() const {
+      if (alike_) return std::min(seen_, limit_);
+      double sum = (1.0 - below_) * limit_;
+      if (below_ > 0.0) {
+        for (std::size_t k = 0; k < kAt.size(); ++k)
+          sum += below_ * kWeight[k] *
+                 reflectivity_at(below_ == 1.0 ? places()[k] : normal_quantile(below_ * kAt[k]));
       }
+      return sum;
     }
-    return out;
-  }
+
+    // By how much ln P exceeds ln Ps on average, nothing where it does not.
+    [[nodiscard]] double mean_excess() const {
+      if (alike_) return std::max(0.0, std::log(seen_) - log_limit_);
+      double sum = 0.0;
+      if (below_ < 1.0) {
+        for (std::size_t k = 0; k < kAt.size(); ++k) {
+          const double above = reflectivity_at(
+              below_ == 0.0 ? places()[k] : normal_quantile(below_ + (1.0 - below_) * kAt[k]));
+          sum += (1.0 - below_) * kWeight[k] * (std::log(above) - log_limit_);
+        }
+      }
+      return sum;
+    }
+
+   private:
+    static constexpr std::array<double, 4> kAt{0.0694318442, 0.3300094782, 0.6699905218,
+                                               0.9305681558};
+    static constexpr std::array<double, 4> kWeight{0.1739274226, 0.3260725774, 0.3260725774,
+                                                   0.1739274226};
+
+    // u of the rule's places where all echoes lie on one side of the limit, as most do.
+    static const std::array<double, 4>& places() {
+      static const std::array<double, 4> u = [] {
+        std::array<double, 4> out{};
+        std::transform(kAt.begin(), kAt.end(), out.begin(), normal_quantile);
+        return out;
+      }();
+      return u;
+    }
+
+    [[nodiscard]] double reflectivity_at(double u) const {
+      return reflectivity(normal_cdf((z_ + jitter_ * u) / footprint_), black_);
+    }
+
+    double black_;
+    double log_limit_;
+    double limit_;
+    double seen_ = 0.0;    // By their mean.
+    bool alike_ = false;   // None sees more than the others, or none is clipped.
+    double jitter_ = 0.0;  // Shares of the blur's width.
+    double footprint_ = 1.0;
+    double z_ = 0.0;
+    double below_ = 0.0;  // Share of echoes that are not clipped.
+  };
 };
 
 }  // namespace

@@ -103,6 +103,18 @@ TEST(Statistics, NormalDistributionAgreesWithTables) {
   EXPECT_NEAR(normal_pdf(1.5), (normal_cdf(1.5 + 1e-5) - normal_cdf(1.5 - 1e-5)) / 2e-5, 1e-8);
 }
 
+TEST(Statistics, NormalQuantileIsTheInverse) {
+  EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 2e-15);
+  EXPECT_NEAR(normal_quantile(1e-9), -5.997807015007687, 6e-15);
+  EXPECT_EQ(normal_quantile(0.5), 0.0);
+  for (double x = -8.0; x <= 5.0; x += 0.0137) {
+    const double p = 0.5 * std::erfc(-x / std::sqrt(2.0));
+    // Near one, a p of double precision says no more of x.
+    const double told = 1e-16 * (1.0 + std::max(0.0, 1.0 / normal_pdf(x) - 3.0));
+    EXPECT_NEAR(normal_quantile(p), x, 2e-14 + 2.0 * told) << x;
+  }
+}
+
 TEST(Statistics, ChiSquareGateAgreesWithTables) {
   // Upper 5 % and 1 % points from printed tables; Wilson–Hilferty is good to about one per cent.
   const struct {
