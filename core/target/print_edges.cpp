@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
 
-constexpr double kCell = 0.03;
+constexpr double kCell = 0.015;
 // Edges farther than this are beyond four widths of any spot that still tells edges of bits apart.
 constexpr double kFar = 0.08;
+// Most spots are small, and ask a third of the edges: to 8 mm of width.
+constexpr double kNear = 0.045;
 // Widths beyond which an edge is not asked: 3·10⁻⁵ of the spot.
 constexpr double kReach = 4.0;
 
@@ -65,7 +68,12 @@ PrintEdges::PrintEdges(const Target& t) {
   }
   for (const TargetNode& node : t.nodes()) circles_.push_back(node.center_m);
   radius_m_ = t.circle_radius_m;
-  fill_cells(t.outline());
+  origin_ = t.outline().lower_left_m;
+  const Eigen::Vector2d size = t.outline().size_m();
+  columns_ = std::max(1, static_cast<int>(std::ceil(size.x() / kCell)));
+  rows_ = std::max(1, static_cast<int>(std::ceil(size.y() / kCell)));
+  near_ = within(kNear);
+  far_ = within(kFar);
 }
 
 // Edges of a grid of cells whose surroundings are white; runs along one line are one segment.
@@ -99,23 +107,19 @@ void PrintEdges::add_grid(const Eigen::Vector2d& origin, const Eigen::Vector2d& 
   }
 }
 
-void PrintEdges::fill_cells(const BoardOutline& outline) {
-  origin_ = outline.lower_left_m;
-  columns_ = std::max(1, static_cast<int>(std::ceil(outline.size_m().x() / kCell)));
-  rows_ = std::max(1, static_cast<int>(std::ceil(outline.size_m().y() / kCell)));
-  const auto count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  near_segments_.resize(count);
-  near_circles_.resize(count);
-  const auto add = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high, int index,
-                       std::vector<std::vector<int>>& near) {
-    const Eigen::Vector2d a = (low - origin_).array() - kFar;
-    const Eigen::Vector2d b = (high - origin_).array() + kFar;
-    const auto place = [](double x, int last) {
-      return std::clamp(static_cast<int>(std::floor(x / kCell)), 0, last - 1);
+std::vector<PrintEdges::Nearby> PrintEdges::within(double reach_m) const {
+  std::vector<Nearby> cells(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  const auto add = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high, std::size_t index,
+                       std::vector<int> Nearby::*list) {
+    const Eigen::Vector2d a = (low - origin_).array() - reach_m;
+    const Eigen::Vector2d b = (high - origin_).array() + reach_m;
+    const auto place = [](double x, int count) {
+      return std::clamp(static_cast<int>(std::floor(x / kCell)), 0, count - 1);
     };
     for (int r = place(a.y(), rows_); r <= place(b.y(), rows_); ++r) {
       for (int c = place(a.x(), columns_); c <= place(b.x(), columns_); ++c)
-        near[static_cast<std::size_t>(r * columns_ + c)].push_back(index);
+        (cells[static_cast<std::size_t>(r * columns_ + c)].*list)
+            .push_back(static_cast<int>(index));
     }
   };
   for (std::size_t k = 0; k < segments_.size(); ++k) {
@@ -125,12 +129,12 @@ void PrintEdges::fill_cells(const BoardOutline& outline) {
     low(s.axis) = s.from;
     high(s.axis) = s.to;
     low(1 - s.axis) = high(1 - s.axis) = s.at;
-    add(low, high, static_cast<int>(k), near_segments_);
+    add(low, high, k, &Nearby::segments);
   }
-  for (std::size_t k = 0; k < circles_.size(); ++k) {
-    const Eigen::Vector2d reach(radius_m_, radius_m_);
-    add(circles_[k] - reach, circles_[k] + reach, static_cast<int>(k), near_circles_);
-  }
+  const Eigen::Vector2d radius(radius_m_, radius_m_);
+  for (std::size_t k = 0; k < circles_.size(); ++k)
+    add(circles_[k] - radius, circles_[k] + radius, k, &Nearby::circles);
+  return cells;
 }
 
 std::size_t PrintEdges::cell_of(const Eigen::Vector2d& board_m) const {
@@ -142,14 +146,20 @@ std::size_t PrintEdges::cell_of(const Eigen::Vector2d& board_m) const {
 
 double PrintEdges::grow(const Eigen::Vector2d& p, const Eigen::Matrix2d& blur, double growth_m,
                         PrintSample& sample) const {
-  const std::size_t cell = cell_of(p);
   const std::array<Spot, 2> spots{Spot(blur, 0), Spot(blur, 1)};
+  // Along an edge a spot reaches as far again as its middle moves while the edge is within reach
+  // across, by at most √2 times its width in all; ends move by the growth or less.
+  const double reach = std::numbers::sqrt2 * kReach * std::sqrt(blur.diagonal().maxCoeff()) +
+                       2.0 * std::abs(growth_m);
+  const Nearby& cell = (reach < kNear ? near_ : far_)[cell_of(p)];
   double density = 0.0;
-  for (const int k : near_segments_[cell]) {
+  for (const int k : cell.segments) {
     const Segment& s = segments_[static_cast<std::size_t>(k)];
-    density += sweep(s, p, spots[static_cast<std::size_t>(s.axis)], growth_m, sample);
+    const Spot& spot = spots[static_cast<std::size_t>(s.axis)];
+    if (std::abs(s.at - p(1 - s.axis)) > spot.reach_across + std::abs(growth_m)) continue;
+    density += sweep(s, p, spot, growth_m, sample);
   }
-  for (const int k : near_circles_[cell])
+  for (const int k : cell.circles)
     density += sweep_circle(p - circles_[static_cast<std::size_t>(k)], blur, growth_m, sample);
   // Strips that overlap where little is left are taken away twice.
   if (growth_m != 0.0) sample.white = std::clamp(sample.white, 0.0, 1.0);
@@ -159,7 +169,8 @@ double PrintEdges::grow(const Eigen::Vector2d& p, const Eigen::Matrix2d& blur, d
 PrintEdges::Spot::Spot(const Eigen::Matrix2d& blur, int axis)
     : across(std::sqrt(blur(1 - axis, 1 - axis))),
       slope(blur(0, 1) / blur(1 - axis, 1 - axis)),
-      along(std::sqrt(std::max(1e-18, blur(axis, axis) - slope * blur(0, 1)))) {}
+      along(std::sqrt(std::max(1e-18, blur(axis, axis) - slope * blur(0, 1)))),
+      reach_across(1.001 * kReach * across) {}
 
 double PrintEdges::sweep(const Segment& s, const Eigen::Vector2d& p, const Spot& spot,
                          double growth_m, PrintSample& sample) {

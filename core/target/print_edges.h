@@ -48,6 +48,7 @@ class PrintEdges {
   struct Spot {
     Spot(const Eigen::Matrix2d& blur_m2, int axis);
     double across, slope, along;
+    double reach_across;  // Beyond which no edge is asked, rounding included.
   };
   static double sweep(const Segment& segment, const Eigen::Vector2d& board_m, const Spot& spot,
                       double growth_m, PrintSample& sample);
@@ -56,16 +57,19 @@ class PrintEdges {
   template <class IsBlack>
   void add_grid(const Eigen::Vector2d& origin, const Eigen::Vector2d& cell, int columns, int rows,
                 const IsBlack& is_black);
-  void fill_cells(const BoardOutline& outline);
+  // The segments and circles that may matter in one cell of the board, in their order.
+  struct Nearby {
+    std::vector<int> segments, circles;
+  };
+  [[nodiscard]] std::vector<Nearby> within(double reach_m) const;
   [[nodiscard]] std::size_t cell_of(const Eigen::Vector2d& board_m) const;
 
   std::vector<Segment> segments_;
   std::vector<Eigen::Vector2d> circles_;
   double radius_m_ = 0.0;
-  // Which segments and circles may matter in each cell of the board.
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
-  int columns_ = 0, rows_ = 0;
-  std::vector<std::vector<int>> near_segments_, near_circles_;
+  int columns_ = 0, rows_ = 0;      // Of the board's cells.
+  std::vector<Nearby> near_, far_;  // To small spots, and to all.
 };
 
 }  // namespace lvcalib
