@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -394,8 +397,10 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
   if (out.dof == 0) return out;
   out.gate = chi_square_gate(out.dof, false_alarm);
 
-  // The fewest parts to free: what holding the rest as given costs must be chance.
-  const auto hold = [&](const std::vector<IntrinsicsPart>& parts, IntrinsicsContrast& into) {
+  // Frees some parts and holds the rest as given. What that costs (χ², and two for each number that
+  // is free, after Akaike), if it is chance.
+  const auto hold = [&](const std::vector<IntrinsicsPart>& parts,
+                        IntrinsicsContrast& into) -> std::optional<double> {
     std::vector<bool> freed(static_cast<std::size_t>(kIntrinsics), false);
     for (const IntrinsicsPart part : parts) {
       for (const Eigen::Index i : indices_of(part)) freed[static_cast<std::size_t>(i)] = true;
@@ -436,18 +441,32 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
       into.correction = correction.head<6>();
       into.covariance = rest.topLeftCorner<6, 6>();
     }
-    return chi <= chi_square_gate(static_cast<int>(std::max<Eigen::Index>(1, m)), false_alarm);
+    if (chi > chi_square_gate(static_cast<int>(std::max<Eigen::Index>(1, m)), false_alarm))
+      return std::nullopt;
+    return chi + 2.0 * static_cast<double>(n - m);
   };
+  std::multimap<double, IntrinsicsContrast> mended;
   for (const auto& parts : subsets()) {
-    if (hold(parts, out)) return out;
+    if (!mended.empty() && parts.size() > mended.begin()->second.parts.size()) break;
+    IntrinsicsContrast tried = out;
+    if (const auto cost = hold(parts, tried)) mended.emplace(*cost, std::move(tried));
+  }
+  if (!mended.empty()) {
+    out = mended.begin()->second;
+    for (auto other = std::next(mended.begin()); other != mended.end(); ++other)
+      out.alternatives.push_back(other->second);
+    return out;
   }
   hold({IntrinsicsPart::kFocalLength, IntrinsicsPart::kPrincipalPoint, IntrinsicsPart::kDistortion},
        out);
   return out;
 }
 
-Message describe(const IntrinsicsContrast& contrast, const Camera& given,
-                 const std::vector<CornerView>& views) {
+namespace {
+
+// The parts of one alternative.
+Message describe_parts(const IntrinsicsContrast& contrast, const Camera& given,
+                       const std::vector<CornerView>& views) {
   std::vector<Message> words;
   for (const IntrinsicsPart part : contrast.parts) {
     switch (part) {
@@ -495,8 +514,16 @@ Message describe(const IntrinsicsContrast& contrast, const Camera& given,
       }
     }
   }
-  Message out;
-  for (const Message& part : words) out = out.empty() ? part : Message("%1 and %2", out, part);
+  return all_of(words);
+}
+
+}  // namespace
+
+Message describe(const IntrinsicsContrast& contrast, const Camera& given,
+                 const std::vector<CornerView>& views) {
+  Message out = describe_parts(contrast, given, views);
+  for (const IntrinsicsContrast& other : contrast.alternatives)
+    out = Message("%1, or %2", out, describe_parts(other, given, views));
   return out;
 }
 

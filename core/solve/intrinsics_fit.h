@@ -79,8 +79,11 @@ struct IntrinsicsContrast {
   int dof = 0;              ///< Directions of the intrinsics that the data determine.
   double gate = 0.0;        ///< χ² that chance exceeds with the given probability.
   [[nodiscard]] bool contradicts() const { return dof > 0 && chi_square > gate; }
-  /// The fewest parts that mend it when freed; the rest held as given.
+  /// The fewest parts that mend it when freed, the rest held as given; of as many, those with the
+  /// least χ² and two for each number that is free (Akaike).
   std::vector<IntrinsicsPart> parts;
+  /// Other parts, as many, that mend it, too: the data do not tell which. Likeliest first.
+  std::vector<IntrinsicsContrast> alternatives;
   IntrinsicsVector difference =
       IntrinsicsVector::Zero();  ///< Estimated − given, with `parts` free.
   IntrinsicsVector sigma = IntrinsicsVector::Zero();
@@ -99,7 +102,8 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
                                        const IntrinsicsVector& prior, double false_alarm);
 
 /// "the focal length is 10.02 ± 0.04 % too long", "the principal point is off by 5.1 px", …; the
-/// distortion's size is how far it moves the corners of `views` at most.
+/// distortion's size is how far it moves the corners of `views` at most. Alternatives follow with
+/// "or".
 Message describe(const IntrinsicsContrast& contrast, const Camera& given,
                  const std::vector<CornerView>& views);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/intrinsics_fit.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -188,6 +190,38 @@ INSTANTIATE_TEST_SUITE_P(
                       WrongPart{"NoDistortion", IntrinsicsPart::kDistortion,
                                 [](Camera& c) { c.distortion.setZero(); }, "distortion"}),
     [](const auto& info) { return info.param.name; });
+
+// A tangential distortion that is hardly seen acts nearly as a shift of the principal point: both
+// are named, and neither where the error is large.
+TEST(IntrinsicsContrast, WhatWouldDoAsWellIsNamedBesides) {
+  using Parts = std::vector<IntrinsicsPart>;
+  const Parts lens{IntrinsicsPart::kDistortion};
+  for (const auto& [error, alone] : {std::pair{1.5e-4, false}, std::pair{8e-4, true}}) {
+    Camera given = true_camera();
+    given.distortion(2) += error;
+    int contradicted = 0, named = 0, both = 0;
+    for (std::uint64_t seed = 300; seed < 340; ++seed) {
+      const Views views = seen(seed, 5, 0.5);
+      const IntrinsicsContrast c = contrast_of(views, given);
+      if (!c.contradicts()) continue;
+      ++contradicted;
+      const bool among = std::any_of(c.alternatives.begin(), c.alternatives.end(),
+                                     [&](const IntrinsicsContrast& o) { return o.parts == lens; });
+      named += c.parts == lens || among ? 1 : 0;
+      both += c.alternatives.empty() ? 0 : 1;
+      EXPECT_EQ(describe(c, given, views.views).text().find(", or ") != std::string::npos,
+                !c.alternatives.empty());
+    }
+    EXPECT_GE(contradicted, 30);
+    // One in a thousand is refused although it is true.
+    EXPECT_GE(named, contradicted - 1) << error;
+    if (alone) {
+      EXPECT_EQ(both, 0);
+    } else {
+      EXPECT_GT(both, contradicted / 2);
+    }
+  }
+}
 
 // What some views say, added to what others say, is what all say.
 TEST(IntrinsicsEvidence, AddsUpToTheFitOfAllViews) {
