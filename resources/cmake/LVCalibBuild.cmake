@@ -22,6 +22,16 @@ if(LVCALIB_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 endif()
 
+# An inline function that a program compiles as well stays the library's own there: calls within the
+# library are direct, and what a test compiles without optimizing never takes its place.
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+# Of a test that waits for the library and for programs half of the compile time goes into making it
+# fast. The simulator, the library and the programs stay optimized.
+function(lvcalib_do_not_optimize TARGET)
+  target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O0>)
+endfunction()
+
 # Of a test's compile time four fifths are the headers of Qt, Eigen and GoogleTest. They are compiled
 # once per kind of program and reused: lvcalib_precompile(TARGET KIND), with the kind's headers
 # declared by lvcalib_precompiled_headers(). A header that cannot be reused (other options) is an

@@ -154,16 +154,18 @@ TEST(TagArrangement, SaysHowTheTagsLie) {
   target.tag_columns = 4;
   target.tag_rows = 3;
   const Rigid3 pose = testing::facing_pose(target, 1.4, 0.1, 0.2, 0.2);
+  const std::vector<TargetTag> tags = target.tags();
   const auto complaint_about = [&](bool turned, bool from_right, bool from_top) {
     testing::RenderOptions render;
     render.cover = [&](const Eigen::Vector2d& p) -> std::optional<double> {
-      for (const TargetTag& tag : target.tags()) {
+      for (const TargetTag& tag : tags) {
         Eigen::Vector2d d = p - tag.center_m;
         if (d.cwiseAbs().maxCoeff() > 0.5 * target.tag_size_m) continue;
         if (turned) d = -d;
         const int column = from_right ? target.tag_columns - 1 - tag.column : tag.column;
         const int row = from_top ? target.tag_rows - 1 - tag.row : tag.row;
-        return target.albedo(target.tag(row * target.tag_columns + column)->center_m + d);
+        const auto shown = static_cast<std::size_t>(row * target.tag_columns + column);
+        return target.albedo(tags[shown].center_m + d);
       }
       return std::nullopt;
     };
