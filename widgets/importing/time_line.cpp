@@ -11,6 +11,7 @@
 #include <cmath>
 #include <utility>
 
+#include "style/swatch.h"
 #include "style/theme.h"
 
 namespace lvcalib::widgets {
@@ -191,7 +192,7 @@ void TimeLine::paintBands(QPainter& painter) const {
     QColor color = taken ? colors.good : colors.idle;
     color.setAlpha(taken ? 70 : 110);
     // Told apart by shape as well as colour: what is left is hatched, what is taken has a bar.
-    painter.fillRect(band, QBrush(color, taken ? Qt::SolidPattern : Qt::BDiagPattern));
+    painter.fillRect(band, taken ? QBrush(color) : hatched(color));
     if (taken) painter.fillRect(QRect(band.left(), band.top(), band.width(), 4), colors.good);
     const ImportedStretch& s = stretches_[static_cast<std::size_t>(i)];
     if (s.by_hand) {

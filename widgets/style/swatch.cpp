@@ -27,6 +27,25 @@ void paint_swatch(QPainter& painter, const QRectF& place, const QColor& color,
   painter.restore();
 }
 
+QBrush hatched(const QColor& color) {
+  constexpr int kApart = 8;
+  constexpr double kWidth = 2.0;
+  QImage tile(kFiner * kApart, kFiner * kApart, QImage::Format_ARGB32_Premultiplied);
+  tile.fill(Qt::transparent);
+  {
+    QPainter painter(&tile);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.scale(kFiner, kFiner);
+    // The tile's own line and the ends of its neighbours': lines go on from tile to tile.
+    painter.setPen(QPen(color, kWidth, Qt::SolidLine, Qt::FlatCap));
+    for (const int shift : {-kApart, 0, kApart})
+      painter.drawLine(shift - kApart, 2 * kApart, shift + 2 * kApart, -kApart);
+  }
+  QBrush brush(tile);
+  brush.setTransform(QTransform::fromScale(1.0 / kFiner, 1.0 / kFiner));
+  return brush;
+}
+
 QString swatch_html(const QColor& color, const QPalette& palette) {
   QImage image(kFiner * kSide, kFiner * kSide, QImage::Format_ARGB32_Premultiplied);
   image.fill(Qt::transparent);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QBrush>
 #include <QColor>
 #include <QPalette>
 #include <QString>
@@ -15,7 +16,10 @@ namespace lvcalib::widgets {
 void paint_swatch(QPainter& painter, const QRectF& place, const QColor& color,
                   const QPalette& palette);
 
-/// The same as a picture in rich text, as high as the small letters of a usual font.
+/// Slanted lines for what is not used, broad enough to be seen on any ground.
+QBrush hatched(const QColor& color);
+
+/// The swatch as a picture in rich text, as high as the small letters of a usual font.
 QString swatch_html(const QColor& color, const QPalette& palette);
 
 }  // namespace lvcalib::widgets

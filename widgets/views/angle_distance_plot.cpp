@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "style/swatch.h"
 #include "style/texts.h"
 #include "words/core_text.h"
 
@@ -230,7 +231,7 @@ void AngleDistancePlot::drawRefusal() {
   ratio(hatch->topLeft, 0.0, 0.0);
   ratio(hatch->bottomRight, 1.0, 1.0);
   hatch->setPen(Qt::NoPen);
-  hatch->setBrush(QBrush(pale, Qt::BDiagPattern));
+  hatch->setBrush(hatched(pale));
   for (const bool down : {true, false}) {
     auto* line = new QCPItemLine(this);
     ratio(line->start, 0.0, down ? 0.0 : 1.0);

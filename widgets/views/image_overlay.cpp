@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "style/swatch.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -65,9 +67,9 @@ void draw_arrow(QPainter& painter, const QPointF& from, const QPointF& to, doubl
 // Fills a shape with lines in the colour of why it is not used, and strikes it through.
 void strike(QPainter& painter, const QPolygonF& shape, bool left_out) {
   const QColor color = left_out ? kLeftOutColor : kUnusedColor;
-  QBrush hatch(color, Qt::BDiagPattern);
+  QBrush hatch = hatched(color);
   // Lines as far apart on the screen whatever the zoom.
-  hatch.setTransform(painter.worldTransform().inverted());
+  hatch.setTransform(hatch.transform() * painter.worldTransform().inverted());
   painter.setBrush(hatch);
   painter.setPen(cosmetic(painter, color, 1.6));
   painter.drawPolygon(shape);

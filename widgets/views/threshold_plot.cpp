@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style/swatch.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -87,7 +89,7 @@ void ThresholdPlot::rebuild() {
       from += count;
     };
     bar(within[bin], colors().fill, colors().background);
-    bar(kept[bin], QBrush(colors().fill, Qt::BDiagPattern), colors().fill);
+    bar(kept[bin], hatched(colors().fill), colors().fill);
     bar(beyond[bin], colors().refused, colors().background);
     most = std::max(most, from);
   }

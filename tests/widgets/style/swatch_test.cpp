@@ -2,7 +2,9 @@
 #include "style/swatch.h"
 
 #include <QApplication>
+#include <QImage>
 #include <QLabel>
+#include <QPainter>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -50,6 +52,27 @@ TEST(Swatch, IsSeenOnEitherGroundAndHasTheColourOfTheFigure) {
     }
   }
   apply_theme(*qApp, Theme::kLight);
+}
+
+// Lines of two pixels, eight apart along either axis, however fine the screen is.
+TEST(Swatch, HatchingCoversAThird) {
+  for (const int finer : {1, 2, 3}) {
+    QImage image(finer * 80, finer * 80, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    painter.scale(finer, finer);
+    painter.fillRect(QRect(0, 0, 80, 80), hatched(Qt::black));
+    painter.end();
+    double dark = 0.0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) dark += 1.0 - qGray(image.pixel(x, y)) / 255.0;
+    }
+    EXPECT_NEAR(dark / (image.width() * image.height()), 2.0 * std::sqrt(2.0) / 8.0, 0.02) << finer;
+    // Plain along the lines, not along the rows.
+    const auto at = [&](int x, int y) { return qGray(image.pixel(finer * x, finer * y)); };
+    EXPECT_NEAR(at(40, 40), at(36, 44), 3);
+    EXPECT_GT(std::abs(at(40, 40) - at(44, 40)), 150);
+  }
 }
 
 }  // namespace
