@@ -8,6 +8,7 @@
 
 #include "docks/parameters_dock.h"
 #include "model/effect.h"
+#include "model/row_covariates.h"
 #include "pipeline/options.h"
 #include "report/exports.h"
 #include "words/core_text.h"
@@ -57,6 +58,10 @@ int main() {
       if (!text.empty()) texts.insert(text);
     }
     if (has_words(info.formula)) texts.insert(info.formula);
+  }
+  for (const lvcalib::Channel channel : lvcalib::kAllChannels) {
+    for (const lvcalib::RowCovariate& c : lvcalib::row_covariates(channel))
+      texts.insert(lvcalib::covariates_named({c.name}).id());
   }
   const std::set<std::string>& names = lvcalib::widgets::parameter_words();
   texts.insert(names.begin(), names.end());

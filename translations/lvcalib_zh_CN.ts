@@ -4797,6 +4797,130 @@ were saved. Take them up again?</source>
         <source>%1 or %2</source>
         <translation>%1 或 %2</translation>
     </message>
+    <message>
+        <source>axis</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>board radius</source>
+        <translation>板面半径</translation>
+    </message>
+    <message>
+        <source>board x</source>
+        <translation>板面 x</translation>
+    </message>
+    <message>
+        <source>board y</source>
+        <translation>板面 y</translation>
+    </message>
+    <message>
+        <source>circle</source>
+        <translation>圆</translation>
+    </message>
+    <message>
+        <source>contrast</source>
+        <translation>对比度</translation>
+    </message>
+    <message>
+        <source>corner and axis</source>
+        <translation>角点与轴</translation>
+    </message>
+    <message>
+        <source>darkness</source>
+        <translation>暗度</translation>
+    </message>
+    <message>
+        <source>distance to edge</source>
+        <translation>到边缘的距离</translation>
+    </message>
+    <message>
+        <source>image radius</source>
+        <translation>图像半径</translation>
+    </message>
+    <message>
+        <source>image x</source>
+        <translation>图像 x</translation>
+    </message>
+    <message>
+        <source>image y</source>
+        <translation>图像 y</translation>
+    </message>
+    <message>
+        <source>incidence</source>
+        <translation>入射角</translation>
+    </message>
+    <message>
+        <source>inverse range</source>
+        <translation>距离倒数</translation>
+    </message>
+    <message>
+        <source>laser line</source>
+        <translation>激光线</translation>
+    </message>
+    <message>
+        <source>polar angle</source>
+        <translation>极角</translation>
+    </message>
+    <message>
+        <source>polar angle to LiDAR axes</source>
+        <translation>相对激光雷达轴的极角</translation>
+    </message>
+    <message>
+        <source>polar angle to tilt</source>
+        <translation>相对倾斜的极角</translation>
+    </message>
+    <message>
+        <source>print</source>
+        <translation>印刷</translation>
+    </message>
+    <message>
+        <source>radial from image centre</source>
+        <translation>相对图像中心的径向</translation>
+    </message>
+    <message>
+        <source>radial from tag centre</source>
+        <translation>相对标签中心的径向</translation>
+    </message>
+    <message>
+        <source>scan across edge</source>
+        <translation>横过边缘的扫描</translation>
+    </message>
+    <message>
+        <source>scan direction</source>
+        <translation>扫描方向</translation>
+    </message>
+    <message>
+        <source>scan speed</source>
+        <translation>扫描速度</translation>
+    </message>
+    <message>
+        <source>scene clock</source>
+        <translation>场景时序</translation>
+    </message>
+    <message>
+        <source>sub-pixel phase</source>
+        <translation>亚像素相位</translation>
+    </message>
+    <message>
+        <source>tag</source>
+        <translation>标签</translation>
+    </message>
+    <message>
+        <source>tag size</source>
+        <translation>标签大小</translation>
+    </message>
+    <message>
+        <source>tilt direction</source>
+        <translation>倾斜方向</translation>
+    </message>
+    <message>
+        <source>time in scan</source>
+        <translation>扫描内时间</translation>
+    </message>
+    <message>
+        <source>%1, or %2</source>
+        <translation>%1，或%2</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -4919,132 +5043,12 @@ were saved. Take them up again?</source>
 <context>
     <name>ModelText</name>
     <message>
-        <source>board x</source>
-        <translation>板面 x</translation>
-    </message>
-    <message>
-        <source>board y</source>
-        <translation>板面 y</translation>
-    </message>
-    <message>
-        <source>board radius</source>
-        <translation>板面半径</translation>
-    </message>
-    <message>
         <source>range</source>
         <translation>距离</translation>
     </message>
     <message>
-        <source>azimuth</source>
-        <translation>方位角</translation>
-    </message>
-    <message>
-        <source>elevation</source>
-        <translation>仰角</translation>
-    </message>
-    <message>
-        <source>incidence</source>
-        <translation>入射角</translation>
-    </message>
-    <message>
-        <source>tilt direction</source>
-        <translation>倾斜方向</translation>
-    </message>
-    <message>
-        <source>scene clock</source>
-        <translation>场景时序</translation>
-    </message>
-    <message>
-        <source>time in scan</source>
-        <translation>扫描内时间</translation>
-    </message>
-    <message>
-        <source>scan speed</source>
-        <translation>扫描速度</translation>
-    </message>
-    <message>
-        <source>scan direction</source>
-        <translation>扫描方向</translation>
-    </message>
-    <message>
-        <source>laser line</source>
-        <translation>激光线</translation>
-    </message>
-    <message>
-        <source>image x</source>
-        <translation>图像 x</translation>
-    </message>
-    <message>
-        <source>image y</source>
-        <translation>图像 y</translation>
-    </message>
-    <message>
-        <source>image radius</source>
-        <translation>图像半径</translation>
-    </message>
-    <message>
-        <source>radial from image centre</source>
-        <translation>相对图像中心的径向</translation>
-    </message>
-    <message>
-        <source>radial from tag centre</source>
-        <translation>相对标签中心的径向</translation>
-    </message>
-    <message>
-        <source>tag size</source>
-        <translation>标签大小</translation>
-    </message>
-    <message>
-        <source>sub-pixel phase</source>
-        <translation>亚像素相位</translation>
-    </message>
-    <message>
-        <source>tag</source>
-        <translation>标签</translation>
-    </message>
-    <message>
-        <source>corner and axis</source>
-        <translation>角点与轴</translation>
-    </message>
-    <message>
-        <source>darkness</source>
-        <translation>暗度</translation>
-    </message>
-    <message>
-        <source>print</source>
-        <translation>印刷</translation>
-    </message>
-    <message>
         <source>intensity</source>
         <translation>强度</translation>
-    </message>
-    <message>
-        <source>inverse range</source>
-        <translation>距离倒数</translation>
-    </message>
-    <message>
-        <source>distance to edge</source>
-        <translation>到边缘的距离</translation>
-    </message>
-    <message>
-        <source>polar angle</source>
-        <translation>极角</translation>
-    </message>
-    <message>
-        <source>polar angle to tilt</source>
-        <translation>相对倾斜的极角</translation>
-    </message>
-    <message>
-        <source>polar angle to LiDAR axes</source>
-        <translation>相对激光雷达轴的极角</translation>
-    </message>
-    <message>
-        <source>scan across edge</source>
-        <translation>横过边缘的扫描</translation>
-    </message>
-    <message>
-        <source>contrast</source>
-        <translation>对比度</translation>
     </message>
     <message>
         <source>circle</source>
@@ -8201,10 +8205,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Add the chosen effect to the model</source>
         <translation>把所选效应添加到模型</translation>
-    </message>
-    <message>
-        <source>%1 and %2</source>
-        <translation>%1 和 %2</translation>
     </message>
     <message>
         <source>Upper 95 % limit of its largest parameter; beyond it these scenes would show it</source>

@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,5 +63,15 @@ class Message {
 
 /// Several messages, with something between each two (", " or "; ").
 Message joined(const std::vector<Message>& messages, const char* between);
+
+/// "a, b and c" of several messages.
+Message all_of(const std::vector<Message>& messages);
+/// "a, b or c".
+Message one_of(const std::vector<Message>& messages);
+
+/// A text with the places %1 to %`count` filled by words(0) to words(count − 1), in one pass: what
+/// fills a place may itself hold a percent sign. Other places stay as they are.
+std::string fill_places(std::string_view text, std::size_t count,
+                        const std::function<std::string(std::size_t)>& words);
 
 }  // namespace lvcalib

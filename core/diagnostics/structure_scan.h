@@ -29,9 +29,10 @@ struct StructureScore {
   bool matters = false;
   /// Of a surface over two covariates; empty of a curve.
   std::string second_covariate = {};
-  /// "board x" or "board x and board y".
-  [[nodiscard]] std::string covariates() const {
-    return second_covariate.empty() ? covariate : covariate + " and " + second_covariate;
+  /// One name, or the two of a surface.
+  [[nodiscard]] std::vector<std::string> covariates() const {
+    if (second_covariate.empty()) return {covariate};
+    return {covariate, second_covariate};
   }
 };
 

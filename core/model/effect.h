@@ -124,6 +124,7 @@ EffectPtr find_effect(const std::string& id);
 /// An effect as a sentence names it: by its id, which is what one types; a window says the title of
 /// one of the catalogue.
 Message effect_named(const std::string& id);
+std::vector<Message> effects_named(const std::vector<std::string>& ids);
 /// "name = value" of a parameter of the effect `id`. Names of the catalogue are translated, those
 /// of the user's own effects are his.
 Message parameter_is(const std::string& id, const std::string& name, const std::string& value);

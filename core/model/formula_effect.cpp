@@ -134,13 +134,14 @@ Status FormulaEffect::bind(const MeasurementTable& table, const UserEffectOption
       rms.cwiseInverse().asDiagonal() * squares * rms.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
   if (n > 1 && eigen.eigenvalues()(0) < 1e-9) {
-    std::string together;
+    std::vector<Message> together;
     for (Eigen::Index k = 0; k < n; ++k) {
       if (std::abs(eigen.eigenvectors()(k, 0)) > 0.05)
-        together += (together.empty() ? "" : " and ") + names[static_cast<std::size_t>(k)];
+        together.push_back(Message::verbatim(names[static_cast<std::size_t>(k)]));
     }
-    return error(Message("its coefficients %1 cannot be told apart on these data", together),
-                 Message("leave one of them out"));
+    return error(
+        Message("its coefficients %1 cannot be told apart on these data", all_of(together)),
+        Message("leave one of them out"));
   }
   set_parameters(std::move(parameters));
   return Done{};

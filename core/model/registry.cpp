@@ -28,6 +28,12 @@ Message effect_named(const std::string& id) {
   return find_effect(id) != nullptr ? Message::listed(id) : Message::verbatim(id);
 }
 
+std::vector<Message> effects_named(const std::vector<std::string>& ids) {
+  std::vector<Message> out(ids.size());
+  std::transform(ids.begin(), ids.end(), out.begin(), effect_named);
+  return out;
+}
+
 Message parameter_is(const std::string& id, const std::string& name, const std::string& value) {
   return (find_effect(id) != nullptr ? Message::listed(name) : Message::verbatim(name)) +
          Message::verbatim(" = " + value);

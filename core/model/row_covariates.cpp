@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "model/catalogue_effect.h"
@@ -207,6 +208,18 @@ const RowCovariate* find_covariate(Channel channel, std::string_view name) {
     if (c.identifier() == wanted) return &c;
   }
   return nullptr;
+}
+
+Message covariates_named(const std::vector<std::string>& names) {
+  // Short where a formula names them, longer where nothing says what they belong to.
+  static const std::map<std::string, const char*> longer{
+      {"line", "laser line"}, {"corner", "corner and axis"}, {"node", "circle"}};
+  std::vector<Message> out;
+  for (const std::string& name : names) {
+    const auto at = longer.find(name);
+    out.push_back(Message::listed(at == longer.end() ? name : at->second));
+  }
+  return all_of(out);
 }
 
 bool has_covariate(const MeasurementTable& table, const RowCovariate& covariate) {

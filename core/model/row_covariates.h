@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/message.h"
 #include "model/channel.h"
 #include "model/measurement_table.h"
 
@@ -48,6 +49,9 @@ const std::vector<RowCovariate>& row_covariates(Channel channel);
 
 /// A covariate by name or identifier; nullptr if there is none.
 const RowCovariate* find_covariate(Channel channel, std::string_view name);
+
+/// A covariate as a place of a message, in the reader's words ("laser line" of "line"); or several.
+Message covariates_named(const std::vector<std::string>& names);
 
 /// Whether the table has what the covariate needs.
 bool has_covariate(const MeasurementTable& table, const RowCovariate& covariate);

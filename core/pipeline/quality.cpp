@@ -11,6 +11,7 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "model/row_covariates.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/verdict.h"
 
@@ -216,7 +217,7 @@ void judge_model(const CalibrationResult& result, const QualityOptions& options,
     verdict.doubtful(
         Message("the %1 channel shows structure over %2 that no effect of the model explains; it "
                 "could move the extrinsic by %3 mm and %4 mrad",
-                word_for(s.channel), s.covariates(),
+                word_for(s.channel), covariates_named(s.covariates()),
                 formatted("%.1f", 1e3 * s.extrinsic_move.translation_m),
                 formatted("%.2f", 1e3 * s.extrinsic_move.rotation_rad)));
   }

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_io.h"
+#include "base/text.h"
+#include "model/row_covariates.h"
 #include "report/evidence_json.h"
 #include "report/json_values.h"
 #include "report/result_file.h"
@@ -88,10 +90,8 @@ ordered_json effect_json(const EffectFinding& f) {
 }
 
 ordered_json unknown_json(const StructureScore& s) {
-  ordered_json covariates = {s.covariate};
-  if (!s.second_covariate.empty()) covariates.push_back(s.second_covariate);
   ordered_json j = {{"channel", name_of(s.channel)},
-                    {"covariates", covariates},
+                    {"covariates", s.covariates()},
                     {"score", s.score},
                     {"amplitude", s.amplitude},
                     {"extrinsic_move_mm", 1e3 * s.extrinsic_move.translation_m},
@@ -171,7 +171,7 @@ std::string discovery_as_json(const Discovery& d) {
   j["structure"] = ordered_json::array();
   for (const StructureScore& s : d.structure) {
     j["structure"].push_back({{"channel", name_of(s.channel)},
-                              {"covariate", s.covariates()},
+                              {"covariate", joined(s.covariates(), " and ")},
                               {"score", s.score},
                               {"amplitude", s.amplitude}});
   }
@@ -212,7 +212,8 @@ std::string discovery_summary(const Discovery& d) {
   if (!d.unknown.empty()) {
     out += "\nStructure that no effect of the catalogue explains\n";
     for (const StructureScore& s : d.unknown) {
-      out += std::string("  ") + name_of(s.channel) + " against " + s.covariates() +
+      out += std::string("  ") + name_of(s.channel) + " against " +
+             covariates_named(s.covariates()).text() +
              line(": %.1f %% of the held-out variance, %.3g ", 100.0 * s.score, s.amplitude, 0, 0) +
              unit_of(s.channel) +
              (s.matters ? line(", would move the extrinsic by %.1f mm and %.2f mrad",

@@ -35,12 +35,8 @@ Message values_text(const EffectFinding& finding) {
 }
 
 Message not_told_apart(const EffectFinding& finding, const EffectInfo& info) {
-  Message others;
-  for (const std::string& id : finding.aliases) {
-    others = others.empty() ? effect_named(id) : Message("%1 or %2", others, effect_named(id));
-  }
-  return Message(" These scenes cannot tell it from %1; to tell: %2.", others,
-                 Message::listed(info.discriminating_pose));
+  return Message(" These scenes cannot tell it from %1; to tell: %2.",
+                 one_of(effects_named(finding.aliases)), Message::listed(info.discriminating_pose));
 }
 
 std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown) {
@@ -49,11 +45,11 @@ std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown) 
   for (const StructureScore& s : unknown) {
     // The strongest covariate of a channel: others mostly see the same.
     if (!said.insert(s.channel).second) continue;
-    out.push_back(
-        Message("No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its "
-                "held-out variance, %4 %5); to take it out anyway: --with %6",
-                word_for(s.channel), s.covariates(), formatted("%.2g", 100.0 * s.score),
-                formatted("%.2g", s.amplitude), unit_of(s.channel), curve_spec(s)));
+    out.push_back(Message(
+        "No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its "
+        "held-out variance, %4 %5); to take it out anyway: --with %6",
+        word_for(s.channel), covariates_named(s.covariates()), formatted("%.2g", 100.0 * s.score),
+        formatted("%.2g", s.amplitude), unit_of(s.channel), curve_spec(s)));
     if (!s.formula.empty()) out.back() += Message(", or as a closed form: --with '%1'", s.formula);
   }
   return out;
@@ -68,11 +64,8 @@ std::vector<Message> advise(const std::vector<EffectFinding>& findings) {
     if (f.parameters.empty()) continue;
     const EffectPtr effect = find_effect(f.id);
     if (effect == nullptr) continue;  // the user's own
-    Message others;
-    for (const std::string& id : f.aliases) {
-      others = others.empty() ? effect_named(id) : Message("%1 and %2", others, effect_named(id));
-    }
-    out.push_back(Message("To tell %1 from %2, take: %3", effect_named(f.id), others,
+    out.push_back(Message("To tell %1 from %2, take: %3", effect_named(f.id),
+                          all_of(effects_named(f.aliases)),
                           Message::listed(effect->info().discriminating_pose)));
   }
   std::vector<const EffectFinding*> unseen;

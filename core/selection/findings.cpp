@@ -12,6 +12,7 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "model/row_covariates.h"
 #include "model/user_effect.h"
 #include "selection/advice_text.h"
 
@@ -90,7 +91,7 @@ Message found_text(const EffectFinding& f) {
   return Message("it runs from %1 to %2 over %3, known to %4",
                  formatted("%.3g", factor * low->value),
                  formatted("%.3g", factor * high->value) + unit,
-                 joined(f.curve.covariates, " and "), formatted("%.2g", factor * sigma) + unit);
+                 covariates_named(f.curve.covariates), formatted("%.2g", factor * sigma) + unit);
 }
 
 // Chance lets the best of so many covariates gain ln(tried/α) at most; and structure of one scene

@@ -121,12 +121,9 @@ Message singular_with(const EffectSearch& search) {
   if (fit.solution.size() < first + count || determined_share(fit, first, count) >= kSingular)
     return {};
   std::vector<Message> others = {Message("the extrinsic and the board poses")};
-  const std::size_t before = in_use.size() - 1;
-  for (std::size_t k = 0; k + 1 < before; ++k)
+  for (std::size_t k = 0; k + 1 < in_use.size(); ++k)
     others.push_back(effect_named(in_use[k].effect->info().id));
-  if (before == 0) return others.front();
-  return Message("%1 and %2", joined(others, ", "),
-                 effect_named(in_use[before - 1].effect->info().id));
+  return all_of(others);
 }
 
 std::vector<Selection> selections_of(const std::vector<ModelTerm>& terms) {

@@ -17,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "effect_records.h"
 #include "evidence_rigs.h"
 #include "pipeline/model_discovery.h"
@@ -89,8 +90,9 @@ json record_of(const EffectTask& task, const simulation::SimulatedRig& rig,
   const auto structure_json = [](const std::vector<StructureScore>& scores) {
     json list = json::array();
     for (const StructureScore& s : scores)
-      list.push_back(
-          {{"channel", name_of(s.channel)}, {"covariate", s.covariates()}, {"score", s.score}});
+      list.push_back({{"channel", name_of(s.channel)},
+                      {"covariate", joined(s.covariates(), " and ")},
+                      {"score", s.score}});
     return list;
   };
   out["structure"] = structure_json(d.structure);

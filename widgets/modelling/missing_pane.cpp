@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/row_covariates.h"
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
 #include "style/texts.h"
@@ -87,10 +88,7 @@ QColor verdict_color(const EffectProposal& p, const QPalette& palette) {
 }
 
 QString covariates_text(const StructureScore& s) {
-  const QString first = covariate_name(s.covariate);
-  return s.second_covariate.empty()
-             ? first
-             : MissingPane::tr("%1 and %2").arg(first, covariate_name(s.second_covariate));
+  return core_text(covariates_named(s.covariates()));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "model/row_covariates.h"
 #include "words/core_text.h"
 
 namespace lvcalib::widgets {
@@ -13,44 +14,6 @@ namespace {
 
 QString translated(const char* text) {
   return QCoreApplication::translate("ModelText", text);
-}
-
-const std::map<std::string, const char*>& covariates() {
-  static const std::map<std::string, const char*> names = {
-      {"board x", QT_TRANSLATE_NOOP("ModelText", "board x")},
-      {"board y", QT_TRANSLATE_NOOP("ModelText", "board y")},
-      {"board radius", QT_TRANSLATE_NOOP("ModelText", "board radius")},
-      {"range", QT_TRANSLATE_NOOP("ModelText", "range")},
-      {"azimuth", QT_TRANSLATE_NOOP("ModelText", "azimuth")},
-      {"elevation", QT_TRANSLATE_NOOP("ModelText", "elevation")},
-      {"incidence", QT_TRANSLATE_NOOP("ModelText", "incidence")},
-      {"tilt direction", QT_TRANSLATE_NOOP("ModelText", "tilt direction")},
-      {"scene clock", QT_TRANSLATE_NOOP("ModelText", "scene clock")},
-      {"time in scan", QT_TRANSLATE_NOOP("ModelText", "time in scan")},
-      {"scan speed", QT_TRANSLATE_NOOP("ModelText", "scan speed")},
-      {"scan direction", QT_TRANSLATE_NOOP("ModelText", "scan direction")},
-      {"line", QT_TRANSLATE_NOOP("ModelText", "laser line")},
-      {"image x", QT_TRANSLATE_NOOP("ModelText", "image x")},
-      {"image y", QT_TRANSLATE_NOOP("ModelText", "image y")},
-      {"image radius", QT_TRANSLATE_NOOP("ModelText", "image radius")},
-      {"radial from image centre", QT_TRANSLATE_NOOP("ModelText", "radial from image centre")},
-      {"radial from tag centre", QT_TRANSLATE_NOOP("ModelText", "radial from tag centre")},
-      {"tag size", QT_TRANSLATE_NOOP("ModelText", "tag size")},
-      {"sub-pixel phase", QT_TRANSLATE_NOOP("ModelText", "sub-pixel phase")},
-      {"tag", QT_TRANSLATE_NOOP("ModelText", "tag")},
-      {"corner", QT_TRANSLATE_NOOP("ModelText", "corner and axis")},
-      {"darkness", QT_TRANSLATE_NOOP("ModelText", "darkness")},
-      {"print", QT_TRANSLATE_NOOP("ModelText", "print")},
-      {"intensity", QT_TRANSLATE_NOOP("ModelText", "intensity")},
-      {"inverse range", QT_TRANSLATE_NOOP("ModelText", "inverse range")},
-      {"distance to edge", QT_TRANSLATE_NOOP("ModelText", "distance to edge")},
-      {"polar angle", QT_TRANSLATE_NOOP("ModelText", "polar angle")},
-      {"polar angle to tilt", QT_TRANSLATE_NOOP("ModelText", "polar angle to tilt")},
-      {"polar angle to LiDAR axes", QT_TRANSLATE_NOOP("ModelText", "polar angle to LiDAR axes")},
-      {"scan across edge", QT_TRANSLATE_NOOP("ModelText", "scan across edge")},
-      {"contrast", QT_TRANSLATE_NOOP("ModelText", "contrast")},
-      {"node", QT_TRANSLATE_NOOP("ModelText", "circle")}};
-  return names;
 }
 
 const char* criterion_name(const std::string& name) {
@@ -93,8 +56,7 @@ QString unit_text(Channel channel) {
 }
 
 QString covariate_name(const std::string& name) {
-  const auto at = covariates().find(name);
-  return at == covariates().end() ? QString::fromStdString(name) : translated(at->second);
+  return core_text(covariates_named({name}));
 }
 
 QString category_name(const std::string& covariate, double value) {

@@ -43,19 +43,8 @@ QString core_text(const Message& message) {
     return core_text(Message::listed(effect->info().title));
   const QString text = QCoreApplication::translate("Core", id.c_str());
   if (arguments.empty()) return text;
-  // Places are filled in one pass: what is filled in may itself hold a %1.
-  QString out;
-  for (qsizetype i = 0; i < text.size(); ++i) {
-    const bool place = text[i] == QLatin1Char('%') && i + 1 < text.size();
-    const int number = place ? text[i + 1].digitValue() : 0;
-    if (number < 1 || number > static_cast<int>(arguments.size())) {
-      out += text[i];
-      continue;
-    }
-    out += core_text(arguments[static_cast<std::size_t>(number - 1)]);
-    ++i;
-  }
-  return out;
+  const auto words = [&](std::size_t place) { return core_text(arguments[place]).toStdString(); };
+  return QString::fromStdString(fill_places(text.toStdString(), arguments.size(), words));
 }
 
 Message option_name(const OptionDeclaration& option) {

@@ -55,6 +55,15 @@ TEST(MessageTest, OneBehindTheOther) {
   EXPECT_EQ(joined(many, ", ").text(), "x, x, x, x, x, x, x, x, x, x, x, x");
 }
 
+TEST(MessageTest, SeveralAreEnumerated) {
+  const Message a("a"), b("b %1", 2), c("c");
+  EXPECT_EQ(all_of({}).text(), "");
+  EXPECT_EQ(all_of({a}), a);
+  EXPECT_EQ(all_of({a, b}).text(), "a and b 2");
+  EXPECT_EQ(all_of({a, b, c}).text(), "a, b 2 and c");
+  EXPECT_EQ(one_of({a, b, c}).text(), "a, b 2 or c");
+}
+
 TEST(MessageTest, AnErrorIsASentence) {
   const Error error = Error::input(Message("file not found"), "/a", Message("look again"));
   EXPECT_EQ(error.sentence().text(), "/a: file not found (look again)");

@@ -6,11 +6,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/text.h"
 #include "selection/findings.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {
 namespace {
+
+using ::testing::ElementsAre;
 
 TEST(StructureScan, FindsNothingInNoise) {
   const auto made = test::synthetic_table({});
@@ -136,12 +139,12 @@ TEST(StructurePlaces, ABumpOnTheBoardIsSeenOverBothAxesTogether) {
   const auto& places = scan.places;
   ASSERT_FALSE(places.empty());
   EXPECT_EQ(places.front().channel, Channel::kRange);
-  EXPECT_EQ(places.front().covariates(), "board x and board y");
+  EXPECT_THAT(places.front().covariates(), ElementsAre("board x", "board y"));
   DiscoveryOptions options;
   options.min_structure = 0.01;
   const auto notable = notable_of(scan, options);
   ASSERT_FALSE(notable.empty());
-  EXPECT_EQ(notable.front().covariates(), "board x and board y");
+  EXPECT_THAT(notable.front().covariates(), ElementsAre("board x", "board y"));
 }
 
 TEST(StructurePlaces, WhatComesNearOnOnePrintOnlyIsSeenOverPrintAndRange) {
@@ -179,7 +182,7 @@ TEST(NotableStructure, SomethingLocalIsJudgedByItsHeight) {
     std::vector<std::string> named;
     for (const StructureScore& s : notable_of(scan_structure(made.table, made.truth, {}, {}), {})) {
       EXPECT_LT(s.score, 0.01);
-      named.push_back(s.covariates());
+      named.push_back(joined(s.covariates(), " and "));
     }
     return named;
   };

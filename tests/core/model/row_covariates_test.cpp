@@ -23,6 +23,13 @@ TEST(RowCovariates, IdentifiersAreUniqueAndFindTheirCovariate) {
   EXPECT_EQ(find_covariate(Channel::kCorner, "azimuth"), nullptr);
 }
 
+TEST(RowCovariates, AreNamedInTheReadersWords) {
+  EXPECT_EQ(covariates_named({"board x"}), Message::listed("board x"));
+  EXPECT_EQ(covariates_named({"line"}), Message::listed("laser line"));
+  EXPECT_EQ(covariates_named({"azimuth", "elevation"}).text(), "azimuth and elevation");
+  EXPECT_TRUE(covariates_named({}).empty());
+}
+
 TEST(RowCovariates, AreFiniteOnEveryRowAndCornersComeTwice) {
   test::TableRecipe recipe;
   recipe.scenes = 2;
