@@ -63,10 +63,10 @@ TEST_F(ThresholdPlotTest, WhatIsKeptBeyondTheLineIsHatched) {
     return out;
   };
   plot_.setValues({0.5, 4.0, 6.0, 7.0}, {}, {false, false, false, true});
-  EXPECT_EQ(brushes(Qt::BDiagPattern), 1);
+  EXPECT_EQ(brushes(Qt::TexturePattern), 1);
   EXPECT_EQ(brushes(Qt::SolidPattern), 3);
   QTest::keyClick(&plot_, Qt::Key_Right);
-  EXPECT_EQ(brushes(Qt::BDiagPattern), 0) << "nobody has kept it there yet";
+  EXPECT_EQ(brushes(Qt::TexturePattern), 0) << "nobody has kept it there yet";
 }
 
 TEST_F(ThresholdPlotTest, ADragElsewhereMovesNoLine) {
