@@ -160,7 +160,7 @@ bool PoseFit::minimise(Rigid3& pose, Loss loss, int iterations) const {
 
 // Starts: the two poses of the homography of the corners that agree on one.
 std::vector<Rigid3> planar_poses(const std::vector<CornerObservation>& corners,
-                                 const Camera& camera, double tolerance_px) {
+                                 const Camera& camera, double tolerance_px, int samples) {
   std::vector<cv::Point2d> board, image;
   for (const CornerObservation& corner : corners) {
     const auto ray = camera.unproject(corner.pixel);
@@ -173,7 +173,7 @@ std::vector<Rigid3> planar_poses(const std::vector<CornerObservation>& corners,
   try {
     cv::Mat mask;
     const double tolerance = tolerance_px / (0.5 * (camera.fx + camera.fy));
-    cv::findHomography(board, image, cv::RANSAC, tolerance, mask, 2000, 0.9999);
+    cv::findHomography(board, image, cv::RANSAC, tolerance, mask, samples, 0.9999);
     std::vector<cv::Point3d> agreeing_board;
     std::vector<cv::Point2d> agreeing_image;
     for (std::size_t i = 0; i < board.size(); ++i) {
@@ -235,13 +235,14 @@ bool same_pose(const Rigid3& a, const Rigid3& b, const Matrix6d& covariance) {
 }  // namespace
 
 Result<BoardPose> estimate_board_pose(const std::vector<CornerObservation>& corners,
-                                      const Camera& camera, const DetectionOptions& options) {
+                                      const Camera& camera, const DetectionOptions& options,
+                                      int samples) {
   if (corners.size() < 4) {
     return Error::input(Message("a board's pose needs four corners, found %1", corners.size()));
   }
   const PoseFit fit(corners, camera);
   const auto candidates =
-      refined_candidates(fit, planar_poses(corners, camera, options.max_reprojection_px));
+      refined_candidates(fit, planar_poses(corners, camera, options.max_reprojection_px, samples));
   if (candidates.empty()) {
     return Error::input(Message("the corners fit no pose of a flat board"), {},
                         Message("check the intrinsics and the target's description"));

@@ -48,7 +48,9 @@ struct Fit {
 };
 Fit fitting(const std::vector<CornerObservation>& corners, const Camera& camera,
             const DetectionOptions& options) {
-  const auto pose = estimate_board_pose(corners, camera, options);
+  // Hundreds of boards are tried, and only one that three quarters of the tags fit is named.
+  constexpr int kSamples = 60;
+  const auto pose = estimate_board_pose(corners, camera, options, kSamples);
   Fit out;
   if (!pose) return out;
   for (std::size_t i = 0; i + 3 < corners.size(); i += 4) {
