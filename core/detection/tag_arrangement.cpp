@@ -48,7 +48,8 @@ struct Fit {
 };
 Fit fitting(const std::vector<CornerObservation>& corners, const Camera& camera,
             const DetectionOptions& options) {
-  // Hundreds of boards are tried, and only one that three quarters of the tags fit is named.
+  // Hundreds of boards are tried, and only one that three quarters of the tags fit is named: of
+  // four corners all fit it in three samples of ten, so that 60 miss it once in 10¹⁰ images.
   constexpr int kSamples = 60;
   const auto pose = estimate_board_pose(corners, camera, options, kSamples);
   Fit out;

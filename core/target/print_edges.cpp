@@ -11,10 +11,12 @@
 namespace lvcalib {
 namespace {
 
+// A cell lists what any spot in it may reach: a sixth of the width of the larger reach, so that
+// little is listed in vain, and some thousand cells a board.
 constexpr double kCell = 0.015;
 // Edges farther than this are beyond four widths of any spot that still tells edges of bits apart.
 constexpr double kFar = 0.08;
-// Most spots are small, and ask a third of the edges: to 8 mm of width.
+// Most spots are small, and ask a third of the edges: √2 · kReach · 8 mm.
 constexpr double kNear = 0.045;
 // Widths beyond which an edge is not asked: 3·10⁻⁵ of the spot.
 constexpr double kReach = 4.0;
