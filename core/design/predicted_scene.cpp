@@ -18,7 +18,6 @@ namespace {
 // to a third of a print, so that tens of places see one.
 constexpr int kPlaces = 400;
 constexpr double kMostPoints = 20000.0;  // kept per scene, as in the table
-constexpr std::size_t kChunk = 48;
 
 // Stretch of the footprint along ψ by the incidence.
 double stretch(const BeamPoint& beam, double psi_rad) {
@@ -348,19 +347,18 @@ std::vector<Eigen::MatrixXd> predicted_information(
     const ModelVariances& variances, const RunContext& context) {
   MeasurementTable empty = like.without_rows();
   empty.scenes.clear();
+  RunContext one_thread = context;
+  one_thread.threads = 1;
   std::vector<Eigen::MatrixXd> out(poses.size());
-  for (std::size_t first = 0; first < poses.size() && !context.stopped(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, poses.size() - first);
+  parallel_for(poses.size(), context.thread_count(), [&](std::size_t k) {
+    if (context.stopped()) return;
     MeasurementTable table = empty;
     ModelState state{camera_from_lidar, {}};
-    for (std::size_t k = 0; k < count; ++k)
-      append_predicted_scene(poses[first + k], sensors, table, state);
-    const Linearization linear = linearize(table, state, {}, columns, context);
-    if (context.stopped()) break;
-    parallel_for(count, context.thread_count(), [&](std::size_t k) {
-      out[first + k] = scene_term(linear.scenes[k], subset, variances).information;
-    });
-  }
+    append_predicted_scene(poses[k], sensors, table, state);
+    const Linearization linear = linearize(table, state, {}, columns, one_thread);
+    if (!context.stopped())
+      out[k] = scene_term(linear.scenes.front(), subset, variances).information;
+  });
   if (context.stopped()) out.clear();
   return out;
 }

@@ -145,8 +145,9 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   const Eigen::Matrix2d log_power_slope =
       share * print.hessian_per_m2 - log_power * log_power.transpose();
   out.range_by_shift = -pull * log_power_slope;
+  // Growing black moves the edge towards white.
   const double steepness = print.gradient_per_m.norm();
-  if (by_growth > 0.0 && steepness > 0.0)
+  if (steepness > 0.0)
     out.range_by_growth = out.range_by_shift.dot(print.gradient_per_m) / steepness;
   out.range_by_pose = hit_range_by_pose - out.range_by_shift * hit_by_pose;
   return out;

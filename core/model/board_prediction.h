@@ -50,8 +50,8 @@ struct ReturnPrediction {
   Eigen::RowVector2d intensity_by_shift;  ///< By a shift of the print on the board, 1/m.
   Eigen::RowVector2d range_by_shift;      ///< The same of the range: the pull of the footprint.
   Eigen::RowVector2d intensity_by_angle;  ///< By the beam's two angles, 1/rad.
-  /// By black that grows all around, 1/m and 1; if asked for. The range's is that of the nearest
-  /// edge, moved.
+  /// By black that grows all around, 1/m and 1. The intensity's only if it is asked for (see
+  /// PrintChange), the range's is that of the nearest edge, moved.
   double intensity_by_growth = 0.0, range_by_growth = 0.0;
 };
 
@@ -59,7 +59,7 @@ struct ReturnPrediction {
 struct PrintChange {
   Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();  ///< Displacement on the board.
   /// By how much black has grown all around (see PrintEdges); nothing: it has not, and what it
-  /// would do is not asked for.
+  /// would do to the intensity is not asked for.
   std::optional<double> growth_m = {};
 };
 

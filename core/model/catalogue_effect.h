@@ -55,7 +55,8 @@ Eigen::Vector2d image_direction_from_tag(const CornerRow& row);
 /// by a quarter turn.
 std::vector<double> period_grid(const MeasurementTable& table);
 
-/// sin θ cos(ψ−α) (σ/cos θ)² I′(d)/I(d) at a beam near a circle, in metres; zero elsewhere.
+/// sin θ cos(ψ−α) (σ/cos θ)² I′(d)/I(d) at a beam whose spot sees one edge of the
+/// print, in metres; zero elsewhere.
 double edge_pull(const BeamPoint& beam, const MeasurementTable& table);
 
 }  // namespace lvcalib

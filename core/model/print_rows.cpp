@@ -6,10 +6,8 @@
 namespace lvcalib {
 namespace {
 
-// An effect that lets black grow asks what that does, be it nothing yet.
-void add_growth(double value, double by_parameter_m, PrintChange& change) {
-  if (by_parameter_m != 0.0)
-    change.growth_m = change.growth_m.value_or(0.0) + value * by_parameter_m;
+void add_growth(double growth_m, PrintChange& change) {
+  change.growth_m = change.growth_m.value_or(0.0) + growth_m;
 }
 
 }  // namespace
@@ -44,7 +42,6 @@ std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) 
   const bool pulled = row.beam.edge && !(row.beam.edge->plain && row.beam.edge->distance_m > 0.0);
   const auto edge = pulled ? edge_beside(row.beam, log_contrast_) : std::nullopt;
   const BoundaryRow* const beside = edge ? &*edge : nullptr;
-  if (beside != nullptr && growth_) change.growth_m = 0.0;
   const PrintSensitivity::Moves moves(geometry_, rotation_, row.beam.direction);
   changes_.clear();
   rows_.range(row, geometry_.range_row(row.beam.direction), moves, beside,
@@ -53,7 +50,8 @@ std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) 
                   changes_.push_back({by.range_m[k], by.shift_m[k], by.growth_m[k]});
                   further += value(c, k) * by.range_m[k];
                   change.shift_m += value(c, k) * by.shift_m[k];
-                  add_growth(value(c, k), by.growth_m[k], change);
+                  const double growth = value(c, k) * by.growth_m[k];
+                  if (growth != 0.0) add_growth(growth, change);
                 }
               });
   const auto p =
@@ -94,7 +92,8 @@ std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const Bounda
           {0.0, by.shift_m[k], by.growth_m[k], by.blur_rad2[k], by.log_intensity[k]});
       const double v = value(c, k);
       change.shift_m += v * by.shift_m[k];
-      add_growth(v, by.growth_m[k], change);
+      // What growth does is asked for, be it none yet.
+      if (by.growth_m[k] != 0.0) add_growth(v * by.growth_m[k], change);
       blur += v * by.blur_rad2[k];
       log += v * by.log_intensity[k];
     }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <deque>
 
 #include "base/parallel.h"
 #include "model/effect_rows.h"
@@ -22,12 +21,51 @@ void push(double value, double sigma, int scene, std::size_t row, const Nuisance
   out.nuisance.push_back(nuisance);
 }
 
-void push(const std::optional<PrintRow>& row, double sigma, int scene, std::size_t k,
-          ChannelResiduals& out) {
-  if (!row) return;
-  NuisanceRow nuisance;
-  nuisance << row->by_board_pose, row->by_levels;
-  push(row->residual, sigma, scene, k, nuisance, out);
+// What the print tells of a row, and the row's standard deviation.
+struct Measured {
+  std::optional<PrintRow> row;
+  double sigma = 0.0;
+};
+
+// Rows of a channel that see the print, scene by scene in parts of even length on all threads.
+// `predict` gives what is measured of a row.
+template <class Row, class Predict>
+void push_print(const MeasurementTable& table, const ModelState& state,
+                const std::vector<EffectInUse>& in_use, const std::vector<Row>& rows,
+                const RunContext& context, const Predict& predict, ChannelResiduals& out) {
+  constexpr std::size_t kPart = 4096;
+  std::vector<std::size_t> starts;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const bool fresh = starts.empty() || k - starts.back() == kPart ||
+                       rows[k].beam.scene != rows[k - 1].beam.scene;
+    if (fresh) starts.push_back(k);
+  }
+  std::vector<ChannelResiduals> parts(starts.size());
+  parallel_for(parts.size(), context.thread_count(), [&](std::size_t part) {
+    if (context.stopped()) return;
+    const std::size_t end = part + 1 < starts.size() ? starts[part + 1] : rows.size();
+    const int scene = rows[starts[part]].beam.scene;
+    PrintRows print(table, state, static_cast<std::size_t>(scene), in_use);
+    for (std::size_t k = starts[part]; k < end; ++k) {
+      const Measured measured = predict(print, rows[k]);
+      if (!measured.row) continue;
+      NuisanceRow nuisance;
+      nuisance << measured.row->by_board_pose, measured.row->by_levels;
+      push(measured.row->residual, measured.sigma, scene, k, nuisance, parts[part]);
+    }
+  });
+  const auto join = [&](auto ChannelResiduals::*values) {
+    (out.*values).reserve(rows.size());
+    for (ChannelResiduals& part : parts) {
+      (out.*values).insert((out.*values).end(), (part.*values).begin(), (part.*values).end());
+      (part.*values) = {};
+    }
+  };
+  join(&ChannelResiduals::values);
+  join(&ChannelResiduals::sigma);
+  join(&ChannelResiduals::scene);
+  join(&ChannelResiduals::row);
+  join(&ChannelResiduals::nuisance);
 }
 
 void push_corners(const MeasurementTable& table, const ModelState& state,
@@ -57,37 +95,31 @@ void push_corners(const MeasurementTable& table, const ModelState& state,
 }  // namespace
 
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
-                              const std::vector<EffectInUse>& in_use, Channel channel) {
+                              const std::vector<EffectInUse>& in_use, Channel channel,
+                              const RunContext& context) {
   ChannelResiduals out;
   out.channel = channel;
-  // Corners need no print.
-  std::deque<PrintRows> print;
-  for (std::size_t s = 0; s < table.scenes.size() && channel != Channel::kCorner; ++s)
-    print.emplace_back(table, state, s, in_use);
-  const auto print_of = [&](const BeamPoint& beam) -> PrintRows& {
-    return print[static_cast<std::size_t>(beam.scene)];
+  const auto fill = [&](const auto& rows, const auto& predict) {
+    push_print(table, state, in_use, rows, context, predict, out);
   };
   switch (channel) {
     case Channel::kCorner:
       push_corners(table, state, in_use, out);
       break;
     case Channel::kRange:
-      for (std::size_t k = 0; k < table.range.size(); ++k) {
-        const RangeRow& r = table.range[k];
-        push(print_of(r.beam).range(r), r.sigma_m, r.beam.scene, k, out);
-      }
+      fill(table.range, [](PrintRows& print, const RangeRow& r) {
+        return Measured{print.range(r), r.sigma_m};
+      });
       break;
     case Channel::kBoundary:
-      for (std::size_t k = 0; k < table.boundary.size(); ++k) {
-        const BoundaryRow& r = table.boundary[k];
-        push(print_of(r.beam).edge(r), r.sigma_m, r.beam.scene, k, out);
-      }
+      fill(table.boundary, [](PrintRows& print, const BoundaryRow& r) {
+        return Measured{print.edge(r), r.sigma_m};
+      });
       break;
     case Channel::kIntensity:
-      for (std::size_t k = 0; k < table.intensity.size(); ++k) {
-        const IntensityRow& r = table.intensity[k];
-        push(print_of(r.beam).intensity(r), r.sigma, r.beam.scene, k, out);
-      }
+      fill(table.intensity, [](PrintRows& print, const IntensityRow& r) {
+        return Measured{print.intensity(r), r.sigma};
+      });
       break;
   }
   return out;
@@ -96,9 +128,8 @@ ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& s
 EveryResidual every_residual(const MeasurementTable& table, const ModelState& state,
                              const std::vector<EffectInUse>& in_use, const RunContext& context) {
   EveryResidual out;
-  parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
-    if (!context.stopped()) out[k] = residuals_of(table, state, in_use, kAllChannels[k]);
-  });
+  for (std::size_t k = 0; k < kChannels && !context.stopped(); ++k)
+    out[k] = residuals_of(table, state, in_use, kAllChannels[k], context);
   return out;
 }
 

@@ -21,10 +21,12 @@ struct ChannelResiduals {
   std::vector<std::size_t> row;       ///< Row of the table's channel.
   std::vector<NuisanceRow> nuisance;  ///< Derivative by pose and levels.
 };
+/// On the context's threads; incomplete when stopped.
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
-                              const std::vector<EffectInUse>& in_use, Channel channel);
+                              const std::vector<EffectInUse>& in_use, Channel channel,
+                              const RunContext& context = {});
 
-/// Those of every channel, in the order of Channel; computed in parallel. Empty when stopped.
+/// Those of every channel, in the order of Channel. Incomplete when stopped.
 using EveryResidual = std::array<ChannelResiduals, kChannels>;
 EveryResidual every_residual(const MeasurementTable& table, const ModelState& state,
                              const std::vector<EffectInUse>& in_use, const RunContext& context);

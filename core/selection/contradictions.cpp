@@ -74,7 +74,7 @@ void EffectSearch::ask_curves() {
     if (!scores) {
       EveryResidual residuals;
       residuals[static_cast<std::size_t>(channel)] =
-          residuals_of(table(), state_, model(), channel);
+          residuals_of(table(), state_, model(), channel, context_);
       scores = notable_of(scan_structure(table(), residuals, context_), options_);
     }
     if (context_.stopped() || scores->empty()) return;

@@ -423,7 +423,8 @@ std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) cons
   std::vector<double> shapes = effect.shapes(table());
   if (shapes.size() <= kFewShapes) return shapes;
   // Least squares of the range residuals on the effect alone, row by row: a periodogram.
-  const ChannelResiduals residuals = residuals_of(table(), state_, model(), Channel::kRange);
+  const ChannelResiduals residuals =
+      residuals_of(table(), state_, model(), Channel::kRange, context_);
   const auto p = effect.parameters(table()).size();
   const std::size_t stride = std::max<std::size_t>(1, residuals.values.size() / 20000);
   std::vector<double> power(shapes.size());

@@ -469,9 +469,17 @@ struct FirstTable {
   std::vector<std::vector<LocalPrint>> seen;
 };
 
+// One channel's rows of all scenes, in their order; those of the scenes are gone.
 template <class Row>
-void append(const std::vector<Row>& rows, std::vector<Row>& to) {
-  to.insert(to.end(), rows.begin(), rows.end());
+void gather(std::vector<Row> TableRows::*rows, std::vector<TableRows>& scenes,
+            std::vector<Row>& to) {
+  std::size_t count = 0;
+  for (const TableRows& scene : scenes) count += (scene.*rows).size();
+  to.reserve(count);
+  for (TableRows& scene : scenes) {
+    to.insert(to.end(), (scene.*rows).begin(), (scene.*rows).end());
+    (scene.*rows) = {};
+  }
 }
 
 // `like`: the first table if another replaces it. `first`: where the first one is kept.
@@ -543,12 +551,13 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
     if (first != nullptr) first->seen[s] = rows[s]->seen();
     rows[s].reset();
   });
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
+  for (std::size_t s = 0; s < scenes.size(); ++s)
     add_corners(scenes[s].measured, static_cast<int>(s), state, sigma_px, table);
-    append(lidar[s].range, table.range);
-    append(lidar[s].boundary, table.boundary);
-    append(lidar[s].intensity, table.intensity);
-  }
+  const std::array<std::function<void()>, 3> channels{
+      [&] { gather(&TableRows::range, lidar, table.range); },
+      [&] { gather(&TableRows::boundary, lidar, table.boundary); },
+      [&] { gather(&TableRows::intensity, lidar, table.intensity); }};
+  parallel_for(channels.size(), context.thread_count(), [&](std::size_t k) { channels[k](); });
   const double noise_px = corner_noise(table, state, sigma_px);
   for (CornerRow& row : table.corner) row.sigma_px = noise_px;
   if (has_line && like == nullptr) {

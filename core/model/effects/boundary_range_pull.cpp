@@ -24,9 +24,7 @@ class BoundaryRangePull final : public CatalogueEffect {
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {
-    // Nearest circle; the footprint's width is the circle-independent median of the table.
-    const auto pull = edge_pull(beam, table);
-    by[0] = pull * beam.direction;
+    by[0] = edge_pull(beam, table) * beam.direction;
   }
 };
 
