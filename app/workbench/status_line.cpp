@@ -3,6 +3,7 @@
 
 #include <QEvent>
 #include <QLabel>
+#include <QLayout>
 #include <QProgressBar>
 #include <QStringList>
 
@@ -105,6 +106,8 @@ void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& re
   more << core_text(use.clouds);
   quality_->setText(text);
   quality_->setToolTip(more.join(QLatin1Char('\n')));
+  // A longer verdict would be cut until the next layout.
+  layout()->activate();
 }
 
 void StatusLine::draw_mark() {

@@ -48,6 +48,24 @@ TEST(StatusLine, SaysWhenTheQualityIsOfOlderDecisions) {
   EXPECT_TRUE(quality->text().contains("out of date"));
 }
 
+// What is drawn next may come before the layout.
+TEST(StatusLine, ALongerVerdictIsWholeAtOnce) {
+  StatusLine line;
+  line.resize(1200, 30);
+  line.show();
+  auto result = std::make_shared<CalibrationResult>();
+  result->quality = Quality::kGood;
+  line.show_quality(result, true);
+  QCoreApplication::processEvents();
+  auto* quality = line.findChild<QLabel*>("quality");
+  const int before = quality->width();
+  result->model = {{"range_walk", {{"a", "mm", 1e-3, 0.01, 0.001}}}};
+  result->model_scales.darkness_high = 1.0;
+  line.show_quality(result, true);
+  EXPECT_GT(quality->sizeHint().width(), before);
+  EXPECT_GE(quality->width(), quality->sizeHint().width());
+}
+
 TEST(StatusLine, ItsMarkFollowsTheTheme) {
   StatusLine line;
   line.show();
