@@ -5798,6 +5798,17 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     </message>
 </context>
 <context>
+    <name>lvcalib::widgets::BoardFigure</name>
+    <message>
+        <source>board x (mm)</source>
+        <translation>标定板 x (mm)</translation>
+    </message>
+    <message>
+        <source>board y (mm)</source>
+        <translation>标定板 y (mm)</translation>
+    </message>
+</context>
+<context>
     <name>lvcalib::widgets::BoardIntensityView</name>
     <message>
         <source>Intensity over the board: measured, as the model predicts it, and the difference (blue: darker than predicted, red: brighter).</source>
@@ -5830,14 +5841,6 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
 </context>
 <context>
     <name>lvcalib::widgets::BoardMapPlot</name>
-    <message>
-        <source>board x (mm)</source>
-        <translation>标定板 x (mm)</translation>
-    </message>
-    <message>
-        <source>board y (mm)</source>
-        <translation>标定板 y (mm)</translation>
-    </message>
     <message>
         <source>The board from the front. Lines: how each circle&apos;s centre moved from the first to the last iteration, enlarged. Ellipse: twice the standard deviation of the refined centre, enlarged alike. Cross: where the model has it.</source>
         <translation>标定板正面。线：各圆心从首次到末次迭代的移动（放大）。椭圆：精化圆心的两倍标准差（同样放大）。十字：模型中的位置。</translation>
@@ -9146,14 +9149,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
 </context>
 <context>
     <name>lvcalib::widgets::SampleMapPlot</name>
-    <message>
-        <source>board x (mm)</source>
-        <translation>标定板 x (mm)</translation>
-    </message>
-    <message>
-        <source>board y (mm)</source>
-        <translation>标定板 y (mm)</translation>
-    </message>
     <message>
         <source>The board from the front with the returns about its circles (of many, some), blue those of the overlap region. Dashed red: circles that are left out in one of the scenes shown; the reasons are in the table below.</source>
         <translation>标定板正面及圆周围的回波（过多时取一部分），蓝色为重叠区的回波。红色虚线：在所示某个场景中未采用的圆，原因见下表。</translation>

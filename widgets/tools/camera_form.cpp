@@ -2,11 +2,8 @@
 #include "tools/camera_form.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
-#include <QScrollArea>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "base/units.h"
@@ -51,12 +48,6 @@ CameraForm::CameraForm(QWidget* parent)
   model_->setObjectName(QStringLiteral("distortion_model"));
   problem_->setObjectName(QStringLiteral("camera_problem"));
   view_->setObjectName(QStringLiteral("camera_view"));
-  model_label_->setBuddy(model_);
-  for (QLabel* text : {problem_, view_}) {
-    text->setWordWrap(true);
-    text->setTextFormat(Qt::PlainText);
-    text->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  }
   const auto add = [this](const char* name, FormKey::Kind kind, const char* unit, bool sigma) {
     FormKey key;
     key.name = name;
@@ -73,30 +64,7 @@ CameraForm::CameraForm(QWidget* parent)
   add("camera_name", FormKey::Kind::kWord, "", false);
   for (const DistortionModel model : kModels) model_->addItem(QString(), static_cast<int>(model));
 
-  auto* head = new QHBoxLayout;
-  head->addWidget(model_label_);
-  head->addWidget(model_, 1);
-  auto* inside = new QWidget(this);
-  auto* inside_layout = new QVBoxLayout(inside);
-  inside_layout->setContentsMargins(0, 0, 8, 0);
-  inside_layout->addWidget(form_);
-  inside_layout->addStretch();
-  auto* scroll = new QScrollArea(this);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(inside);
-  for (QWidget* part : {scroll->viewport(), inside}) part->setAutoFillBackground(false);
-  auto* left = new QVBoxLayout;
-  left->addLayout(head);
-  left->addWidget(scroll, 1);
-  left->addWidget(problem_);
-  auto* right = new QVBoxLayout;
-  right->addWidget(preview_, 1);
-  right->addWidget(view_);
-  auto* layout = new QHBoxLayout(this);
-  layout->addLayout(left, 5);
-  layout->addLayout(right, 4);
+  lay_out_form({model_label_, model_, form_, problem_, preview_, view_}, *this);
   connect(model_, &QComboBox::currentIndexChanged, this, &CameraForm::chooseModel);
   connect(form_, &KeyForm::edited, this, &CameraForm::check);
   follow_language(this, [this] { retranslate(); });

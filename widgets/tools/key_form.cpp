@@ -4,10 +4,13 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QRegularExpression>
+#include <QScrollArea>
 #include <QSignalBlocker>
+#include <QVBoxLayout>
 #include <algorithm>
 
 #include "base/yaml_file.h"
@@ -203,6 +206,39 @@ QString KeyForm::keyNamedIn(const Error& error) const {
     }
   }
   return {};
+}
+
+void lay_out_form(const FormParts& parts, QWidget& whole) {
+  parts.choice_label->setBuddy(parts.choice);
+  for (QLabel* text : {parts.problem, parts.note}) {
+    text->setWordWrap(true);
+    text->setTextFormat(Qt::PlainText);
+    text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  }
+  auto* head = new QHBoxLayout;
+  head->addWidget(parts.choice_label);
+  head->addWidget(parts.choice, 1);
+  auto* inside = new QWidget(&whole);
+  auto* inside_layout = new QVBoxLayout(inside);
+  inside_layout->setContentsMargins(0, 0, 8, 0);
+  inside_layout->addWidget(parts.form);
+  inside_layout->addStretch();
+  auto* scroll = new QScrollArea(&whole);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(inside);
+  for (QWidget* part : {scroll->viewport(), inside}) part->setAutoFillBackground(false);
+  auto* left = new QVBoxLayout;
+  left->addLayout(head);
+  left->addWidget(scroll, 1);
+  left->addWidget(parts.problem);
+  auto* right = new QVBoxLayout;
+  right->addWidget(parts.picture, 1);
+  right->addWidget(parts.note);
+  auto* layout = new QHBoxLayout(&whole);
+  layout->addLayout(left, 5);
+  layout->addLayout(right, 4);
 }
 
 }  // namespace lvcalib::widgets

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 
+class QComboBox;
 class QGridLayout;
 class QLabel;
 class QLineEdit;
@@ -79,5 +80,17 @@ class KeyForm : public QWidget {
   QGridLayout* layout_;
   std::vector<Row> rows_;
 };
+
+/// A form with what it describes beside it, which follows the room that there is.
+struct FormParts {
+  QLabel* choice_label;  ///< Of `choice`, whose value decides which keys there are.
+  QComboBox* choice;
+  KeyForm* form;
+  QLabel* problem;   ///< Below the form: what is wrong with it as a whole.
+  QWidget* picture;  ///< Of what the form describes.
+  QLabel* note;      ///< Below the picture.
+};
+/// Lays all of `whole` out.
+void lay_out_form(const FormParts& parts, QWidget& whole);
 
 }  // namespace lvcalib::widgets

@@ -2,13 +2,9 @@
 #include "tools/target_form.h"
 
 #include <QComboBox>
-#include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "base/yaml_file.h"
@@ -146,12 +142,6 @@ TargetForm::TargetForm(QWidget* parent)
   problem_->setObjectName(QStringLiteral("target_problem"));
   preview_->setObjectName(QStringLiteral("target_preview"));
   size_->setObjectName(QStringLiteral("target_size"));
-  type_label_->setBuddy(type_);
-  for (QLabel* text : {problem_, size_}) {
-    text->setWordWrap(true);
-    text->setTextFormat(Qt::PlainText);
-    text->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  }
   for (const FormKey& key : all_keys()) form_->add(key);
   preview_->setAlignment(Qt::AlignCenter);
   preview_->setMinimumSize(260, 220);
@@ -159,30 +149,7 @@ TargetForm::TargetForm(QWidget* parent)
   preview_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   for (const QString& type : types()) type_->addItem(QString(), type);
 
-  auto* head = new QHBoxLayout;
-  head->addWidget(type_label_);
-  head->addWidget(type_, 1);
-  auto* inside = new QWidget(this);
-  auto* inside_layout = new QVBoxLayout(inside);
-  inside_layout->setContentsMargins(0, 0, 8, 0);
-  inside_layout->addWidget(form_);
-  inside_layout->addStretch();
-  auto* scroll = new QScrollArea(this);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(inside);
-  for (QWidget* part : {scroll->viewport(), inside}) part->setAutoFillBackground(false);
-  auto* left = new QVBoxLayout;
-  left->addLayout(head);
-  left->addWidget(scroll, 1);
-  left->addWidget(problem_);
-  auto* right = new QVBoxLayout;
-  right->addWidget(preview_, 1);
-  right->addWidget(size_);
-  auto* layout = new QHBoxLayout(this);
-  layout->addLayout(left, 5);
-  layout->addLayout(right, 4);
+  lay_out_form({type_label_, type_, form_, problem_, preview_, size_}, *this);
 
   settle_->setSingleShot(true);
   settle_->setInterval(kSettleMs);

@@ -24,31 +24,18 @@ double round_down(double wanted) {
 
 }  // namespace
 
-BoardMapPlot::BoardMapPlot(QWidget* parent) : PlotView(parent) {
+BoardMapPlot::BoardMapPlot(QWidget* parent) : BoardFigure(parent) {
   figureActions()->setName("board-map");
   axisRect()->setupFullAxesBox(true);
   xAxis2->setTickLabels(false);
   yAxis2->setTickLabels(false);
   follow_language(this, [this] {
-    xAxis->setLabel(tr("board x (mm)"));
-    yAxis->setLabel(tr("board y (mm)"));
     setToolTip(
         tr("The board from the front. Lines: how each circle's centre moved from the first to "
            "the last iteration, enlarged. Ellipse: twice the standard deviation of the "
            "refined centre, enlarged alike. Cross: where the model has it."));
   });
   connect(this, &PlotView::clicked, this, &BoardMapPlot::emitNodeAt);
-  connect(this, &QCustomPlot::afterLayout, this, [this] {
-    if (axisRect()->size() == fitted_to_) return;
-    fitted_to_ = axisRect()->size();
-    fit();
-  });
-}
-
-void BoardMapPlot::setTarget(const Target& target) {
-  target_ = target;
-  fit();
-  rebuild();
 }
 
 void BoardMapPlot::setPaths(std::vector<CenterPath> paths) {
@@ -59,7 +46,7 @@ void BoardMapPlot::setPaths(std::vector<CenterPath> paths) {
     for (const Eigen::Vector2d& p : path.predicted_m) longest = std::max(longest, p.norm());
     longest = std::max(longest, path.final_m.norm());
   }
-  enlargement_ = longest > 0 ? round_down(0.4 * target_.tag_pitch_m() / longest) : 1.0;
+  enlargement_ = longest > 0 ? round_down(0.4 * target().tag_pitch_m() / longest) : 1.0;
   rebuild();
 }
 
@@ -78,19 +65,6 @@ void BoardMapPlot::setRefused(std::set<int> ids) {
   rebuild();
 }
 
-// The board in the middle, with equal scales along both axes.
-void BoardMapPlot::fit() {
-  const BoardOutline outline = target_.outline();
-  const Eigen::Vector2d center = kMmPerM * outline.center_m();
-  const Eigen::Vector2d half = 0.54 * kMmPerM * outline.size_m();
-  const QRect rect = axisRect()->rect();
-  const double aspect =
-      rect.height() > 10 ? static_cast<double>(rect.width()) / rect.height() : 1.0;
-  const double half_y = std::max(half.y(), half.x() / aspect);
-  setHome({center.x() - half_y * aspect, center.x() + half_y * aspect},
-          {center.y() - half_y, center.y() + half_y});
-}
-
 void BoardMapPlot::rebuild() {
   clearFigure();
   drawBoard();
@@ -101,32 +75,16 @@ void BoardMapPlot::rebuild() {
 }
 
 void BoardMapPlot::drawBoard() {
-  const auto rectangle = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high,
-                             const QBrush& brush) {
-    auto* item = new QCPItemRect(this);
-    item->topLeft->setCoords(kMmPerM * low.x(), kMmPerM * high.y());
-    item->bottomRight->setCoords(kMmPerM * high.x(), kMmPerM * low.y());
-    item->setPen(QPen(colors().axis));
-    item->setBrush(brush);
-  };
-  const BoardOutline outline = target_.outline();
-  rectangle(outline.lower_left_m, outline.upper_right_m, Qt::NoBrush);
-  if (target_.has_tags()) {
-    for (const TargetTag& tag : target_.tags()) {
-      const auto corners = target_.tag_corners_m(tag);
-      rectangle(corners[0], corners[2], colors().grid);
+  if (target().has_tags()) {
+    for (const TargetTag& tag : target().tags()) {
+      const auto corners = target().tag_corners_m(tag);
+      drawRectangle(corners[0], corners[2], colors().grid);
     }
   }
-  for (const TargetNode& node : target_.nodes()) {
-    const double r = target_.circle_radius_m;
-    auto* circle = new QCPItemEllipse(this);
-    circle->topLeft->setCoords(kMmPerM * (node.center_m.x() - r),
-                               kMmPerM * (node.center_m.y() + r));
-    circle->bottomRight->setCoords(kMmPerM * (node.center_m.x() + r),
-                                   kMmPerM * (node.center_m.y() - r));
-    circle->setPen(QPen(node.id == chosen_ ? colors().emphasis : colors().axis,
-                        node.id == chosen_ ? 2.5 : 1.0));
-  }
+  drawOutlines([this](const TargetNode& node) {
+    const bool chosen = node.id == chosen_;
+    return QPen(chosen ? colors().emphasis : colors().axis, chosen ? 2.5 : 1.0);
+  });
 }
 
 void BoardMapPlot::drawPath(const CenterPath& path, int index) {
@@ -184,7 +142,7 @@ void BoardMapPlot::drawCaption() {
   QString caption;
   if (!paths_.empty()) {
     caption = tr("paths ×%1").arg(enlargement_, 0, 'g', 6);
-  } else if (!target_.has_circles()) {
+  } else if (!target().has_circles()) {
     caption = tr("no circles");
   }
   auto* text = new QCPItemText(this);
@@ -215,8 +173,8 @@ void BoardMapPlot::fillTable() {
 void BoardMapPlot::emitNodeAt(const QPointF& place) {
   const Eigen::Vector2d p(xAxis->pixelToCoord(place.x()) / kMmPerM,
                           yAxis->pixelToCoord(place.y()) / kMmPerM);
-  for (const TargetNode& node : target_.nodes()) {
-    if ((node.center_m - p).norm() < 0.35 * target_.tag_pitch_m()) {
+  for (const TargetNode& node : target().nodes()) {
+    if ((node.center_m - p).norm() < 0.35 * target().tag_pitch_m()) {
       Q_EMIT nodeClicked(node.id);
       return;
     }

@@ -5,20 +5,18 @@
 #include <vector>
 
 #include "refinement/node_samples.h"
-#include "target/target.h"
-#include "views/plot_view.h"
+#include "views/board_figure.h"
 
 namespace lvcalib::widgets {
 
 /// The board from the front (mm) with the enlarged way of every node's centre through the
 /// iterations, relative to the model's place, and the refined centre with its 2σ ellipse.
-class BoardMapPlot : public PlotView {
+class BoardMapPlot : public BoardFigure {
   Q_OBJECT
 
  public:
   explicit BoardMapPlot(QWidget* parent = nullptr);
 
-  void setTarget(const Target& target);
   void setPaths(std::vector<CenterPath> paths);
   /// Draws the paths up to this iteration; −1: all.
   void setIteration(int iteration);
@@ -42,16 +40,13 @@ class BoardMapPlot : public PlotView {
   void drawEllipse(const CenterPath& path, const QPen& pen);
   void drawCaption();
   void fillTable();
-  void fit();
   void emitNodeAt(const QPointF& place);
 
-  Target target_;
   std::vector<CenterPath> paths_;
   int iteration_ = -1;
   int chosen_ = -1;
   std::set<int> refused_;
   double enlargement_ = 1.0;
-  QSize fitted_to_;
 };
 
 }  // namespace lvcalib::widgets

@@ -14,28 +14,14 @@ constexpr std::size_t kMostMapDots = 12'000;
 
 }  // namespace
 
-SampleMapPlot::SampleMapPlot(QWidget* parent) : PlotView(parent) {
+SampleMapPlot::SampleMapPlot(QWidget* parent) : BoardFigure(parent) {
   figureActions()->setName("boundary-samples");
   follow_language(this, [this] {
-    xAxis->setLabel(tr("board x (mm)"));
-    yAxis->setLabel(tr("board y (mm)"));
     setToolTip(
         tr("The board from the front with the returns about its circles (of many, some), blue "
            "those of the overlap region. Dashed red: circles that are left out in one "
            "of the scenes shown; the reasons are in the table below."));
   });
-  connect(this, &QCustomPlot::afterLayout, this, [this] {
-    if (axisRect()->size() == fitted_to_) return;
-    fitted_to_ = axisRect()->size();
-    fit();
-    replot(rpQueuedReplot);  // The ticks of this one are made already.
-  });
-}
-
-void SampleMapPlot::setTarget(const Target& target) {
-  target_ = target;
-  fit();
-  rebuild();
 }
 
 void SampleMapPlot::setScope(const ResponseScope& scope) {
@@ -43,22 +29,11 @@ void SampleMapPlot::setScope(const ResponseScope& scope) {
   rebuild();
 }
 
-// The board in the middle, with equal scales along both axes.
-void SampleMapPlot::fit() {
-  const BoardOutline outline = target_.outline();
-  const Eigen::Vector2d center = kMmPerM * outline.center_m();
-  const Eigen::Vector2d half = 0.54 * kMmPerM * outline.size_m();
-  const QRect rect = axisRect()->rect();
-  const double aspect =
-      rect.height() > 10 ? static_cast<double>(rect.width()) / rect.height() : 1.0;
-  const double half_y = std::max(half.y(), half.x() / aspect);
-  setHome({center.x() - half_y * aspect, center.x() + half_y * aspect},
-          {center.y() - half_y, center.y() + half_y});
-}
-
 void SampleMapPlot::rebuild() {
   clearFigure();
-  drawBoard();
+  drawOutlines([this](const TargetNode& node) {
+    return isRefused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine) : QPen(colors().axis);
+  });
   QCPGraph* graphs[2];
   for (const bool overlap : {false, true}) {
     QColor color = overlap ? colors().emphasis : colors().axis;
@@ -76,7 +51,7 @@ void SampleMapPlot::rebuild() {
   using Sign = LegendEntry::Sign;
   std::vector<LegendEntry> entries = {{Sign::kDot, colors().axis, tr("samples")},
                                       {Sign::kDot, colors().emphasis, tr("overlap region")}};
-  const auto& nodes = target_.nodes();
+  const auto& nodes = target().nodes();
   if (std::any_of(nodes.begin(), nodes.end(),
                   [&](const TargetNode& node) { return isRefused(node.id); }))
     entries.push_back({Sign::kDashed, colors().refused, tr("circles left out")});
@@ -104,26 +79,6 @@ bool SampleMapPlot::isRefused(int id) const {
       return node.id == id && node.state != NodeResponseState::kUsed;
     });
   });
-}
-
-void SampleMapPlot::drawBoard() {
-  const BoardOutline outline = target_.outline();
-  auto* board = new QCPItemRect(this);
-  board->topLeft->setCoords(kMmPerM * outline.lower_left_m.x(),
-                            kMmPerM * outline.upper_right_m.y());
-  board->bottomRight->setCoords(kMmPerM * outline.upper_right_m.x(),
-                                kMmPerM * outline.lower_left_m.y());
-  board->setPen(QPen(colors().axis));
-  for (const TargetNode& node : target_.nodes()) {
-    const double r = target_.circle_radius_m;
-    auto* circle = new QCPItemEllipse(this);
-    circle->topLeft->setCoords(kMmPerM * (node.center_m.x() - r),
-                               kMmPerM * (node.center_m.y() + r));
-    circle->bottomRight->setCoords(kMmPerM * (node.center_m.x() + r),
-                                   kMmPerM * (node.center_m.y() - r));
-    circle->setPen(isRefused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine)
-                                      : QPen(colors().axis));
-  }
 }
 
 }  // namespace lvcalib::widgets

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "target/target.h"
+#include "views/board_figure.h"
 #include "views/response_plots.h"
 
 namespace lvcalib::widgets {
 
 /// The board from the front (mm) with the samples about its circles: those inside and outside the
 /// overlap region, and circles that are left out.
-class SampleMapPlot : public PlotView {
+class SampleMapPlot : public BoardFigure {
   Q_OBJECT
 
  public:
   explicit SampleMapPlot(QWidget* parent = nullptr);
-  void setTarget(const Target& target);
   void setScope(const ResponseScope& scope);
 
  protected:
@@ -22,12 +21,8 @@ class SampleMapPlot : public PlotView {
  private:
   [[nodiscard]] std::vector<QStringList> tableRows() const;
   [[nodiscard]] bool isRefused(int id) const;
-  void drawBoard();
-  void fit();
 
-  Target target_;
   ResponseScope scope_;
-  QSize fitted_to_;
 };
 
 }  // namespace lvcalib::widgets
