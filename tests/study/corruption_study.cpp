@@ -2,10 +2,11 @@
 // Corrupts simulated rigs in many ways and says what the calibration makes of it: right, doubted,
 // or silently wrong. One line per rig and kind, the table by families at the end.
 //
-//   corruption_study [RIGS] [FIRST_SEED] [FOLDER] [KIND]
+//   corruption_study [RIGS] [FIRST_SEED] [FOLDER] [KIND] [FIRST_INDEX]
 //
-// Rigs take three scanners in turn and three to six scenes. With KIND only corruptions whose name
-// holds the word. Every run is a process of its own, so that a crash is counted and not the end.
+// Rig k, counted from FIRST_INDEX (0), takes the k-th of three scanners in turn and three to six
+// scenes; seeds are consecutive. With KIND only corruptions whose name holds the word. Every run is
+// a process of its own, so that a crash is counted and not the end.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -88,12 +89,13 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder =
       argc > 3 ? argv[3] : std::filesystem::temp_directory_path() / "corruption_study";
   const std::string wanted = argc > 4 ? argv[4] : "";
+  const int first_index = argc > 5 ? std::atoi(argv[5]) : 0;
   std::filesystem::create_directories(folder);
   std::map<test::CorruptionFamily, Count> families;
   Count all;
   for (int k = 0; k < rigs; ++k) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(k);
-    const auto rig = simulation::simulate(rig_options(k, seed), {});
+    const auto rig = simulation::simulate(rig_options(first_index + k, seed), {});
     if (!rig) {
       std::printf("%d: %s\n", k, rig.error().text().c_str());
       continue;
