@@ -302,6 +302,22 @@ StructureScore structure_score(const Covariate& covariate, const ChannelResidual
   return score_of(covariate, OwnRows(residuals, scenes));
 }
 
+double place_score(const StructureScore& place, const MeasurementTable& table,
+                   const ChannelResiduals& residuals) {
+  const std::vector<Covariate> covariates = covariates_of(table, residuals.channel, residuals);
+  const Covariate* x = find_in(covariates, place.covariate);
+  const Covariate* y = find_in(covariates, place.second_covariate);
+  if (x == nullptr || y == nullptr) return 0.0;
+  const OwnRows rows(residuals, static_cast<int>(table.scenes.size()));
+  StructureScore out{residuals.channel, x->name, 0.0, 0.0};
+  if (residuals.channel == Channel::kCorner) {
+    score(ImageSurface(*x, *y, residuals.row), rows, out);
+  } else {
+    score(Surface(*x, *y), rows, out);
+  }
+  return out.score;
+}
+
 StructureScan scan_structure(const MeasurementTable& table, const EveryResidual& residuals,
                              const RunContext& context) {
   std::array<ScannedChannel, kChannels> channels;

@@ -2,6 +2,7 @@
 // What speaks against candidates of a search although scenes held out are predicted better.
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 
 #include "diagnostics/structure_scan.h"
@@ -62,24 +63,38 @@ void EffectSearch::contradict(const Candidate& candidate, Contradiction by) {
 
 // What shows over a covariate that no effect of the catalogue follows is explained in part by
 // effects that happen to vary with it on these boards. Such a one has nothing left to say beside
-// the curve.
+// the curve. What is local (a bump on the board, dirt on the window) is explained in part by
+// effects that act everywhere: these leave most of it where it is.
 void EffectSearch::ask_curves() {
   // A channel's residuals are the same whichever candidate is asked.
   std::array<std::optional<std::vector<StructureScore>>, kChannels> found;
+  const auto scores_of = [&](Channel channel) -> const std::vector<StructureScore>& {
+    const auto k = static_cast<std::size_t>(channel);
+    if (!found[k]) {
+      EveryResidual residuals;
+      residuals[k] = residuals_of(table(), state_, model(), channel, context_);
+      found[k] = notable_of(scan_structure(table(), residuals, context_), options_);
+    }
+    return *found[k];
+  };
   while (!context_.stopped()) {
     const auto chosen = best();
     if (!chosen) return;
-    const Channel channel = candidates_[*chosen].main_channel();
-    auto& scores = found[static_cast<std::size_t>(channel)];
-    if (!scores) {
-      EveryResidual residuals;
-      residuals[static_cast<std::size_t>(channel)] =
-          residuals_of(table(), state_, model(), channel, context_);
-      scores = notable_of(scan_structure(table(), residuals, context_), options_);
+    const Candidate& candidate = candidates_[*chosen];
+    const Channel main = candidate.main_channel();
+    const std::vector<StructureScore>& scores = scores_of(main);
+    if (!scores.empty() && stands_in(candidate, main, scores.front())) {
+      contradict(candidate, Contradiction::kCurve);
+      continue;
     }
-    if (context_.stopped() || scores->empty()) return;
-    if (!stands_in(candidates_[*chosen], channel, scores->front())) return;
-    contradict(candidates_[*chosen], Contradiction::kCurve);
+    std::vector<StructureScore> places;
+    for (const Channel channel : kAllChannels) {
+      if (!(candidate.acting_share[static_cast<std::size_t>(channel)] > 0.0)) continue;
+      std::ranges::copy_if(scores_of(channel), std::back_inserter(places),
+                           &StructureScore::is_at_a_place);
+    }
+    if (context_.stopped() || !leaves_one(candidate, places)) return;
+    contradict(candidate, Contradiction::kPlace);
   }
 }
 
@@ -106,6 +121,25 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
   const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 3});
   return f_test(fit, tried.count()) * static_cast<double>(candidates_.size()) >
          options_.false_alarm;
+}
+
+bool EffectSearch::leaves_one(const Candidate& candidate,
+                              std::vector<StructureScore> places) const {
+  // Its cause leaves nothing but noise of it.
+  constexpr double kMost = 0.5;
+  std::erase_if(places, [&](const StructureScore& place) {
+    return place.score < candidate.heldout_gain[static_cast<std::size_t>(place.channel)];
+  });
+  if (places.empty()) return false;
+  const EffectColumns& tried = linear_.columns.list()[candidate.columns];
+  EffectSearch trial(*this);
+  trial.add(tried.effect, tried.shape);
+  return std::ranges::any_of(places, [&](const StructureScore& place) {
+    if (context_.stopped()) return false;
+    const ChannelResiduals left =
+        residuals_of(trial.table(), trial.state(), trial.model(), place.channel, context_);
+    return place_score(place, trial.table(), left) > kMost * place.score;
+  });
 }
 
 }  // namespace lvcalib

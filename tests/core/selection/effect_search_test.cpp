@@ -279,6 +279,36 @@ TEST_F(SearchState, WhatACurveTellsAsWellStays) {
   }
 }
 
+// The corners show boards that are bent, the ranges a bump at one place and no bend.
+TEST_F(SearchState, WhatLeavesABumpWhereItIsIsNoEffect) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    const Eigen::Vector2d from = beam.board_m - Eigen::Vector2d(0.2, 0.1);
+    return -0.012 * std::exp(-0.5 * from.squaredNorm() / (0.06 * 0.06));
+  };
+  test::TableRecipe recipe;
+  recipe.range_rows = 4000;
+  recipe.corner_sigma_px = 0.02;
+  auto made = test::synthetic_table(recipe, wrong);
+  const BoardOutline outline = made.table.target.outline();
+  for (CornerRow& row : made.table.corner) {
+    const Rigid3& pose = made.truth.camera_from_board[static_cast<std::size_t>(row.scene)];
+    const double across = (row.board_m - outline.center_m()).x() / (0.5 * outline.size_m().x());
+    const Eigen::Vector3d flat(row.board_m.x(), row.board_m.y(), 0.0);
+    const Eigen::Vector3d bent = flat + Eigen::Vector3d(0.0, 0.0, 0.003 * across * across);
+    row.pixel += *made.table.camera.project(pose * bent) - *made.table.camera.project(pose * flat);
+  }
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  for (const Candidate& c : search.candidates()) {
+    if (id_of(search, c) != "board_bow") continue;
+    EXPECT_EQ(c.main_channel(), Channel::kCorner);
+    EXPECT_EQ(c.contradiction, Contradiction::kPlace);
+  }
+  const auto best = search.best();
+  EXPECT_FALSE(best && id_of(search, search.candidates()[*best]) == "board_bow");
+}
+
 TEST_F(SearchState, WhatBothPrintsShowIsNotContradicted) {
   const auto made = near_boards_off(-0.02, -0.02);
   EffectSearch search(made.table, made.truth, options_, context_);
