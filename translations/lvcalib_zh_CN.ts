@@ -4922,8 +4922,8 @@ were saved. Take them up again?</source>
         <translation>%1，或%2</translation>
     </message>
     <message>
-        <source>It leaves most of what shows there as it is: %1; something that no effect explains is at work.</source>
-        <translation>它使那里显现的残余大部分保持原样：%1；起作用的是没有任何效应能解释的其他因素。</translation>
+        <source>It leaves most of what is at one place as it is: %1; something that no effect explains is at work.</source>
+        <translation>它使某一位置上的残余大部分保持原样：%1；起作用的是没有任何效应能解释的其他因素。</translation>
     </message>
 </context>
 <context>

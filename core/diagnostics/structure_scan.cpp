@@ -302,15 +302,13 @@ StructureScore structure_score(const Covariate& covariate, const ChannelResidual
   return score_of(covariate, OwnRows(residuals, scenes));
 }
 
-double score_again(const StructureScore& like, const MeasurementTable& table,
+double place_score(const StructureScore& place, const MeasurementTable& table,
                    const ChannelResiduals& residuals) {
   const std::vector<Covariate> covariates = covariates_of(table, residuals.channel, residuals);
-  const Covariate* x = find_in(covariates, like.covariate);
-  if (x == nullptr) return 0.0;
+  const Covariate* x = find_in(covariates, place.covariate);
+  const Covariate* y = find_in(covariates, place.second_covariate);
+  if (x == nullptr || y == nullptr) return 0.0;
   const OwnRows rows(residuals, static_cast<int>(table.scenes.size()));
-  if (like.second_covariate.empty()) return score_of(*x, rows).score;
-  const Covariate* y = find_in(covariates, like.second_covariate);
-  if (y == nullptr) return 0.0;
   StructureScore out{residuals.channel, x->name, 0.0, 0.0};
   if (residuals.channel == Channel::kCorner) {
     score(ImageSurface(*x, *y, residuals.row), rows, out);

@@ -18,7 +18,7 @@ enum class Contradiction {
   kScenes,  ///< With the shape number that fits best, scenes held out are predicted worse.
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
   kCurve,   ///< Beside a curve over a covariate, which predicts far better, it says nothing.
-  kStays,   ///< What shows most and predicts better stays, with it in the model, mostly as it is.
+  kPlace,   ///< Something local predicts better, and with it in the model most of that stays.
 };
 
 /// One effect at one shape number, tried in addition to the model.

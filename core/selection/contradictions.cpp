@@ -87,13 +87,14 @@ void EffectSearch::ask_curves() {
       contradict(candidate, Contradiction::kCurve);
       continue;
     }
-    std::vector<StructureScore> most;
+    std::vector<StructureScore> places;
     for (const Channel channel : kAllChannels) {
       if (!(candidate.acting_share[static_cast<std::size_t>(channel)] > 0.0)) continue;
-      if (!scores_of(channel).empty()) most.push_back(scores_of(channel).front());
+      std::ranges::copy_if(scores_of(channel), std::back_inserter(places),
+                           &StructureScore::is_at_a_place);
     }
-    if (context_.stopped() || !leaves_one(candidate, most)) return;
-    contradict(candidate, Contradiction::kStays);
+    if (context_.stopped() || !leaves_one(candidate, places)) return;
+    contradict(candidate, Contradiction::kPlace);
   }
 }
 
@@ -122,21 +123,22 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
          options_.false_alarm;
 }
 
-bool EffectSearch::leaves_one(const Candidate& candidate, std::vector<StructureScore> found) const {
+bool EffectSearch::leaves_one(const Candidate& candidate,
+                              std::vector<StructureScore> places) const {
   // Its cause leaves nothing but noise of it.
   constexpr double kMost = 0.5;
-  std::erase_if(found, [&](const StructureScore& score) {
-    return score.score < candidate.heldout_gain[static_cast<std::size_t>(score.channel)];
+  std::erase_if(places, [&](const StructureScore& place) {
+    return place.score < candidate.heldout_gain[static_cast<std::size_t>(place.channel)];
   });
-  if (found.empty()) return false;
+  if (places.empty()) return false;
   const EffectColumns& tried = linear_.columns.list()[candidate.columns];
   EffectSearch trial(*this);
   trial.add(tried.effect, tried.shape);
-  return std::ranges::any_of(found, [&](const StructureScore& score) {
+  return std::ranges::any_of(places, [&](const StructureScore& place) {
     if (context_.stopped()) return false;
     const ChannelResiduals left =
-        residuals_of(trial.table(), trial.state(), trial.model(), score.channel, context_);
-    return score_again(score, trial.table(), left) > kMost * score.score;
+        residuals_of(trial.table(), trial.state(), trial.model(), place.channel, context_);
+    return place_score(place, trial.table(), left) > kMost * place.score;
   });
 }
 

@@ -144,9 +144,10 @@ class EffectSearch {
   void ask_curves();
   [[nodiscard]] bool stands_in(const Candidate& candidate, Channel channel,
                                const StructureScore& curve) const;
-  // Whether it leaves one of these, which predict better than it does, mostly as it is.
+  // Whether it leaves what is at one of these places, and predicts better than it does, mostly as
+  // it is.
   [[nodiscard]] bool leaves_one(const Candidate& candidate,
-                                std::vector<StructureScore> found) const;
+                                std::vector<StructureScore> places) const;
   void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
   // The model and the sensor's errors: what the rows are fitted with.
   [[nodiscard]] std::vector<EffectInUse> fitted() const;

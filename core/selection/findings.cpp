@@ -229,10 +229,10 @@ void judge_other(const EffectSearch& search, const Candidate& c, const Discovery
         "Beside a curve over what is left in the %1 channel it is not there: %2; something that "
         "no effect explains is at work.",
         word_for(c.main_channel()), values);
-  } else if (c.contradiction == Contradiction::kStays) {
+  } else if (c.contradiction == Contradiction::kPlace) {
     f.explanation = Message(
-        "It leaves most of what shows there as it is: %1; something that no effect explains is at "
-        "work.",
+        "It leaves most of what is at one place as it is: %1; something that no effect explains is "
+        "at work.",
         values);
   } else if (c.contradiction == Contradiction::kPrints) {
     f.explanation = Message(

@@ -303,7 +303,7 @@ TEST_F(SearchState, WhatLeavesABumpWhereItIsIsNoEffect) {
   for (const Candidate& c : search.candidates()) {
     if (id_of(search, c) != "board_bow") continue;
     EXPECT_EQ(c.main_channel(), Channel::kCorner);
-    EXPECT_EQ(c.contradiction, Contradiction::kStays);
+    EXPECT_EQ(c.contradiction, Contradiction::kPlace);
   }
   const auto best = search.best();
   EXPECT_FALSE(best && id_of(search, search.candidates()[*best]) == "board_bow");
