@@ -33,7 +33,7 @@ template <class Row, class Predict>
 void push_print(const MeasurementTable& table, const ModelState& state,
                 const std::vector<EffectInUse>& in_use, const std::vector<Row>& rows,
                 const RunContext& context, const Predict& predict, ChannelResiduals& out) {
-  constexpr std::size_t kPart = 4096;
+  constexpr std::size_t kPart = 4096;  // Some milliseconds of work, far above what a thread costs.
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const bool fresh = starts.empty() || k - starts.back() == kPart ||

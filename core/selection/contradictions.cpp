@@ -125,7 +125,7 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
 
 bool EffectSearch::leaves_one(const Candidate& candidate,
                               std::vector<StructureScore> places) const {
-  // Its cause leaves nothing but noise of it.
+  // Its cause leaves nothing but noise of it, a stranger nearly all: halfway between.
   constexpr double kMost = 0.5;
   std::erase_if(places, [&](const StructureScore& place) {
     return place.score < candidate.heldout_gain[static_cast<std::size_t>(place.channel)];
