@@ -240,6 +240,23 @@ bool is_better(const StructureScore& surface, const StructureScore& curve) {
   return is_gain(more);
 }
 
+// A surface over two covariates, of corners one in either direction of the image; nothing where the
+// rows are too few for it.
+std::optional<StructureScore> surface_score(const Covariate& x, const Covariate& y,
+                                            const OwnRows& rows) {
+  StructureScore out{rows.residuals().channel, x.name, 0.0, 0.0};
+  out.second_covariate = y.name;
+  const auto take = [&](const auto& surface, std::size_t rows_per_spline) {
+    if (rows.size() < rows_per_spline * static_cast<std::size_t>(surface.size())) return false;
+    score(surface, rows, out);
+    return true;
+  };
+  const bool taken = out.channel == Channel::kCorner
+                         ? take(ImageSurface(x, y, rows.residuals().row), 1)
+                         : take(Surface(x, y), kRowsPerSpline);
+  return taken ? std::optional(out) : std::nullopt;
+}
+
 // Surfaces that predict held-out scenes better than either of their covariates alone.
 std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
                                      const std::vector<StructureScore>& alone,
@@ -251,15 +268,12 @@ std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
     const Covariate* x = find_in(covariates, first);
     const Covariate* y = find_in(covariates, second);
     if (x == nullptr || y == nullptr) continue;
-    const Surface surface(*x, *y);
-    if (x->values.size() < kRowsPerSpline * static_cast<std::size_t>(surface.size())) continue;
-    StructureScore s{rows.residuals().channel, x->name, 0.0, 0.0};
-    s.second_covariate = y->name;
-    score(surface, rows, s);
+    const auto s = surface_score(*x, *y, rows);
+    if (!s) continue;
     const auto worse = [&](const StructureScore& one) {
-      return (one.covariate != first && one.covariate != second) || is_better(s, one);
+      return (one.covariate != first && one.covariate != second) || is_better(*s, one);
     };
-    if (std::all_of(alone.begin(), alone.end(), worse)) out.push_back(s);
+    if (std::all_of(alone.begin(), alone.end(), worse)) out.push_back(*s);
   }
   return out;
 }
@@ -271,14 +285,11 @@ std::vector<StructureScore> image_surface(const std::vector<Covariate>& covariat
   const Covariate* x = find_in(covariates, "image x");
   const Covariate* y = find_in(covariates, "image y");
   if (x == nullptr || y == nullptr) return {};
-  const ImageSurface surface(*x, *y, rows.residuals().row);
-  if (x->values.size() < static_cast<std::size_t>(surface.size())) return {};
-  StructureScore s{rows.residuals().channel, x->name, 0.0, 0.0};
-  s.second_covariate = y->name;
-  score(surface, rows, s);
-  const bool better = std::all_of(alone.begin(), alone.end(),
-                                  [&](const StructureScore& one) { return is_better(s, one); });
-  return better ? std::vector{s} : std::vector<StructureScore>{};
+  const auto s = surface_score(*x, *y, rows);
+  const bool better = s && std::all_of(alone.begin(), alone.end(), [&](const StructureScore& one) {
+                        return is_better(*s, one);
+                      });
+  return better ? std::vector{*s} : std::vector<StructureScore>{};
 }
 
 StructureScore score_of(const Covariate& covariate, const OwnRows& rows) {
@@ -309,13 +320,8 @@ double place_score(const StructureScore& place, const MeasurementTable& table,
   const Covariate* y = find_in(covariates, place.second_covariate);
   if (x == nullptr || y == nullptr) return 0.0;
   const OwnRows rows(residuals, static_cast<int>(table.scenes.size()));
-  StructureScore out{residuals.channel, x->name, 0.0, 0.0};
-  if (residuals.channel == Channel::kCorner) {
-    score(ImageSurface(*x, *y, residuals.row), rows, out);
-  } else {
-    score(Surface(*x, *y), rows, out);
-  }
-  return out.score;
+  const auto found = surface_score(*x, *y, rows);
+  return found ? found->score : 0.0;
 }
 
 StructureScan scan_structure(const MeasurementTable& table, const EveryResidual& residuals,

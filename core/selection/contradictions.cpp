@@ -65,7 +65,7 @@ void EffectSearch::contradict(const Candidate& candidate, Contradiction by) {
 // effects that happen to vary with it on these boards. Such a one has nothing left to say beside
 // the curve. What is local (a bump on the board, dirt on the window) is explained in part by
 // effects that act everywhere: these leave most of it where it is.
-void EffectSearch::ask_curves() {
+void EffectSearch::ask_structure() {
   // A channel's residuals are the same whichever candidate is asked.
   std::array<std::optional<std::vector<StructureScore>>, kChannels> found;
   const auto scores_of = [&](Channel channel) -> const std::vector<StructureScore>& {
@@ -93,7 +93,7 @@ void EffectSearch::ask_curves() {
       std::ranges::copy_if(scores_of(channel), std::back_inserter(places),
                            &StructureScore::is_at_a_place);
     }
-    if (context_.stopped() || !leaves_one(candidate, places)) return;
+    if (context_.stopped() || !leaves_a_place(candidate, places)) return;
     contradict(candidate, Contradiction::kPlace);
   }
 }
@@ -123,8 +123,8 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
          options_.false_alarm;
 }
 
-bool EffectSearch::leaves_one(const Candidate& candidate,
-                              std::vector<StructureScore> places) const {
+bool EffectSearch::leaves_a_place(const Candidate& candidate,
+                                  std::vector<StructureScore> places) const {
   // Its cause leaves nothing but noise of it, a stranger nearly all: halfway between.
   constexpr double kMost = 0.5;
   std::erase_if(places, [&](const StructureScore& place) {

@@ -500,7 +500,7 @@ void EffectSearch::rank() {
   }
   refit_promising();
   ask_both_prints();
-  ask_curves();
+  ask_structure();
   ranked_ = !context_.stopped();
 }
 

@@ -141,13 +141,12 @@ class EffectSearch {
   void ask_both_prints();
   void doubt_levels(const std::function<bool(const Candidate&)>& disagree);
   // And those that stand in for structure which no effect explains.
-  void ask_curves();
+  void ask_structure();
   [[nodiscard]] bool stands_in(const Candidate& candidate, Channel channel,
                                const StructureScore& curve) const;
-  // Whether it leaves what is at one of these places, and predicts better than it does, mostly as
-  // it is.
-  [[nodiscard]] bool leaves_one(const Candidate& candidate,
-                                std::vector<StructureScore> places) const;
+  // Whether one of these places predicts better than the candidate and keeps most of that with it.
+  [[nodiscard]] bool leaves_a_place(const Candidate& candidate,
+                                    std::vector<StructureScore> places) const;
   void contradict(const Candidate& candidate, Contradiction by);  // at all its shape numbers
   // The model and the sensor's errors: what the rows are fitted with.
   [[nodiscard]] std::vector<EffectInUse> fitted() const;
