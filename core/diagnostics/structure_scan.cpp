@@ -308,6 +308,11 @@ struct ScannedChannel {
 
 }  // namespace
 
+bool StructureScore::is_at_a_place() const {
+  if (!second_covariate.empty()) return covariate != "print";
+  return covariate == "azimuth" || covariate == "board x" || covariate == "board y";
+}
+
 StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
                                int scenes) {
   return score_of(covariate, OwnRows(residuals, scenes));
@@ -317,9 +322,11 @@ double place_score(const StructureScore& place, const MeasurementTable& table,
                    const ChannelResiduals& residuals) {
   const std::vector<Covariate> covariates = covariates_of(table, residuals.channel, residuals);
   const Covariate* x = find_in(covariates, place.covariate);
-  const Covariate* y = find_in(covariates, place.second_covariate);
-  if (x == nullptr || y == nullptr) return 0.0;
+  if (x == nullptr) return 0.0;
   const OwnRows rows(residuals, static_cast<int>(table.scenes.size()));
+  if (place.second_covariate.empty()) return score_of(*x, rows).score;
+  const Covariate* y = find_in(covariates, place.second_covariate);
+  if (y == nullptr) return 0.0;
   const auto found = surface_score(*x, *y, rows);
   return found ? found->score : 0.0;
 }

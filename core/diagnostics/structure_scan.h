@@ -29,10 +29,9 @@ struct StructureScore {
   bool matters = false;
   /// Of a surface over two covariates; empty of a curve.
   std::string second_covariate = {};
-  /// Whether it is at a place: on the board, in the field of view, in the image.
-  [[nodiscard]] bool is_at_a_place() const {
-    return !second_covariate.empty() && covariate != "print";
-  }
+  /// Whether it is at a place: on the board, in the field of view, in the image. Of curves those
+  /// over azimuth and over the board; over elevation scanners' lines differ, each as it likes.
+  [[nodiscard]] bool is_at_a_place() const;
   /// One name, or the two of a surface.
   [[nodiscard]] std::vector<std::string> covariates() const {
     if (second_covariate.empty()) return {covariate};
@@ -60,8 +59,8 @@ StructureScan scan_structure(const MeasurementTable& table, const EveryResidual&
 StructureScan scan_structure(const MeasurementTable& table, const ModelState& state,
                              const std::vector<EffectInUse>& in_use, const RunContext& context);
 
-/// What a surface of the kind of `place` (one of StructureScan::places) predicts of other residuals
-/// of its channel: the share of held-out variance, not above zero if nothing.
+/// What a curve or surface of the kind of `place` (one of a StructureScan) predicts of other
+/// residuals of its channel: the share of held-out variance, not above zero if nothing.
 double place_score(const StructureScore& place, const MeasurementTable& table,
                    const ChannelResiduals& residuals);
 

@@ -312,6 +312,23 @@ TEST_F(SearchState, WhatLeavesABumpWhereItIsIsNoEffect) {
   EXPECT_FALSE(best && id_of(search, search.candidates()[*best]) == "board_bow");
 }
 
+// A ripple over the azimuth, at six boards, passes for some of one over range.
+TEST_F(SearchState, WhatLeavesARippleOverAzimuthIsNoEffect) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) { return 0.010 * std::sin(25.0 * beam.azimuth_rad); };
+  const auto made = test::synthetic_table({}, wrong);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  bool seen = false;
+  for (const Candidate& c : search.candidates()) {
+    if (id_of(search, c) != "range_cyclic") continue;
+    seen = true;
+    EXPECT_EQ(c.contradiction, Contradiction::kPlace);
+  }
+  EXPECT_TRUE(seen);
+  EXPECT_FALSE(search.best().has_value());
+}
+
 TEST_F(SearchState, WhatBothPrintsShowIsNotContradicted) {
   const auto made = near_boards_off(-0.02, -0.02);
   EffectSearch search(made.table, made.truth, options_, context_);
