@@ -17,6 +17,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "model/row_covariates.h"
@@ -96,11 +97,12 @@ QString covariates_text(const StructureScore& s) {
 MissingPane::MissingPane(QWidget* parent)
     : QWidget(parent),
       verdict_(new QLabel(this)),
-      tabs_(new QTabWidget(this)),
+      parts_(new QSplitter(Qt::Vertical, this)),
+      tabs_(new QTabWidget(parts_)),
       list_(new QTreeWidget(this)),
       budget_(new QTreeWidget(this)),
-      text_(new QTextBrowser(this)),
-      pattern_(new ResidualPlot(this)),
+      text_(new QTextBrowser(parts_)),
+      pattern_(new ResidualPlot(parts_)),
       add_(new QPushButton(this)),
       all_(new QPushButton(this)),
       look_(new QPushButton(this)) {
@@ -142,15 +144,11 @@ MissingPane::MissingPane(QWidget* parent)
   tabs_->setDocumentMode(true);
   tabs_->addTab(list_, {});
   tabs_->addTab(budget_, {});
-  auto* details = new QSplitter(Qt::Vertical, this);
-  details->setChildrenCollapsible(false);
-  details->addWidget(tabs_);
-  details->addWidget(text_);
-  details->addWidget(pattern_);
-  details->setStretchFactor(0, 3);
-  details->setStretchFactor(1, 2);
-  details->setStretchFactor(2, 2);
-  details->setSizes({260, 190, 150});
+  parts_->setChildrenCollapsible(false);
+  parts_->setStretchFactor(0, 3);
+  parts_->setStretchFactor(1, 2);
+  parts_->setStretchFactor(2, 2);
+  connect(parts_, &QSplitter::splitterMoved, this, [this] { parts_moved_ = true; });
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(add_, 1);
   buttons->addWidget(all_, 1);
@@ -159,7 +157,7 @@ MissingPane::MissingPane(QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(3);
   layout->addWidget(verdict_);
-  layout->addWidget(details, 1);
+  layout->addWidget(parts_, 1);
   layout->addLayout(buttons);
   connect(list_, &QTreeWidget::currentItemChanged, this, &MissingPane::describe);
   connect(list_, &QTreeWidget::itemDoubleClicked, this, &MissingPane::add);
@@ -335,6 +333,26 @@ void MissingPane::updateVerdict() {
   }
 }
 
+// The reasons are to be read without scrolling where the window has room for it. The text's share
+// only grows: a list that changes its height with every choice cannot be walked through.
+void MissingPane::shareHeight() {
+  if (parts_moved_ || !isVisible()) return;
+  const int height = parts_->height() - 2 * parts_->handleWidth();
+  const int pattern = std::clamp(height / 4, 90, 170);
+  const int least_list = std::max(110, (height - pattern) / 3);
+  const int frame = 2 * text_->frameWidth();
+  longest_text_ = std::max(longest_text_,
+                           static_cast<int>(std::ceil(text_->document()->size().height())) + frame);
+  const int text = std::clamp(longest_text_, 70, std::max(70, height - pattern - least_list));
+  parts_->setSizes({height - pattern - text, text, pattern});
+}
+
+void MissingPane::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  longest_text_ = 0;
+  QTimer::singleShot(0, this, [this] { shareHeight(); });  // The layout takes its turn first.
+}
+
 void MissingPane::describe() {
   updateVerdict();
   const EffectProposal* p = current();
@@ -363,6 +381,7 @@ void MissingPane::describe() {
     html += QStringLiteral("<p>%1</p>").arg(core_text(p->finding.explanation).toHtmlEscaped());
     html += criteria_html(*p);
     text_->setHtml(html);
+    shareHeight();
     pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));
     Q_EMIT chosen();
   } else if (unknown != nullptr) {
@@ -381,6 +400,7 @@ void MissingPane::describeStructure(const StructureScore& s) {
           .arg(channel_name(s.channel), covariates_text(s))
           .arg(plain_number(s.amplitude, 2))
           .arg(unit_text(s.channel)));
+  shareHeight();
   setPattern(nullptr);
   Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
 }

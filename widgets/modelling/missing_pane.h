@@ -10,6 +10,7 @@
 
 class QLabel;
 class QPushButton;
+class QSplitter;
 class QTabWidget;
 class QTextBrowser;
 class QTreeWidget;
@@ -47,6 +48,7 @@ class MissingPane : public QWidget {
 
  protected:
   void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void retranslate();
@@ -58,6 +60,7 @@ class MissingPane : public QWidget {
   void describe();
   void updateVerdict();
   void describeStructure(const StructureScore& structure);
+  void shareHeight();
   void add();
 
   std::shared_ptr<const ModelRanking> ranking_;
@@ -65,6 +68,9 @@ class MissingPane : public QWidget {
   bool busy_ = false;
   const void* described_ = nullptr;  // The proposal or structure whose text is shown.
   QLabel* verdict_;
+  QSplitter* parts_;          // List, text and pattern, above each other.
+  bool parts_moved_ = false;  // By the user: nobody else moves them from then on.
+  int longest_text_ = 0;      // Height that the longest text so far takes.
   QTabWidget* tabs_;
   QTreeWidget* list_;
   QTreeWidget* budget_;

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollBar>
+#include <QSplitter>
 #include <QTabWidget>
 #include <QTest>
 #include <QTextBrowser>
@@ -34,6 +35,32 @@ TEST(MissingPaneTest, TheTopSuggestionIsChosenAndExplained) {
   pane.findChild<QPushButton*>("add_proposal")->click();
   ASSERT_EQ(add.count(), 1);
   EXPECT_EQ(add.last().at(0).toString(), "range_walk");
+}
+
+TEST(MissingPaneTest, ReasonsAreReadWithoutScrollingWhereThereIsRoom) {
+  MissingPane pane;
+  pane.resize(420, 900);
+  pane.setRanking(test::model_example().missing, true, false);
+  pane.show();
+  QTest::qWait(50);
+  const auto* text = pane.findChild<QTextBrowser*>("proposal_text");
+  EXPECT_EQ(text->verticalScrollBar()->maximum(), 0);
+  const auto* list = pane.findChild<QTreeWidget*>("proposals");
+  EXPECT_GE(list->height(), 200);
+  // Where there is none, the list stays one to choose from.
+  pane.resize(420, 420);
+  QTest::qWait(50);
+  EXPECT_GT(text->verticalScrollBar()->maximum(), 0);
+  EXPECT_GE(list->height(), 60);
+  // What the user drags stays.
+  auto* parts = pane.findChild<QSplitter*>();
+  parts->setSizes({250, 70, 100});
+  Q_EMIT parts->splitterMoved(250, 1);
+  const QList<int> dragged = parts->sizes();
+  pane.setRanking(nullptr, true, false);
+  pane.setRanking(test::model_example().missing, true, false);
+  QTest::qWait(50);
+  EXPECT_EQ(parts->sizes(), dragged);
 }
 
 // One cause makes several effects fit better: whoever adds them all has as many wrong ones.

@@ -7,6 +7,7 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDir>
+#include <QElapsedTimer>
 #include <QListWidget>
 #include <QPushButton>
 #include <QScreen>
@@ -41,6 +42,13 @@ class Photographer {
 
   void take(const QString& name, QWidget* widget = nullptr) {
     QTest::qWait(800);  // Views build their scenes in the background.
+    // On a busy machine plots wait for their turn to be drawn: until nothing waits.
+    QElapsedTimer turn;
+    for (int k = 0; k < 50; ++k) {
+      turn.start();
+      QTest::qWait(50);
+      if (turn.elapsed() < 100) break;
+    }
     QWidget* shown = widget == nullptr ? &window_ : widget;
     const QString path = QDir(folder_).filePath(name + QStringLiteral(".png"));
     // From the screen: a grab of widgets would miss what OpenGL drew.
