@@ -45,8 +45,7 @@ void describe_numbers(BoardReturns& returns) {
 
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            const RangeNoise& noise, const ReturnSelection& selection,
-                            std::span<const double> added_m) {
+                            const RangeNoise& noise, const ReturnSelection& selection) {
   const BoardPredictor predictor(print, lidar_from_board, {}, beam);
   const double beam_rad = std::sqrt(beam.blur_rad2.trace());
   const BoardOutline& outline = print.outline();
@@ -67,8 +66,7 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
     const double inside = print.inside_m(hit->board_m);
     if (inside <= 0.0) continue;
     const double white = blurred.at(hit->board_m);
-    const double predicted = hit->range_m + (added_m.empty() ? 0.0 : added_m[i]);
-    const PlacedReturn at{static_cast<std::uint32_t>(i), hit->board_m, range - predicted,
+    const PlacedReturn at{static_cast<std::uint32_t>(i), hit->board_m, range - hit->range_m,
                           noise_between(noise.white_m, noise.black_m, white), white,
                           // One spot is wider than the beam's angles span by 1/cos θ at most.
                           kCoverSpots * beam_rad * range / 0.5};

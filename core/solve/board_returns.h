@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -60,11 +59,9 @@ struct ReturnSelection {
 /// Picks the returns on a board at `lidar_from_board`: those whose ray meets the board's inside and
 /// whose range agrees with its plane. Where something stands before the board or lies on it,
 /// returns within three spot widths of it are left out as well: part of their light comes from it.
-/// `added_m`: what effects in the model add to the range of every point; empty: nothing.
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            const RangeNoise& noise, const ReturnSelection& selection = {},
-                            std::span<const double> added_m = {});
+                            const RangeNoise& noise, const ReturnSelection& selection = {});
 
 /// Below this intensity_structure() returns show no print: noise alone gives one, with a few
 /// hundred returns ± 0.1; a print of a contrast of half the noise adds this quarter.
