@@ -339,7 +339,7 @@ void MissingPane::shareHeight() {
   if (parts_moved_ || !isVisible()) return;
   const int height = parts_->height() - 2 * parts_->handleWidth();
   const int pattern = std::clamp(height / 4, 90, 170);
-  const int least_list = std::max(110, (height - pattern) / 3);
+  const int least_list = std::max(150, 2 * (height - pattern) / 5);
   const int frame = 2 * text_->frameWidth();
   longest_text_ = std::max(longest_text_,
                            static_cast<int>(std::ceil(text_->document()->size().height())) + frame);
