@@ -30,7 +30,7 @@ struct StructureScore {
   /// Of a surface over two covariates; empty of a curve.
   std::string second_covariate = {};
   /// Whether it is at a place: on the board, in the field of view, in the image. Of curves those
-  /// over azimuth and over the board; over elevation scanners' lines differ, each as it likes.
+  /// over azimuth and along the board; over elevation also what differs from line to line shows.
   [[nodiscard]] bool is_at_a_place() const;
   /// One name, or the two of a surface.
   [[nodiscard]] std::vector<std::string> covariates() const {

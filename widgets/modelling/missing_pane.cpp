@@ -98,11 +98,11 @@ MissingPane::MissingPane(QWidget* parent)
     : QWidget(parent),
       verdict_(new QLabel(this)),
       parts_(new QSplitter(Qt::Vertical, this)),
-      tabs_(new QTabWidget(parts_)),
+      tabs_(new QTabWidget(this)),
       list_(new QTreeWidget(this)),
       budget_(new QTreeWidget(this)),
-      text_(new QTextBrowser(parts_)),
-      pattern_(new ResidualPlot(parts_)),
+      text_(new QTextBrowser(this)),
+      pattern_(new ResidualPlot(this)),
       add_(new QPushButton(this)),
       all_(new QPushButton(this)),
       look_(new QPushButton(this)) {
@@ -145,6 +145,9 @@ MissingPane::MissingPane(QWidget* parent)
   tabs_->addTab(list_, {});
   tabs_->addTab(budget_, {});
   parts_->setChildrenCollapsible(false);
+  parts_->addWidget(tabs_);
+  parts_->addWidget(text_);
+  parts_->addWidget(pattern_);
   parts_->setStretchFactor(0, 3);
   parts_->setStretchFactor(1, 2);
   parts_->setStretchFactor(2, 2);
@@ -337,13 +340,20 @@ void MissingPane::updateVerdict() {
 // only grows: a list that changes its height with every choice cannot be walked through.
 void MissingPane::shareHeight() {
   if (parts_moved_ || !isVisible()) return;
+  // Three lines of text, five rows of the list under its tabs and head, a plot of which one sees
+  // the course.
+  constexpr int kLeastText = 70;
+  constexpr int kLeastList = 150;
+  constexpr int kLeastPattern = 90;
+  constexpr int kMostPattern = 170;
   const int height = parts_->height() - 2 * parts_->handleWidth();
-  const int pattern = std::clamp(height / 4, 90, 170);
-  const int least_list = std::max(150, 2 * (height - pattern) / 5);
-  const int frame = 2 * text_->frameWidth();
-  longest_text_ = std::max(longest_text_,
-                           static_cast<int>(std::ceil(text_->document()->size().height())) + frame);
-  const int text = std::clamp(longest_text_, 70, std::max(70, height - pattern - least_list));
+  const int pattern = std::clamp(height / 4, kLeastPattern, kMostPattern);
+  const int list = std::max(kLeastList, 2 * (height - pattern) / 5);
+  const int wanted =
+      static_cast<int>(std::ceil(text_->document()->size().height())) + 2 * text_->frameWidth();
+  longest_text_ = std::max(longest_text_, wanted);
+  const int text =
+      std::clamp(longest_text_, kLeastText, std::max(kLeastText, height - pattern - list));
   parts_->setSizes({height - pattern - text, text, pattern});
 }
 
@@ -381,7 +391,6 @@ void MissingPane::describe() {
     html += QStringLiteral("<p>%1</p>").arg(core_text(p->finding.explanation).toHtmlEscaped());
     html += criteria_html(*p);
     text_->setHtml(html);
-    shareHeight();
     pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));
     Q_EMIT chosen();
   } else if (unknown != nullptr) {
@@ -390,6 +399,7 @@ void MissingPane::describe() {
     text_->clear();
     setPattern(nullptr);
   }
+  shareHeight();
 }
 
 void MissingPane::describeStructure(const StructureScore& s) {
@@ -400,7 +410,6 @@ void MissingPane::describeStructure(const StructureScore& s) {
           .arg(channel_name(s.channel), covariates_text(s))
           .arg(plain_number(s.amplitude, 2))
           .arg(unit_text(s.channel)));
-  shareHeight();
   setPattern(nullptr);
   Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
 }
