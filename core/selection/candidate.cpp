@@ -154,6 +154,51 @@ std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& 
   return out;
 }
 
+HeldoutScenes heldout_scenes(const MeasurementTable& table, const Linearization& linear,
+                             const Reference& reference) {
+  HeldoutScenes out(linear.scenes.size());
+  for (std::size_t s = 0; s < out.size(); ++s) {
+    out[s].squares = reference.heldout[s];
+    for (std::size_t k = 0; k < kChannels; ++k) out[s].rows[k] = linear.scenes[s].rows[k];
+  }
+  const auto add = [&](Channel channel, int scene, double sigma) {
+    out[static_cast<std::size_t>(scene)].weight[static_cast<std::size_t>(channel)] +=
+        1.0 / (sigma * sigma);
+  };
+  for (const RangeRow& row : table.range) add(Channel::kRange, row.beam.scene, row.sigma_m);
+  for (const BoundaryRow& row : table.boundary)
+    add(Channel::kBoundary, row.beam.scene, row.sigma_m);
+  for (const IntensityRow& row : table.intensity)
+    add(Channel::kIntensity, row.beam.scene, row.sigma);
+  for (const CornerRow& row : table.corner) add(Channel::kCorner, row.scene, row.sigma_px);
+  return out;
+}
+
+double total_squares(const HeldoutScenes& scenes, Channel channel) {
+  double sum = 0.0;
+  for (const HeldoutScene& scene : scenes) sum += scene.squares[static_cast<std::size_t>(channel)];
+  return sum;
+}
+
+bool predicts_worse(const HeldoutScenes& before, const HeldoutScenes& after, double least) {
+  const auto worse = [&](std::array<double, kChannels> HeldoutScene::*per) {
+    std::vector<double> loss;
+    double squares = 0.0;
+    for (std::size_t s = 0; s < before.size(); ++s) {
+      loss.push_back(0.0);
+      for (std::size_t k = 0; k < kChannels; ++k) {
+        const double was = (before[s].*per)[k];
+        const double is = (after[s].*per)[k];
+        if (!(was > 0.0) || !(is > 0.0)) continue;
+        loss.back() += was / is * after[s].squares[k] - before[s].squares[k];
+        squares += before[s].squares[k];
+      }
+    }
+    return std::accumulate(loss.begin(), loss.end(), 0.0) > least * squares && is_gain(loss);
+  };
+  return worse(&HeldoutScene::rows) && worse(&HeldoutScene::weight);
+}
+
 Reference make_reference(const Linearization& linear, const ColumnSubset& subset,
                          const ModelVariances& start, const MixedModelOptions& options) {
   Reference out;

@@ -76,6 +76,26 @@ std::array<double, kChannels> row_counts(const Linearization& linear);
 std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& linear,
                                                            const ModelFit& fit);
 
+/// A scene held out: the squares that are left of each channel, over σ², of how many rows, and the
+/// sum of these rows' 1/σ².
+struct HeldoutScene {
+  std::array<double, kChannels> squares{};
+  std::array<double, kChannels> rows{};
+  std::array<double, kChannels> weight{};
+};
+using HeldoutScenes = std::vector<HeldoutScene>;
+HeldoutScenes heldout_scenes(const MeasurementTable& table, const Linearization& linear,
+                             const Reference& reference);
+
+/// Sum of a channel's squares.
+double total_squares(const HeldoutScenes& scenes, Channel channel);
+
+/// Whether scenes held out are predicted worse than before over all channels: by more than a share
+/// `least` of the squares and more than their mean's standard error over scenes. The two models may
+/// stand on different tables of the same scenes: worse is what is worse per row (a table may have
+/// more of them) and in px, mm and logarithms as well (it may state smaller σ).
+bool predicts_worse(const HeldoutScenes& before, const HeldoutScenes& after, double least);
+
 Reference make_reference(const Linearization& linear, const ColumnSubset& subset,
                          const ModelVariances& start, const MixedModelOptions& options);
 

@@ -22,7 +22,7 @@ void EffectSearch::ask_both_prints() {
   const auto disagree = [&](const Candidate& c) {
     return prints_disagree({table(), state_, effects, own, subset, variances_},
                            linear_.columns.list()[c.columns], c.must_show.value_or(Channel::kRange),
-                           options_, context_);
+                           *options_, context_);
   };
   doubt_levels(disagree);
   while (!context_.stopped()) {
@@ -40,7 +40,7 @@ void EffectSearch::doubt_levels(const std::function<bool(const Candidate&)>& dis
   for (const Candidate& c : candidates_) {
     if (context_.stopped()) return;
     const bool asked = c.must_show && c.contradiction == Contradiction::kNone &&
-                       is_accepted(c, candidates_.size(), table().scenes.size(), options_);
+                       is_accepted(c, candidates_.size(), table().scenes.size(), *options_);
     if (!asked || !disagree(c)) continue;
     contradict(c, Contradiction::kPrints);
     doubted = true;
@@ -73,7 +73,7 @@ void EffectSearch::ask_structure() {
     if (!found[k]) {
       EveryResidual residuals;
       residuals[k] = residuals_of(table(), state_, model(), channel, context_);
-      found[k] = notable_of(scan_structure(table(), residuals, context_), options_);
+      found[k] = notable_of(scan_structure(table(), residuals, context_), *options_);
     }
     return *found[k];
   };
@@ -104,7 +104,7 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
   // twice as much holds something else.
   constexpr double kMore = 2.0;
   if (curve.score < kMore * candidate.heldout_gain[static_cast<std::size_t>(channel)]) return false;
-  const auto effect = make_user_effect(curve_spec(curve), table(), options_.user);
+  const auto effect = make_user_effect(curve_spec(curve), table(), options_->user);
   if (!effect) return false;
   EffectColumnsList columns = own_columns();
   ColumnSubset subset = own_subset(columns);
@@ -120,7 +120,7 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
   if (context_.stopped()) return false;
   const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 3});
   return f_test(fit, tried.count()) * static_cast<double>(candidates_.size()) >
-         options_.false_alarm;
+         options_->false_alarm;
 }
 
 bool EffectSearch::leaves_a_place(const Candidate& candidate,

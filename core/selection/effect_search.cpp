@@ -66,7 +66,7 @@ EffectSearch::EffectSearch(const MeasurementTable& table, ModelState state,
       table_(&table),
       memory_(table),
       state_(std::move(state)),
-      options_(options),
+      options_(&options),
       context_(context),
       in_use_(std::move(in_use)),
       blur_{beam_blur(), 0.0, Eigen::VectorXd::Zero(3)} {
@@ -485,7 +485,7 @@ void EffectSearch::rank() {
   candidates_.resize(columns.list().size() - first);
   const auto evaluate = [&](std::size_t k, std::size_t columns_at, const MixedModelOptions& how) {
     if (context_.stopped()) return;
-    candidates_[k] = evaluate_candidate(linear_, reference_, columns_at, options_.tolerance, how);
+    candidates_[k] = evaluate_candidate(linear_, reference_, columns_at, options_->tolerance, how);
   };
   parallel_for(candidates_.size(), context_.thread_count(),
                [&](std::size_t k) { evaluate(k, first + k, {.rounds = 3}); });
@@ -509,8 +509,8 @@ void EffectSearch::refit_promising() {
   const std::size_t tried = candidates_.size();
   for (std::size_t k = 0; k < std::min(kRefitted, tried) && !context_.stopped(); ++k) {
     Candidate& c = candidates_[k];
-    if (is_accepted(c, tried, table().scenes.size(), options_)) return;
-    if (c.p_value * static_cast<double>(tried) > options_.false_alarm) continue;
+    if (is_accepted(c, tried, table().scenes.size(), *options_)) return;
+    if (c.p_value * static_cast<double>(tried) > options_->false_alarm) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
     const Reference& without_it = reference_;
     EffectSearch trial(*this);
@@ -543,7 +543,7 @@ std::optional<std::size_t> EffectSearch::best() const {
   int first = 0;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const Candidate& c = candidates_[k];
-    if (!is_accepted(c, candidates_.size(), table().scenes.size(), options_)) continue;
+    if (!is_accepted(c, candidates_.size(), table().scenes.size(), *options_)) continue;
     if (!chosen) {
       chosen = k;
       most = c.total_density();
@@ -563,7 +563,7 @@ EffectSearch EffectSearch::with_faint() const {
   EffectSearch out(*this);
   std::set<Channel> done;
   for (const Candidate& c : candidates_) {
-    if (c.contradiction != Contradiction::kNone || !is_sure(c, candidates_.size(), options_))
+    if (c.contradiction != Contradiction::kNone || !is_sure(c, candidates_.size(), *options_))
       continue;
     if (!done.insert(c.main_channel()).second) continue;
     const EffectColumns& columns = linear_.columns.list()[c.columns];
@@ -614,7 +614,7 @@ std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect)
       linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
   if (context_.stopped()) return std::nullopt;
   const Reference reference = make_reference(linear, subset, variances_, {.rounds = 0});
-  const Candidate c = evaluate_candidate(linear, reference, own_count(), options_.tolerance, {});
+  const Candidate c = evaluate_candidate(linear, reference, own_count(), options_->tolerance, {});
   const auto p = static_cast<Eigen::Index>(columns.list().back().count());
   const ExtrinsicMove move = move_if_omitted(c.fit, c.fit.solution.tail(p));
   if (!std::isfinite(move.translation_m) || !std::isfinite(move.rotation_rad)) return std::nullopt;

@@ -83,6 +83,10 @@ class EffectSearch {
     refused_.insert(id);
     ranked_ = false;
   }
+  void forget_refusals() {
+    refused_.clear();
+    ranked_ = false;
+  }
   /// After rank(): index of the best accepted candidate, or of the simplest that predicts as well.
   [[nodiscard]] std::optional<std::size_t> best() const;
   /// After rank(): the model with effects that are sure but explain too little to be let in, of
@@ -182,7 +186,7 @@ class EffectSearch {
   std::shared_ptr<const MeasurementTable> remade_;
   mutable PrintMemory memory_;  ///< Of the table in use: a cache of predictions.
   ModelState state_;
-  const DiscoveryOptions& options_;
+  const DiscoveryOptions* options_;  ///< The caller's; a pointer, so that a search can be put back.
   RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it
   std::vector<EffectInUse> in_use_;
   EffectInUse blur_;

@@ -40,39 +40,31 @@ struct GrowingModel {
   }
 };
 
-double heldout_squares(const EffectSearch& search, Channel channel) {
-  double sum = 0.0;
-  for (const auto& scene : search.reference().heldout)
-    sum += scene[static_cast<std::size_t>(channel)];
-  return sum;
+HeldoutScenes heldout_scenes(const EffectSearch& search) {
+  return heldout_scenes(search.table(), search.linear(), search.reference());
 }
 
-// Adds a candidate, at the shape that it turns out to have. False if it is not let in: one scene
-// with all the leverage can choose a shape that the others know nothing of.
+// Adds a candidate, at the shape that it turns out to have. False if it is not to stay: one scene
+// with all the leverage can choose a shape that the others know nothing of, and what it gains in
+// one channel may be lost in the others.
 bool add_candidate(GrowingModel& model, std::size_t candidate, const DiscoveryOptions& options,
                    const RunContext& context) {
   EffectSearch& search = model.search;
   const Candidate& c = search.candidates()[candidate];
   const EffectColumns columns = columns_of(search, c);
-  Selection s{columns.effect->info().id,
-              aliases_of(search, candidate, options),
-              c.best_heldout_gain(),
-              c.total_gain(),
-              c.p_value,
-              criteria_of(c, search.candidates().size(), search.table().scenes.size(), options),
-              false};
+  model.selections.push_back(
+      {columns.effect->info().id, aliases_of(search, candidate, options), c.best_heldout_gain(),
+       c.total_gain(), c.p_value,
+       criteria_of(c, search.candidates().size(), search.table().scenes.size(), options), false});
   const Channel channel = c.main_channel();
-  const double before = heldout_squares(search, channel);
+  const HeldoutScenes before = heldout_scenes(search);
   search.add(columns.effect, columns.shape);
   search.refine_shape(search.in_use().size() - 1);
   if (context.stopped()) return false;
-  if (heldout_squares(search, channel) > (1.0 + options.min_gain) * before) {
-    search.remove(search.in_use().size() - 1);
-    search.refuse(s.id);
-    return false;
-  }
-  model.selections.push_back(std::move(s));
-  return true;
+  const HeldoutScenes after = heldout_scenes(search);
+  return total_squares(after, channel) <=
+             (1.0 + options.min_gain) * total_squares(before, channel) &&
+         !predicts_worse(before, after, options.min_gain);
 }
 
 // Effects of the catalogue that are not in the model.
@@ -177,6 +169,20 @@ void drop_superfluous(GrowingModel& model, const RunContext& context) {
   }
 }
 
+// One addition with all that follows from it. False if the model is not to keep it.
+bool step_forward(GrowingModel& model, std::size_t candidate, const DiscoveryOptions& options,
+                  const RunContext& context) {
+  EffectSearch& search = model.search;
+  const HeldoutScenes before = heldout_scenes(search);
+  if (!add_candidate(model, candidate, options, context)) return false;
+  try_swaps(model, options.swaps, context);
+  drop_superfluous(model, context);
+  search.remake();
+  search.refine_shapes();
+  // A wrong model chooses and weighs rows that suit it, and these lead it further astray.
+  return !context.stopped() && !predicts_worse(before, heldout_scenes(search), options.min_gain);
+}
+
 }  // namespace
 
 void grow_model(EffectSearch& search, std::vector<Selection>& selections,
@@ -193,13 +199,19 @@ void grow_model(EffectSearch& search, std::vector<Selection>& selections,
       return;
     const auto best = search.best();
     if (!best) return;
-    const bool added = add_candidate(model, *best, options, context);
+    const EffectSearch before(search);
+    const std::vector<Selection> selected = selections;
+    const std::string id = columns_of(search, search.candidates()[*best]).effect->info().id;
+    const bool better = step_forward(model, *best, options, context);
     if (context.stopped()) return;
-    if (!added) continue;
-    try_swaps(model, options.swaps, context);
-    drop_superfluous(model, context);
-    search.remake();
-    search.refine_shapes();
+    if (!better) {
+      search = before;
+      selections = selected;
+      search.refuse(id);
+      continue;
+    }
+    // Beside what has come in, they may be right.
+    search.forget_refusals();
     on_added();
     if (context.stopped()) return;
   }

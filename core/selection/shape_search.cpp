@@ -52,7 +52,7 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
   parallel_for(shapes.size(), context_.thread_count(), [&](std::size_t k) {
     if (!context_.stopped())
       gain[k] =
-          evaluate_candidate(linear, reference, own_count() + k, options_.tolerance, {.rounds = 3})
+          evaluate_candidate(linear, reference, own_count() + k, options_->tolerance, {.rounds = 3})
               .total_gain();
   });
   return shapes[static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) -

@@ -45,7 +45,8 @@ void describe_numbers(BoardReturns& returns) {
 
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            const RangeNoise& noise, const ReturnSelection& selection) {
+                            const RangeNoise& noise, const ReturnSelection& selection,
+                            const std::function<double(std::uint32_t)>& added_m) {
   const BoardPredictor predictor(print, lidar_from_board, {}, beam);
   const double beam_rad = std::sqrt(beam.blur_rad2.trace());
   const BoardOutline& outline = print.outline();
@@ -66,11 +67,15 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
     const double inside = print.inside_m(hit->board_m);
     if (inside <= 0.0) continue;
     const double white = blurred.at(hit->board_m);
-    const PlacedReturn at{static_cast<std::uint32_t>(i), hit->board_m, range - hit->range_m,
-                          noise_between(noise.white_m, noise.black_m, white), white,
-                          // One spot is wider than the beam's angles span by 1/cos θ at most.
-                          kCoverSpots * beam_rad * range / 0.5};
+    PlacedReturn at{static_cast<std::uint32_t>(i), hit->board_m, range - hit->range_m,
+                    noise_between(noise.white_m, noise.black_m, white), white,
+                    // One spot is wider than the beam's angles span by 1/cos θ at most.
+                    kCoverSpots * beam_rad * range / 0.5};
     const double gate = selection.range_gate * at.sigma_m;
+    if (added_m && std::abs(at.off_m) > gate) {
+      const double off = at.off_m - added_m(at.point);
+      if (std::abs(off) < std::abs(at.off_m)) at.off_m = off;
+    }
     if (at.off_m < -std::max(kCover_m, 2.0 * gate)) {
       covered.cover(at.board_m, at.reach_m);
       ++out.on_board;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -59,9 +60,13 @@ struct ReturnSelection {
 /// Picks the returns on a board at `lidar_from_board`: those whose ray meets the board's inside and
 /// whose range agrees with its plane. Where something stands before the board or lies on it,
 /// returns within three spot widths of it are left out as well: part of their light comes from it.
+/// `added_m`: what effects in the model add to the range of a point of the cloud; empty: nothing. A
+/// return is on the board if its range agrees with or without that: what an effect has brought in
+/// stays in should the effect be wrong. It is asked of those returns alone that do not agree.
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            const RangeNoise& noise, const ReturnSelection& selection = {});
+                            const RangeNoise& noise, const ReturnSelection& selection = {},
+                            const std::function<double(std::uint32_t)>& added_m = {});
 
 /// Below this intensity_structure() returns show no print: noise alone gives one, with a few
 /// hundred returns ± 0.1; a print of a contrast of half the noise adds this quarter.

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -108,6 +109,7 @@ class ReturnEffects {
     double log_intensity = 0.0;
     double range_m = 0.0;
   };
+  [[nodiscard]] bool any() const { return !in_use_.empty(); }
   // `near`: the edge that the spot sees, if any.
   Sum of(const SceneGeometry& geometry, const Eigen::Matrix3d& rotation, BeamPoint beam,
          double predicted, const std::optional<NearEdge>& near, double log_contrast) {
@@ -229,32 +231,63 @@ class SceneRows {
   }
 
  private:
+  // A point of the cloud as the model sees it, and what effects in use do to it.
+  struct Look {
+    Return r;
+    ReturnPrediction predicted;
+    ReturnEffects::Sum by_effects;
+  };
+  [[nodiscard]] std::optional<Look> look_at(std::uint32_t i, const BoardPredictor& predictor,
+                                            const Eigen::Matrix3d& rotation, const BeamSpread& beam,
+                                            ReturnEffects& effects) const {
+    const Cloud& cloud = *input_.board_points;
+    Look out;
+    Return& r = out.r;
+    r.point = i;
+    const Eigen::Vector3d point = cloud.points_m[i].cast<double>();
+    r.measured_m = point.norm();
+    r.beam.scene = scene_;
+    const Eigen::Vector3d direction = point / r.measured_m;
+    r.lot = lot_of(direction);
+    if (known_ != nullptr) r.seen = (*known_)[i];
+    const auto p = predictor.predict(direction, {}, &r.seen, &r.seen);
+    if (!p || !geometry_.describe(direction, r.beam)) return std::nullopt;
+    out.predicted = *p;
+    if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
+    if (cloud.has_line()) r.beam.line = cloud.line[i];
+    if (!velocities_.empty()) r.beam.scan_rad_s = velocities_[i];
+    const PrintView view = view_print(*p, levels_, beam);
+    r.beam.white = p->white;
+    r.beam.jitter_share = jitter_share(*p, beam);
+    out.by_effects = effects.of(geometry_, rotation, r.beam, p->intensity, edge_of(*p, view),
+                                log_contrast(levels_));
+    return out;
+  }
+
   void collect(const BeamSpread& beam, const SceneNoise& noise, ReturnEffects& effects) {
     const Eigen::Matrix3d rotation = geometry_.lidar_from_board().rotation.toRotationMatrix();
     const Cloud& cloud = *input_.board_points;
-    const BoardReturns kept = select_returns(cloud, print_, geometry_.lidar_from_board(), beam,
-                                             {noise.range_white_m, noise.range_black_m});
-    has_intensity_ = kept.has_intensity;
     const BoardPredictor predictor(print_, geometry_.lidar_from_board(), levels_, beam);
+    // A return belongs to the board if its range is what the model in force predicts: offsets of a
+    // sensor and of one of its lines add up to more than five of its deviations.
+    std::function<double(std::uint32_t)> added_m;
+    if (effects.any()) {
+      added_m = [&](std::uint32_t i) {
+        const auto look = look_at(i, predictor, rotation, beam, effects);
+        return look ? look->by_effects.range_m : 0.0;
+      };
+    }
+    const BoardReturns kept =
+        select_returns(cloud, print_, geometry_.lidar_from_board(), beam,
+                       {noise.range_white_m, noise.range_black_m}, {}, added_m);
+    has_intensity_ = kept.has_intensity;
     for (std::size_t k = 0; k < kept.size(); ++k) {
-      const std::uint32_t i = kept.index[k];
-      Return r;
-      r.point = i;
-      r.measured_m = kept.point_m(k).norm();
-      r.beam.scene = scene_;
+      const auto look = look_at(kept.index[k], predictor, rotation, beam, effects);
+      if (!look) continue;
+      Return r = look->r;
+      const ReturnEffects::Sum& sum = look->by_effects;
       const Eigen::Vector3d direction = kept.point_m(k) / r.measured_m;
-      r.lot = lot_of(direction);
-      if (known_ != nullptr) r.seen = (*known_)[i];
-      auto p = predictor.predict(direction, {}, &r.seen, &r.seen);
-      if (!p || !geometry_.describe(direction, r.beam)) continue;
-      if (cloud.has_time()) r.beam.time_s = cloud.time_s[i];
-      if (cloud.has_line()) r.beam.line = cloud.line[i];
-      if (!velocities_.empty()) r.beam.scan_rad_s = velocities_[i];
-      const PrintView view = view_print(*p, levels_, beam);
-      r.beam.white = p->white;
-      r.beam.jitter_share = jitter_share(*p, beam);
-      const ReturnEffects::Sum sum = effects.of(geometry_, rotation, r.beam, p->intensity,
-                                                edge_of(*p, view), log_contrast(levels_));
+      std::optional<ReturnPrediction> p = look->predicted;
       r.ranged = r.moved = r.seen;
       auto ranged = p;
       if (!sum.ranged.shift_m.isZero() || sum.ranged.growth_m)

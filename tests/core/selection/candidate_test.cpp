@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "selection/candidate.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -46,6 +47,56 @@ TEST_F(Candidates, AnEffectInOneSceneOnlyIsNotAccepted) {
   };
   prepare(test::synthetic_table({}, wrong), {"range_walk"});
   EXPECT_FALSE(is_accepted(evaluate(0), 60, 6, options_));
+}
+
+// Six scenes that leave in each channel as many squares as they have rows.
+HeldoutScenes as_noise() {
+  constexpr std::array<double, kChannels> kRows{100.0, 1000.0, 400.0, 500.0};
+  return HeldoutScenes(6, HeldoutScene{kRows, kRows, kRows});
+}
+
+TEST(Heldout, WhatOneChannelGainsAnotherMustNotLose) {
+  constexpr auto kRange = static_cast<std::size_t>(Channel::kRange);
+  constexpr auto kIntensity = static_cast<std::size_t>(Channel::kIntensity);
+  const HeldoutScenes before = as_noise();
+  HeldoutScenes after = before;
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));
+  for (HeldoutScene& scene : after) scene.squares[kRange] -= 100.0;
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));
+  for (HeldoutScene& scene : after) scene.squares[kIntensity] += 100.0 + 15.0;
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));  // Less than a hundredth of 2000.
+  for (HeldoutScene& scene : after) scene.squares[kIntensity] += 10.0;
+  EXPECT_TRUE(predicts_worse(before, after, 0.01));
+}
+
+TEST(Heldout, OneSceneAloneMayBeChance) {
+  const HeldoutScenes before = as_noise();
+  HeldoutScenes after = before;
+  after[2].squares[0] += 400.0;
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));
+  after[3].squares[0] += 400.0;
+  after[4].squares[0] += 400.0;
+  EXPECT_TRUE(predicts_worse(before, after, 0.01));
+}
+
+// A model that chooses more or fewer rows is not judged by how many they are, nor one by the
+// smaller noise that it leaves.
+TEST(Heldout, SquaresCountPerRowAndInTheirUnit) {
+  const HeldoutScenes before = as_noise();
+  HeldoutScenes after = before;
+  const auto scale = [&](std::array<double, kChannels> HeldoutScene::*what, double by) {
+    for (HeldoutScene& scene : after) (scene.*what)[1] *= by;
+  };
+  scale(&HeldoutScene::squares, 2.0);
+  EXPECT_TRUE(predicts_worse(before, after, 0.01));
+  scale(&HeldoutScene::weight, 2.0);  // As large as before, over half the variance.
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));
+  scale(&HeldoutScene::rows, 2.0);  // Twice the rows.
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));
+  scale(&HeldoutScene::weight, 0.5);  // Of twice the variance.
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));
+  scale(&HeldoutScene::rows, 0.0);  // None to be compared.
+  EXPECT_FALSE(predicts_worse(before, after, 0.01));
 }
 
 // Existence is one question, relevance another: what is there is there, however small.

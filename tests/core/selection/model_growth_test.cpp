@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "selection/model_growth.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -60,6 +61,36 @@ TEST_F(Growing, TheUsersOwnStayHoweverUseless) {
   ASSERT_EQ(selections_.size(), 2U);
   EXPECT_EQ(selections_[0].id, "range_cyclic");
   EXPECT_EQ(ids(), ids(search));
+}
+
+// Effects that seem right on the rows at hand, with which the table made again has rows that they
+// predict far worse: the model goes back to where it was and says that scenes contradict them.
+TEST_F(Growing, WhatPredictsTheRowsThatItChoosesWorseIsTakenBack) {
+  const MeasurementTable given = made_.table;
+  made_.table.again = [given](const ModelState&, const std::vector<EffectInUse>& in_use,
+                              const RunContext&) {
+    MeasurementTable out = given;
+    const bool wrong = std::any_of(in_use.begin(), in_use.end(), [](const EffectInUse& use) {
+      return use.effect->info().id != "corner_bias";
+    });
+    if (!wrong) return out;
+    for (RangeRow& row : out.range)
+      row.measured_m += (row.beam.scene % 2 == 0 ? 0.03 : -0.03) * row.beam.board_m.x();
+    return out;
+  };
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  const Rigid3 before = search.state().camera_from_lidar;
+  std::vector<std::vector<std::string>> rounds;
+  grow_model(search, selections_, options_, context_, [&] { rounds.push_back(ids()); });
+  EXPECT_THAT(ids(), ::testing::ElementsAre("corner_bias"));
+  EXPECT_EQ(ids(), ids(search));
+  ASSERT_EQ(rounds.size(), 1U);
+  EXPECT_THAT(rounds[0], ::testing::ElementsAre("corner_bias"));
+  EXPECT_LT(translation_distance_m(search.state().camera_from_lidar, before), 0.002);
+  for (const Candidate& c : search.candidates()) {
+    if (search.linear().columns.list()[c.columns].effect->info().id != "range_walk") continue;
+    EXPECT_EQ(c.contradiction, Contradiction::kScenes);
+  }
 }
 
 TEST_F(Growing, AStoppedSearchAddsNothing) {

@@ -102,6 +102,34 @@ TEST_F(PrintTable, MadeAgainItRefersToTheSameLevels) {
               0.01 * static_cast<double>(table_.range.size()));
 }
 
+// Farther from the base model than any noise: what belongs to the board follows the model in force.
+TEST_F(PrintTable, MadeAgainItHasTheReturnsThatTheModelPredicts) {
+  constexpr double kOffset_m = 0.12;
+  std::vector<Cloud> far;
+  std::vector<SceneMeasurements> scenes;
+  for (const ForwardScene& scene : rig_.scenes) {
+    far.push_back(*scene.board_points);
+    for (Eigen::Vector3f& p : far.back().points_m)
+      p *= 1.0F + static_cast<float>(kOffset_m) / p.norm();
+  }
+  for (std::size_t s = 0; s < far.size(); ++s)
+    scenes.push_back({rig_.scenes[s].name, rig_.scenes[s].corners, &far[s]});
+  TableOptions how;
+  how.max_rows_per_scene = 3000;
+  const auto table =
+      print_table(scenes, std::make_shared<const BlurredPrint>(rig_.target), rig_.camera, state_,
+                  solution_.noise, test::kRigCornerSigma_px, how, {});
+  EXPECT_LT(table.range.size(), table_.range.size() / 10);
+  const std::vector<EffectInUse> in_use{
+      {find_effect("range_offset"), 0.0, Eigen::VectorXd::Constant(1, kOffset_m)}};
+  const MeasurementTable again = table.again(state_, in_use, {});
+  EXPECT_NEAR(static_cast<double>(again.range.size()), static_cast<double>(table_.range.size()),
+              0.01 * static_cast<double>(table_.range.size()));
+  EXPECT_NEAR(static_cast<double>(again.boundary.size()),
+              static_cast<double>(table_.boundary.size()),
+              0.01 * static_cast<double>(table_.boundary.size()));
+}
+
 // A model that the solve's jitter had to stand in for explains what it stood in for.
 TEST_F(PrintTable, MadeAgainItMeasuresTheJitterAgain) {
   ModelState wide = state_;
