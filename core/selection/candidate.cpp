@@ -183,18 +183,18 @@ double total_squares(const HeldoutScenes& scenes, Channel channel) {
 bool predicts_worse(const HeldoutScenes& before, const HeldoutScenes& after, double least) {
   const auto worse = [&](std::array<double, kChannels> HeldoutScene::*per) {
     std::vector<double> loss;
-    double squares = 0.0;
+    double rows = 0.0;
     for (std::size_t s = 0; s < before.size(); ++s) {
       loss.push_back(0.0);
       for (std::size_t k = 0; k < kChannels; ++k) {
-        const double was = (before[s].*per)[k];
-        const double is = (after[s].*per)[k];
-        if (!(was > 0.0) || !(is > 0.0)) continue;
-        loss.back() += was / is * after[s].squares[k] - before[s].squares[k];
-        squares += before[s].squares[k];
+        const double was = before[s].squares[k] / (before[s].*per)[k];
+        const double is = after[s].squares[k] / (after[s].*per)[k];
+        if (!(was > 0.0) || !(is > 0.0)) continue;  // Or no rows.
+        loss.back() += before[s].rows[k] * std::log(is / was);
+        rows += before[s].rows[k];
       }
     }
-    return std::accumulate(loss.begin(), loss.end(), 0.0) > least * squares && is_gain(loss);
+    return std::accumulate(loss.begin(), loss.end(), 0.0) > least * rows && is_gain(loss);
   };
   return worse(&HeldoutScene::rows) && worse(&HeldoutScene::weight);
 }
