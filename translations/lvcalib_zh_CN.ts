@@ -1710,8 +1710,8 @@ were saved. Take them up again?</source>
         <translation>作数阈值</translation>
     </message>
     <message>
-        <source>Where it fits best it predicts scenes held out worse: %1; too few of them show it. To decide: %2.</source>
-        <translation>在拟合最好的取值下，它对留出场景的预测反而更差：%1；能显示它的场景太少。要判定需要：%2。</translation>
+        <source>Tried in the model it predicts scenes held out worse: %1; too few of them show it, or something else does what it explains. To decide: %2.</source>
+        <translation>放入模型后，它对留出场景的预测反而更差：%1；能显示它的场景太少，或者它所解释的现象另有原因。要判定需要：%2。</translation>
     </message>
     <message>
         <source>the model of every return could not be solved (%1): the extrinsic rests on nodes, planes and corners</source>

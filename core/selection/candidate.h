@@ -15,7 +15,7 @@ namespace lvcalib {
 enum class Contradiction {
   kNone,
   kPrints,  ///< White and black print tell different stories about it (see print_contrast.h).
-  kScenes,  ///< With the shape number that fits best, scenes held out are predicted worse.
+  kScenes,  ///< Tried in the model, it predicts scenes held out worse (see predicts_worse()).
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
   kCurve,   ///< Beside a curve over a covariate, which predicts far better, it says nothing.
   kPlace,   ///< Something local predicts better, and with it in the model most of that stays.
