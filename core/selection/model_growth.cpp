@@ -2,6 +2,7 @@
 #include "selection/model_growth.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "selection/findings.h"
 #include "solve/fit_inference.h"
@@ -160,6 +161,26 @@ void try_swaps(GrowingModel& model, int left, const RunContext& context) {
   }
 }
 
+// An effect's shape number was chosen while the last one was missing: another of its shapes takes
+// its place if it predicts held-out scenes better by more than one standard error over scenes,
+// after a full refit. Refining moves a shape between its neighbours alone.
+void try_shapes(GrowingModel& model, const RunContext& context) {
+  auto& [search, selections] = model;
+  for (std::size_t k = 0; k + 1 < selections.size(); ++k) {
+    const EffectPtr effect = search.in_use()[k].effect;
+    if (selections[k].wanted || search.shapes_worth_trying(*effect).size() < 2) continue;
+    for (const EffectSearch::Swap& next : search.swaps(k, {effect})) {
+      if (std::accumulate(next.gain.begin(), next.gain.end(), 0.0) <= 0.0) continue;
+      EffectSearch trial(search);
+      trial.replace(k, next.effect, next.shape);
+      trial.refine_shape(k);
+      if (context.stopped()) return;
+      if (is_gain(difference(trial, search))) search = trial;
+    }
+    if (context.stopped()) return;
+  }
+}
+
 // What a later effect explains better goes again (never what the user asked for).
 void drop_superfluous(GrowingModel& model, const RunContext& context) {
   while (!context.stopped() && model.found() > 1) {
@@ -177,6 +198,7 @@ bool step_forward(GrowingModel& model, std::size_t candidate, const DiscoveryOpt
   if (!add_candidate(model, candidate, options, context)) return false;
   try_swaps(model, options.swaps, context);
   drop_superfluous(model, context);
+  try_shapes(model, context);
   search.remake();
   search.refine_shapes();
   // A wrong model chooses and weighs rows that suit it, and these lead it further astray.

@@ -117,5 +117,29 @@ TEST_F(Growing, AShapeBetweenTheOnesTriedLeavesNothingOver) {
   EXPECT_NEAR(search.in_use()[0].shape, 1.7, 0.15);
 }
 
+// A shape that was right while something else was missing: beside what has come in another one, not
+// a neighbour of the first, is. Here ranges follow the power that range and incidence leave.
+TEST_F(Growing, AShapeIsChosenAnewBesideWhatCameIn) {
+  test::Disturbance wrong;
+  wrong.range_m = [](const BeamPoint& beam) {
+    const double log_power =
+        std::log(std::cos(beam.incidence_rad)) - 2.0 * std::log(beam.range_m / 3.0);
+    return 0.02 * (beam.darkness - log_power / std::log(10.0));
+  };
+  wrong.corner_px = [](const CornerRow& row) {
+    return Eigen::Vector2d(0.15 * row.from_tag_px.normalized());
+  };
+  made_ = test::synthetic_table({}, wrong);
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  search.add(find_effect("range_walk"), 0.5);
+  selections_.emplace_back();
+  selections_.back().id = "range_walk";
+  grow_model(search, selections_, options_, context_, [] {});
+  EXPECT_THAT(ids(), ::testing::ElementsAre("range_walk", "corner_bias"));
+  ASSERT_EQ(ids(), ids(search));
+  EXPECT_NEAR(search.in_use()[0].shape, 2.0, 0.1);
+  EXPECT_NEAR(search.in_use()[0].values(0), 0.02, 0.002);
+}
+
 }  // namespace
 }  // namespace lvcalib
