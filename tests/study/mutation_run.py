@@ -24,11 +24,13 @@ is 0 if the run could be made.
 import argparse
 import json
 import math
+import os
 import random
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -92,18 +94,38 @@ def build(source, jobs):
                            *targets], cwd=source, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
-def run_tests(source, room, limit_s):
+def run_tests(source, room, limit_s, jobs):
     """None if all tests pass, else the first that fails, or how the program ended."""
+    end = time.monotonic() + limit_s
+    parts = []
+    for part in range(jobs):
+        output = tempfile.TemporaryFile()
+        environment = {**os.environ, "GTEST_TOTAL_SHARDS": str(jobs), "GTEST_SHARD_INDEX": str(part)}
+        parts.append((output, subprocess.Popen(
+            [f"build/release/bin/{room}_tests", "--gtest_fail_fast", "--gtest_brief=1"], cwd=source,
+            env=environment, stdout=output, stderr=subprocess.STDOUT)))
     try:
-        done = subprocess.run([f"build/release/bin/{room}_tests", "--gtest_fail_fast",
-                               "--gtest_brief=1"], cwd=source, timeout=limit_s,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    except subprocess.TimeoutExpired:
-        return "takes too long"
-    if done.returncode == 0:
+        waiting = list(parts)
+        while waiting:
+            for output, program in list(waiting):
+                if program.poll() is None:
+                    continue
+                waiting.remove((output, program))
+                if program.returncode == 0:
+                    continue
+                output.seek(0)
+                failed = re.search(rb"\[  FAILED  \] (\S+)", output.read())
+                return (failed[1].decode().rstrip(",") if failed
+                        else f"ended with status {program.returncode}")
+            if time.monotonic() > end:
+                return "takes too long"
+            time.sleep(0.05)
         return None
-    failed = re.search(rb"\[  FAILED  \] (\S+)", done.stdout)
-    return failed[1].decode().rstrip(",") if failed else f"ended with status {done.returncode}"
+    finally:
+        for output, program in parts:
+            program.kill()
+            program.wait()
+            output.close()
 
 
 def judge(source, mutant, usual_s, jobs):
@@ -122,7 +144,7 @@ def judge(source, mutant, usual_s, jobs):
         own = Path(mutant["file"]).parts[1]
         mutant["noticed"] = None
         for room in (own, *[other for other in ROOMS if other != own]):
-            mutant["noticed"] = run_tests(source, room, SLOW * usual_s[room] + 10.0)
+            mutant["noticed"] = run_tests(source, room, SLOW * usual_s[room] + 10.0, jobs)
             if mutant["noticed"] is not None:
                 return
     finally:
@@ -179,7 +201,7 @@ def main():
     usual_s = {}
     for room in ROOMS:
         start = time.monotonic()
-        failed = run_tests(source, room, 3600.0)
+        failed = run_tests(source, room, 3600.0, options.jobs)
         usual_s[room] = time.monotonic() - start
         if failed is not None:
             sys.exit(f"{room}_tests fail without a fault: {failed}")
