@@ -91,10 +91,11 @@ HeldoutScenes heldout_scenes(const MeasurementTable& table, const Linearization&
 double total_squares(const HeldoutScenes& scenes, Channel channel);
 
 /// Whether scenes held out are predicted worse than before over all channels: n·ln(mean square),
-/// the log-likelihood of n rows whose common σ is what they scatter by, falls by more than its
-/// standard error over scenes and by more than `least` a row. So no channel with much that is not
-/// explained yet decides alone. The two models may stand on different tables of the same scenes:
-/// worse is what is worse both over the σ that each table states and in px, mm and logarithms.
+/// minus twice the log-likelihood of n rows whose common σ is what they scatter by, rises by more
+/// than its standard error over scenes and by more than `least` a row. So no channel with much that
+/// is not explained yet decides alone. The two models may stand on different tables of the same
+/// scenes: worse is what is worse both over the σ that each table states and in px, mm and
+/// logarithms.
 bool predicts_worse(const HeldoutScenes& before, const HeldoutScenes& after, double least);
 
 Reference make_reference(const Linearization& linear, const ColumnSubset& subset,

@@ -83,6 +83,7 @@ class EffectSearch {
     refused_.insert(id);
     ranked_ = false;
   }
+  /// What was refused may be accepted again, beside what has come in since.
   void forget_refusals() {
     refused_.clear();
     ranked_ = false;

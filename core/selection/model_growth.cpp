@@ -48,8 +48,8 @@ HeldoutScenes heldout_scenes(const EffectSearch& search) {
 // Adds a candidate, at the shape that it turns out to have. False if it is not to stay: one scene
 // with all the leverage can choose a shape that the others know nothing of, and what it gains in
 // one channel may be lost in the others.
-bool add_candidate(GrowingModel& model, std::size_t candidate, const DiscoveryOptions& options,
-                   const RunContext& context) {
+bool add_candidate(GrowingModel& model, std::size_t candidate, const HeldoutScenes& before,
+                   const DiscoveryOptions& options, const RunContext& context) {
   EffectSearch& search = model.search;
   const Candidate& c = search.candidates()[candidate];
   const EffectColumns columns = columns_of(search, c);
@@ -58,7 +58,6 @@ bool add_candidate(GrowingModel& model, std::size_t candidate, const DiscoveryOp
        c.total_gain(), c.p_value,
        criteria_of(c, search.candidates().size(), search.table().scenes.size(), options), false});
   const Channel channel = c.main_channel();
-  const HeldoutScenes before = heldout_scenes(search);
   search.add(columns.effect, columns.shape);
   search.refine_shape(search.in_use().size() - 1);
   if (context.stopped()) return false;
@@ -168,7 +167,7 @@ void try_shapes(GrowingModel& model, const RunContext& context) {
   auto& [search, selections] = model;
   for (std::size_t k = 0; k + 1 < selections.size(); ++k) {
     const EffectPtr effect = search.in_use()[k].effect;
-    if (selections[k].wanted || search.shapes_worth_trying(*effect).size() < 2) continue;
+    if (selections[k].wanted || effect->shapes(search.table()).size() < 2) continue;
     for (const EffectSearch::Swap& next : search.swaps(k, {effect})) {
       if (std::accumulate(next.gain.begin(), next.gain.end(), 0.0) <= 0.0) continue;
       EffectSearch trial(search);
@@ -195,7 +194,7 @@ bool step_forward(GrowingModel& model, std::size_t candidate, const DiscoveryOpt
                   const RunContext& context) {
   EffectSearch& search = model.search;
   const HeldoutScenes before = heldout_scenes(search);
-  if (!add_candidate(model, candidate, options, context)) return false;
+  if (!add_candidate(model, candidate, before, options, context)) return false;
   try_swaps(model, options.swaps, context);
   drop_superfluous(model, context);
   try_shapes(model, context);
@@ -232,7 +231,6 @@ void grow_model(EffectSearch& search, std::vector<Selection>& selections,
       search.refuse(id);
       continue;
     }
-    // Beside what has come in, they may be right.
     search.forget_refusals();
     on_added();
     if (context.stopped()) return;
