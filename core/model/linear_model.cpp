@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -351,9 +352,13 @@ void board_polynomials(const Eigen::Vector2d& unit, BoardPolynomials& out) {
 }
 
 void EffectColumnsList::add(const EffectPtr& effect, double shape, const MeasurementTable& table) {
-  EffectColumns c{effect, shape, effect->parameters(table), columns_, effect->zero_sums(table)};
-  columns_ += c.count();
-  list_.push_back(std::move(c));
+  add({effect, shape, effect->parameters(table), 0, effect->zero_sums(table)});
+}
+
+void EffectColumnsList::add(EffectColumns columns) {
+  columns.first = columns_;
+  columns_ += columns.count();
+  list_.push_back(std::move(columns));
 }
 
 void EffectColumnsList::add_print_contrast(const EffectPtr& effect, double shape,
@@ -455,6 +460,32 @@ double Linearization::squares(Channel channel, int effect_column) const {
     sum += s.products[static_cast<std::size_t>(channel)](column, column);
   }
   return sum;
+}
+
+Linearization picked(const Linearization& linear, const std::vector<std::size_t>& effects) {
+  Linearization out;
+  std::vector<int> columns;
+  for (const std::size_t k : effects) {
+    EffectColumns c = linear.columns.list()[k];
+    for (int p = 0; p < c.count(); ++p) columns.push_back(c.first + p);
+    out.columns.add(std::move(c));
+  }
+  for (const SceneProducts& from : linear.scenes) {
+    SceneProducts& to = out.scenes.emplace_back();
+    to.layout = from.layout;
+    to.rows = from.rows;
+    to.inflation = from.inflation;
+    const int effects_at = from.layout.size() + 6;
+    std::vector<int> places(static_cast<std::size_t>(effects_at));
+    std::iota(places.begin(), places.end(), 0);
+    for (const int column : columns) places.push_back(effects_at + column);
+    places.push_back(effects_at + linear.effect_columns());  // The residual.
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      to.products[c] = from.products[c](places, places);
+      to.fourth_powers[c] = from.fourth_powers[c](columns);
+    }
+  }
+  return out;
 }
 
 ModelState moved(const ModelState& state, const Vector6d& extrinsic,

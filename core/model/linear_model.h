@@ -44,6 +44,8 @@ class EffectColumnsList {
  public:
   /// Appends an effect (skipping nothing: callers ask why_not_testable first).
   void add(const EffectPtr& effect, double shape, const MeasurementTable& table);
+  /// Appends columns of another list.
+  void add(EffectColumns columns);
   /// Appends the effect's print contrast (see EffectColumns).
   void add_print_contrast(const EffectPtr& effect, double shape, const MeasurementTable& table);
   [[nodiscard]] const std::vector<EffectColumns>& list() const { return list_; }
@@ -149,6 +151,9 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
                         const RunContext& context, const ChannelMask& channels = kEveryChannel,
                         PrintMemory* memory = nullptr);
+
+/// The linearisation of some of its effects alone, by their places in its list, in this order.
+Linearization picked(const Linearization& linear, const std::vector<std::size_t>& effects);
 
 /// The state moved by left perturbations.
 ModelState moved(const ModelState& state, const Vector6d& extrinsic,

@@ -414,6 +414,25 @@ ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
   return fit;
 }
 
+Linearization stepped(Linearization linear, const ModelFit& fit) {
+  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+    const Eigen::Index extrinsic = linear.scenes[s].layout.size();
+    for (Eigen::MatrixXd& m : linear.scenes[s].products) {
+      Eigen::VectorXd step = Eigen::VectorXd::Zero(m.rows());
+      step.head<LocalLayout::kFixed>() = fit.local[s].head<LocalLayout::kFixed>();
+      step.segment<6>(extrinsic) = fit.solution.head<6>();
+      for (std::size_t k = 0; k < fit.subset.columns.size(); ++k) {
+        step(extrinsic + 6 + fit.subset.columns[k]) =
+            fit.solution(6 + static_cast<Eigen::Index>(k));
+      }
+      const Eigen::Index residual = m.cols() - 1;
+      m.col(residual) -= m * step;
+      m.row(residual) -= step.transpose() * m;
+    }
+  }
+  return linear;
+}
+
 double misfit(const Linearization& linear, const ColumnSubset& subset,
               const ModelVariances& variances) {
   double out = 0.0;

@@ -108,6 +108,10 @@ StatedVariances stated_variances(const Linearization& linear, const ColumnSubset
 ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
                     const StatedVariances& variances);
 
+/// The linearisation about where a fit of it leads, to first order: extrinsic, boards, levels and
+/// the subset's columns moved by the solution. Residuals change, derivatives stay.
+Linearization stepped(Linearization linear, const ModelFit& fit);
+
 /// How badly the state itself fits, all increments of extrinsic, poses, levels and columns zero and
 /// the random effects fitted: minus twice the log-posterior up to a constant of the variances. What
 /// a step of Gauss and Newton has to lower.

@@ -127,9 +127,23 @@ ColumnSubset EffectSearch::own_subset(const EffectColumnsList& columns,
 
 void EffectSearch::add(const EffectPtr& effect, double shape) {
   const auto parameters = effect->parameters(table());
+  // A ranking has linearised the model with it: its own columns come first.
+  const auto& list = linear_.columns.list();
+  std::size_t candidate = own_count();
+  const auto is_it = [&](const EffectColumns& c) {
+    return c.effect == effect && c.shape == shape && !c.print_contrast;
+  };
+  while (candidate < list.size() && !is_it(list[candidate])) ++candidate;
+  std::vector<std::size_t> columns(own_count());
+  std::iota(columns.begin(), columns.end(), std::size_t{0});
+  columns.insert(columns.begin() + static_cast<std::ptrdiff_t>(in_use_.size()), candidate);
   in_use_.push_back(
       {effect, shape, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))});
-  refit();
+  if (at_ == At::kLinear && candidate < list.size()) {
+    refit_from(picked(linear_, columns));
+  } else {
+    refit();
+  }
 }
 
 void EffectSearch::remove(std::size_t k) {
@@ -137,18 +151,10 @@ void EffectSearch::remove(std::size_t k) {
   refit();
 }
 
-void EffectSearch::replace(std::size_t k, const EffectPtr& effect, double shape) {
-  EffectColumnsList columns = own_columns();
-  ColumnSubset subset = own_subset(columns);
-  hold_at_zero(columns.list()[k], in_use_[k].values, subset);
-  columns.add(effect, shape, table());
-  append_columns(columns.list().back(), nullptr, subset);
-  const Linearization linear =
-      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
-  if (context_.stopped()) return;
-  const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 0});
-  move(fit, 1.0);
-  in_use_[k] = {effect, shape, fit.solution.tail(columns.list().back().count())};
+void EffectSearch::replace(std::size_t k, const Swap& swap) {
+  move(swap.step, 1.0);
+  const auto count = static_cast<Eigen::Index>(swap.effect->parameters(table()).size());
+  in_use_[k] = {swap.effect, swap.shape, swap.step.solution.tail(count)};
   refit();
 }
 
@@ -170,7 +176,8 @@ std::vector<EffectSearch::Swap> EffectSearch::swaps(std::size_t k,
     ColumnSubset subset = own_subset(columns);
     hold_at_zero(columns.list()[k], in_use_[k].values, subset);
     append_columns(c, nullptr, subset);
-    tried[at] = {c.effect, c.shape, make_reference(linear, subset, variances_, {}).density};
+    Reference with = make_reference(linear, subset, variances_, {});
+    tried[at] = {c.effect, c.shape, std::move(with.density), std::move(with.fit)};
     for (std::size_t s = 0; s < tried[at].gain.size(); ++s)
       tried[at].gain[s] -= as_it_is.density[s];
   });
@@ -187,18 +194,24 @@ std::vector<EffectSearch::Swap> EffectSearch::swaps(std::size_t k,
 }
 
 void EffectSearch::refit() {
+  refit_from(
+      linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_));
+}
+
+void EffectSearch::refit_from(Linearization start) {
   constexpr int kSteps = 15;
   joint_covariance_.reset();
   shape_sigmas_.clear();
   ranked_ = false;
-  linear_ = linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_);
+  linear_ = std::move(start);
+  at_ = At::kLinear;
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
     variances_ = reference_.fit.variances;
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
     const double size = (reference_.fit.solution.cwiseAbs().array() / sigma.array()).maxCoeff();
     if (size <= kStands) {
-      move(reference_.fit, 1.0);
+      at_ = move(reference_.fit, 1.0) ? At::kFit : At::kBeyond;
       return;
     }
     const Descent descent = descend(size);
@@ -207,6 +220,13 @@ void EffectSearch::refit() {
   }
   if (!context_.stopped())
     reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+}
+
+Linearization EffectSearch::linear_here() const {
+  if (at_ == At::kLinear) return linear_;
+  // A tenth of a standard deviation further derivatives are the same.
+  if (at_ == At::kFit) return stepped(linear_, reference_.fit);
+  return linearize(table(), state_, fitted(), own_columns(), context_, kEveryChannel, &memory_);
 }
 
 ModelFit EffectSearch::fit_as_it_stands(const Linearization& linear,
@@ -234,8 +254,10 @@ void EffectSearch::settle() {
   constexpr int kVarianceRounds = 12;  // Per step, as in the joint solve; they go on in the next.
   stated_.reset();
   joint_covariance_.reset();
-  // The last step of refit() is not in it.
-  linear_ = linearize(table(), state_, fitted(), own_columns(), context_, kEveryChannel, &memory_);
+  linear_ = sensor_.empty() ? linear_here()
+                            : linearize(table(), state_, fitted(), own_columns(), context_,
+                                        kEveryChannel, &memory_);
+  at_ = At::kLinear;
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     for (int round = 0; round < kVarianceRounds; ++round) {
       reference_.subset = own_subset(linear_.columns);
@@ -247,7 +269,7 @@ void EffectSearch::settle() {
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
     const double size = (reference_.fit.solution.cwiseAbs().array() / sigma.array()).maxCoeff();
     if (size <= kStands) {
-      move(reference_.fit, 1.0);
+      at_ = move(reference_.fit, 1.0) ? At::kFit : At::kBeyond;
       break;
     }
     if (descend(size) == Descent::kNone) break;
@@ -316,7 +338,7 @@ EffectSearch::Descent EffectSearch::descend(double size) {
 }
 
 // By a share of a fit's solution.
-void EffectSearch::move(const ModelFit& fit, double share) {
+bool EffectSearch::move(const ModelFit& fit, double share) {
   const Eigen::VectorXd x = share * fit.solution;
   std::vector<Vector6d> boards;
   for (const Eigen::VectorXd& local : fit.local) boards.push_back(share * local.head<6>());
@@ -327,14 +349,16 @@ void EffectSearch::move(const ModelFit& fit, double share) {
     use.values += x.segment(at, use.values.size());
     at += use.values.size();
   }
+  bool whole = true;
   if (sees_print()) {
-    move_blur(x.segment<3>(at));
+    whole = move_blur(x.segment<3>(at));
     at += 3;
   }
   for (SensorError& error : sensor_) {
     error.use.values += x.segment(at, error.use.values.size());
     at += error.use.values.size();
   }
+  return whole;
 }
 
 void EffectSearch::move_levels(const ModelFit& fit, double share) {
@@ -347,8 +371,8 @@ void EffectSearch::move_levels(const ModelFit& fit, double share) {
   }
 }
 
-// As far as the blur stays one: a covariance has no negative axis.
-void EffectSearch::move_blur(const Eigen::Vector3d& step) {
+// As far as the blur stays one: a covariance has no negative axis. Whether it went all the way.
+bool EffectSearch::move_blur(const Eigen::Vector3d& step) {
   Eigen::Matrix2d change;
   change << step(0), step(1), step(1), step(2);
   Eigen::Matrix2d& blur = state_.beam.blur_rad2;
@@ -357,9 +381,10 @@ void EffectSearch::move_blur(const Eigen::Vector3d& step) {
     // Widths change by half at most in one step: the print is linearised about them.
     if (next.determinant() > 0.1 * blur.determinant() && next(0, 0) > 0.25 * blur(0, 0)) {
       blur = next;
-      return;
+      return share == 1.0;
     }
   }
+  return false;
 }
 
 // Structure that the calibration did not find may come to light once an effect is explained. The
@@ -477,6 +502,7 @@ void EffectSearch::rank() {
   const ColumnSubset subset = own_subset(columns);
   append_candidates(columns);
   linear_ = linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  at_ = At::kLinear;
   candidates_.clear();
   if (context_.stopped()) return;
   reference_ = make_reference(linear_, subset, variances_, {});
@@ -623,16 +649,15 @@ std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect)
 
 std::optional<std::size_t> EffectSearch::superfluous() {
   // The model with all effects in use against those with one less.
-  const EffectColumnsList columns = own_columns();
-  const Linearization linear =
-      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  const Linearization linear = linear_here();
   if (context_.stopped()) return std::nullopt;
+  const ColumnSubset all = own_subset(linear.columns);
+  const Reference with = make_reference(linear, all, variances_, {.rounds = 0});
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
     // Without the effect its rows still hold the values in use: the candidate's increment undoes
     // them, so that the test of "increment equals minus the value" is that of the removal.
-    const Reference with = make_reference(linear, own_subset(columns), variances_, {.rounds = 0});
-    ColumnSubset frozen = own_subset(columns);
-    hold_at_zero(columns.list()[k], in_use_[k].values, frozen);
+    ColumnSubset frozen = all;
+    hold_at_zero(linear.columns.list()[k], in_use_[k].values, frozen);
     const Reference without = make_reference(linear, frozen, variances_, {});
     std::vector<double> gain;
     for (std::size_t s = 0; s < with.density.size(); ++s)

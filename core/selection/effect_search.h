@@ -34,18 +34,18 @@ class EffectSearch {
   void add(const EffectPtr& effect, double shape);
   /// Takes effect number k out and refits.
   void remove(std::size_t k);
-  /// Puts another effect in the place of number k and refits, from where one step leads in which
-  /// the one goes as the other comes.
-  void replace(std::size_t k, const EffectPtr& effect, double shape);
   /// One effect in the place of another.
   struct Swap {
     EffectPtr effect;
     double shape = 0.0;
     std::vector<double> gain;  ///< In held-out log-density, per scene.
+    ModelFit step;             ///< The step in which the one goes as the other comes.
   };
   /// What it would gain to put each of some effects in the place of number k, to first order about
   /// the model as it is, at its shape number that gains most. Empty if stopped.
   [[nodiscard]] std::vector<Swap> swaps(std::size_t k, const std::vector<EffectPtr>& effects) const;
+  /// Makes one of the swaps of effect number k and refits, from where its step leads.
+  void replace(std::size_t k, const Swap& swap);
   /// Among an effect's shape numbers the one whose model predicts held-out scenes best.
   [[nodiscard]] double preferred_shape(const EffectPtr& effect) const;
   /// Moves effect k's shape number from the grid of the search to where the restricted likelihood
@@ -137,9 +137,13 @@ class EffectSearch {
     kOn,      // It is taken.
   };
   Descent descend(double size);
-  void move(const ModelFit& fit, double share);
+  // False if the blur could not follow.
+  bool move(const ModelFit& fit, double share);
   void move_levels(const ModelFit& fit, double share);
-  void move_blur(const Eigen::Vector3d& step);
+  bool move_blur(const Eigen::Vector3d& step);
+  void refit_from(Linearization start);
+  // The linearisation about the state as it is.
+  [[nodiscard]] Linearization linear_here() const;
   // Judges promising candidates again after a full refit, until one is accepted.
   void refit_promising();
   // Takes accepted candidates off the list that white and black print contradict.
@@ -201,6 +205,12 @@ class EffectSearch {
   std::optional<StatedVariances> stated_;  ///< Of what is stated, else not there.
   Linearization linear_;
   Reference reference_;
+  // Where the state stands.
+  enum class At {
+    kLinear,  // At what `linear_` is about.
+    kFit,     // At the reference's fit, the last step of a refit.
+    kBeyond,  // Somewhere near.
+  } at_ = At::kLinear;
   std::vector<Candidate> candidates_;
   bool ranked_ = false;  // `candidates_` are those of the model as it is.
   std::set<std::string> refused_;

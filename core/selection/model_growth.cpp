@@ -21,23 +21,21 @@ struct GrowingModel {
                                           [](const Selection& s) { return !s.wanted; }));
   }
 
-  void swap(std::size_t k, const EffectPtr& effect, double shape) {
+  // Takes a trial over that has another effect in place k and does without some.
+  void swap(std::size_t k, const std::string& id, const EffectSearch& trial,
+            const std::vector<std::string>& dropped) {
     Selection& s = selections[k];
-    const std::string id = effect->info().id;
-    search.replace(k, effect, shape);
     std::replace(s.aliases.begin(), s.aliases.end(), id, s.id);
     s.id = id;
+    search = trial;
+    std::erase_if(selections, [&](const Selection& other) {
+      return std::find(dropped.begin(), dropped.end(), other.id) != dropped.end();
+    });
   }
 
   void drop(std::size_t k) {
     search.remove(k);
     selections.erase(selections.begin() + static_cast<std::ptrdiff_t>(k));
-  }
-
-  void drop(const std::string& id) {
-    const auto at = std::find_if(selections.begin(), selections.end(),
-                                 [&](const Selection& s) { return s.id == id; });
-    drop(static_cast<std::size_t>(at - selections.begin()));
   }
 };
 
@@ -138,22 +136,22 @@ void try_swaps(GrowingModel& model, int left, const RunContext& context) {
     for (bool swapped = true; swapped && !aliases.empty();) {
       swapped = false;
       for (const EffectSearch::Swap& next : search.swaps(k, unused(selections, aliases))) {
-        std::erase(aliases, next.effect->info().id);
+        const std::string& id = next.effect->info().id;
+        std::erase(aliases, id);
         if (is_hopeless(next.gain)) continue;
         if (left-- <= 0 || context.stopped()) return;
         EffectSearch trial(search);
-        trial.replace(k, next.effect, next.shape);
+        trial.replace(k, next);
         if (context.stopped()) return;
         if (is_gain(difference(trial, search))) {
-          model.swap(k, next.effect, next.shape);
+          model.swap(k, id, trial, {});
           swapped = true;
           break;
         }
         const auto dropped = dispensable(trial, k, selections, context);
         if (context.stopped()) return;
         if (dropped.empty() || is_gain(difference(search, trial))) continue;
-        model.swap(k, next.effect, next.shape);
-        for (const std::string& gone : dropped) model.drop(gone);
+        model.swap(k, id, trial, dropped);
         return;  // Places have moved; what is left is tried after the next addition.
       }
     }
@@ -171,7 +169,7 @@ void try_shapes(GrowingModel& model, const RunContext& context) {
     for (const EffectSearch::Swap& next : search.swaps(k, {effect})) {
       if (std::accumulate(next.gain.begin(), next.gain.end(), 0.0) <= 0.0) continue;
       EffectSearch trial(search);
-      trial.replace(k, next.effect, next.shape);
+      trial.replace(k, next);
       trial.refine_shape(k);
       if (context.stopped()) return;
       if (is_gain(difference(trial, search))) search = trial;

@@ -192,9 +192,10 @@ TEST_F(Search, ReplacingIsRemovingAndAdding) {
   EffectSearch a(made.table, made.truth, options_, context_);
   a.add(find_effect("range_scale"), 0.0);
   EffectSearch b(a);
-  a.replace(0, find_effect("range_walk"), 0.0);
+  const auto swap = a.swaps(0, {find_effect("range_walk")}).at(0);
+  a.replace(0, swap);
   b.remove(0);
-  b.add(find_effect("range_walk"), 0.0);
+  b.add(find_effect("range_walk"), swap.shape);
   ASSERT_EQ(a.in_use().size(), 1U);
   EXPECT_EQ(a.in_use()[0].effect->info().id, "range_walk");
   EXPECT_NEAR(a.in_use()[0].values(0), b.in_use()[0].values(0), 1e-5);

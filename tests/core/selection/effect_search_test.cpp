@@ -115,7 +115,7 @@ TEST_F(SearchState, SwapsAreForeseen) {
     return std::accumulate(d.begin(), d.end(), 0.0);
   };
   const double before = density(search);
-  search.replace(0, swaps[1].effect, swaps[1].shape);
+  search.replace(0, swaps[1]);
   EXPECT_NEAR(density(search) - before, total(swaps[1]), 0.1 * std::abs(total(swaps[1])));
 }
 
