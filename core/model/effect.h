@@ -43,6 +43,8 @@ struct EffectInfo {
   std::string source;               ///< Literature or manual.
   std::string discriminating_pose;  ///< Or what else to measure: it tells it from its aliases.
   EffectNeeds needs;
+  /// What it moves in the images is an error of camera.yaml's numbers: mended there, not here.
+  bool of_intrinsics = false;
   /// Of a user's own effect: the text that make_user_effect() takes to make the same one again.
   std::string spec = {};
 };

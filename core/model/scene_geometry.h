@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 
 #include <Eigen/Core>
@@ -9,6 +11,11 @@
 #include "model/measurement_table.h"
 
 namespace lvcalib {
+
+/// The clock of scene number k of so many: 0…1 in their order.
+inline double scene_clock(std::size_t k, std::size_t scenes) {
+  return static_cast<double>(k) / std::max(1.0, static_cast<double>(scenes) - 1.0);
+}
 
 /// Ray–board geometry of one scene at one state.
 class SceneGeometry {

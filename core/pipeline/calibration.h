@@ -58,6 +58,8 @@ struct SceneResult {
   Cloud board_points;                 ///< Full-density points about the board.
   Cloud left_out_points;              ///< Of them, those that the user left out.
   std::optional<BoardRefinement> refinement;
+  /// By which share its board looks larger than the target says by the model with effects.
+  double modelled_scale = 0.0;
   /// The circles refined exactly as the paper prints it, for the method joint_paper; empty where
   /// `refinement` has none.
   std::vector<RefinedNode> paper_nodes;
@@ -108,7 +110,7 @@ struct CalibrationResult {
   Matrix6d covariance_with_budget = Matrix6d::Zero();
   ModelScales model_scales;             ///< What the numbers of the model refer to.
   double modelled_dark_offset_m = 0.0;  ///< How much farther black reads than white by the model.
-  /// By which share the print is larger than the target says by the model, along x and y.
+  /// By which share the print looks larger than the target says by the model, along x and y.
   Eigen::Vector2d modelled_print_scale = Eigen::Vector2d::Zero();
   /// Of the range rows under the model with effects: RMS over noise floor. 0 without effects.
   double modelled_range_misfit = 0.0;

@@ -390,6 +390,61 @@ Message better_spacing(const CalibrationResult& result) {
   return better_spacing(views_of(result), result.target, result.intrinsics.given);
 }
 
+void ask_images_again(CalibrationResult& result, const CornersWithout& others,
+                      const CornersWithout& all) {
+  IntrinsicsReport& report = result.intrinsics;
+  const bool fixed = report.mode == IntrinsicsMode::kFixed;
+  const bool asked = !report.spacing.empty();
+  if (!asked && !(fixed && report.contradiction)) return;
+  const std::vector<CornerView> seen = views_of(result);
+  using Corners = std::vector<std::vector<CornerObservation>>;
+  const auto corners_left = [&](const CornersWithout& without) {
+    Corners out;
+    for (const CornerView& view : seen)
+      out.push_back(without(*view.corners, view.camera_from_board));
+    return out;
+  };
+  const auto views_with = [&](const Corners& corners) {
+    std::vector<CornerView> out = seen;
+    for (std::size_t v = 0; v < out.size(); ++v) out[v].corners = &corners[v];
+    return out;
+  };
+  const auto differ = [](const std::vector<CornerView>& a, const std::vector<CornerView>& b) {
+    return !std::equal(a.begin(), a.end(), b.begin(), [](const CornerView& x, const CornerView& y) {
+      return std::equal(x.corners->begin(), x.corners->end(), y.corners->begin(),
+                        [](const CornerObservation& p, const CornerObservation& q) {
+                          return p.pixel == q.pixel;
+                        });
+    });
+  };
+  const auto contradicted = [&](const std::vector<CornerView>& views) -> Message {
+    const auto fit = fit_freely(views, report.given);
+    if (!fit) return {};
+    const IntrinsicsContrast contrast = contrast_intrinsics(
+        intrinsics_of(fit->camera), intrinsics_of(report.given), fit->covariance,
+        wide_intrinsics_sigma(report.given), result.options.intrinsics.false_alarm);
+    return contrast.contradicts() ? describe(contrast, report.given, views) : Message();
+  };
+  const Corners left = corners_left(others);
+  const std::vector<CornerView> views = views_with(left);
+  // What still speaks against the target is as it was told of the images themselves.
+  if (asked && better_spacing(views, result.target, report.given).empty()) report.spacing = {};
+  if (!fixed || !report.spacing.empty()) return;
+  if (differ(views, seen)) {
+    // Corners that lie otherwise than the target says were not asked about the camera.
+    const Message what = contradicted(views);
+    if (what.empty()) report.contradiction.reset();
+    if (!what.empty() && !report.contradiction) {
+      report.contradiction.emplace();
+      report.contradiction->what = what;
+    }
+  }
+  if (!report.contradiction) return;
+  const Corners none_left = corners_left(all);
+  const std::vector<CornerView> without_all = views_with(none_left);
+  report.contradiction->modelled = differ(without_all, views) && contradicted(without_all).empty();
+}
+
 void verify_intrinsics(CalibrationResult& result) {
   result.verified = false;
   result.unverified = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct IntrinsicsContradiction {
   double move_mm = 0.0;    ///< Between that and the result: of the LiDAR's position,
   double move_mrad = 0.0;  ///< and of the rotation.
   bool matters = true;     ///< More than the tolerance.
+  /// The model in force has it, as an effect: the extrinsic is for a camera without it.
+  bool modelled = false;
 };
 
 /// What is known of the camera, before and after.
@@ -79,6 +82,16 @@ Message better_spacing(const CalibrationResult& result);
 /// than three tolerances (95 % limit, to first order about the solution), and which scene would
 /// tell.
 void verify_intrinsics(CalibrationResult& result);
+
+/// A board's corners without what effects do to their images.
+using CornersWithout = std::function<std::vector<CornerObservation>(
+    const std::vector<CornerObservation>& corners, const Rigid3& camera_from_board)>;
+
+/// What images say against target and given intrinsics, asked again under a model with effects:
+/// `others` takes out those that are not errors of the intrinsics, `all` every one. Nothing is
+/// withdrawn where no effect touches the images.
+void ask_images_again(CalibrationResult& result, const CornersWithout& others,
+                      const CornersWithout& all);
 
 /// With `fixed`: asks whether corners and returns contradict the given intrinsics, by a second
 /// solve with them freed wherever a first look leaves it open. With `prior` against what

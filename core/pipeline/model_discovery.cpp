@@ -36,8 +36,23 @@ const SceneSolution* solution_of(const CalibrationResult& result, const std::str
 // the print, and to a corner's image.
 class ModelledMovements {
  public:
-  explicit ModelledMovements(const Discovery& discovery)
-      : model_(discovery.model), table_(empty_table(discovery.scales)) {}
+  // Beams are of the result's scenes, by their place among them; a scene that has no part in the
+  // model is told by those around it.
+  ModelledMovements(const Discovery& discovery, const CalibrationResult& result)
+      : model_(discovery.model), table_(empty_table(discovery.scales)) {
+    if (result.scenes.empty()) return;
+    const std::size_t boards = std::max<std::size_t>(1, discovery.state.camera_from_board.size());
+    table_.scenes.assign(result.scenes.size(), {});
+    std::size_t next = 0;
+    for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+      const std::size_t board = std::min(next, boards - 1);
+      if (takes_part(result.scenes[s])) ++next;
+      table_.scenes[s].clock = scene_clock(board, boards);
+      if (board >= discovery.state.camera_from_board.size()) continue;
+      SceneGeometry(discovery.state.camera_from_lidar, discovery.state.camera_from_board[board])
+          .tell_middle(result.target.outline().center_m(), table_.scenes[s]);
+    }
+  }
 
   [[nodiscard]] Eigen::Vector3d point(const BeamPoint& beam) const {
     Eigen::Vector3d out = Eigen::Vector3d::Zero();
@@ -118,9 +133,10 @@ double black_share(const Target& target) {
 
 // The beam towards a point of a board, as dark as the board on average, of no line in particular:
 // what is told of a circle is a mean over many returns.
-BeamPoint beam_towards(const Eigen::Vector3d& point_m, const Rigid3& lidar_from_board,
-                       double darkness) {
+BeamPoint beam_towards(const Eigen::Vector3d& point_m, std::size_t scene,
+                       const Rigid3& lidar_from_board, double darkness) {
   BeamPoint beam;
+  beam.scene = static_cast<int>(scene);
   static_cast<void>(SceneGeometry(Rigid3(), lidar_from_board).describe(point_m.normalized(), beam));
   beam.darkness = darkness;
   beam.white = 1.0 - darkness;
@@ -128,44 +144,82 @@ BeamPoint beam_towards(const Eigen::Vector3d& point_m, const Rigid3& lidar_from_
   return beam;
 }
 
-// Takes what the effects do to the corners' images out of them, as the model predicts it.
-void take_out_of_corners(const Discovery& discovery, const Camera& camera, const Target& target,
-                         std::vector<SceneObservations>& observations) {
-  MeasurementTable table = empty_table(discovery.scales);
-  table.scenes.assign(observations.size(), {});
+// A board's corners with what effects do to their images taken out, as the model predicts it.
+std::vector<CornerObservation> corners_without(const std::vector<EffectInUse>& effects,
+                                               const ModelScales& scales, const Camera& camera,
+                                               const Target& target,
+                                               std::vector<CornerObservation> corners,
+                                               const Rigid3& camera_from_board) {
+  MeasurementTable table = empty_table(scales);
   table.target = target;
   table.camera = camera;
   ModelState state;
-  state.camera_from_lidar = discovery.state.camera_from_lidar;
-  for (const SceneObservations& o : observations)
-    state.camera_from_board.push_back(o.camera_from_board);
-  for (std::size_t s = 0; s < observations.size(); ++s) {
-    SceneMeasurements scene;
-    scene.corners = observations[s].corners;
-    add_corners(scene, static_cast<int>(s), state, 1.0, table);
-  }
+  state.camera_from_board = {camera_from_board};
+  SceneMeasurements scene;
+  scene.corners = corners;
+  add_corners(scene, 0, state, 1.0, table);
   const auto without = residuals_of(table, state, {}, Channel::kCorner);
-  const auto with = residuals_of(table, state, discovery.model, Channel::kCorner);
-  if (with.values.size() != without.values.size() || with.values.size() != 2 * table.corner.size())
-    return;  // A corner that no camera sees has no rows; then none is touched.
+  const auto with = residuals_of(table, state, effects, Channel::kCorner);
+  if (with.values.size() != without.values.size() || with.values.size() != 2 * corners.size())
+    return corners;  // A corner that no camera sees has no rows; then none is touched.
   std::size_t next = 0;
-  for (SceneObservations& o : observations) {
-    for (CornerObservation& c : o.corners) {
-      for (Eigen::Index axis = 0; axis < 2; ++axis, ++next)
-        c.pixel(axis) += with.values[next] - without.values[next];
-    }
+  for (CornerObservation& c : corners) {
+    for (Eigen::Index axis = 0; axis < 2; ++axis, ++next)
+      c.pixel(axis) += with.values[next] - without.values[next];
   }
+  return corners;
+}
+
+// What errors of ranges do to the size of a board: a board that reads farther looks larger.
+void tell_scales(const Discovery& discovery, const ModelledMovements& movements,
+                 CalibrationResult& result) {
+  const Eigen::Vector2d of_print = print_scale(movements, result.target);
+  const Eigen::Vector2d center = result.target.outline().center_m();
+  const double darkness = black_share(result.target);
+  double sum = 0.0;
+  std::size_t next = 0;
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    SceneResult& scene = result.scenes[s];
+    scene.modelled_scale = 0.0;
+    if (!takes_part(scene) || next >= discovery.state.camera_from_board.size()) continue;
+    const Rigid3 lidar_from_board =
+        discovery.state.camera_from_lidar.inverse() * discovery.state.camera_from_board[next++];
+    const BeamPoint beam =
+        beam_towards(lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0), s,
+                     lidar_from_board, darkness);
+    const double farther = beam.direction.dot(movements.point(beam)) / beam.range_m;
+    sum += farther;
+    scene.modelled_scale = farther + of_print.mean();
+  }
+  result.modelled_print_scale = of_print;
+  if (next > 0) result.modelled_print_scale.array() += sum / static_cast<double>(next);
+}
+
+// What spoke against intrinsics and target in the images, asked again without what the model's
+// effects do to these.
+void ask_again(const Discovery& discovery, CalibrationResult& result) {
+  std::vector<EffectInUse> others;
+  std::copy_if(discovery.model.begin(), discovery.model.end(), std::back_inserter(others),
+               [](const EffectInUse& use) { return !use.effect->info().of_intrinsics; });
+  const auto without = [&](const std::vector<EffectInUse>& effects) {
+    return [&](const std::vector<CornerObservation>& corners, const Rigid3& camera_from_board) {
+      return corners_without(effects, discovery.scales, result.camera, result.target, corners,
+                             camera_from_board);
+    };
+  };
+  ask_images_again(result, without(others), without(discovery.model));
 }
 
 // The board's plane as it would be without the effects: fitted to the returns, each with what they
 // do to its range taken out. A robust plane does not follow its returns' mean: black print that
 // reads far off hardly pulls it. Nothing where no plane fits.
-std::optional<FittedPlane> plane_without_effects(const Cloud& board_points,
+std::optional<FittedPlane> plane_without_effects(const CalibrationResult& result, std::size_t index,
                                                  const SceneObservations& scene,
                                                  const Discovery& discovery,
                                                  const ModelledMovements& movements,
                                                  const Target& target) {
   const SceneGeometry geometry(Rigid3(), scene.lidar_from_board);
+  const Cloud& board_points = result.scenes[index].board_points;
   const bool dark = discovery.scales.log_contrast > 0.0 && board_points.has_intensity();
   const double black = black_share(target);
   const std::vector<Eigen::Vector2d> velocities = scan_velocities(board_points);
@@ -175,6 +229,7 @@ std::optional<FittedPlane> plane_without_effects(const Cloud& board_points,
     const Eigen::Vector3d direction = measured.normalized();
     BeamPoint beam;
     if (!geometry.describe(direction, beam)) continue;
+    beam.scene = static_cast<int>(index);
     beam.darkness = dark ? discovery.scales.darkness_of(board_points.intensity[i]) : black;
     beam.white = std::clamp(1.0 - beam.darkness, 0.0, 1.0);
     beam.line = board_points.has_line() ? board_points.line[i] : -1;
@@ -193,9 +248,10 @@ std::optional<FittedPlane> plane_without_effects(const Cloud& board_points,
 }
 
 // The observations of the classical solve with a model's effects taken out of them; `planes` are
-// the scenes' without the effects.
-void take_out(const Discovery& discovery, const ModelledMovements& movements, const Camera& camera,
-              const Target& target, const std::vector<std::optional<FittedPlane>>& planes,
+// the scenes' without the effects, `index` their places in the result.
+void take_out(const Discovery& discovery, const ModelledMovements& movements,
+              const std::vector<std::size_t>& index, const Camera& camera, const Target& target,
+              const std::vector<std::optional<FittedPlane>>& planes,
               std::vector<SceneObservations>& observations) {
   const double darkness = black_share(target);
   for (std::size_t s = 0; s < observations.size(); ++s) {
@@ -205,7 +261,7 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements, co
       PrintPoint at;
       at.board_m = node.board_m;
       const Eigen::Vector2d shift = movements.print(at, target).head<2>();
-      const BeamPoint beam = beam_towards(place_m, o.lidar_from_board, darkness);
+      const BeamPoint beam = beam_towards(place_m, index[s], o.lidar_from_board, darkness);
       const Eigen::Vector3d moved =
           movements.spot(beam) + movements.point(beam) +
           o.lidar_from_board.rotation * Eigen::Vector3d(shift.x(), shift.y(), 0.0);
@@ -218,8 +274,9 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements, co
       node.center_lidar_m = without_effects(node.center_lidar_m, node);
       node.raw_lidar_m = without_effects(node.raw_lidar_m, node);
     }
+    o.corners = corners_without(discovery.model, discovery.scales, camera, target,
+                                std::move(o.corners), o.camera_from_board);
   }
-  take_out_of_corners(discovery, camera, target, observations);
 }
 
 // Pose of the LiDAR and of the boards in use, in their order.
@@ -286,10 +343,10 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   auto paper = with_paper_nodes(observations, result, index);
   std::vector<std::optional<FittedPlane>> planes;
   for (std::size_t k = 0; k < observations.size(); ++k)
-    planes.push_back(plane_without_effects(result.scenes[index[k]].board_points, observations[k],
-                                           discovery, movements, target));
-  take_out(discovery, movements, result.camera, target, planes, paper);
-  take_out(discovery, movements, result.camera, target, planes, observations);
+    planes.push_back(
+        plane_without_effects(result, index[k], observations[k], discovery, movements, target));
+  take_out(discovery, movements, index, result.camera, target, planes, paper);
+  take_out(discovery, movements, index, result.camera, target, planes, observations);
   const ExtrinsicOptions& how = result.options.extrinsic;
   const auto again = solve_extrinsic(observations, result.camera, target, how);
   if (again) ask_scenes_again(observations, index, target, *again, result);
@@ -380,7 +437,7 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery) {
   // With nothing selected the calibration's own extrinsic stands: it rests on every return.
   const bool changed = !discovery.model.empty();
-  const ModelledMovements movements(discovery);
+  const ModelledMovements movements(discovery, result);
   result.budget = discovery.budget;
   result.covariance_with_budget = discovery.covariance_with_budget;
   // What an effect of the model explains is no longer left out. Before the total is known, what
@@ -400,7 +457,7 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   }
   result.model_fit = changed ? discovery.fit : nullptr;
   result.modelled_dark_offset_m = dark_offset_m(movements);
-  result.modelled_print_scale = print_scale(movements, result.target);
+  tell_scales(discovery, movements, result);
   result.modelled_range_misfit = 0.0;
   result.unexplained.clear();
   if (!changed) return result;
@@ -414,6 +471,7 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
                std::back_inserter(result.unexplained),
                [](const StructureScore& s) { return s.matters; });
   report_model(discovery, movements, result);
+  ask_again(discovery, result);
   // What the model explains is no fault of the result any more.
   judge_quality(result, result.options.quality);
   return result;

@@ -48,6 +48,14 @@ void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
   }
   if (!result.intrinsics.contradiction) return;
   const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
+  if (found.modelled) {
+    verdict.doubtful(
+        Message("the images contradict the intrinsics: %1; the model takes that out of the images, "
+                "so that the extrinsic is for a camera without it: calibrate the camera again, or "
+                "use --intrinsics free",
+                found.what));
+    return;
+  }
   if (result.intrinsics.mode == IntrinsicsMode::kPrior) {
     verdict.doubtful(
         Message("the images contradict the standard deviations of the intrinsics: %1; calibrate "
@@ -289,7 +297,7 @@ MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult&
   std::vector<double> sigmas;
   for (const SceneResult& s : result.scenes) {
     if (!s.used || !s.refinement || s.refinement->scale_sigma <= 0) continue;
-    scales.push_back(s.refinement->scale);
+    scales.push_back(s.refinement->scale - s.modelled_scale);
     sigmas.push_back(s.refinement->scale_sigma);
   }
   if (!scene.used || !scene.refinement || scene.refinement->scale_sigma <= 0 || scales.size() < 3)
@@ -297,7 +305,7 @@ MeasuredScale relative_scale(const CalibrationResult& result, const SceneResult&
   // A median's variance is π/2 of a mean's.
   const double count = static_cast<double>(scales.size());
   const double of_median = median(std::move(sigmas)) * std::sqrt(std::numbers::pi / 2.0 / count);
-  return {scene.refinement->scale / median(std::move(scales)),
+  return {(scene.refinement->scale - scene.modelled_scale) / median(std::move(scales)),
           std::hypot(scene.refinement->scale_sigma, of_median)};
 }
 
@@ -310,7 +318,7 @@ MeasuredScale measured_scale(const CalibrationResult& result, double outlier) {
       continue;
     const double w = 1.0 / (scene.refinement->scale_sigma * scene.refinement->scale_sigma);
     weight += w;
-    sum += w * scene.refinement->scale;
+    sum += w * (scene.refinement->scale - scene.modelled_scale);
   }
   if (weight <= 0) return {};
   return {sum / weight, 1.0 / std::sqrt(weight)};

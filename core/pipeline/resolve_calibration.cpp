@@ -188,6 +188,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   result.model_fit.reset();
   result.modelled_dark_offset_m = 0.0;
   result.modelled_print_scale.setZero();
+  for (SceneResult& scene : result.scenes) scene.modelled_scale = 0.0;
   result.modelled_range_misfit = 0.0;
   result.unexplained.clear();
   take_back_refused(result);

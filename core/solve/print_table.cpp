@@ -533,10 +533,9 @@ MeasurementTable make_table(const std::vector<KeptScene>& scenes,
   table.has_time = !scenes.empty();
   bool has_line = !scenes.empty();
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    const double last = std::max<double>(1.0, static_cast<double>(scenes.size()) - 1.0);
     TableScene scene;
     scene.name = scenes[s].measured.name;
-    scene.clock = static_cast<double>(s) / last;
+    scene.clock = scene_clock(s, scenes.size());
     scene.inflation[static_cast<std::size_t>(Channel::kRange)] = noise.scenes[s].range_inflation;
     for (const Channel channel : {Channel::kBoundary, Channel::kIntensity})
       scene.inflation[static_cast<std::size_t>(channel)] = noise.scenes[s].intensity_inflation;

@@ -16,7 +16,8 @@ class DistortionResidual final : public CatalogueEffect {
                          .formula = "dx = x (k ρ²) + tangential (p1, p2)",
                          .source = "mrcal",
                          .discriminating_pose = "boards in the corners of the image",
-                         .needs = {}},
+                         .needs = {},
+                         .of_intrinsics = true},
                         {{"k", "1", 1.0, 5e-4, 0.5},
                          {"p1", "1", 1.0, 2e-4, 0.1},
                          {"p2", "1", 1.0, 2e-4, 0.1}}) {}

@@ -17,7 +17,8 @@ class IntrinsicsError final : public CatalogueEffect {
              .formula = "du = δf x + δcx, dv = δf y + δcy",
              .source = "mrcal; Abraham and Förstner",
              .discriminating_pose = "boards in all corners of the image and at several distances",
-             .needs = {}},
+             .needs = {},
+             .of_intrinsics = true},
             {{"δf", "px", 1.0, 0.5, 100.0},
              {"δcx", "px", 1.0, 0.5, 100.0},
              {"δcy", "px", 1.0, 0.5, 100.0}}) {}

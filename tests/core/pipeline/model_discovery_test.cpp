@@ -173,6 +173,87 @@ Discovery model_that_moves_nothing() {
   return discovery;
 }
 
+// A board that reads farther looks larger, in each scene by what the device's warming up did then.
+TEST(WithModel, HowLargeABoardLooksIsToldSceneByScene) {
+  const CalibrationResult before = four_scenes();
+  Discovery discovery = model_that_moves_nothing();
+  constexpr double kShape = 0.4;
+  constexpr double kSize_m = 0.02;
+  discovery.model = {{find_effect("range_warmup"), kShape, Eigen::VectorXd::Constant(1, kSize_m)}};
+  for (const SceneSolution& s : before.extrinsic.scenes)
+    discovery.state.camera_from_board.push_back(s.camera_from_board);
+  const CalibrationResult after = with_model(before, discovery);
+  const Eigen::Vector2d middle = before.target.outline().center_m();
+  double mean = 0.0;
+  int next = 0;
+  for (const SceneResult& scene : after.scenes) {
+    if (!scene.used) {
+      EXPECT_EQ(scene.modelled_scale, 0.0);
+      continue;
+    }
+    const double range_m =
+        (scene.refinement->lidar_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0)).norm();
+    const double expected = kSize_m * std::exp(-0.5 * next / kShape) / range_m;
+    EXPECT_NEAR(scene.modelled_scale, expected, 0.02 * expected) << scene.name;
+    mean += expected / 3.0;
+    ++next;
+  }
+  EXPECT_NEAR(after.modelled_print_scale.x(), mean, 0.02 * mean);
+  EXPECT_NEAR(after.modelled_print_scale.y(), mean, 0.02 * mean);
+}
+
+struct Mended {
+  const char* effect;
+  double size;
+  const char* doubt;  // Of the base model; its verdict says so.
+  const char* left;   // What is left of it under the model; empty: nothing, it is good.
+};
+
+class VerdictOfTheModel : public testing::TestWithParam<Mended> {};
+
+TEST_P(VerdictOfTheModel, IsAskedAgainWithoutWhatItsEffectDoes) {
+  const test::HiddenRig rig(test::hidden_options(63, {{GetParam().effect, GetParam().size}}));
+  ASSERT_TRUE(rig.ok());
+  EXPECT_EQ(rig.result().quality, Quality::kDoubtful);
+  EXPECT_THAT(rig.result().quality_reason.text(), testing::HasSubstr(GetParam().doubt));
+  DiscoveryOptions options = discovery_options(rig.result());
+  options.with = {GetParam().effect};
+  options.max_effects = 0;
+  options.advise_scenes = false;
+  const auto discovery = discover(rig.result(), options, {});
+  ASSERT_TRUE(discovery.ok()) << discovery.error().text();
+  const CalibrationResult after = with_model(rig.result(), *discovery);
+  const std::string left = GetParam().left;
+  EXPECT_EQ(after.quality, left.empty() ? Quality::kGood : Quality::kDoubtful);
+  EXPECT_THAT(after.quality_reason.text(), testing::HasSubstr(left));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Effects, VerdictOfTheModel,
+    testing::Values(Mended{"corner_bias", 0.2, "tagSpacing", ""},
+                    Mended{"board_bow", 5.0, "contradict the intrinsics", ""},
+                    Mended{"rolling_shutter", 2.0, "contradict the intrinsics", ""},
+                    Mended{"range_offset", 20.0, "disagree on the board's size", ""},
+                    // The extrinsic is right, but for a camera that camera.yaml does not describe.
+                    Mended{"intrinsics_error", 1000.0, "contradict the intrinsics",
+                           "the model takes that out of the images"}),
+    [](const auto& info) { return std::string(info.param.effect); });
+
+// Another effect than what is wrong mends nothing.
+TEST(WithModel, AnEffectThatExplainsNothingLeavesTheVerdictAsItIs) {
+  const test::HiddenRig rig(test::hidden_options(63, {{"corner_bias", 0.2}}));
+  ASSERT_TRUE(rig.ok());
+  DiscoveryOptions options = discovery_options(rig.result());
+  options.with = {"rolling_shutter"};
+  options.max_effects = 0;
+  options.advise_scenes = false;
+  const auto discovery = discover(rig.result(), options, {});
+  ASSERT_TRUE(discovery.ok()) << discovery.error().text();
+  const CalibrationResult after = with_model(rig.result(), *discovery);
+  EXPECT_EQ(after.quality, Quality::kDoubtful);
+  EXPECT_EQ(after.intrinsics.spacing.text(), rig.result().intrinsics.spacing.text());
+}
+
 constexpr char kContradicts[] = "contradicts the other scenes";
 
 TEST(WithModel, ASceneThatAgreesUnderTheModelIsNoReasonToDoubt) {
