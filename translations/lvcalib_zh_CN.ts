@@ -1506,18 +1506,6 @@ were saved. Take them up again?</source>
         <translation>无法检验：%1。</translation>
     </message>
     <message>
-        <source>no time in these clouds</source>
-        <translation>这些点云没有时间</translation>
-    </message>
-    <message>
-        <source>no laser lines in these clouds</source>
-        <translation>这些点云没有激光线号</translation>
-    </message>
-    <message>
-        <source>no intensity in these clouds (or the same on all points)</source>
-        <translation>这些点云没有强度（或所有点的强度相同）</translation>
-    </message>
-    <message>
         <source>no tags on this board</source>
         <translation>该标定板上没有标签</translation>
     </message>
@@ -1948,10 +1936,6 @@ were saved. Take them up again?</source>
     <message>
         <source>scenes held out speak for an effect that the model lacks: %1</source>
         <translation>留出场景表明模型缺少一种效应：%1</translation>
-    </message>
-    <message>
-        <source>structure is left that no known effect explains</source>
-        <translation>残余结构无法由任何已知效应解释</translation>
     </message>
     <message>
         <source>misses the board&apos;s pose by %1 mm, more than the gate</source>
@@ -4925,6 +4909,78 @@ were saved. Take them up again?</source>
         <source>It leaves most of what is at one place as it is: %1; something that no effect explains is at work.</source>
         <translation>它使某一位置上的残余大部分保持原样：%1；起作用的是没有任何效应能解释的其他因素。</translation>
     </message>
+    <message>
+        <source>%1 = %2</source>
+        <translation>%1 = %2</translation>
+    </message>
+    <message>
+        <source>a curve over one covariate predicts far better, and beside it the effect must have something left to say</source>
+        <translation>某一协变量上的曲线预测得好得多；在它旁边，该效应仍须有所解释</translation>
+    </message>
+    <message>
+        <source>chance must not reach it, among all effects and shapes tried</source>
+        <translation>在所有试过的效应和形状中，它不应是偶然能达到的</translation>
+    </message>
+    <message>
+        <source>edges are found in intensities: where these are doubted, edges alone tell nothing</source>
+        <translation>边缘由强度得出：强度可疑时，仅凭边缘说明不了什么</translation>
+    </message>
+    <message>
+        <source>it must make the residuals of scenes held out smaller, or move the extrinsic</source>
+        <translation>它须使留出场景的残差变小，或使外参移动</translation>
+    </message>
+    <message>
+        <source>no device has an effect of such a size: it stands in for another</source>
+        <translation>没有设备会有这么大的效应：它在替代别的效应</translation>
+    </message>
+    <message>
+        <source>one scene with all the leverage must not decide for the others</source>
+        <translation>不应由一个影响力过大的场景替其他场景决定</translation>
+    </message>
+    <message>
+        <source>scenes held out must be predicted better by more than they differ among each other</source>
+        <translation>留出场景的预测改进须大于它们彼此间的差异</translation>
+    </message>
+    <message>
+        <source>something at one place predicts better, and the effect must take away half of it</source>
+        <translation>某处的局部结构预测得更好，该效应须消去其中一半</translation>
+    </message>
+    <message>
+        <source>the best of so many candidates gains something by chance alone</source>
+        <translation>这么多候选中最好的一个仅凭偶然也会有所增益</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; the model takes that out of the images, so that the extrinsic is for a camera without it: calibrate the camera again, or use --intrinsics free</source>
+        <translation>图像与内参矛盾：%1；模型已从图像中去除它，因此外参适用于没有它的相机：请重新标定相机，或使用 --intrinsics free</translation>
+    </message>
+    <message>
+        <source>the intensity is not in every cloud, or the same on all points</source>
+        <translation>并非每个点云都有强度，或所有点的强度相同</translation>
+    </message>
+    <message>
+        <source>the laser line is not in every cloud, or there is one only</source>
+        <translation>并非每个点云都有激光线号，或只有一条线</translation>
+    </message>
+    <message>
+        <source>the time is not in every cloud</source>
+        <translation>并非每个点云都有时间</translation>
+    </message>
+    <message>
+        <source>tried in the model, it must not predict scenes held out worse</source>
+        <translation>放入模型试用后，它不得使留出场景的预测变差</translation>
+    </message>
+    <message>
+        <source>what shows in one scene only may be that scene&apos;s own fault</source>
+        <translation>只在一个场景中出现的可能是该场景自身的问题</translation>
+    </message>
+    <message>
+        <source>where much is wrong, what explains a little of it stands in for something else</source>
+        <translation>误差很大时，只解释其中一点的效应是在替代别的东西</translation>
+    </message>
+    <message>
+        <source>white and black print must tell the same about an effect of either</source>
+        <translation>对于任一印刷颜色上的效应，白色和黑色须给出相同的结论</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -5161,6 +5217,26 @@ were saved. Take them up again?</source>
     <message>
         <source>Left out, it moves the extrinsic by less than the tolerance.</source>
         <translation>若不考虑，它使外参的移动小于容差。</translation>
+    </message>
+    <message>
+        <source>white and black print agree</source>
+        <translation>白色与黑色印刷一致</translation>
+    </message>
+    <message>
+        <source>edges can be trusted</source>
+        <translation>边缘可信</translation>
+    </message>
+    <message>
+        <source>it says something beside a curve</source>
+        <translation>在曲线旁仍有所解释</translation>
+    </message>
+    <message>
+        <source>it explains what sits at a place</source>
+        <translation>能解释某处的局部结构</translation>
+    </message>
+    <message>
+        <source>tried, it predicts no worse</source>
+        <translation>试用后预测不变差</translation>
     </message>
 </context>
 <context>
@@ -8237,6 +8313,26 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>Others may only stand in for it: they are judged again once it is added.</source>
         <translation>其他效应可能只是它的替代：加入它之后会重新判断。</translation>
     </message>
+    <message>
+        <source>No further scene is asked for.</source>
+        <translation>不需要更多场景。</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Nothing that matters is missing.&lt;/b&gt; Structure is left that no known effect explains, too small to move the extrinsic.</source>
+        <translation>&lt;b&gt;不缺任何有影响的效应。&lt;/b&gt;仍有已知效应无法解释的结构，但小到不会移动外参。</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;A closed form predicts as well: &lt;a href=&quot;%1&quot;&gt;add %2&lt;/a&gt;&lt;/p&gt;</source>
+        <translation>&lt;p&gt;一个闭式公式预测得同样好：&lt;a href=&quot;%1&quot;&gt;添加 %2&lt;/a&gt;&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Next scenes</source>
+        <translation>下一步场景</translation>
+    </message>
+    <message>
+        <source>Scenes that would tell what these cannot, and what else would</source>
+        <translation>能说明这些场景无法说明之处的场景，以及其他办法</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ModelPage</name>
@@ -8322,6 +8418,18 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>go to step %1</source>
         <translation>转到第 %1 步</translation>
+    </message>
+    <message>
+        <source>Model: %1</source>
+        <translation>模型：%1</translation>
+    </message>
+    <message>
+        <source>Model: going to another step</source>
+        <translation>模型：转到另一步</translation>
+    </message>
+    <message>
+        <source>Model: fitted again, as the calibration is another</source>
+        <translation>模型：标定已变，重新拟合</translation>
     </message>
 </context>
 <context>

@@ -7,6 +7,7 @@
 
 #include "base/file_io.h"
 #include "base/yaml_file.h"
+#include "overwriting.h"
 
 namespace lvcalib::cli {
 namespace {
@@ -70,20 +71,6 @@ Result<CalibrationRequest> make_request(const CalibrationArguments& options, con
   return request;
 }
 
-// Files among the scenes would be taken for a scene of their own by the next run.
-Status refuse_among_scenes(const CalibrationArguments& options) {
-  std::error_code code;
-  const auto scenes =
-      std::filesystem::weakly_canonical(std::filesystem::path(options.dataset) / "scenes", code);
-  if (code) return Done{};
-  const auto output = std::filesystem::weakly_canonical(options.output, code);
-  if (code || std::mismatch(scenes.begin(), scenes.end(), output.begin(), output.end()).first !=
-                  scenes.end())
-    return Done{};
-  return Error::usage(Message("the output folder lies among the dataset's scenes"), options.output,
-                      Message("give a folder outside %1", scenes.string()));
-}
-
 }  // namespace
 
 void add_calibration_arguments(CLI::App& command, CalibrationArguments& arguments,
@@ -116,7 +103,7 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
 }
 
 Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments, Session& session) {
-  if (Status s = refuse_among_scenes(arguments); !s) return s.error();
+  if (Status s = check_output(arguments.output, {}); !s) return s.error();
   if (Status s = check_folder_usable(arguments.output); !s) return s.error();
   auto dataset = open_dataset(arguments.dataset, unusable_scenes(arguments));
   if (!dataset) return dataset.error();

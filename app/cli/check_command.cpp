@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "command.h"
+#include "overwriting.h"
 #include "pipeline/fresh_data.h"
 #include "report/check_file.h"
 #include "report/exports.h"
@@ -38,6 +39,14 @@ Result<std::string> run(const CheckArguments& options, Session& session) {
     auto found = find_fresh_data(folder);
     if (!found) return found.error();
     pairs.insert(pairs.end(), found->begin(), found->end());
+  }
+  if (!options.output.empty()) {
+    std::vector<std::string> inputs = {options.result};
+    for (const FilePair& pair : pairs) {
+      inputs.push_back(pair.image.string());
+      inputs.push_back(pair.cloud.string());
+    }
+    if (Status s = check_output(options.output, inputs); !s) return s.error();
   }
   const auto read =
       read_fresh_views(pairs, input->camera, input->camera_from_lidar, session.context);

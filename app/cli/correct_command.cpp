@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
+#include "base/file_io.h"
 #include "cloud/cloud.h"
 #include "command.h"
 #include "model/correction.h"
@@ -90,8 +92,12 @@ void warn(const CorrectionSummary& summary, const CorrectArguments& options,
 }
 
 Result<std::string> run(const CorrectArguments& options, Session& session) {
-  for (const std::string& input : {options.cloud, options.result}) {
-    if (Status s = refuse_overwriting(options.output, input); !s) return s.error();
+  if (Status s = check_output(options.output, {options.cloud, options.result}); !s)
+    return s.error();
+  const std::filesystem::path name(options.output);
+  if (name.has_extension() && name.extension() != ".pcd" && !is_stream(name)) {
+    return Error::usage(Message("a corrected cloud is written as PCD"), options.output,
+                        Message("end the name in .pcd"));
   }
   const auto model = read_model(options.result);
   if (!model) return model.error();

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/file_io.h"
+#include "base/text.h"
 #include "calibration_arguments.h"
 #include "command.h"
 #include "pipeline/model_discovery.h"
@@ -29,11 +30,13 @@ std::string verdicts_of(Quality before, Quality after) {
 std::string summary_of(const Discovery& discovery, Quality before, const CalibrationResult& final,
                        const std::string& output) {
   const PoseUse use = pose_use(final);
-  std::string effects;
-  for (const std::string& id : discovery.selected) effects += (effects.empty() ? "" : ", ") + id;
-  std::string text = !effects.empty() ? "missing: " + effects
-                     : discovery.unknown.empty()
-                         ? "nothing is missing in the model"
+  std::vector<std::string> missing = discovery.selected;
+  if (!discovery.lacking().empty()) missing.push_back(discovery.lacking() + " (not added)");
+  std::string text = !missing.empty()            ? "missing: " + joined(missing, ", ")
+                     : discovery.unknown.empty() ? "nothing is missing in the model"
+                     : final.unexplained.empty()
+                         ? "nothing that matters is missing, though structure is left that no "
+                           "known effect explains"
                          : "missing: something that no known effect explains";
   text += verdicts_of(before, final.quality);
   for (const ChannelSummary& before : discovery.channels) {

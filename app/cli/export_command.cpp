@@ -28,9 +28,7 @@ bool is_cloud(const std::string& name) {
 }
 
 Result<std::string> run(const ExportArguments& options, const RunContext& context) {
-  for (const std::string& input : {options.result, options.imu}) {
-    if (Status s = refuse_overwriting(options.output, input); !s) return s.error();
-  }
+  if (Status s = check_output(options.output, {options.result, options.imu}); !s) return s.error();
   auto input = read_export_input(options.result);
   if (!input) return input.error();
   if (input->quality == name_of(Quality::kFailed) && !options.force) {

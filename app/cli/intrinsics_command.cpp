@@ -69,14 +69,11 @@ Result<Target> load_board(const fs::path& path, bool given, const Session& sessi
 }
 
 // What is read stays, whatever -o says; camera.yaml of a dataset is not read, and may be written.
-Status check_output(const IntrinsicsArguments& options, const CameraImages& images,
-                    const fs::path& target) {
-  std::vector<fs::path> inputs = images.images;
-  inputs.push_back(target);
-  inputs.emplace_back(options.camera);
-  for (const fs::path& input : inputs) {
-    if (Status s = refuse_overwriting(options.output, input.string()); !s) return s;
-  }
+Status check_camera_output(const IntrinsicsArguments& options, const CameraImages& images,
+                           const fs::path& target) {
+  std::vector<std::string> inputs = {target.string(), options.camera};
+  for (const fs::path& image : images.images) inputs.push_back(image.string());
+  if (Status s = check_output(options.output, inputs); !s) return s;
   std::error_code code;
   if (fs::is_directory(options.output, code))
     return Error::usage(Message("the output is a folder"), options.output,
@@ -90,7 +87,7 @@ Result<std::string> run(const IntrinsicsArguments& options, Session& session) {
   if (!images) return images.error();
   const bool given = !options.target.empty();
   const fs::path target_path = given ? fs::path(options.target) : images->target;
-  if (Status s = check_output(options, *images, target_path); !s) return s.error();
+  if (Status s = check_camera_output(options, *images, target_path); !s) return s.error();
   const auto target = load_board(target_path, given, session);
   if (!target) return target.error();
   CameraCalibrationOptions how;

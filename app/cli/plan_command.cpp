@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "design/planning.h"
+#include "overwriting.h"
 #include "report/plan_file.h"
 
 namespace lvcalib::cli {
@@ -32,6 +33,8 @@ std::string summary_of(const ScenePlan& plan, const std::string& output) {
 }
 
 Result<std::string> run(const PlanArguments& options, Session& session) {
+  if (Status s = check_output(options.output, {options.target, options.camera, options.lidar}); !s)
+    return s.error();
   const auto target = read_target(options.target);
   if (!target) return target.error();
   const auto camera = read_camera(options.camera);

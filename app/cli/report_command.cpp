@@ -18,9 +18,12 @@ Result<std::string> run(ReportArguments options, Session& session) {
   // Who names the file itself means its folder.
   const std::filesystem::path named(options.folder);
   if (named.filename() == "result.json") options.folder = (named.parent_path() / ".").string();
-  for (const char* input : {"result.json", "result.yaml", "discovery.json"}) {
-    const std::string file = (std::filesystem::path(options.folder) / input).string();
-    if (Status s = refuse_overwriting(options.output, file); !s) return s.error();
+  const std::filesystem::path folder(options.folder);
+  if (Status s = check_output(options.output,
+                              {(folder / "result.json").string(), (folder / "result.yaml").string(),
+                               (folder / "discovery.json").string()});
+      !s) {
+    return s.error();
   }
   auto report = html_report(options.folder, session.context);
   if (!report) return report.error();

@@ -6,6 +6,7 @@
 
 #include "base/file_io.h"
 #include "command.h"
+#include "overwriting.h"
 #include "target/sheet.h"
 #include "target/target.h"
 
@@ -38,6 +39,7 @@ Result<Target> load_target(const TargetArguments& options, const Session& sessio
 }
 
 Result<std::string> run(const TargetArguments& options, Session& session) {
+  if (Status s = check_output(options.output, {options.target_path}); !s) return s.error();
   const auto format = format_of(options.output);
   if (!format) return format.error();
   const auto target = load_target(options, session);

@@ -219,7 +219,7 @@ void MainWindow::connect_workspace() {
     pages_->set_crop_box(decision.crop);
     pages_->set_edits(decision.edits);
     actions_->use_crops->setChecked(decisions.use_crops);
-    status_->show_quality(final_result(), workspace_->up_to_date());
+    show_quality();
     update_actions();
   });
   connect(w, &Workspace::result_changed, this, &MainWindow::take_result);
@@ -404,7 +404,7 @@ void MainWindow::show_result() {
   const auto shown = final_result();
   model_.set_result(shown);
   pages_->set_result(shown);
-  status_->show_quality(shown, workspace_->up_to_date());
+  show_quality();
   update_actions();
 }
 
@@ -504,9 +504,11 @@ void MainWindow::update_actions() {
   actions_->check->setEnabled(open);
   actions_->watch_dataset->setEnabled(open);
   actions_->what_next->setEnabled(watch_->watching());
-  actions_->results->setEnabled(workspace_->result() != nullptr);
-  for (QAction* action : {actions_->report, actions_->correct, actions_->compare})
-    action->setEnabled(workspace_->result() != nullptr);
+  // Not while the model in force is behind: what would be handed on is of another.
+  const bool whole = workspace_->result() != nullptr && !model_work_->behind();
+  for (QAction* action :
+       {actions_->results, actions_->report, actions_->correct, actions_->compare})
+    action->setEnabled(whole);
   parameters_->widget()->setEnabled(open);
 }
 
@@ -556,7 +558,7 @@ void MainWindow::changeEvent(QEvent* event) {
     actions_->retranslate();
     update_title();
     if (!workspace_->busy()) status_->show_idle({});  // What it said was in the other language.
-    status_->show_quality(final_result(), workspace_->up_to_date());
+    show_quality();
   } else if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
     actions_->repaint_icons(palette());
   }

@@ -94,6 +94,7 @@ class MainWindow : public QMainWindow {
   void take_opened();
   void take_result();
   void show_result();
+  void show_quality();
   void look_at(const QString& scene);
   void update_actions();
   void update_title();

@@ -41,6 +41,10 @@ std::shared_ptr<const CalibrationResult> MainWindow::final_result() const {
   return model_work_->result() ? model_work_->result() : workspace_->result();
 }
 
+void MainWindow::show_quality() {
+  status_->show_quality(final_result(), workspace_->up_to_date() && !model_work_->behind());
+}
+
 void MainWindow::compare() {
   results_->compare({final_result(), model_work_->source(), model_work_->steps(),
                      model_work_->current(), workspace_->dataset().scenes});

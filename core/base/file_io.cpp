@@ -48,7 +48,8 @@ int write_and_close(int file, std::string_view content) {
       failure = errno;
     }
   }
-  if (failure == 0 && ::fsync(file) != 0) failure = errno;
+  // Pipes and terminals have nothing to flush.
+  if (failure == 0 && ::fsync(file) != 0 && errno != EINVAL && errno != EROFS) failure = errno;
   if (::close(file) != 0 && failure == 0) failure = errno;
   return failure;
 }
@@ -98,7 +99,32 @@ Error not_written(int failure, const fs::path& path) {
 
 }  // namespace
 
-Status write_file_atomically(const fs::path& path, std::string_view content) {
+bool is_stream(const fs::path& path) {
+  std::error_code code;
+  const auto type = fs::status(path, code).type();
+  // What a shell has opened is reached through /dev, be it a file.
+  if (type == fs::file_type::character || type == fs::file_type::fifo ||
+      type == fs::file_type::socket || type == fs::file_type::block)
+    return true;
+  const std::string name = path.lexically_normal().string();
+  return name.starts_with("/dev/std") || name.starts_with("/dev/fd/") ||
+         name.starts_with("/proc/self/fd/");
+}
+
+fs::path behind_links(const fs::path& path) {
+  std::error_code code;
+  if (!fs::is_symlink(path, code) || code) return path;
+  const fs::path real = fs::weakly_canonical(path, code);
+  return code ? path : real;
+}
+
+Status write_file_atomically(const fs::path& name, std::string_view content) {
+  if (is_stream(name)) {
+    const int file = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
+    const int failure = file < 0 ? errno : write_and_close(file, content);
+    return failure == 0 ? Status(Done{}) : not_written(failure, name);
+  }
+  const fs::path path = behind_links(name);
   const fs::path temporary = temporary_for(path);
   int failure = write_temporary(temporary, content);
   if (failure == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) failure = errno;

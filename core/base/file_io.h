@@ -15,8 +15,16 @@ namespace lvcalib {
 /// The whole file as text. Errors: missing, a folder, unreadable, larger than `max_bytes`.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t max_bytes);
 
+/// Whether a name stands for a device, a pipe or what a shell has opened: such is written to, and
+/// never replaced by a file.
+bool is_stream(const std::filesystem::path& path);
+
+/// The place that a link leads to, where its new content belongs; any other path as it is.
+std::filesystem::path behind_links(const std::filesystem::path& path);
+
 /// Writes a file so that a reader, a crash or an interruption never sees half of it: the text
-/// goes to a temporary file beside it, is flushed to disk, and then takes the name.
+/// goes to a temporary file beside it, is flushed to disk, and then takes the name. Links stay, and
+/// streams are written to.
 Status write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// Writes several files of one folder that belong together, each as above: whatever interrupts it,

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "base/file_io.h"
 #include "cloud/cloud.h"
 
 namespace lvcalib {
@@ -19,9 +20,14 @@ namespace {
 // goes away otherwise.
 class PartFile {
  public:
-  explicit PartFile(const std::filesystem::path& path) : path_(path), temporary_(path) {
-    temporary_ += ".part" + std::to_string(::getpid());
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  explicit PartFile(const std::filesystem::path& path)
+      : path_(behind_links(path)), stream_(is_stream(path)), temporary_(path_) {
+    if (stream_) {
+      file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    } else {
+      temporary_ += ".part" + std::to_string(::getpid());
+      file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    }
     if (file_ < 0) code_ = errno;
   }
   PartFile(const PartFile&) = delete;
@@ -29,7 +35,7 @@ class PartFile {
   ~PartFile() {
     if (file_ < 0) return;
     ::close(file_);
-    ::unlink(temporary_.c_str());
+    if (!stream_) ::unlink(temporary_.c_str());
   }
 
   void write(std::string_view bytes) {
@@ -44,8 +50,8 @@ class PartFile {
   }
 
   Status publish() {
-    if (code_ == 0 && ::fsync(file_) != 0) code_ = errno;
-    if (code_ == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) code_ = errno;
+    if (code_ == 0 && !stream_ && ::fsync(file_) != 0) code_ = errno;
+    if (code_ == 0 && !stream_ && ::rename(temporary_.c_str(), path_.c_str()) != 0) code_ = errno;
     if (code_ != 0) {
       return Error::output(Message("cannot be written: %1", std::system_category().message(code_)),
                            path_.string());
@@ -59,6 +65,7 @@ class PartFile {
 
  private:
   std::filesystem::path path_;
+  bool stream_;
   std::filesystem::path temporary_;
   int file_ = -1;
   int code_ = 0;

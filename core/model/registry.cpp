@@ -41,10 +41,11 @@ Message parameter_is(const std::string& id, const std::string& name, const std::
 
 Message why_not_testable(const Effect& effect, const MeasurementTable& table) {
   const EffectNeeds& needs = effect.info().needs;
-  if (needs.time && !table.has_time) return Message("no time in these clouds");
-  if (needs.line && table.lines.size() < 2) return Message("no laser lines in these clouds");
+  if (needs.time && !table.has_time) return Message("the time is not in every cloud");
+  if (needs.line && table.lines.size() < 2)
+    return Message("the laser line is not in every cloud, or there is one only");
   if (needs.intensity && !table.has_intensity)
-    return Message("no intensity in these clouds (or the same on all points)");
+    return Message("the intensity is not in every cloud, or the same on all points");
   if (needs.circles && table.boundary.empty())
     return Message("no edges of the print in the returns");
   if (needs.tags && !table.target.has_tags()) return Message("no tags on this board");

@@ -77,7 +77,7 @@ void note_same_files(const CalibrationInput& in, CalibrationResult& result) {
 }
 
 Status prepare(const CalibrationInput& in, Calibration& run) {
-  run.result.dataset = in.dataset.path.string();
+  run.result.dataset = place_of(in.dataset);
   run.result.target = in.dataset.target;
   run.result.camera = in.dataset.camera;
   run.result.intrinsics = start_intrinsics(in.dataset, in.request.options.intrinsics.kind());

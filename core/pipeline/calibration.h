@@ -114,8 +114,11 @@ struct CalibrationResult {
   Eigen::Vector2d modelled_print_scale = Eigen::Vector2d::Zero();
   /// Of the range rows under the model with effects: RMS over noise floor. 0 without effects.
   double modelled_range_misfit = 0.0;
-  /// Structure that the model with effects leaves and that matters.
+  /// Structure that the model leaves and that matters, once it was looked for.
   std::vector<StructureScore> unexplained;
+  /// An effect that scenes held out speak for and the model lacks; empty if there is none, or
+  /// nobody has looked.
+  std::string lacking;
   /// What the scenes give one by one with the model's effects; null without effects.
   std::shared_ptr<const ModelFit> model_fit;
   std::vector<MethodResult> methods;   ///< The paper's objectives on the scenes in use.

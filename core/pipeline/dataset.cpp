@@ -191,6 +191,12 @@ Result<Rigid3> read_rough_extrinsic(const fs::path& path) {
   return read_transform(path, "T_camera_lidar");
 }
 
+std::string place_of(const Dataset& dataset) {
+  std::error_code code;
+  const fs::path whole = fs::absolute(dataset.path, code);
+  return (code ? dataset.path : whole.lexically_normal()).string();
+}
+
 Result<Dataset> open_dataset(const fs::path& path, UnusableScenes unusable) {
   std::error_code code;
   if (!fs::is_directory(path, code)) {

@@ -49,6 +49,9 @@ struct Dataset {
 /// Errors say which is missing.
 Result<SceneFiles> open_scene(const std::filesystem::path& folder);
 
+/// Where the dataset lies, whatever folder the program was started in.
+std::string place_of(const Dataset& dataset);
+
 /// Reads the descriptions and lists the scenes; images and clouds are not opened.
 /// Errors name what is missing and what was expected; of a scene only with kRefuse.
 Result<Dataset> open_dataset(const std::filesystem::path& path,

@@ -170,13 +170,34 @@ std::vector<CornerObservation> corners_without(const std::vector<EffectInUse>& e
   return corners;
 }
 
-// What errors of ranges do to the size of a board: a board that reads farther looks larger.
+// By which share a board looks larger along its axes than it is: one that reads farther does, and
+// one whose angles are stretched.
+Eigen::Vector2d seen_scale(const ModelledMovements& movements, const Target& target,
+                           std::size_t scene, const Rigid3& lidar_from_board) {
+  const BoardOutline outline = target.outline();
+  const Eigen::Vector2d half = 0.5 * outline.size_m();
+  const double darkness = black_share(target);
+  // Of a place of the board, along an axis of it.
+  const auto moved = [&](const Eigen::Vector2d& from_middle, Eigen::Index axis) {
+    const Eigen::Vector2d at = outline.center_m() + from_middle;
+    const BeamPoint beam = beam_towards(lidar_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0),
+                                        scene, lidar_from_board, darkness);
+    const Eigen::Vector3d on_board = lidar_from_board.rotation.conjugate() * movements.point(beam);
+    return on_board(axis);
+  };
+  Eigen::Vector2d out;
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d end = half(axis) * Eigen::Vector2d::Unit(axis);
+    out(axis) = (moved(end, axis) - moved(-end, axis)) / (2.0 * half(axis));
+  }
+  return out;
+}
+
+// How large print and boards look by the model.
 void tell_scales(const Discovery& discovery, const ModelledMovements& movements,
                  CalibrationResult& result) {
   const Eigen::Vector2d of_print = print_scale(movements, result.target);
-  const Eigen::Vector2d center = result.target.outline().center_m();
-  const double darkness = black_share(result.target);
-  double sum = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   std::size_t next = 0;
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
     SceneResult& scene = result.scenes[s];
@@ -184,15 +205,12 @@ void tell_scales(const Discovery& discovery, const ModelledMovements& movements,
     if (!takes_part(scene) || next >= discovery.state.camera_from_board.size()) continue;
     const Rigid3 lidar_from_board =
         discovery.state.camera_from_lidar.inverse() * discovery.state.camera_from_board[next++];
-    const BeamPoint beam =
-        beam_towards(lidar_from_board * Eigen::Vector3d(center.x(), center.y(), 0.0), s,
-                     lidar_from_board, darkness);
-    const double farther = beam.direction.dot(movements.point(beam)) / beam.range_m;
-    sum += farther;
-    scene.modelled_scale = farther + of_print.mean();
+    const Eigen::Vector2d seen = seen_scale(movements, result.target, s, lidar_from_board);
+    sum += seen;
+    scene.modelled_scale = (seen + of_print).mean();
   }
   result.modelled_print_scale = of_print;
-  if (next > 0) result.modelled_print_scale.array() += sum / static_cast<double>(next);
+  if (next > 0) result.modelled_print_scale += sum / static_cast<double>(next);
 }
 
 // What spoke against intrinsics and target in the images, asked again without what the model's
@@ -247,34 +265,65 @@ std::optional<FittedPlane> plane_without_effects(const CalibrationResult& result
   return plane->plane;
 }
 
+// What the effects do to points, as a mean over the returns at a circle's edge: when they were
+// taken and how the beam moved then. Where there are none, what they do to `beam` itself.
+Eigen::Vector3d movement_about(const Eigen::Vector3d& center_m, double radius_m,
+                               const BeamPoint& beam, const Cloud& cloud,
+                               const std::vector<Eigen::Vector2d>& velocities,
+                               const ModelledMovements& movements) {
+  constexpr double kWidth = 0.3;  // Of the radius, on either side of the edge.
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const double from_edge = (cloud.points_m[i].cast<double>() - center_m).norm() - radius_m;
+    if (!(std::abs(from_edge) < kWidth * radius_m)) continue;
+    BeamPoint one = beam;
+    if (cloud.has_line()) one.line = cloud.line[i];
+    if (cloud.has_time()) one.time_s = cloud.time_s[i];
+    if (!velocities.empty()) one.scan_rad_s = velocities[i];
+    sum += movements.point(one);
+    count += 1.0;
+  }
+  return count > 0.0 ? Eigen::Vector3d(sum / count) : movements.point(beam);
+}
+
 // The observations of the classical solve with a model's effects taken out of them; `planes` are
 // the scenes' without the effects, `index` their places in the result.
 void take_out(const Discovery& discovery, const ModelledMovements& movements,
-              const std::vector<std::size_t>& index, const Camera& camera, const Target& target,
-              const std::vector<std::optional<FittedPlane>>& planes,
+              const CalibrationResult& result, const std::vector<std::size_t>& index,
+              const Target& target, const std::vector<std::optional<FittedPlane>>& planes,
               std::vector<SceneObservations>& observations) {
   const double darkness = black_share(target);
   for (std::size_t s = 0; s < observations.size(); ++s) {
     SceneObservations& o = observations[s];
     if (planes[s]) o.plane = *planes[s];
+    const Cloud& cloud = result.scenes[index[s]].board_points;
+    const std::vector<Eigen::Vector2d> velocities = scan_velocities(cloud);
     const auto without_effects = [&](const Eigen::Vector3d& place_m, const RefinedNode& node) {
       PrintPoint at;
       at.board_m = node.board_m;
-      const Eigen::Vector2d shift = movements.print(at, target).head<2>();
+      const Eigen::Vector3d bent = movements.print(at, target);
       const BeamPoint beam = beam_towards(place_m, index[s], o.lidar_from_board, darkness);
       const Eigen::Vector3d moved =
-          movements.spot(beam) + movements.point(beam) +
-          o.lidar_from_board.rotation * Eigen::Vector3d(shift.x(), shift.y(), 0.0);
-      // Its height is the plane's, its place on it its own.
-      const auto on_plane = o.plane.ray_hit(place_m - moved);
-      return on_plane ? o.plane.to_lidar(*on_plane) : Eigen::Vector3d(place_m - moved);
+          movements.spot(beam) +
+          movement_about(place_m, target.circle_radius_m, beam, cloud, velocities, movements);
+      const Eigen::Vector3d place = place_m - moved;
+      // Its height is the plane's, its place on it its own. A board that is bent is met elsewhere
+      // along the ray.
+      const auto on_plane = o.plane.ray_hit(place);
+      Eigen::Vector3d out = on_plane ? o.plane.to_lidar(*on_plane) : place;
+      const Eigen::Vector3d normal = o.lidar_from_board.rotation * Eigen::Vector3d::UnitZ();
+      const Eigen::Vector3d ray = place.normalized();
+      out += bent.z() * (ray / normal.dot(ray) - normal);
+      out -= o.lidar_from_board.rotation * Eigen::Vector3d(bent.x(), bent.y(), 0.0);
+      return out;
     };
     for (RefinedNode& node : o.nodes) {
       if (!node.valid) continue;
       node.center_lidar_m = without_effects(node.center_lidar_m, node);
       node.raw_lidar_m = without_effects(node.raw_lidar_m, node);
     }
-    o.corners = corners_without(discovery.model, discovery.scales, camera, target,
+    o.corners = corners_without(discovery.model, discovery.scales, result.camera, target,
                                 std::move(o.corners), o.camera_from_board);
   }
 }
@@ -345,8 +394,8 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   for (std::size_t k = 0; k < observations.size(); ++k)
     planes.push_back(
         plane_without_effects(result, index[k], observations[k], discovery, movements, target));
-  take_out(discovery, movements, index, result.camera, target, planes, paper);
-  take_out(discovery, movements, index, result.camera, target, planes, observations);
+  take_out(discovery, movements, result, index, target, planes, paper);
+  take_out(discovery, movements, result, index, target, planes, observations);
   const ExtrinsicOptions& how = result.options.extrinsic;
   const auto again = solve_extrinsic(observations, result.camera, target, how);
   if (again) ask_scenes_again(observations, index, target, *again, result);
@@ -431,7 +480,15 @@ DiscoveryOptions discovery_options(const CalibrationResult& result) {
 
 Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptions& options,
                            const RunContext& context) {
-  return discover_effects(discovery_input(result), options, context);
+  auto out = discover_effects(discovery_input(result), options, context);
+  if (!out || !out->model.empty()) return out;
+  // With nothing in the model the calibration's own extrinsic stands, and its uncertainty.
+  const UncertainRigid3& own = result.extrinsic.camera_from_lidar;
+  out->covariance = own.covariance;
+  out->covariance_total = result.covariance_total;
+  out->covariance_with_budget = covariance_with_budget(out->covariance, out->budget);
+  if (!out->history.empty()) out->history.back().camera_from_lidar = own.transform;
+  return out;
 }
 
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery) {
@@ -460,16 +517,21 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
   tell_scales(discovery, movements, result);
   result.modelled_range_misfit = 0.0;
   result.unexplained.clear();
-  if (!changed) return result;
+  std::copy_if(discovery.unknown.begin(), discovery.unknown.end(),
+               std::back_inserter(result.unexplained),
+               [](const StructureScore& s) { return s.matters; });
+  result.lacking = discovery.lacking();
+  if (!changed) {
+    if (!result.unexplained.empty() || !result.lacking.empty())
+      judge_quality(result, result.options.quality);
+    return result;
+  }
   const std::vector<ChannelSummary> none;
   for (const ChannelSummary& c :
        discovery.history.empty() ? none : discovery.history.back().channels) {
     if (c.channel == Channel::kRange && c.noise_floor > 0.0)
       result.modelled_range_misfit = c.rms / c.noise_floor;
   }
-  std::copy_if(discovery.unknown.begin(), discovery.unknown.end(),
-               std::back_inserter(result.unexplained),
-               [](const StructureScore& s) { return s.matters; });
   report_model(discovery, movements, result);
   ask_again(discovery, result);
   // What the model explains is no fault of the result any more.
@@ -483,17 +545,6 @@ std::shared_ptr<const CalibrationResult> result_at(
   const Discovery discovery = as_discovery(steps, nullptr);
   if (discovery.model.empty()) return base;
   return std::make_shared<const CalibrationResult>(with_model(*base, discovery));
-}
-
-void judge_missing(CalibrationResult& result, const ModelRanking& ranking) {
-  if (ranking.nothing_missing()) return;
-  const auto lacking = std::find_if(ranking.proposals.begin(), ranking.proposals.end(),
-                                    [](const EffectProposal& p) { return p.suggested; });
-  Verdict(result).doubtful(
-      lacking == ranking.proposals.end()
-          ? Message("structure is left that no known effect explains")
-          : Message("scenes held out speak for an effect that the model lacks: %1",
-                    lacking->finding.id));
 }
 
 }  // namespace lvcalib

@@ -33,7 +33,4 @@ CalibrationResult with_model(CalibrationResult result, const Discovery& discover
 std::shared_ptr<const CalibrationResult> result_at(
     const std::shared_ptr<const CalibrationResult>& base, const std::vector<ModelStepPtr>& steps);
 
-/// A result whose model lacks what scenes held out speak for is doubtful, and says so.
-void judge_missing(CalibrationResult& result, const ModelRanking& ranking);
-
 }  // namespace lvcalib

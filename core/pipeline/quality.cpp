@@ -212,14 +212,12 @@ Message misfit(const ExtrinsicSolution& x) {
       nodes, planes, worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
 }
 
-// What a model with effects leaves: its ranges against their noise, and structure that moves the
-// extrinsic by more than the tolerance. Planes and circles, one number for many returns, tell less.
-void judge_model(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
-  if (result.modelled_range_misfit > options.max_noise_scale) {
+// What a search leaves: an effect that it would add, and structure that moves the extrinsic by more
+// than the tolerance.
+void judge_missing(const CalibrationResult& result, Verdict& verdict) {
+  if (!result.lacking.empty()) {
     verdict.doubtful(
-        Message("ranges miss the model by %1 times their noise: another effect is missing in the "
-                "model",
-                formatted("%.1f", result.modelled_range_misfit)));
+        Message("scenes held out speak for an effect that the model lacks: %1", result.lacking));
   }
   for (const StructureScore& s : result.unexplained) {
     verdict.doubtful(
@@ -361,8 +359,15 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                 "flat",
                 formatted("%.2f", x.sigma_px)));
   }
+  judge_missing(result, verdict);
   if (result.model_fit) {
-    judge_model(result, options, verdict);
+    // Planes and circles, one number for many returns, tell less.
+    if (result.modelled_range_misfit > options.max_noise_scale) {
+      verdict.doubtful(
+          Message("ranges miss the model by %1 times their noise: another effect is missing in the "
+                  "model",
+                  formatted("%.1f", result.modelled_range_misfit)));
+    }
   } else if (x.node_scale > options.max_noise_scale || x.plane_scale > options.max_noise_scale) {
     verdict.doubtful(misfit(x));
   }

@@ -24,8 +24,7 @@ void refuse_features(const SceneSolution& solved, const SceneResult* found,
   for (const NodeResidual& node : solved.nodes) {
     if (node.used || (found != nullptr && contains_id(found->edits.circles, node.id))) continue;
     bool measured = true;
-    Message reason = Message("misses the board's pose by %1 mm, more than the gate",
-                             formatted("%.1f", 1e3 * node.residual_m.norm()));
+    Message reason = misses_the_pose(node);
     if (found != nullptr && found->refinement) {
       for (const RefinedNode& refined : found->refinement->nodes) {
         if (refined.id != node.id || refined.valid) continue;
@@ -54,6 +53,11 @@ bool contains_circle(const std::vector<Refusal>& all, const std::string& scene, 
 }
 
 }  // namespace
+
+Message misses_the_pose(const NodeResidual& node) {
+  return Message("misses the board's pose by %1 mm, more than the gate",
+                 formatted("%.1f", 1e3 * node.residual_m.norm()));
+}
 
 bool can_be_insisted_on(const SceneResult& scene) {
   const bool board = scene.refinement || (scene.search && !scene.search->candidates.empty());

@@ -30,6 +30,9 @@ struct Refusal {
   Eigen::AlignedBox2d board_m = {};  ///< Where on the board, of kPatch.
 };
 
+/// Why the joint solve refused a node that was measured.
+Message misses_the_pose(const NodeResidual& node);
+
 /// The scene was refused by the program, and has what it takes to be used all the same.
 bool can_be_insisted_on(const SceneResult& scene);
 

@@ -191,6 +191,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   for (SceneResult& scene : result.scenes) scene.modelled_scale = 0.0;
   result.modelled_range_misfit = 0.0;
   result.unexplained.clear();
+  result.lacking.clear();
   take_back_refused(result);
   std::vector<std::size_t> index;
   auto observations = observations_of(result, use, index);

@@ -26,7 +26,7 @@ std::vector<std::string> names_of(const Dataset& dataset) {
 bool solving_is_enough(const Dataset& dataset, const CalibrationRequest& request,
                        const SessionState& state) {
   if (!state.whole || state.scene_names != names_of(dataset) ||
-      state.whole->dataset != dataset.path.string()) {
+      state.whole->dataset != place_of(dataset)) {
     return false;
   }
   const CalibrationRequest& last = state.request;

@@ -93,7 +93,7 @@ Result<std::string> export_boundary_response(const ExportInput& input) {
   }
   try {
     const json& response = j.at("boundary_response");
-    if (!response.at("all").contains("covariance")) {
+    if (response.at("all").value("covariance", json()).is_null()) {
       const auto stated = response.find("reason");
       const Message reason = stated == response.end()
                                  ? Message("not enough samples")

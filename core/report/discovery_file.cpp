@@ -54,7 +54,8 @@ ordered_json criteria_json(const std::vector<Criterion>& criteria) {
                    {"value", std::clamp(c.value, -kMost, kMost)},
                    {"threshold", c.threshold},
                    {"at_most", c.at_most},
-                   {"holds", c.holds()}});
+                   {"holds", c.holds()},
+                   {"reason", reason_of(c)}});
   }
   return out;
 }
@@ -79,7 +80,8 @@ ordered_json effect_json(const EffectFinding& f) {
                     {"extrinsic_move_mrad", f.extrinsic_move_mrad},
                     {"matters", f.matters},
                     {"criteria", criteria_json(f.criteria)},
-                    {"kept_share", f.unabsorbed_share},
+                    {"kept_share", f.unabsorbed_share ? ordered_json(*f.unabsorbed_share)
+                                                      : ordered_json(nullptr)},
                     {"explanation", f.explanation}};
   if (f.shape != 0.0) j["shape"] = f.shape;
   if (f.shape_sigma > 0.0) j["shape_sigma"] = f.shape_sigma;
@@ -194,19 +196,22 @@ std::string discovery_as_json(const Discovery& d) {
 std::string discovery_summary(const Discovery& d) {
   const std::string head = "  channel           RMS  noise floor  unexplained     held out\n";
   std::string out = "Base model\n" + head + channel_lines(d.channels) + "\n";
-  if (d.selected.empty()) {
+  const std::string lacking = d.lacking();
+  if (!lacking.empty()) {
+    out += "Missing, and not added: " + lacking + " (below).\n";
+  } else if (d.selected.empty()) {
+    const std::string further = d.model.empty() ? "" : "further ";
     out +=
         d.unknown.empty()
-            ? "Nothing is missing: no effect of the catalogue predicts held-out scenes better.\n"
+            ? "Nothing " + further +
+                  "is missing: no effect of the catalogue predicts held-out scenes better.\n"
             : "No effect of the catalogue predicts held-out scenes better, but structure is left "
               "(below).\n";
   }
-  for (const std::string& id : d.selected) {
-    for (const EffectFinding& f : d.effects) {
-      if (f.id == id) out += id + ": " + f.explanation.text() + "\n";
-    }
+  for (const EffectFinding& f : d.effects) {
+    if (d.holds(f.id)) out += f.id + ": " + f.explanation.text() + "\n";
   }
-  if (!d.selected.empty() && !d.history.empty())
+  if (!d.model.empty() && !d.history.empty())
     out += "\nWith them\n" + head + channel_lines(d.history.back().channels);
   for (const Message& w : d.warnings) out += "\nWarning: " + w.text() + "\n";
   if (!d.unknown.empty()) {
@@ -225,9 +230,7 @@ std::string discovery_summary(const Discovery& d) {
   }
   out += "\nThe rest of the catalogue\n";
   for (const EffectFinding& f : d.effects) {
-    bool chosen = false;
-    for (const std::string& id : d.selected) chosen = chosen || id == f.id;
-    if (!chosen) out += "  " + f.id + ": " + f.explanation.text() + "\n";
+    if (!d.holds(f.id)) out += "  " + f.id + ": " + f.explanation.text() + "\n";
   }
   out += budget_lines(d);
   if (!d.advice.empty()) out += "\nAdvice\n";

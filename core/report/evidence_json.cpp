@@ -240,9 +240,13 @@ nlohmann::ordered_json response_json(const BoundaryResponse& response) {
   j["scenes"] = ordered_json::array();
   for (const SceneResponse& scene : response.scenes)
     j["scenes"].push_back(scene_response_json(scene));
+  // The same keys, without values, where there is none.
   j["all"] = ordered_json::object();
-  j["all"]["n"] = 0;
-  if (response.all) put_statistics(j["all"], *response.all);
+  put_statistics(j["all"], response.all.value_or(ResponseStatistics()));
+  if (!response.all) {
+    for (auto& [key, value] : j["all"].items()) value = nullptr;
+    j["all"]["n"] = 0;
+  }
   if (!response.reason.empty()) j["reason"] = response.reason;
   j["transition"] =
       response.transition ? transition_json(*response.transition) : ordered_json(nullptr);

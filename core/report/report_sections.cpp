@@ -238,7 +238,7 @@ std::string pose_section(const json& result) {
          shown(result.at("plane_noise_scale").get<double>(), 3) + " times. " +
          total_uncertainty_note().text() + "</p>\n" + html_table(sigma) + "<p>Residuals: corners " +
          shown(result.at("rms_px").get<double>(), 4) + " px, nodes " +
-         shown(result.at("rms_mm").get<double>(), 4) + " mm (RMS).</p>\n";
+         shown(number_of(result.at("rms_mm")), 4) + " mm (RMS).</p>\n";
 }
 
 std::string uncertainty_section(const json& result) {

@@ -173,7 +173,7 @@ std::string refused_nodes(const json& response) {
 std::string response_section(const json& result) {
   std::string out = "<section class=\"scene\"><h2>Boundary response</h2>\n";
   const json& response = result.at("boundary_response");
-  if (!response.at("all").contains("covariance")) {
+  if (!response.at("all").value("covariance", json()).is_array()) {
     return out + "<p class=\"note\">" +
            html_escaped(response.value("reason", "not enough samples")) + "</p>\n" +
            refused_nodes(response) + "</section>\n";

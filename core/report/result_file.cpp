@@ -56,12 +56,25 @@ ordered_json nodes_json(const BoardRefinement& refinement, const SceneSolution* 
                       {"valid_bins", node.valid_bins}};
     if (!node.valid) j["reason"] = node.reason;
     if (solution != nullptr && k < solution->nodes.size()) {
-      j["residual_mm"] = list_of(1e3 * solution->nodes[k].residual_m);
-      j["used"] = solution->nodes[k].used;
+      const NodeResidual& found = solution->nodes[k];
+      j["residual_mm"] = list_of(1e3 * found.residual_m);
+      j["used"] = found.used;
+      if (node.valid && !found.used) j["reason"] = misses_the_pose(found);
     }
     nodes.push_back(std::move(j));
   }
   return nodes;
+}
+
+bool uses_nodes(const SceneSolution& scene) {
+  return std::any_of(scene.nodes.begin(), scene.nodes.end(),
+                     [](const NodeResidual& node) { return node.used; });
+}
+
+// What planes alone leave is no distance of nodes.
+ordered_json node_rms_mm(const SceneSolution* scene) {
+  if (scene == nullptr) return 0.0;
+  return uses_nodes(*scene) ? ordered_json(scene->rms_mm) : ordered_json(nullptr);
 }
 
 ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
@@ -84,7 +97,7 @@ ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
     j["T_lidar_board"] = rows_of(scene.refinement->lidar_from_board.matrix());
   }
   j["rms_px"] = solution != nullptr ? solution->rms_px : 0.0;
-  j["rms_mm"] = solution != nullptr ? solution->rms_mm : 0.0;
+  j["rms_mm"] = node_rms_mm(solution);
   const SceneEdits& edits = scene.edits;
   if (!edits.empty()) {
     j["by_hand"] = {
@@ -231,7 +244,9 @@ ordered_json to_json(const CalibrationResult& result) {
       {"circle_radius_m", result.target.has_circles() ? result.target.circle_radius_m : 0.0}};
   j["inputs"] = inputs_json(result.inputs);
   j["rms_px"] = x.rms_px;
-  j["rms_mm"] = x.rms_mm;
+  const bool nodes = std::any_of(x.scenes.begin(), x.scenes.end(),
+                                 [](const SceneSolution& s) { return s.used && uses_nodes(s); });
+  j["rms_mm"] = nodes ? ordered_json(x.rms_mm) : ordered_json(nullptr);
   j["sigma_px"] = x.sigma_px;
   j["node_noise_scale"] = x.node_scale;
   j["plane_noise_scale"] = x.plane_scale;

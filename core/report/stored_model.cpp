@@ -217,6 +217,9 @@ PoseUse pose_use(const StoredModel& model) {
       values.push_back(parameter_is(use.effect->info().id, p.name,
                                     formatted("%.4g", value) + behind_number(p.unit)));
     }
+    if (!use.effect->shape_name().empty())
+      values.push_back(Message("%1 = %2", Message::listed(use.effect->shape_name()),
+                               formatted("%.4g", use.shape)));
     out.effects.push_back(Message("%1: %2", title, joined(values, ", ")));
     if (!correction_reads(use, model.scales).moves_points) continue;
     taken_out = taken_out ? Message("%1, %2", *taken_out, title) : title;

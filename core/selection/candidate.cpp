@@ -2,8 +2,11 @@
 #include "selection/candidate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
@@ -305,9 +308,45 @@ std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried
   // Where much is wrong, what explains a little of it stands in for something else.
   out.push_back({"explained", candidate.explained_share, options.min_explained});
   out.push_back({"held_out", held_out(candidate, scenes, options), 1.0});
-  out.push_back(
-      {"not_contradicted", candidate.contradiction == Contradiction::kNone ? 1.0 : 0.0, 1.0});
+  constexpr std::array<std::pair<const char*, Contradiction>, 5> kAgainst{
+      {{"prints_agree", Contradiction::kPrints},
+       {"edges_trusted", Contradiction::kLevels},
+       {"beside_curve", Contradiction::kCurve},
+       {"beside_place", Contradiction::kPlace},
+       {"scenes_agree", Contradiction::kScenes}}};
+  for (const auto& [name, by] : kAgainst)
+    out.push_back({name, candidate.contradiction == by ? 0.0 : 1.0, 1.0});
   return out;
+}
+
+Message reason_of(const Criterion& criterion) {
+  static const std::map<std::string, Message> reasons = {
+      {"p_value", Message("chance must not reach it, among all effects and shapes tried")},
+      {"mean_gain",
+       Message("scenes held out must be predicted better by more than they differ among each "
+               "other")},
+      {"total_gain", Message("the best of so many candidates gains something by chance alone")},
+      {"scenes_improved",
+       Message("one scene with all the leverage must not decide for the others")},
+      {"two_scenes", Message("what shows in one scene only may be that scene's own fault")},
+      {"possible", Message("no device has an effect of such a size: it stands in for another")},
+      {"explained",
+       Message("where much is wrong, what explains a little of it stands in for something else")},
+      {"held_out",
+       Message("it must make the residuals of scenes held out smaller, or move the extrinsic")},
+      {"prints_agree",
+       Message("white and black print must tell the same about an effect of either")},
+      {"edges_trusted",
+       Message(
+           "edges are found in intensities: where these are doubted, edges alone tell nothing")},
+      {"beside_curve",
+       Message("a curve over one covariate predicts far better, and beside it the effect must have "
+               "something left to say")},
+      {"beside_place",
+       Message("something at one place predicts better, and the effect must take away half of it")},
+      {"scenes_agree", Message("tried in the model, it must not predict scenes held out worse")}};
+  const auto found = reasons.find(criterion.name);
+  return found == reasons.end() ? Message() : found->second;
 }
 
 bool is_sure(const Candidate& candidate, std::size_t tried, const DiscoveryOptions& options) {

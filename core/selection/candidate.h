@@ -116,7 +116,13 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
 ///   explained         share of what its channel misses by
 ///   held_out          fall of held-out squares over the least that counts, or of the extrinsic's
 ///                     move
-///   not_contradicted  1 unless prints, levels, single scenes or a curve speak against it
+/// and whether nothing speaks against it (1, else 0):
+///   prints_agree      white and black print tell the same about it
+///   edges_trusted     it does not act on edges alone where these are doubted
+///   beside_curve      beside a curve that predicts far better it has something left to say
+///   beside_place      it takes away half of what predicts better at a place
+///   scenes_agree      tried in the model, it predicts scenes held out no worse
+/// reason_of() says why each is asked.
 /// How large it is, and what it does to the extrinsic, are no rules: what is there is there.
 std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried,
                                    std::size_t scenes, const DiscoveryOptions& options);

@@ -83,6 +83,20 @@ Status check_options(const DiscoveryOptions& options) {
 
 }  // namespace
 
+bool Discovery::holds(const std::string& id) const {
+  return std::any_of(model.begin(), model.end(),
+                     [&](const EffectInUse& use) { return use.effect->info().id == id; });
+}
+
+std::string Discovery::lacking() const {
+  const auto next = std::find_if(effects.begin(), effects.end(), [&](const EffectFinding& f) {
+    return !holds(f.id) && !f.criteria.empty() &&
+           std::all_of(f.criteria.begin(), f.criteria.end(),
+                       [](const Criterion& c) { return c.holds(); });
+  });
+  return next == effects.end() ? std::string() : next->id;
+}
+
 Status check_wanted(const std::vector<std::string>& with) {
   std::vector<std::string> known;
   for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);

@@ -28,7 +28,7 @@ struct Discovery {
   std::vector<ChannelSummary> channels;   ///< Of the base model.
   std::vector<StructureScore> structure;  ///< Of the base model, best first.
   std::vector<EffectFinding> effects;     ///< By rank.
-  std::vector<std::string> selected;      ///< In the order added.
+  std::vector<std::string> selected;      ///< What the search added, in that order.
   std::vector<StructureScore> unknown;    ///< Left when the catalogue stopped.
   std::vector<HistoryStep> history;
   std::vector<Message> advice;
@@ -45,6 +45,12 @@ struct Discovery {
   ModelScales scales;  ///< What the model's numbers refer to.
   /// The linearised model about `state`, scene by scene: what some of the scenes would give.
   std::shared_ptr<const ModelFit> fit;
+
+  /// Whether an effect is in the final model.
+  [[nodiscard]] bool holds(const std::string& id) const;
+  /// The effect that would be added next and is not, as no more were asked for; empty if there is
+  /// none. Others that would do may only stand in for it.
+  [[nodiscard]] std::string lacking() const;
 };
 
 /// Checks the texts of `with` without data, so that a slip of the pen is known before long work.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Criterion {
   bool at_most = false;  ///< Holds up to the threshold; else from it on.
   [[nodiscard]] bool holds() const { return at_most ? value <= threshold : value >= threshold; }
 };
+
+/// Why a criterion is asked, as a clause.
+Message reason_of(const Criterion& criterion);
 
 enum class EffectVerdict { kPresent, kAbsent, kAliased, kNotTestable };
 std::string name_of(EffectVerdict verdict);
@@ -67,7 +71,7 @@ struct EffectFinding {
   /// Whether it was let in, rule by rule; empty if nobody asked: the user's own wish, or no data.
   std::vector<Criterion> criteria;
   /// Share of its squared effect that pose and levels cannot absorb.
-  double unabsorbed_share = 0.0;
+  std::optional<double> unabsorbed_share;
   Message explanation;
   std::string spec;  ///< Of a user's own effect: makes it again (EffectInfo::spec).
   FoundCurve curve;

@@ -182,7 +182,7 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
   for (const ModelTerm& term : last.terms) {
     if (!term.on) continue;
     if (ranking == nullptr) out.effects.push_back(finding_in_model(term));
-    out.selected.push_back(term.spec);
+    if (!term.selection.wanted) out.selected.push_back(term.spec);
     out.model.push_back(term.use);
   }
   if (ranking != nullptr) {

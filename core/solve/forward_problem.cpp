@@ -264,7 +264,8 @@ class LidarRows {
       if (const int line = line_of(k); line >= 0) row.add(layout_.line_range + line, 1.0);
       row.add(layout_.sensor, 1.0);
       row.add(layout_.sensor + 1, 1.0 - p.white);
-      if (!layout_.sensor_line.empty()) {
+      // Of one sensor's clouds some may lack the field.
+      if (!layout_.sensor_line.empty() && returns_.cloud->has_line()) {
         const auto line = layout_.sensor_line.find(returns_.cloud->line[returns_.index[k]]);
         if (line != layout_.sensor_line.end()) row.add(line->second, 1.0);
       }

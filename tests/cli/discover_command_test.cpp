@@ -186,6 +186,9 @@ TEST_F(DiscoverCommand, ResidualsAndWordsAreOfTheModelInForce) {
   EXPECT_THAT(after.out, HasSubstr("corrected clouds"));
   const auto mended = json("result.json");
   EXPECT_EQ(mended["applies_to"], "corrected");
+  // What the user put in is not what the tool found.
+  EXPECT_THAT(json("discovery.json")["selected"],
+              ::testing::Not(::testing::Contains("range_walk")));
   EXPECT_LT(mended["rms_mm"].get<double>(), 0.5 * base["rms_mm"].get<double>());
   for (const auto& scene : mended["scenes"]) {
     double height_mm = 0.0;
@@ -203,6 +206,42 @@ TEST_F(DiscoverCommand, ResidualsAndWordsAreOfTheModelInForce) {
   EXPECT_THAT(read_file(folder_.path() / "report.html"), HasSubstr("taken out: Range walk"));
 }
 
+// One predicate for the sentence, the files and the verdict.
+TEST_F(DiscoverCommand, WhatIsMissingAndNotAddedIsSaid) {
+  const fs::path walked = with_clouds([](Cloud& cloud) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (cloud.intensity[i] < 60.0F) cloud.points_m[i] += 0.02F * cloud.points_m[i].normalized();
+    }
+  });
+  const Outcome outcome =
+      run_lvcalib({"discover", walked, "-o", out(), "--quiet", "--max-effects", "0"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto discovery = json("discovery.json");
+  EXPECT_TRUE(discovery["selected"].empty());
+  const std::string first = discovery["effects"][0]["id"];
+  for (const auto& c : discovery["effects"][0]["criteria"]) {
+    EXPECT_TRUE(c["holds"].get<bool>()) << c["name"];
+    EXPECT_FALSE(c["reason"].get<std::string>().empty()) << c["name"];
+  }
+  EXPECT_THAT(outcome.out, HasSubstr("missing: " + first + " (not added); doubtful"));
+  EXPECT_THAT(read_file(out() / "discovery.txt"), HasSubstr("Missing, and not added: " + first));
+  const auto result = json("result.json");
+  EXPECT_EQ(result["quality"], "doubtful");
+  EXPECT_THAT(result["quality_reasons"].dump(), HasSubstr("the model lacks: " + first));
+  // Without effects every number is the calibration's.
+  EXPECT_EQ(discovery["covariance"], result["covariance"]);
+}
+
+TEST_F(DiscoverCommand, ACloudMayLackTheLineThatTheOthersHave) {
+  int seen = 0;
+  const fs::path dataset = with_clouds([&](Cloud& cloud) {
+    if (seen++ == 0) cloud.line.clear();
+  });
+  const Outcome outcome = discover(dataset);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json("result.json")["quality"], "good");
+}
+
 TEST_F(DiscoverCommand, MissingFieldsAreNotTestable) {
   const fs::path dataset = with_clouds([](Cloud& cloud) {
     cloud.time_s.clear();
@@ -210,13 +249,13 @@ TEST_F(DiscoverCommand, MissingFieldsAreNotTestable) {
   });
   const Outcome outcome = discover(dataset, {"--with", "scan_motion"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("no time in these clouds"));
+  EXPECT_THAT(outcome.err, HasSubstr("the time is not in every cloud"));
   const auto discovery = json("discovery.json");
   EXPECT_EQ(effect(discovery, "scan_motion")["verdict"], "not_testable");
   EXPECT_THAT(effect(discovery, "encoder_lag")["explanation"].get<std::string>(),
-              HasSubstr("no time"));
+              HasSubstr("the time is not in every cloud"));
   EXPECT_THAT(effect(discovery, "channel_range_offset")["explanation"].get<std::string>(),
-              HasSubstr("no laser lines"));
+              HasSubstr("the laser line is not in every cloud"));
 }
 
 TEST_F(DiscoverCommand, ConstantIntensityLeavesPlanesAndCornersAndSaysSo) {

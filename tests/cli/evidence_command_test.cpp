@@ -113,8 +113,39 @@ TEST_F(EvidenceCommands, AnInputIsNeverOverwritten) {
   const fs::path among = good_dataset() / "scenes" / "D";
   for (const char* command : {"calibrate", "discover"}) {
     expect_refusal(run_lvcalib({command, good_dataset().string(), "-o", among.string()}), 2,
-                   "among the dataset's scenes", among);
+                   "among a dataset's scenes", among);
   }
+}
+
+TEST_F(EvidenceCommands, NothingIsWrittenOntoADatasetsFiles) {
+  const fs::path dataset = at("own");
+  copy_dataset(good_dataset(), dataset);
+  const fs::path cloud = dataset / "scenes" / "A" / "cloud.pcd";
+  const fs::path image = dataset / "scenes" / "B" / "image.png";
+  const std::string lidar =
+      (fs::path(LVCALIB_SOURCE_DIR) / "resources" / "lidars" / "avia.yaml").string();
+  const std::vector<std::vector<std::string>> among = {
+      {"export", result(), "--format", "matrix", "-o", cloud.string()},
+      {"report", result_folder().string(), "-o", image.string()},
+      {"target", "-o", image.string()},
+      {"correct", cloud.string(), "--with", result(), "-o",
+       (dataset / "scenes" / "B.pcd").string()},
+      {"check", result(), dataset.string(), "-o", cloud.string()}};
+  for (const auto& arguments : among) {
+    const Outcome outcome = run_lvcalib(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments[0];
+    EXPECT_THAT(outcome.err, ::testing::AnyOf(HasSubstr("among a dataset's scenes"),
+                                              HasSubstr("the output is the input itself")));
+  }
+  const std::string target = (dataset / "target.yaml").string();
+  const std::string before = read_file(target);
+  const Outcome plan =
+      run_lvcalib({"plan", "--target", target, "--camera", (dataset / "camera.yaml").string(),
+                   "--lidar", lidar, "--scenes", "3", "-o", target});
+  EXPECT_EQ(plan.status, 2);
+  EXPECT_THAT(plan.err, HasSubstr("the output is the input itself"));
+  EXPECT_EQ(read_file(target), before);
+  EXPECT_EQ(read_file(cloud), read_file(good_dataset() / "scenes" / "A" / "cloud.pcd"));
 }
 
 TEST_F(EvidenceCommands, OutputThatIsLostIsAnError) {

@@ -99,5 +99,48 @@ TEST_F(RealData, PlantedEffectIsWarnedAbout) {
   EXPECT_THAT(json["warnings"], Contains(HasSubstr("an effect is missing")));
 }
 
+// The search, on data that it was not made from: what is found, what that does to the verdict, and
+// how far from the truth the extrinsic then is.
+TEST_F(RealData, TheSearchFindsWhatIsMissing) {
+  struct Case {
+    const char* dataset;
+    std::vector<std::string> selected;
+    bool becomes_good;
+    double off_mm;  // From the truth, where there is one.
+  };
+  for (const Case& c :
+       {Case{"walk-rosette", {"range_walk"}, true, 1.0},
+        Case{"mystery-rosette", {"board_bow"}, true, 0.0}, Case{"clean-avia", {}, true, 1.0}}) {
+    SCOPED_TRACE(c.dataset);
+    const Outcome outcome =
+        run_lvcalib({"discover", data_ / "simulated" / c.dataset, "-o", output(), "--quiet"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const auto found = nlohmann::json::parse(read_file(output() / "discovery.json"));
+    EXPECT_EQ(found["selected"], c.selected);
+    const auto json = nlohmann::json::parse(read_file(output() / "result.json"));
+    EXPECT_EQ(json["quality"] == "good", c.becomes_good) << json["quality_reasons"].dump();
+    if (c.off_mm == 0.0) continue;
+    const auto result = read_result(output() / "result.json");
+    const auto truth = read_truth(data_ / "simulated" / (std::string(c.dataset) + "-truth.json"));
+    ASSERT_TRUE(result.ok() && truth.ok());
+    const ExtrinsicError error = compare_extrinsics(*result, *truth);
+    std::cout << c.dataset << ": " << error.translation_mm << " mm, " << error.rotation_mrad
+              << " mrad\n";
+    EXPECT_LT(error.translation_mm, c.off_mm);
+  }
+}
+
+TEST_F(RealData, TheSearchOnTheCheckerboardFindsTheRangeWalkAndStaysDoubtful) {
+  const Outcome outcome = run_lvcalib(
+      {"discover", data_ / "real/vlp16-checkerboard", "--crops", "-o", output(), "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto found = nlohmann::json::parse(read_file(output() / "discovery.json"));
+  EXPECT_THAT(found["selected"], Contains("range_walk"));
+  EXPECT_THAT(found["selected"], Contains("channel_range_offset"));
+  const auto json = nlohmann::json::parse(read_file(output() / "result.json"));
+  EXPECT_EQ(json["quality"], "doubtful");
+  expect_near_the_owners_results();
+}
+
 }  // namespace
 }  // namespace lvcalib::testing

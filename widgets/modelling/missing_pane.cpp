@@ -15,6 +15,7 @@
 #include <QTextBrowser>
 #include <QTimer>
 #include <QTreeWidget>
+#include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -101,6 +102,7 @@ MissingPane::MissingPane(QWidget* parent)
       tabs_(new QTabWidget(this)),
       list_(new QTreeWidget(this)),
       budget_(new QTreeWidget(this)),
+      advice_(new QTextBrowser(this)),
       text_(new QTextBrowser(this)),
       pattern_(new ResidualPlot(this)),
       add_(new QPushButton(this)),
@@ -134,7 +136,13 @@ MissingPane::MissingPane(QWidget* parent)
   budget_->header()->setStretchLastSection(false);
   budget_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
   budget_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+  advice_->setObjectName(QStringLiteral("advice"));
   text_->setObjectName(QStringLiteral("proposal_text"));
+  // A closed form is added from where it is told.
+  text_->setOpenLinks(false);
+  connect(text_, &QTextBrowser::anchorClicked, this, [this](const QUrl& formula) {
+    if (!busy_) Q_EMIT addWanted(QUrl::fromPercentEncoding(formula.toEncoded()));
+  });
   text_->setMinimumHeight(70);
   pattern_->setObjectName(QStringLiteral("pattern_plot"));
   pattern_->setMeansOnly(true);
@@ -144,6 +152,7 @@ MissingPane::MissingPane(QWidget* parent)
   tabs_->setDocumentMode(true);
   tabs_->addTab(list_, {});
   tabs_->addTab(budget_, {});
+  tabs_->addTab(advice_, {});
   parts_->setChildrenCollapsible(false);
   parts_->addWidget(tabs_);
   parts_->addWidget(text_);
@@ -190,6 +199,7 @@ void MissingPane::setRanking(std::shared_ptr<const ModelRanking> ranking, bool h
     described_ = nullptr;
     fill();
     fillBudget();
+    fillAdvice();
   }
   describe();
 }
@@ -313,6 +323,20 @@ void MissingPane::fillBudget() {
   fitRows();
 }
 
+// Which scenes, or what else, would tell what these cannot.
+void MissingPane::fillAdvice() {
+  if (!ranking_) {
+    advice_->clear();
+    return;
+  }
+  QString html;
+  for (const Message& one : ranking_->advice)
+    html += QStringLiteral("<li>%1</li>").arg(core_text(one).toHtmlEscaped());
+  advice_->setHtml(html.isEmpty()
+                       ? QStringLiteral("<p>%1</p>").arg(tr("No further scene is asked for."))
+                       : QStringLiteral("<ul style=\"margin-left:-24px\">%1</ul>").arg(html));
+}
+
 void MissingPane::updateVerdict() {
   if (busy_) {
     verdict_->setText(tr("Looking for what is missing …"));
@@ -322,7 +346,12 @@ void MissingPane::updateVerdict() {
     verdict_->setText(
         tr("<b>Nothing is missing</b> in the model, as far as these scenes can tell."));
   } else if (!ranking_->unknown.empty()) {
-    verdict_->setText(tr("<b>Something is left</b> that no known effect explains."));
+    const bool matters = std::any_of(ranking_->unknown.begin(), ranking_->unknown.end(),
+                                     [](const StructureScore& s) { return s.matters; });
+    verdict_->setText(matters
+                          ? tr("<b>Something is left</b> that no known effect explains.")
+                          : tr("<b>Nothing that matters is missing.</b> Structure is left that no "
+                               "known effect explains, too small to move the extrinsic."));
   } else {
     const auto& top = ranking_->proposals.front();
     QString text = tr("<b>%1 is missing.</b>").arg(effect_title(top.finding.id));
@@ -409,7 +438,12 @@ void MissingPane::describeStructure(const StructureScore& s) {
           .arg(100.0 * s.score, 0, 'f', 1)
           .arg(channel_name(s.channel), covariates_text(s))
           .arg(plain_number(s.amplitude, 2))
-          .arg(unit_text(s.channel)));
+          .arg(unit_text(s.channel)) +
+      (s.formula.empty() ? QString()
+                         : tr("<p>A closed form predicts as well: <a href=\"%1\">add %2</a></p>")
+                               .arg(QString::fromLatin1(
+                                        QUrl::toPercentEncoding(QString::fromStdString(s.formula))),
+                                    QString::fromStdString(s.formula).toHtmlEscaped())));
   setPattern(nullptr);
   Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
 }
@@ -423,6 +457,9 @@ void MissingPane::retranslate() {
   tabs_->setTabText(0, tr("Missing"));
   tabs_->setTabToolTip(0, tr("What is missing"));
   tabs_->setTabText(1, tr("Cannot be seen"));
+  tabs_->setTabText(2, tr("Next scenes"));
+  tabs_->setTabToolTip(2, tr("Scenes that would tell what these cannot, and what else would"));
+  advice_->setAccessibleName(tr("Next scenes"));
   tabs_->setTabToolTip(1, tr("Effects that these scenes could not show, and by how much they would "
                              "spoil the extrinsic at the size that matters"));
   list_->setHeaderLabels({tr("Effect"), tr("Verdict"), tr("Error")});
@@ -437,6 +474,7 @@ void MissingPane::retranslate() {
   described_ = nullptr;
   fill();
   fillBudget();
+  fillAdvice();
   describe();
 }
 

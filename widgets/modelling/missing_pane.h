@@ -55,6 +55,7 @@ class MissingPane : public QWidget {
   void fill();
   void fitRows();
   void fillBudget();
+  void fillAdvice();
   void addProposal(const EffectProposal& proposal, int index);
   void addUnknown(int index);
   void describe();
@@ -74,6 +75,7 @@ class MissingPane : public QWidget {
   QTabWidget* tabs_;
   QTreeWidget* list_;
   QTreeWidget* budget_;
+  QTextBrowser* advice_;
   QTextBrowser* text_;
   ResidualPlot* pattern_;
   QPushButton* add_;

@@ -28,7 +28,11 @@ const char* criterion_name(const std::string& name) {
       {"explained", QT_TRANSLATE_NOOP("ModelText", "share of what its channel misses by")},
       {"held_out",
        QT_TRANSLATE_NOOP("ModelText", "fall of held-out squares, over the least asked")},
-      {"not_contradicted", QT_TRANSLATE_NOOP("ModelText", "nothing else speaks against it")}};
+      {"prints_agree", QT_TRANSLATE_NOOP("ModelText", "white and black print agree")},
+      {"edges_trusted", QT_TRANSLATE_NOOP("ModelText", "edges can be trusted")},
+      {"beside_curve", QT_TRANSLATE_NOOP("ModelText", "it says something beside a curve")},
+      {"beside_place", QT_TRANSLATE_NOOP("ModelText", "it explains what sits at a place")},
+      {"scenes_agree", QT_TRANSLATE_NOOP("ModelText", "tried, it predicts no worse")}};
   const auto found = names.find(name);
   return found == names.end() ? nullptr : found->second;
 }
@@ -145,17 +149,32 @@ QString criteria_html(const EffectProposal& proposal) {
   };
   const auto plain = [](const char* text) { return translated(text).toHtmlEscaped(); };
   QString rows;
+  bool against = false;
   for (const Criterion& c : f.criteria) {
     const char* name = criterion_name(c.name);
     const QString title = name != nullptr ? translated(name) : QString::fromStdString(c.name);
     // As the numbers are, not as they would have to be.
     const char16_t relation = c.at_most ? (c.holds() ? u'≤' : u'>') : (c.holds() ? u'≥' : u'<');
-    rows +=
-        QStringLiteral(
-            "<tr><td>%1&nbsp;</td><td>%2&nbsp;</td><td align=right>%3&nbsp;%4&nbsp;%5</td></tr>")
-            .arg(c.holds() ? QChar(0x2713) : QChar(0x2717))
-            .arg(title.toHtmlEscaped(), plain_number(shown(c)),
-                 QString(QChar(relation)).toHtmlEscaped(), plain_number(c.threshold));
+    // Yes or no: told where it is no, and once for all where nothing speaks against it.
+    const bool is_question = c.threshold == 1.0 && !c.at_most && (c.value == 0.0 || c.value == 1.0);
+    against = against || (is_question && !c.holds());
+    if (is_question && c.holds()) continue;
+    rows += QStringLiteral("<tr><td>%1&nbsp;</td><td>%2&nbsp;</td><td align=right>%3</td></tr>")
+                .arg(c.holds() ? QChar(0x2713) : QChar(0x2717))
+                .arg(title.toHtmlEscaped(), is_question
+                                                ? QString()
+                                                : QStringLiteral("%1&nbsp;%2&nbsp;%3")
+                                                      .arg(plain_number(shown(c)),
+                                                           QString(QChar(relation)).toHtmlEscaped(),
+                                                           plain_number(c.threshold)));
+    if (!c.holds())
+      rows += QStringLiteral("<tr><td></td><td colspan=2><i>%1</i></td></tr>")
+                  .arg(core_text(reason_of(c)).toHtmlEscaped());
+  }
+  if (!against) {
+    rows += QStringLiteral("<tr><td>%1&nbsp;</td><td colspan=2>%2</td></tr>")
+                .arg(QChar(0x2713))
+                .arg(plain(QT_TRANSLATE_NOOP("ModelText", "nothing else speaks against it")));
   }
   const QString head = proposal.suggested
                            ? plain(QT_TRANSLATE_NOOP("ModelText", "Why it is suggested"))

@@ -23,6 +23,14 @@ std::string key_of(const std::vector<ModelDecision>& decisions) {
 
 constexpr char kContext[] = "lvcalib::widgets::ModelWork";
 
+// What is missing and speaks against "good".
+bool lacks(const ModelRanking& ranking) {
+  return std::any_of(ranking.proposals.begin(), ranking.proposals.end(),
+                     [](const EffectProposal& p) { return p.suggested; }) ||
+         std::any_of(ranking.unknown.begin(), ranking.unknown.end(),
+                     [](const StructureScore& s) { return s.matters; });
+}
+
 // An effect by its title; a formula or curve as it was entered.
 DescribedCommand::Words words_of(const char* text, const std::string& spec) {
   return {text, {}, effect_named(spec)};
@@ -57,7 +65,7 @@ ModelWork::ModelWork(Workspace& workspace, QObject* parent)
   connect(&workspace_, &Workspace::result_changed, this, [this] {
     if (workspace_.result() == source_) return;
     forget();
-    if (wanted_ || place_.current > 0) start();
+    start();
   });
   connect(&runner_, &Runner::progressed, this,
           [this](quint64, const QString& stage, double fraction, const QString& text) {
@@ -92,7 +100,6 @@ std::shared_ptr<const Discovery> ModelWork::discovery() const {
 }
 
 void ModelWork::take_workspace() {
-  wanted_ = false;
   place_ = {workspace_.model(), workspace_.model().size()};
   forget();
 }
@@ -114,7 +121,6 @@ void ModelWork::forget() {
 }
 
 void ModelWork::start() {
-  wanted_ = true;
   if (!workspace_.result() || runner_.running()) return;
   if (source_ == workspace_.result() && step()) {
     if (!ranking()) rank();
@@ -140,7 +146,7 @@ void ModelWork::keep_ranking(const Key& key, ModelRanking ranking) {
   const auto shown = result_ ? result_ : source_;
   const auto missing = this->ranking();
   if (!missing) return;
-  const bool judged = shown && !missing->nothing_missing() && shown->quality == Quality::kGood;
+  const bool judged = shown && lacks(*missing) && shown->quality == Quality::kGood;
   const bool budgeted = shown && !shown->model.empty() && shown->budget.empty();
   if (results_.running() || judged || budgeted) build_result();
 }
@@ -185,6 +191,11 @@ void ModelWork::decide(ModelDecision decision, const char* text) {
 // it is decided already), and looks for what is missing there.
 void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
   const auto source = workspace_.result();
+  // Again for another calibration, or as decided.
+  Q_EMIT logged(words.source != nullptr
+                    ? tr("Model: %1").arg(DescribedCommand(kContext, words).description())
+                : source_ == source ? tr("Model: going to another step")
+                                    : tr("Model: fitted again, as the calibration is another"));
   source_ = source;
   runner_.start([this, source, goal, words, made = made_](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
@@ -207,6 +218,17 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
       auto next = k == 0
                       ? start_model(discovery_input(*source), discovery_options(*source), context)
                       : apply_decision(step, wanted[k - 1], context);
+      if (!next && words.source == nullptr && k > 0 && next.error().kind != ErrorKind::kCancelled) {
+        // Decided elsewhere, as by another version: said, kept as it is, and the rest goes on.
+        post([this, error = next.error()] {
+          Q_EMIT logged(core_text(error));
+          Q_EMIT failed(error);
+        });
+        auto carried = std::make_shared<ModelStep>(*step);
+        carried->change = wanted[k - 1].change;
+        carried->changed = wanted[k - 1].spec;
+        next = ModelStepPtr(std::move(carried));
+      }
       if (!next) return fail(next.error());
       step = *next;
       post([this, done, step] { keep(done, step); });
@@ -307,24 +329,21 @@ void ModelWork::cancel() {
 void ModelWork::build_result() {
   const auto found = discovery();
   const auto missing = ranking();
-  const bool lacks = missing && !missing->nothing_missing();
   const bool base = !found || found->model.empty();
-  if (!source_ || (base && !(lacks && source_->quality == Quality::kGood))) {
+  if (!source_ || (base && !(missing && lacks(*missing) && source_->quality == Quality::kGood))) {
     results_.cancel();
     result_ = nullptr;
     Q_EMIT result_changed();
     return;
   }
-  results_.start([this, source = source_, found, missing, base, lacks](
-                     const RunContext&, const Runner::Post&) -> Runner::Deliver {
-    CalibrationResult judged = base ? *source : with_model(*source, *found);
-    if (lacks) judge_missing(judged, *missing);
-    auto made = std::make_shared<const CalibrationResult>(std::move(judged));
-    return [this, made] {
-      result_ = made;
-      Q_EMIT result_changed();
-    };
-  });
+  results_.start(
+      [this, source = source_, found](const RunContext&, const Runner::Post&) -> Runner::Deliver {
+        auto made = std::make_shared<const CalibrationResult>(with_model(*source, *found));
+        return [this, made] {
+          result_ = made;
+          Q_EMIT result_changed();
+        };
+      });
 }
 
 }  // namespace lvcalib::widgets

@@ -40,6 +40,9 @@ class ModelWork : public QObject {
   /// What is missing in the step shown; null as long as nobody has looked.
   [[nodiscard]] std::shared_ptr<const ModelRanking> ranking() const;
   [[nodiscard]] bool busy() const { return runner_.running(); }
+  /// Effects are in force, and the calibration with them is still being made: what is shown has
+  /// them not.
+  [[nodiscard]] bool behind() const { return place_.current > 0 && !result_ && busy_at_all(); }
 
   /// The calibration with the effects shown in its model; null if there are none.
   [[nodiscard]] std::shared_ptr<const CalibrationResult> result() const { return result_; }
@@ -50,7 +53,8 @@ class ModelWork : public QObject {
   /// The steps up to the one shown and what is missing, for the report; null before the first fit.
   [[nodiscard]] std::shared_ptr<const Discovery> discovery() const;
 
-  /// Fits what is not up to date and looks for what is missing. Does nothing without a calibration.
+  /// Fits what is not up to date and looks for what is missing; done by itself when a calibration
+  /// is there. Does nothing without one.
   void start();
   /// Looks for what is missing in the step shown.
   void rank();
@@ -87,6 +91,7 @@ class ModelWork : public QObject {
   };
   using Key = std::string;
 
+  [[nodiscard]] bool busy_at_all() const { return runner_.running() || results_.running(); }
   void take_workspace();
   void forget();
   void decide(ModelDecision decision, const char* text);
@@ -107,9 +112,8 @@ class ModelWork : public QObject {
   std::vector<ModelStepPtr> steps_;
   std::shared_ptr<const CalibrationResult> result_;
   Place place_;
-  bool wanted_ = false;  // Somebody looks at the model.
-  Runner results_;       // Makes the calibration with the model.
-  Runner runner_;        // Last: abandoned before what it uses goes.
+  Runner results_;  // Makes the calibration with the model.
+  Runner runner_;   // Last: abandoned before what it uses goes.
 };
 
 }  // namespace lvcalib::widgets

@@ -5,9 +5,11 @@
 #include <fstream>
 #include <iterator>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,6 +57,34 @@ TEST_F(FileIo, ReplacesAFileWholeAndLeavesNothingBeside) {
   EXPECT_EQ(seen, "old");
   EXPECT_EQ(*read_text_file(path, 100), "new and longer");
   EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(FileIo, LinksStayAndPipesAreWrittenTo) {
+  const fs::path real = folder_ / "real";
+  const fs::path link = folder_ / "link";
+  ASSERT_TRUE(write_file_atomically(real, "old").ok());
+  fs::create_symlink("real", link);
+  ASSERT_TRUE(write_file_atomically(link, "new").ok());
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(*read_text_file(real, 100), "new");
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  ASSERT_TRUE(write_file_atomically(pipe, "through").ok());
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  char text[16] = {};
+  EXPECT_EQ(::read(reader, text, sizeof text), 7);
+  EXPECT_STREQ(text, "through");
+  ::close(reader);
+  EXPECT_EQ(file_count(), 3);
+}
+
+TEST_F(FileIo, WhatAFullDeviceLosesIsAnError) {
+  const Status lost = write_file_atomically("/dev/full", "text");
+  ASSERT_FALSE(lost.ok());
+  EXPECT_EQ(lost.error().kind, ErrorKind::kOutput);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
 TEST_F(FileIo, WritesIntoTheCurrentFolder) {

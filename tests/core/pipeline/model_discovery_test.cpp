@@ -135,8 +135,12 @@ TEST(DiscoveredTotal, WithoutEffectsIsTheCalibrations) {
   DiscoveryOptions options = discovery_options(rig.result());
   options.max_effects = 0;
   options.advise_scenes = false;
-  const auto discovery = discover(rig.result(), options, {});
+  const auto discovery = discover_effects(discovery_input(rig.result()), options, {});
   ASSERT_TRUE(discovery.ok()) << discovery.error().text();
+  const auto stated = discover(rig.result(), options, {});
+  ASSERT_TRUE(stated.ok()) << stated.error().text();
+  EXPECT_EQ(stated->covariance, rig.result().extrinsic.camera_from_lidar.covariance);
+  EXPECT_EQ(stated->covariance_total, rig.result().covariance_total);
   for (const int first : {0, 3}) {
     const double base = deviation(rig.result().covariance_total, first);
     EXPECT_GT(base, 1.1 * deviation(discovery->covariance, first));

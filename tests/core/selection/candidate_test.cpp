@@ -186,7 +186,7 @@ TEST(CriteriaOf, AreThoseByWhichACandidateIsAccepted) {
   fails_by("possible", [](Candidate& bad) { bad.beyond_possible = 4.1; });
   fails_by("explained", [](Candidate& bad) { bad.explained_share = 0.1; });
   fails_by("held_out", [](Candidate& bad) { bad.heldout_gain[1] = 0.009; });
-  fails_by("not_contradicted", [](Candidate& bad) { bad.contradiction = Contradiction::kPrints; });
+  fails_by("prints_agree", [](Candidate& bad) { bad.contradiction = Contradiction::kPrints; });
 }
 
 TEST_F(Candidates, TheSearchRaisesTheBar) {

@@ -109,6 +109,47 @@ TEST(MissingPaneTest, UnknownStructureOffersACurve) {
   EXPECT_EQ(curve.last().at(1).toString(), "azimuth");
 }
 
+TEST(MissingPaneTest, AClosedFormIsAddedFromWhereItIsTold) {
+  const std::string formula = "formula:range:a*sin(25*azimuth) + b";
+  ModelRanking ranking;
+  ranking.unknown.push_back({Channel::kRange, "azimuth", 0.21, 3.0});
+  ranking.unknown.back().formula = formula;
+  MissingPane pane;
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  auto* text = pane.findChild<QTextBrowser*>("proposal_text");
+  EXPECT_TRUE(text->toPlainText().contains(QString::fromStdString(formula)));
+  QSignalSpy add(&pane, &MissingPane::addWanted);
+  const QString html = text->toHtml();
+  const auto at = html.indexOf("href=\"") + 6;
+  Q_EMIT text->anchorClicked(QUrl(html.mid(at, html.indexOf('"', at) - at)));
+  ASSERT_EQ(add.count(), 1);
+  EXPECT_EQ(add.last().at(0).toString().toStdString(), formula);
+}
+
+TEST(MissingPaneTest, WhatMattersIsToldFromWhatDoesNot) {
+  ModelRanking ranking;
+  ranking.unknown.push_back({Channel::kRange, "azimuth", 0.21, 3.0});
+  MissingPane pane;
+  const auto* verdict = pane.findChild<QLabel*>("missing_verdict");
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  EXPECT_TRUE(verdict->text().contains("Nothing that matters is missing"));
+  ranking.unknown.back().matters = true;
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  EXPECT_TRUE(verdict->text().contains("Something is left"));
+}
+
+TEST(MissingPaneTest, NextScenesAreListed) {
+  ModelRanking ranking;
+  MissingPane pane;
+  const auto* advice = pane.findChild<QTextBrowser*>("advice");
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  EXPECT_TRUE(advice->toPlainText().contains("No further scene"));
+  ranking.advice = {Message("take a scene at 5 m"), Message("repeat the first scene at the end")};
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  EXPECT_TRUE(advice->toPlainText().contains("take a scene at 5 m"));
+  EXPECT_TRUE(advice->toPlainText().contains("repeat the first scene"));
+}
+
 TEST(MissingPaneTest, WhatCannotBeSeenIsListedByWhatItCouldDo) {
   MissingPane pane;
   pane.setRanking(test::model_example().missing, true, false);

@@ -83,7 +83,8 @@ TEST_F(Work, FindsAddsAndTakesBackWhatIsHidden) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return !work_->result()->budget.empty(); }, 60'000));
   const auto discovery = work_->discovery();
   ASSERT_NE(discovery, nullptr);
-  EXPECT_THAT(discovery->selected, ElementsAre("range_walk"));
+  EXPECT_TRUE(discovery->holds("range_walk"));
+  EXPECT_THAT(discovery->selected, ElementsAre()) << "the user added it";
   workspace_->undo_stack().undo();
   EXPECT_FALSE(work_->busy()) << "the step before is kept";
   EXPECT_THAT(specs(), ElementsAre());
@@ -175,6 +176,59 @@ TEST_F(Work, AProjectsModelIsMadeAgain) {
   ASSERT_EQ(work.step()->terms.size(), 1U);
   EXPECT_DOUBLE_EQ(work.step()->terms[0].use.values(0), 0.004);
   EXPECT_EQ(work.steps().size(), 3U);
+}
+
+// Wherever the user is: nobody asks for it.
+TEST_F(Work, StartsWhenACalibrationIsThere) {
+  QStringList logged;
+  QObject::connect(work_.get(), &ModelWork::logged, work_.get(),
+                   [&](const QString& line) { logged << line; });
+  Q_EMIT workspace_->result_changed();
+  EXPECT_TRUE(work_->busy());
+  ASSERT_TRUE(idle());
+  EXPECT_NE(work_->step(), nullptr);
+  EXPECT_NE(work_->ranking(), nullptr);
+  EXPECT_THAT(logged, ::testing::Contains(
+                          QStringLiteral("Model: fitted again, as the calibration is another")));
+}
+
+TEST_F(Work, IsBehindUntilTheCalibrationWithTheModelIsMade) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  EXPECT_FALSE(work_->behind());
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work_->result() != nullptr; }, 30'000));
+  EXPECT_FALSE(work_->behind());
+  work_->go_to(0);
+  EXPECT_FALSE(work_->behind());
+  work_->go_to(1);
+  EXPECT_TRUE(work_->behind());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work_->result() != nullptr; }, 30'000));
+  EXPECT_FALSE(work_->behind());
+}
+
+// A project of another version: what it names is said once and kept, and the rest is done.
+TEST_F(Work, AnEffectThatThisVersionLacksIsCarried) {
+  const std::vector<ModelDecision> decisions = {{ModelChange::kAdd, "quantum_foam", {}},
+                                                {ModelChange::kAdd, "range_walk", {}}};
+  workspace_->set_model(decisions);
+  work_ = std::make_unique<ModelWork>(*workspace_);
+  QStringList said;
+  QObject::connect(work_.get(), &ModelWork::failed, work_.get(),
+                   [&](const Error& error) { said << QString::fromStdString(error.text()); });
+  Q_EMIT workspace_->opened();
+  work_->start();
+  ASSERT_TRUE(idle());
+  ASSERT_EQ(said.size(), 1);
+  EXPECT_TRUE(said[0].contains("quantum_foam"));
+  EXPECT_THAT(specs(), ElementsAre("range_walk"));
+  EXPECT_EQ(work_->steps().size(), 3U);
+  EXPECT_EQ(workspace_->model(), decisions);
+  work_->go_to(0);
+  EXPECT_TRUE(specs().empty());
+  workspace_->undo_stack().undo();
+  EXPECT_THAT(specs(), ElementsAre("range_walk"));
 }
 
 TEST_F(Work, CancellingLeavesTheModelAsItWas) {
