@@ -31,6 +31,15 @@ Result<std::string> run(const ExportArguments& options, const RunContext& contex
   if (Status s = check_output(options.output, {options.result, options.imu}); !s) return s.error();
   auto input = read_export_input(options.result);
   if (!input) return input.error();
+  // Nor onto what belongs to the result, or what it was made from.
+  const std::filesystem::path folder = std::filesystem::path(options.result).parent_path();
+  const std::filesystem::path dataset(input->dataset);
+  if (Status s = check_output(
+          options.output, {(folder / "result.yaml").string(), (folder / "discovery.json").string(),
+                           (dataset / "target.yaml").string(), (dataset / "camera.yaml").string()});
+      !s) {
+    return s.error();
+  }
   if (input->quality == name_of(Quality::kFailed) && !options.force) {
     return Error::untrusted(Message("the result has failed and is not to be used"), options.result,
                             Message("its warnings say why; --force exports it all the same"));

@@ -149,14 +149,20 @@ std::vector<PatternMatch> search_patch(const SearchInput& in, const VoxelCloud& 
   range.slack_m =
       0.06 * in.size.minCoeff() + (patch.open ? 0.6 * patch.extent_m.x() : 0.6 * misfit);
   range.step_m = 0.03 * in.size.minCoeff();
-  // One turn of the symmetric assignments is enough here: seen this coarsely the others look the
-  // same, and starting_poses() adds them.
+  // Seen this coarsely one turn of the symmetric assignments looks like the others, and
+  // starting_poses() adds them; but turned squares have black where there was white.
   const int symmetry = in.target.outline_symmetry();
+  const int turns = in.target.has_squares() ? symmetry : 1;
   if (misfit < 0.12 * in.size.minCoeff()) {
-    for (int d = -2; d <= 2; ++d)
-      range.angles_rad.push_back(outline.angle_rad + 3.0 * d * kRadPerDeg);
+    for (int turn = 0; turn < turns; ++turn) {
+      for (int d = -2; d <= 2; ++d) {
+        range.angles_rad.push_back(outline.angle_rad +
+                                   (turn * 360.0 / symmetry + 3.0 * d) * kRadPerDeg);
+      }
+    }
   } else {
-    for (int d = 0; d < 72 / symmetry; ++d) range.angles_rad.push_back(5.0 * d * kRadPerDeg);
+    for (int d = 0; d < 72 * turns / symmetry; ++d)
+      range.angles_rad.push_back(5.0 * d * kRadPerDeg);
   }
   return search_pattern(samples, in.pyramid.levels.front(), in.outline.center_m(), range,
                         separation_m(in), kPosesPerPatch, in.context);

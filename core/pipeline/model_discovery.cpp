@@ -228,37 +228,64 @@ void ask_again(const Discovery& discovery, CalibrationResult& result) {
   ask_images_again(result, without(others), without(discovery.model));
 }
 
+// A scene's returns on the board as effects see them.
+class BoardBeams {
+ public:
+  BoardBeams(const CalibrationResult& result, std::size_t scene, const Rigid3& lidar_from_board,
+             const Discovery& discovery, double black)
+      : cloud_(result.scenes[scene].board_points),
+        scene_(static_cast<int>(scene)),
+        geometry_(Rigid3(), lidar_from_board),
+        scales_(discovery.scales),
+        dark_(scales_.log_contrast > 0.0 && cloud_.has_intensity()),
+        black_(black),
+        velocities_(scan_velocities(cloud_)) {}
+
+  [[nodiscard]] const Cloud& cloud() const { return cloud_; }
+  [[nodiscard]] const SceneGeometry& geometry() const { return geometry_; }
+  // Nothing where the ray misses the board's plane.
+  [[nodiscard]] std::optional<BeamPoint> of(std::size_t i) const {
+    BeamPoint beam;
+    if (!geometry_.describe(cloud_.points_m[i].cast<double>().normalized(), beam))
+      return std::nullopt;
+    beam.scene = scene_;
+    beam.darkness = dark_ ? scales_.darkness_of(cloud_.intensity[i]) : black_;
+    beam.white = std::clamp(1.0 - beam.darkness, 0.0, 1.0);
+    beam.line = cloud_.has_line() ? cloud_.line[i] : -1;
+    if (cloud_.has_time()) beam.time_s = cloud_.time_s[i];
+    if (!velocities_.empty()) beam.scan_rad_s = velocities_[i];
+    return beam;
+  }
+
+ private:
+  const Cloud& cloud_;
+  int scene_;
+  SceneGeometry geometry_;
+  const ModelScales& scales_;
+  bool dark_;
+  double black_;
+  std::vector<Eigen::Vector2d> velocities_;
+};
+
 // The board's plane as it would be without the effects: fitted to the returns, each with what they
 // do to its range taken out. A robust plane does not follow its returns' mean: black print that
 // reads far off hardly pulls it. Nothing where no plane fits.
-std::optional<FittedPlane> plane_without_effects(const CalibrationResult& result, std::size_t index,
+std::optional<FittedPlane> plane_without_effects(const BoardBeams& beams,
                                                  const SceneObservations& scene,
-                                                 const Discovery& discovery,
                                                  const ModelledMovements& movements,
                                                  const Target& target) {
-  const SceneGeometry geometry(Rigid3(), scene.lidar_from_board);
-  const Cloud& board_points = result.scenes[index].board_points;
-  const bool dark = discovery.scales.log_contrast > 0.0 && board_points.has_intensity();
-  const double black = black_share(target);
-  const std::vector<Eigen::Vector2d> velocities = scan_velocities(board_points);
-  Cloud corrected = board_points;
+  Cloud corrected = beams.cloud();
   for (std::size_t i = 0; i < corrected.size(); ++i) {
-    const Eigen::Vector3d measured = corrected.points_m[i].cast<double>();
-    const Eigen::Vector3d direction = measured.normalized();
-    BeamPoint beam;
-    if (!geometry.describe(direction, beam)) continue;
-    beam.scene = static_cast<int>(index);
-    beam.darkness = dark ? discovery.scales.darkness_of(board_points.intensity[i]) : black;
-    beam.white = std::clamp(1.0 - beam.darkness, 0.0, 1.0);
-    beam.line = board_points.has_line() ? board_points.line[i] : -1;
-    if (board_points.has_time()) beam.time_s = board_points.time_s[i];
-    if (!velocities.empty()) beam.scan_rad_s = velocities[i];
+    const auto beam = beams.of(i);
+    if (!beam) continue;
     PrintPoint at;
-    at.board_m = beam.board_m;
+    at.board_m = beam->board_m;
     const Eigen::Vector3d bend(0.0, 0.0, movements.print(at, target).z());
-    const double farther_m = geometry.range_row(direction).dot(
-        movements.point(beam) + scene.lidar_from_board.rotation * bend);
-    corrected.points_m[i] = (measured - farther_m * direction).cast<float>();
+    const double farther_m =
+        beams.geometry()
+            .range_row(beam->direction)
+            .dot(movements.point(*beam) + scene.lidar_from_board.rotation * bend);
+    corrected.points_m[i] -= (farther_m * beam->direction).cast<float>();
   }
   const auto plane = fit_board_plane(corrected, target, scene.lidar_from_board);
   if (!plane) return std::nullopt;
@@ -268,20 +295,17 @@ std::optional<FittedPlane> plane_without_effects(const CalibrationResult& result
 // What the effects do to points, as a mean over the returns at a circle's edge: when they were
 // taken and how the beam moved then. Where there are none, what they do to `beam` itself.
 Eigen::Vector3d movement_about(const Eigen::Vector3d& center_m, double radius_m,
-                               const BeamPoint& beam, const Cloud& cloud,
-                               const std::vector<Eigen::Vector2d>& velocities,
+                               const BeamPoint& beam, const BoardBeams& beams,
                                const ModelledMovements& movements) {
   constexpr double kWidth = 0.3;  // Of the radius, on either side of the edge.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double from_edge = (cloud.points_m[i].cast<double>() - center_m).norm() - radius_m;
-    if (!(std::abs(from_edge) < kWidth * radius_m)) continue;
-    BeamPoint one = beam;
-    if (cloud.has_line()) one.line = cloud.line[i];
-    if (cloud.has_time()) one.time_s = cloud.time_s[i];
-    if (!velocities.empty()) one.scan_rad_s = velocities[i];
-    sum += movements.point(one);
+  for (std::size_t i = 0; i < beams.cloud().size(); ++i) {
+    const Eigen::Vector3d from_middle = beams.cloud().points_m[i].cast<double>() - center_m;
+    if (!(std::abs(from_middle.norm() - radius_m) < kWidth * radius_m)) continue;
+    const auto one = beams.of(i);
+    if (!one) continue;
+    sum += movements.point(*one);
     count += 1.0;
   }
   return count > 0.0 ? Eigen::Vector3d(sum / count) : movements.point(beam);
@@ -297,8 +321,7 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements,
   for (std::size_t s = 0; s < observations.size(); ++s) {
     SceneObservations& o = observations[s];
     if (planes[s]) o.plane = *planes[s];
-    const Cloud& cloud = result.scenes[index[s]].board_points;
-    const std::vector<Eigen::Vector2d> velocities = scan_velocities(cloud);
+    const BoardBeams beams(result, index[s], o.lidar_from_board, discovery, darkness);
     const auto without_effects = [&](const Eigen::Vector3d& place_m, const RefinedNode& node) {
       PrintPoint at;
       at.board_m = node.board_m;
@@ -306,7 +329,7 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements,
       const BeamPoint beam = beam_towards(place_m, index[s], o.lidar_from_board, darkness);
       const Eigen::Vector3d moved =
           movements.spot(beam) +
-          movement_about(place_m, target.circle_radius_m, beam, cloud, velocities, movements);
+          movement_about(place_m, target.circle_radius_m, beam, beams, movements);
       const Eigen::Vector3d place = place_m - moved;
       // Its height is the plane's, its place on it its own. A board that is bent is met elsewhere
       // along the ray.
@@ -379,6 +402,49 @@ void ask_scenes_again(std::vector<SceneObservations> observations,
   }
 }
 
+// A scene's board returns with what the effects did to them taken out.
+Cloud cloud_without(const BoardBeams& beams, const ModelledMovements& movements) {
+  Cloud out = beams.cloud();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (const auto beam = beams.of(i)) out.points_m[i] -= movements.point(*beam).cast<float>();
+  }
+  return out;
+}
+
+// The boundary response of returns, circles and planes without the effects, and the beam as the
+// model measures it.
+void respond_without(const Discovery& discovery, const ModelledMovements& movements,
+                     const std::vector<SceneObservations>& observations,
+                     const std::vector<std::size_t>& index, const Target& target,
+                     CalibrationResult& result) {
+  const double black = black_share(target);
+  std::vector<Cloud> clouds(observations.size());
+  std::vector<BoardRefinement> refined(observations.size());
+  std::vector<ResponseInput> inputs;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const SceneResult& scene = result.scenes[index[k]];
+    if (!scene.used || !scene.refinement || scene.refinement->nodes.empty()) continue;
+    clouds[k] = cloud_without(
+        BoardBeams(result, index[k], observations[k].lidar_from_board, discovery, black),
+        movements);
+    refined[k] = *scene.refinement;
+    refined[k].nodes = observations[k].nodes;
+    refined[k].plane = observations[k].plane;
+    inputs.push_back({scene.name, &clouds[k], &refined[k]});
+  }
+  if (auto response = calibrate_boundary_response(inputs, target, result.options.response, {}))
+    result.response = std::move(*response);
+  if (!result.forward) return;
+  result.forward->state.beam = discovery.state.beam;
+  if (!discovery.fit) return;
+  // The blur stands behind the extrinsic and the effects.
+  Eigen::Index at = 6;
+  for (const EffectInUse& use : discovery.model) at += use.values.size();
+  const Eigen::MatrixXd& covariance = discovery.fit->covariance;
+  if (result.forward->uses_intensity && covariance.rows() >= at + 3)
+    result.forward->blur_covariance = covariance.block<3, 3>(at, at);
+}
+
 // Everything that is told of the scenes, under the model's effects: residuals, methods, what single
 // scenes and halves would give. Where the classical solve does not bear the corrected observations
 // the base's stands, with the model's pose.
@@ -391,11 +457,14 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   const Target target = target_in_use(result, observations);
   auto paper = with_paper_nodes(observations, result, index);
   std::vector<std::optional<FittedPlane>> planes;
-  for (std::size_t k = 0; k < observations.size(); ++k)
-    planes.push_back(
-        plane_without_effects(result, index[k], observations[k], discovery, movements, target));
+  const double black = black_share(target);
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const BoardBeams beams(result, index[k], observations[k].lidar_from_board, discovery, black);
+    planes.push_back(plane_without_effects(beams, observations[k], movements, target));
+  }
   take_out(discovery, movements, result, index, target, planes, paper);
   take_out(discovery, movements, result, index, target, planes, observations);
+  respond_without(discovery, movements, observations, index, target, result);
   const ExtrinsicOptions& how = result.options.extrinsic;
   const auto again = solve_extrinsic(observations, result.camera, target, how);
   if (again) ask_scenes_again(observations, index, target, *again, result);

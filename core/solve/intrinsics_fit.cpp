@@ -475,8 +475,12 @@ Message describe_parts(const IntrinsicsContrast& contrast, const Camera& given,
         const double truth = given.fx + contrast.difference(0);
         const double off = 50.0 * (-contrast.difference(0) / truth -
                                    contrast.difference(1) / (given.fy + contrast.difference(1)));
-        const std::string size = formatted("%.2f", std::abs(off));
-        const std::string sigma = formatted("%.2f", 100.0 * contrast.sigma(0) / given.fx);
+        const double sigma_percent = 100.0 * contrast.sigma(0) / given.fx;
+        // Freed with what is wrong, it need not be wrong itself.
+        if (contrast.parts.size() > 1 && std::abs(off) < 2.0 * sigma_percent) break;
+        const char* const digits = sigma_percent < 0.005 ? "%.4f" : "%.2f";
+        const std::string size = formatted(digits, std::abs(off));
+        const std::string sigma = formatted(digits, sigma_percent);
         words.push_back(off > 0 ? Message("the focal length is %1 ± %2 % too long", size, sigma)
                                 : Message("the focal length is %1 ± %2 % too short", size, sigma));
         break;

@@ -130,7 +130,9 @@ TEST_F(EvidenceCommands, NothingIsWrittenOntoADatasetsFiles) {
       {"target", "-o", image.string()},
       {"correct", cloud.string(), "--with", result(), "-o",
        (dataset / "scenes" / "B.pcd").string()},
-      {"check", result(), dataset.string(), "-o", cloud.string()}};
+      {"check", result(), dataset.string(), "-o", cloud.string()},
+      {"export", result(), "--format", "matrix", "-o", (result_folder() / "result.yaml").string()},
+      {"export", result(), "--format", "matrix", "-o", (good_dataset() / "camera.yaml").string()}};
   for (const auto& arguments : among) {
     const Outcome outcome = run_lvcalib(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments[0];

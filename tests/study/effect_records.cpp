@@ -121,6 +121,7 @@ struct Tally {
   int rigs = 0, right = 0, alias = 0, doubted = 0, missed = 0, wrong = 0, extra = 0;
   int inside = 0, parameters = 0, pose_inside = 0, pose_components = 0, not_worse = 0;
   int calm = 0, signature = 0, never_absent = 0;
+  int judged = 0, absent_and_off = 0, claimed = 0, mended = 0, at_floor = 0;
   std::vector<double> removed, heldout, before_mm, after_mm, before_mrad, after_mrad;
 
   void add(const EffectRecord& r) {
@@ -151,7 +152,16 @@ struct Tally {
     pose_components += 6;
     not_worse += r.after_mm <= r.before_mm + 0.1;
     if (r.had_unexplained) removed.push_back(r.removed);
+    mended += r.had_unexplained && r.removed >= 0.9;
     if (r.heldout_over_floor > 0.0) heldout.push_back(r.heldout_over_floor);
+    at_floor += r.heldout_over_floor > 0.0 && r.heldout_over_floor <= 1.05;
+    // The tolerance of model and verdict.
+    const bool off = r.after_mm > 0.5 || r.after_mrad > 0.2;
+    for (const auto& [id, verdict] : r.verdict) {
+      ++judged;
+      absent_and_off += off && verdict == "absent";
+    }
+    claimed += r.claims_structure;
     before_mm.push_back(r.before_mm);
     after_mm.push_back(r.after_mm);
     before_mrad.push_back(r.before_mrad);
@@ -197,6 +207,7 @@ EffectRecord read_record(const json& record) {
   out.selected = record.at("selected").get<std::vector<std::string>>();
   judge_planted(record, out);
   judge_signature(record, out);
+  out.claims_structure = !record.at("unknown").empty();
   if (!out.planted.empty()) judge_channel(record, out);
   out.before_mm = record.at("extrinsic_before").at("mm");
   out.after_mm = record.at("extrinsic_after").at("mm");
@@ -212,6 +223,7 @@ void print_set_table(const std::vector<EffectRecord>& records) {
     return [set](const EffectRecord& r) { return r.set == set; };
   };
   const Tally nothing = tally_of(records, in("nothing"));
+  const Tally everything = tally_of(records, [](const EffectRecord&) { return true; });
   const Tally strong = tally_of(records, [](const EffectRecord& r) {
     return r.set == "single" && !is_footprint(r) && (r.attainable.empty() || attainable(r) >= 5.0);
   });
@@ -228,6 +240,10 @@ void print_set_table(const std::vector<EffectRecord>& records) {
   std::printf("| set | share (95 %% interval) | mark |\n| --- | --- | --- |\n");
   row("nothing hidden: an effect selected that is not in every simulated scan", nothing.extra,
       nothing.rigs, "≤ 5 %");
+  row("nothing hidden: structure claimed that no effect explains", nothing.claimed, nothing.rigs,
+      "≤ 3 %");
+  row("planted and called absent while the extrinsic is off by more than the tolerance",
+      everything.absent_and_off, everything.judged, "0 of ≥ 300");
   row("one effect, ≥ 5σ, footprints aside: right effect or its alias group",
       strong.right + strong.alias, strong.rigs, "≥ 95 %");
   row("one effect: another selected instead", single.wrong, single.rigs, "≤ 5 %");
@@ -248,6 +264,13 @@ void print_set_table(const std::vector<EffectRecord>& records) {
   row("not in the catalogue: an effect of the catalogue selected instead", outside.extra,
       outside.rigs, "≤ 5 %");
   row("absorbed: never called absent", absorbed.never_absent, absorbed.rigs, "100 %");
+  const auto count = [](const std::vector<double>& values) {
+    return static_cast<int>(values.size());
+  };
+  row("one effect, its channel unexplained by half its floor or more: 90 % of that removed",
+      single.mended, count(single.removed), "–");
+  row("one effect: held-out RMS of its channel within 5 % of the floor", single.at_floor,
+      count(single.heldout), "–");
   row("one effect: extrinsic not worse (0.1 mm)", single.not_worse, single.rigs, "≥ 95 %");
   std::printf("\n");
 }

@@ -32,6 +32,7 @@ struct EffectRecord {
   int parameters = 0;                        ///< … of so many.
   std::vector<std::string> extra;            ///< Selected beyond the planted and their aliases.
   bool signature = false;                    ///< An outsider's channel and covariate are named.
+  bool claims_structure = false;             ///< Some that no effect explains is reported.
   double removed = 0.0;          ///< Share of the unexplained RMS of the main channel that is gone.
   bool had_unexplained = false;  ///< There was some: half of the noise floor or more.
   double heldout_over_floor = 0.0;  ///< Of the main channel.

@@ -122,6 +122,8 @@ void ResidualMapPlot::rebuild() {
     axis->setLabelFont(font());
   }
   if (shown == nullptr) {
+    xAxis->setLabel({});
+    yAxis->setLabel({});
     showMessage(plane_ == Plane::kImage    ? tr("only corners lie in the image")
                 : plane_ == Plane::kAngles ? tr("corners have no direction")
                                            : tr("no data"));

@@ -36,14 +36,14 @@ using test::wait_until;
 // Names, units, file names and keys are the same in every language.
 const std::set<QString>& same_everywhere() {
   static const std::set<QString> words = {
-      "Calib",      "LiDAR", "AprilTag", "AprilGrid", "YAML",        "JSON", "PNG",     "PDF",
-      "CSV",        "HTML",  "SVD",      "PnP",       "RMS",         "IMU",  "SLAM",    "ROS",
-      "OpenGL",     "Mesa",  "Huber",    "Ctrl",      "Alt",         "Up",   "Down",    "Shift",
-      "Esc",        "Home",  "mrad",     "ppm",       "rad",         "deg",  "lvcalib", "English",
-      "GPL",        "BSD",   "Clause",   "later",     "tagSize",     "nat",  "LVI",     "SAM",
-      "camchain",   "LIVO",  "FAST",     "LIVE",      "FileStorage", "Rcl",  "Pcl",     "rvec",
-      "tvec",       "cos",   "sin",      "Del",       "raw",         "demo", "dataset", "target",
-      "CameraInfo", "MCAP",  "bag",      "rosbag",    "Letter"};
+      "Calib",   "LiDAR",   "AprilTag",   "AprilGrid", "YAML",   "JSON",     "PNG",         "PDF",
+      "CSV",     "HTML",    "SVD",        "PnP",       "RMS",    "IMU",      "SLAM",        "ROS",
+      "OpenGL",  "Mesa",    "Huber",      "Ctrl",      "Alt",    "Up",       "Down",        "Shift",
+      "Esc",     "Home",    "mrad",       "ppm",       "kxy",    "blooming", "rad",         "deg",
+      "lvcalib", "English", "GPL",        "BSD",       "Clause", "later",    "tagSize",     "nat",
+      "LVI",     "SAM",     "camchain",   "LIVO",      "FAST",   "LIVE",     "FileStorage", "Rcl",
+      "Pcl",     "rvec",    "tvec",       "cos",       "sin",    "Del",      "raw",         "demo",
+      "dataset", "target",  "CameraInfo", "MCAP",      "bag",    "rosbag",   "Letter"};
   return words;
 }
 
