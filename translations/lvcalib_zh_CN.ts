@@ -4981,6 +4981,10 @@ were saved. Take them up again?</source>
         <source>white and black print must tell the same about an effect of either</source>
         <translation>对于任一印刷颜色上的效应，白色和黑色须给出相同的结论</translation>
     </message>
+    <message>
+        <source>tag corners miss their model by %1 px, where their own noise is %2 px: that may move the extrinsic by up to %3 mm and %4 mrad; check the intrinsics, the sizes in target.yaml and that the board is flat</source>
+        <translation>标签角点偏离模型 %1 px，而其自身噪声为 %2 px：这最多可能使外参移动 %3 mm 和 %4 mrad；请检查内参、target.yaml 中的尺寸以及标定板是否平整</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/ordinary_boards.h"
 #include "support/pose_matchers.h"
 #include "support/simulated_boards.h"
 
@@ -94,6 +95,23 @@ TEST_P(EveryLidar, FindsNothingWhereThereIsNoBoard) {
     const auto result = search(test::simulated_scene(options), options.target);
     EXPECT_TRUE(result.candidates.empty()) << "seed " << seed;
     EXPECT_LT(result.best_correlation, 0.6);
+  }
+}
+
+// Turned or shifted by a square its colours change places, and markers are small.
+TEST_P(EveryLidar, FindsAChArUcoBoardWhicheverWayRound) {
+  SimulationOptions options = test::cloud_only_options(31, GetParam());
+  options.target = test::charuco_target();
+  for (const std::uint64_t seed : {31U, 32U, 33U, 34U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    options.seed = seed;
+    const SimulatedScene scene = test::simulated_scene(options, static_cast<int>(seed % 3));
+    const auto result = search(scene, options.target);
+    ASSERT_FALSE(result.candidates.empty());
+    const BoardCandidate& best = result.candidates.front();
+    const Eigen::Vector3d truth = board_center(options.target, scene.lidar_from_board);
+    EXPECT_LT((board_center(options.target, best.lidar_from_board.transform) - truth).norm(), 0.03);
+    EXPECT_LT(rotation_distance_rad(best.lidar_from_board.transform, scene.lidar_from_board), 0.06);
   }
 }
 
