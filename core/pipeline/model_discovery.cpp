@@ -177,18 +177,24 @@ Eigen::Vector2d seen_scale(const ModelledMovements& movements, const Target& tar
   const BoardOutline outline = target.outline();
   const Eigen::Vector2d half = 0.5 * outline.size_m();
   const double darkness = black_share(target);
-  // Of a place of the board, along an axis of it.
-  const auto moved = [&](const Eigen::Vector2d& from_middle, Eigen::Index axis) {
+  const auto beam_at = [&](const Eigen::Vector2d& from_middle) {
     const Eigen::Vector2d at = outline.center_m() + from_middle;
-    const BeamPoint beam = beam_towards(lidar_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0),
-                                        scene, lidar_from_board, darkness);
-    const Eigen::Vector3d on_board = lidar_from_board.rotation.conjugate() * movements.point(beam);
-    return on_board(axis);
+    return beam_towards(lidar_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0), scene,
+                        lidar_from_board, darkness);
   };
+  // Of a place of the board, across its beam, along an axis of the board.
+  const auto aside = [&](const Eigen::Vector2d& from_middle, Eigen::Index axis) {
+    const BeamPoint beam = beam_at(from_middle);
+    const Eigen::Vector3d moved = movements.point(beam);
+    const Eigen::Vector3d across = moved - beam.direction * beam.direction.dot(moved);
+    return Eigen::Vector3d(lidar_from_board.rotation.conjugate() * across)(axis);
+  };
+  const BeamPoint middle = beam_at(Eigen::Vector2d::Zero());
+  const double farther = middle.direction.dot(movements.point(middle)) / middle.range_m;
   Eigen::Vector2d out;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
     const Eigen::Vector2d end = half(axis) * Eigen::Vector2d::Unit(axis);
-    out(axis) = (moved(end, axis) - moved(-end, axis)) / (2.0 * half(axis));
+    out(axis) = farther + (aside(end, axis) - aside(-end, axis)) / (2.0 * half(axis));
   }
   return out;
 }

@@ -217,7 +217,7 @@ PoseUse pose_use(const StoredModel& model) {
       values.push_back(parameter_is(use.effect->info().id, p.name,
                                     formatted("%.4g", value) + behind_number(p.unit)));
     }
-    if (!use.effect->shape_name().empty())
+    if (use.shape != 0.0 && !use.effect->shape_name().empty())
       values.push_back(Message("%1 = %2", Message::listed(use.effect->shape_name()),
                                formatted("%.4g", use.shape)));
     out.effects.push_back(Message("%1: %2", title, joined(values, ", ")));

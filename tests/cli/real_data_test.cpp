@@ -131,8 +131,11 @@ TEST_F(RealData, TheSearchFindsWhatIsMissing) {
 }
 
 TEST_F(RealData, TheSearchOnTheCheckerboardFindsTheRangeWalkAndStaysDoubtful) {
+  RunSettings patient;  // Twenty scenes and four additions.
+  patient.limit = std::chrono::minutes(10);
   const Outcome outcome = run_lvcalib(
-      {"discover", data_ / "real/vlp16-checkerboard", "--crops", "-o", output(), "--quiet"});
+      {"discover", data_ / "real/vlp16-checkerboard", "--crops", "-o", output(), "--quiet"},
+      patient);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto found = nlohmann::json::parse(read_file(output() / "discovery.json"));
   EXPECT_THAT(found["selected"], Contains("range_walk"));

@@ -61,13 +61,14 @@ TEST(Registry, WhatATableLacksIsNamed) {
   }
   MeasurementTable table = full;
   table.has_time = false;
-  EXPECT_THAT(why("scan_motion", table), HasSubstr("no time"));
+  EXPECT_THAT(why("scan_motion", table), HasSubstr("the time is not in every cloud"));
   table = full;
   table.lines = {3};
-  EXPECT_THAT(why("channel_range_offset", table), HasSubstr("no laser lines"));
+  EXPECT_THAT(why("channel_range_offset", table),
+              HasSubstr("the laser line is not in every cloud"));
   table = full;
   table.has_intensity = false;
-  EXPECT_THAT(why("range_walk", table), HasSubstr("no intensity"));
+  EXPECT_THAT(why("range_walk", table), HasSubstr("the intensity is not in every cloud"));
   table = full;
   table.boundary.clear();
   EXPECT_THAT(why("boundary_bias", table), HasSubstr("no edges"));

@@ -113,6 +113,7 @@ CalibrationResult three_scenes() {
       solution.name = name;
       solution.rms_px = name[0] == 'A' ? 0.25 : 0.5;
       solution.rms_mm = name[0] == 'A' ? 1.5 : 2.5;
+      solution.nodes.push_back({0, Eigen::Vector3d::Zero(), true});
       result.extrinsic.scenes.push_back(solution);
     } else {
       scene.reason = Message("no board in the image");

@@ -133,8 +133,10 @@ TEST_F(Findings, MissingFieldsAreNamed) {
   test::TableRecipe recipe;
   recipe.time = recipe.lines = false;
   const auto all = judged(test::synthetic_table(recipe));
-  EXPECT_THAT(finding_of(all, "scan_motion").explanation, HasSubstr("no time"));
-  EXPECT_THAT(finding_of(all, "channel_angle_offset").explanation, HasSubstr("no laser lines"));
+  EXPECT_THAT(finding_of(all, "scan_motion").explanation,
+              HasSubstr("the time is not in every cloud"));
+  EXPECT_THAT(finding_of(all, "channel_angle_offset").explanation,
+              HasSubstr("the laser line is not in every cloud"));
   EXPECT_TRUE(finding_of(all, "scan_motion").parameters.empty());
 }
 

