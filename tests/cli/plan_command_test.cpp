@@ -79,7 +79,7 @@ TEST_F(PlanCommand, WrongUsage) {
 
 TEST_F(PlanCommand, EffectsThatTheLidarCannotShow) {
   replace_text(at("lidar.yaml"), "time: true", "time: false");
-  expect_refused(3, "the time is not in every cloud", {"--effect", "scan_motion"});
+  expect_refused(3, "no time", {"--effect", "scan_motion"});
 }
 
 TEST_F(PlanCommand, UnusableFiles) {
