@@ -100,7 +100,9 @@ Result<std::string> export_boundary_response(const ExportInput& input) {
                                  : Message::verbatim(stated->get<std::string>());
       return Error::untrusted(Message("there is no boundary response to export: %1", reason));
     }
-    return "# LV-Calib " + version() + "\n" + kExplanation + body(response);
+    std::string notes;
+    for (const std::string& note : origin_notes(input)) notes += "# " + note + "\n";
+    return notes + kExplanation + body(response);
   } catch (const json::exception& e) {
     return Error::input(Message("the boundary response of this result is malformed: %1", e.what()));
   }

@@ -8,6 +8,9 @@
 #include <limits>
 
 #include "base/file_io.h"
+#include "model/correction.h"
+#include "model/scene_geometry.h"
+#include "report/stored_model.h"
 
 namespace lvcalib {
 namespace {
@@ -97,6 +100,17 @@ const ExportScene* find_scene(const ExportInput& input, const std::string& name)
   return nullptr;
 }
 
+// 0…1 over the scenes in use, in their order.
+double clock_of(const ExportInput& input, const ExportScene& scene) {
+  std::size_t before = 0;
+  std::size_t used = 0;
+  for (const ExportScene& other : input.scenes) {
+    if (&other == &scene) before = used;
+    used += other.used ? 1 : 0;
+  }
+  return std::min(1.0, scene_clock(before, used));
+}
+
 }  // namespace
 
 ColoredCloud color_cloud(const Cloud& cloud, const ColorImage& image, const Camera& camera,
@@ -130,6 +144,8 @@ std::string colored_ply_header(const ExportInput& input, const Cloud& cloud) {
   std::string out = "ply\nformat binary_little_endian 1.0\n";
   for (const std::string& note : export_notes(input)) out += "comment " + note + "\n";
   out += "comment points in the LiDAR frame that the camera sees, with the image's colours\n";
+  if (input.use && input.use->corrected)
+    out += "comment the model's effects are taken out of the points\n";
   out += "element vertex " + std::to_string(cloud.size()) + "\n";
   for (const char* name : {"x", "y", "z"}) out += std::string("property float ") + name + "\n";
   for (const char* name : {"red", "green", "blue"})
@@ -157,8 +173,17 @@ Result<ColoredCloud> write_colored_ply(const ExportInput& input, const std::stri
   if (image->width_px != input.camera.width_px || image->height_px != input.camera.height_px)
     return Error::input(Message("is of another size than the camera's images"),
                         (dataset / found->image).string());
-  const auto cloud = read_cloud(dataset / found->cloud, context.stop);
+  auto cloud = read_cloud(dataset / found->cloud, context.stop);
   if (!cloud) return cloud.error();
+  // The pose of a model with effects in the points is for clouds without them.
+  if (input.use && input.use->corrected) {
+    const auto model = model_in(input.result_json, dataset.string());
+    if (!model) return model.error();
+    CorrectionOptions how;
+    how.clock = clock_of(input, *found);
+    if (const auto done = correct_cloud(*cloud, model->effects, model->scales, how, context); !done)
+      return done.error();
+  }
   ColoredCloud out = color_cloud(*cloud, *image, input.camera, input.camera_from_lidar);
   std::string content = colored_ply_header(input, out.cloud);
   const bool has_intensity = out.cloud.has_intensity();

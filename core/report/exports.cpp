@@ -406,8 +406,7 @@ Result<std::vector<ExportFile>> write_colmap(const ExportInput& input) {
 
 }  // namespace
 
-std::vector<std::string> export_notes(const ExportInput& input) {
-  const WorkedPoint p = worked_point(input);
+std::vector<std::string> origin_notes(const ExportInput& input) {
   std::vector<std::string> out = {"LV-Calib " + version()};
   if (!input.dataset.empty()) out.push_back("dataset: " + on_one_line(input.dataset));
   if (!input.quality.empty() && input.quality != "good")
@@ -422,6 +421,12 @@ std::vector<std::string> export_notes(const ExportInput& input) {
     out.push_back("names of the frames: LiDAR " + input.lidar_frame + ", camera " +
                   input.camera_frame);
   }
+  return out;
+}
+
+std::vector<std::string> export_notes(const ExportInput& input) {
+  const WorkedPoint p = worked_point(input);
+  std::vector<std::string> out = origin_notes(input);
   out.emplace_back(
       "camera: x right, y down, z forward; pixel (0, 0) is the centre of the top-left pixel; "
       "metres, radians");

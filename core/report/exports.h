@@ -79,6 +79,9 @@ Status write_export(const ExportInput& input, const std::string& format,
 /// The lines that every format's comments hold: dataset, quality, frames, the worked point.
 std::vector<std::string> export_notes(const ExportInput& input);
 
+/// Of those the ones that say where numbers come from: program, dataset, verdict, model, frames.
+std::vector<std::string> origin_notes(const ExportInput& input);
+
 /// What exports need of a calibration just made.
 ExportInput export_input_of(const CalibrationResult& result);
 

@@ -200,6 +200,20 @@ TEST_F(DiscoverCommand, ResidualsAndWordsAreOfTheModelInForce) {
       {"export", out() / "result.json", "--format", "urdf", "-o", folder_.path() / "rig.urdf"});
   ASSERT_EQ(exported.status, 0) << exported.err;
   EXPECT_THAT(read_file(folder_.path() / "rig.urdf"), HasSubstr("taken out: Range walk"));
+  // What is of clouds is of corrected ones.
+  for (const char* format : {"boundary-response", "colored-ply"}) {
+    const Outcome other = run_lvcalib(
+        {"export", out() / "result.json", "--format", format, "-o", folder_.path() / "other"});
+    ASSERT_EQ(other.status, 0) << other.err;
+    EXPECT_THAT(read_file(folder_.path() / "other"), HasSubstr("model: Base model + Range walk"));
+  }
+  EXPECT_THAT(read_file(folder_.path() / "other"),
+              HasSubstr("comment the model's effects are taken out of the points"));
+  const auto range_mm = [](const nlohmann::json& result) {
+    return result["boundary_response"]["all"]["mean_range_mm"].get<double>();
+  };
+  EXPECT_GT(range_mm(base), 2.0);
+  EXPECT_LT(std::abs(range_mm(mended)), 0.5 * range_mm(base));
   const Outcome reported =
       run_lvcalib({"report", out() / "result.json", "-o", folder_.path() / "report.html"});
   ASSERT_EQ(reported.status, 0) << reported.err;
