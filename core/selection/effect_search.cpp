@@ -194,8 +194,7 @@ std::vector<EffectSearch::Swap> EffectSearch::swaps(std::size_t k,
 }
 
 void EffectSearch::refit() {
-  refit_from(
-      linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_));
+  refit_from(linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_));
 }
 
 void EffectSearch::refit_from(Linearization start) {
