@@ -72,6 +72,12 @@ void BudgetPlot::setSteps(std::vector<ModelStepPtr> steps, std::size_t current) 
   rebuild();
 }
 
+void BudgetPlot::setNothingMissing(bool nothing) {
+  if (nothing == nothing_missing_) return;
+  nothing_missing_ = nothing;
+  rebuild();
+}
+
 void BudgetPlot::setTruth(const std::optional<Rigid3>& camera_from_lidar) {
   truth_ = camera_from_lidar;
   rebuild();
@@ -179,7 +185,7 @@ void BudgetPlot::drawChannel(const ChannelSummary& base, int first) {
       rect->setPen(Qt::NoPen);
     };
     const double top = std::max(base.unexplained, error.unexplained);
-    bar(0.0, error.unexplained, error.is_chance() ? noiseColor(colors()) : colors().refused);
+    bar(0.0, error.unexplained, is_wrong(*now, k) ? colors().refused : noiseColor(colors()));
     if (!beyond_noise(base).is_chance()) bar(error.unexplained, top, explainedColor(colors()));
     if (k == current_) frameStep(x, top / scale);
     held_x.push_back(x);
@@ -205,7 +211,7 @@ void BudgetPlot::writeFigures(const ChannelSummary& base, double middle) {
   const QString then = now != nullptr && current_ > 0 ? figure(*now) : text;
   if (then != text) text += QStringLiteral(" → ") + then;
   if (base.channel != Channel::kIntensity) text += QStringLiteral(" ") + unit_text(base.channel);
-  const bool wrong = !beyond_noise(now != nullptr ? *now : base).is_chance();
+  const bool wrong = is_wrong(now != nullptr ? *now : base, current_);
   writeFigure(middle, text, wrong ? colors().refused : colors().text);
 }
 

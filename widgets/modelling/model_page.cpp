@@ -217,6 +217,8 @@ void ModelPage::describeSteps() {
 }
 
 void ModelPage::takeRanking() {
+  const auto ranking = work_.ranking();
+  budget_->setNothingMissing(ranking && ranking->nothing_missing());
   missing_->setRanking(work_.ranking(), work_.step() != nullptr, work_.busy());
 }
 

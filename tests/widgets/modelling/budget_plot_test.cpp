@@ -53,6 +53,27 @@ TEST(BudgetPlotTest, TheFiguresSayBeforeAndAfter) {
   EXPECT_GT(red, 0.5);
 }
 
+// The bars do not contradict the sentence beside them.
+TEST(BudgetPlotTest, NothingIsRedWhereNothingIsMissing) {
+  const auto& example = test::model_example();
+  BudgetPlot plot;
+  plot.setSteps({example.base}, 0);
+  const auto is_red = [&] {
+    for (int k = 0; k < plot.itemCount(); ++k) {
+      const auto* bar = qobject_cast<QCPItemRect*>(plot.item(k));
+      const auto* text = qobject_cast<QCPItemText*>(plot.item(k));
+      if (bar != nullptr && bar->brush().color() == plot.colors().refused) return true;
+      if (text != nullptr && text->color() == plot.colors().refused) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(is_red());
+  plot.setNothingMissing(true);
+  EXPECT_FALSE(is_red());
+  plot.setNothingMissing(false);
+  EXPECT_TRUE(is_red());
+}
+
 // Also in a low and narrow figure, whatever its neighbours need.
 TEST(BudgetPlotTest, NoFigureLeavesThePicture) {
   const auto& example = test::model_example();
