@@ -119,6 +119,16 @@ were saved. Take them up again?</source>
         <source>Open the description of a LiDAR</source>
         <translation>打开激光雷达描述文件</translation>
     </message>
+    <message>
+        <source>The result has failed</source>
+        <translation>结果失败</translation>
+    </message>
+    <message>
+        <source>It is not to be used: its warnings say why.
+Export it all the same?</source>
+        <translation>不应使用它：其警告说明了原因。
+仍要导出吗？</translation>
+    </message>
 </context>
 <context>
     <name>CloudSceneText</name>

@@ -153,4 +153,13 @@ bool Choices::recover(QWidget* parent, const QString& dataset) {
              QMessageBox::Yes | QMessageBox::No, QMessageBox::Yes) == QMessageBox::Yes;
 }
 
+bool Choices::hand_on_failed(QWidget* parent) {
+  return QMessageBox::warning(
+             parent, words(QT_TRANSLATE_NOOP("Choices", "The result has failed")),
+             words(QT_TRANSLATE_NOOP("Choices",
+                                     "It is not to be used: its warnings say why.\n"
+                                     "Export it all the same?")),
+             QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
+}
+
 }  // namespace lvcalib::widgets

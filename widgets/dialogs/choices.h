@@ -50,6 +50,8 @@ class Choices {
   virtual QString moved_dataset(QWidget* parent, const QString& old_path);
   /// Decisions about `dataset` were not saved when the program last ended: take them up again?
   virtual bool recover(QWidget* parent, const QString& dataset);
+  /// The result has failed: hand its pose on all the same?
+  virtual bool hand_on_failed(QWidget* parent);
 };
 
 }  // namespace lvcalib::widgets

@@ -16,6 +16,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "pipeline/calibration.h"
 #include "pipeline/dataset.h"
 #include "report/colored_cloud.h"
 #include "style/texts.h"
@@ -183,6 +184,7 @@ void ExportPane::readImu() {
 }
 
 void ExportPane::save() {
+  if (input_.quality == name_of(Quality::kFailed) && !choices_.hand_on_failed(this)) return;
   const ExportFormat& format = export_formats()[static_cast<std::size_t>(formats_->currentRow())];
   if (format.write_files != nullptr) {
     const QString folder =

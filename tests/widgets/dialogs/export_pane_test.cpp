@@ -30,6 +30,12 @@ class Answers : public Choices {
   }
   QString transform_to_open(QWidget*, const QString&) override { return transform; }
   QString dataset_to_make(QWidget*, const QString&) override { return made; }
+  bool hand_on_failed(QWidget*) override {
+    ++asked;
+    return all_the_same;
+  }
+  int asked = 0;
+  bool all_the_same = false;
 };
 
 ExportInput example() {
@@ -110,6 +116,20 @@ TEST_F(ExportPaneTest, ACloudIsWrittenInTheBackgroundAndSaysWhatIsMissing) {
   EXPECT_TRUE(
       QTest::qWaitFor([this] { return part<QPushButton>("save_export")->isEnabled(); }, 10'000));
   EXPECT_FALSE(QFile::exists(answers_.save));
+}
+
+TEST_F(ExportPaneTest, AFailedResultIsExportedOnlyIfTheUserInsists) {
+  ExportInput bad = example();
+  bad.quality = "failed";
+  ExportPane pane(bad, answers_, folder_.path(), nullptr);
+  pane.chooseFormat("kalibr");
+  answers_.save = folder_.filePath("bad.yaml");
+  pane.findChild<QPushButton*>("save_export")->click();
+  EXPECT_EQ(answers_.asked, 1);
+  EXPECT_FALSE(QFile::exists(answers_.save));
+  answers_.all_the_same = true;
+  pane.findChild<QPushButton*>("save_export")->click();
+  EXPECT_TRUE(QFile::exists(answers_.save));
 }
 
 TEST_F(ExportPaneTest, AMissingImuIsAskedFor) {
