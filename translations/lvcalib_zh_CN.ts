@@ -680,8 +680,8 @@ Export it all the same?</source>
         <translation>更近的点（设备自身）被忽略。</translation>
     </message>
     <message>
-        <source>Corner noise above this makes the result doubtful.</source>
-        <translation>角点噪声超过此值时结果存疑。</translation>
+        <source>Corner noise above this makes the result doubtful where no replicates tell it.</source>
+        <translation>在没有重复观测说明噪声时，角点噪声超过此值则结果存疑。</translation>
     </message>
     <message>
         <source>Corner noise is never taken below this.</source>

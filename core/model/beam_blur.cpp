@@ -38,4 +38,10 @@ EffectPtr beam_blur() {
   return std::make_shared<BeamBlur>();
 }
 
+Eigen::Index blur_place(const std::vector<EffectInUse>& in_use) {
+  Eigen::Index at = 6;
+  for (const EffectInUse& use : in_use) at += use.values.size();
+  return at;
+}
+
 }  // namespace lvcalib

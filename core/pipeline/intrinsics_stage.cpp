@@ -257,6 +257,17 @@ double open_share(const CalibrationResult& result, const IntrinsicsVector& freed
                   limit_rad / (3.0 * std::max(q.tolerance_rad, q.tolerance_sigmas * sigma.second)));
 }
 
+// If corners alone contradict the given intrinsics: in words what is wrong.
+Message contradicted_by(const std::vector<CornerView>& views, const Camera& given,
+                        double false_alarm) {
+  const auto fit = fit_freely(views, given);
+  if (!fit) return {};
+  const IntrinsicsContrast contrast =
+      contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance,
+                          wide_intrinsics_sigma(given), false_alarm);
+  return contrast.contradicts() ? describe(contrast, given, views) : Message();
+}
+
 }  // namespace
 
 IntrinsicsReport start_intrinsics(const Dataset& dataset, IntrinsicsMode mode) {
@@ -317,15 +328,8 @@ LeftOutSizes left_out_sizes(const CalibrationResult& result) {
 
 Message contradicted_by_corners(const CalibrationResult& result) {
   if (result.intrinsics.mode != IntrinsicsMode::kFixed) return {};
-  const std::vector<CornerView> views = views_of(result);
-  const Camera& given = result.intrinsics.given;
-  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
-  const auto fit = fit_freely(views, given);
-  if (!fit) return {};
-  const IntrinsicsContrast contrast =
-      contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance, wide,
-                          result.options.intrinsics.false_alarm);
-  return contrast.contradicts() ? describe(contrast, given, views) : Message();
+  return contradicted_by(views_of(result), result.intrinsics.given,
+                         result.options.intrinsics.false_alarm);
 }
 
 Message better_spacing(const std::vector<CornerView>& views, const Target& target,
@@ -417,13 +421,8 @@ void ask_images_again(CalibrationResult& result, const CornersWithout& others,
                         });
     });
   };
-  const auto contradicted = [&](const std::vector<CornerView>& views) -> Message {
-    const auto fit = fit_freely(views, report.given);
-    if (!fit) return {};
-    const IntrinsicsContrast contrast = contrast_intrinsics(
-        intrinsics_of(fit->camera), intrinsics_of(report.given), fit->covariance,
-        wide_intrinsics_sigma(report.given), result.options.intrinsics.false_alarm);
-    return contrast.contradicts() ? describe(contrast, report.given, views) : Message();
+  const auto contradicted = [&](const std::vector<CornerView>& views) {
+    return contradicted_by(views, report.given, result.options.intrinsics.false_alarm);
   };
   const Corners left = corners_left(others);
   const std::vector<CornerView> views = views_with(left);

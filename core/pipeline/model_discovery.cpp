@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "model/beam_blur.h"
 #include "model/correction.h"
 #include "model/residuals.h"
 #include "model/scan_velocity.h"
@@ -172,11 +173,9 @@ std::vector<CornerObservation> corners_without(const std::vector<EffectInUse>& e
 
 // By which share a board looks larger along its axes than it is: one that reads farther does, and
 // one whose angles are stretched.
-Eigen::Vector2d seen_scale(const ModelledMovements& movements, const Target& target,
-                           std::size_t scene, const Rigid3& lidar_from_board) {
-  const BoardOutline outline = target.outline();
+Eigen::Vector2d seen_scale(const ModelledMovements& movements, const BoardOutline& outline,
+                           double darkness, std::size_t scene, const Rigid3& lidar_from_board) {
   const Eigen::Vector2d half = 0.5 * outline.size_m();
-  const double darkness = black_share(target);
   const auto beam_at = [&](const Eigen::Vector2d& from_middle) {
     const Eigen::Vector2d at = outline.center_m() + from_middle;
     return beam_towards(lidar_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0), scene,
@@ -203,6 +202,8 @@ Eigen::Vector2d seen_scale(const ModelledMovements& movements, const Target& tar
 void tell_scales(const Discovery& discovery, const ModelledMovements& movements,
                  CalibrationResult& result) {
   const Eigen::Vector2d of_print = print_scale(movements, result.target);
+  const BoardOutline outline = result.target.outline();
+  const double darkness = black_share(result.target);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   std::size_t next = 0;
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
@@ -211,7 +212,7 @@ void tell_scales(const Discovery& discovery, const ModelledMovements& movements,
     if (!takes_part(scene) || next >= discovery.state.camera_from_board.size()) continue;
     const Rigid3 lidar_from_board =
         discovery.state.camera_from_lidar.inverse() * discovery.state.camera_from_board[next++];
-    const Eigen::Vector2d seen = seen_scale(movements, result.target, s, lidar_from_board);
+    const Eigen::Vector2d seen = seen_scale(movements, outline, darkness, s, lidar_from_board);
     sum += seen;
     scene.modelled_scale = (seen + of_print).mean();
   }
@@ -319,15 +320,15 @@ Eigen::Vector3d movement_about(const Eigen::Vector3d& center_m, double radius_m,
 
 // The observations of the classical solve with a model's effects taken out of them; `planes` are
 // the scenes' without the effects, `index` their places in the result.
-void take_out(const Discovery& discovery, const ModelledMovements& movements,
-              const CalibrationResult& result, const std::vector<std::size_t>& index,
-              const Target& target, const std::vector<std::optional<FittedPlane>>& planes,
+void take_out(const Discovery& discovery, const ModelledMovements& movements, const Camera& camera,
+              const Target& target, const std::vector<std::size_t>& index,
+              const std::vector<BoardBeams>& beams,
+              const std::vector<std::optional<FittedPlane>>& planes,
               std::vector<SceneObservations>& observations) {
   const double darkness = black_share(target);
   for (std::size_t s = 0; s < observations.size(); ++s) {
     SceneObservations& o = observations[s];
     if (planes[s]) o.plane = *planes[s];
-    const BoardBeams beams(result, index[s], o.lidar_from_board, discovery, darkness);
     const auto without_effects = [&](const Eigen::Vector3d& place_m, const RefinedNode& node) {
       PrintPoint at;
       at.board_m = node.board_m;
@@ -335,7 +336,7 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements,
       const BeamPoint beam = beam_towards(place_m, index[s], o.lidar_from_board, darkness);
       const Eigen::Vector3d moved =
           movements.spot(beam) +
-          movement_about(place_m, target.circle_radius_m, beam, beams, movements);
+          movement_about(place_m, target.circle_radius_m, beam, beams[s], movements);
       const Eigen::Vector3d place = place_m - moved;
       // Its height is the plane's, its place on it its own. A board that is bent is met elsewhere
       // along the ray.
@@ -352,7 +353,7 @@ void take_out(const Discovery& discovery, const ModelledMovements& movements,
       node.center_lidar_m = without_effects(node.center_lidar_m, node);
       node.raw_lidar_m = without_effects(node.raw_lidar_m, node);
     }
-    o.corners = corners_without(discovery.model, discovery.scales, result.camera, target,
+    o.corners = corners_without(discovery.model, discovery.scales, camera, target,
                                 std::move(o.corners), o.camera_from_board);
   }
 }
@@ -417,22 +418,18 @@ Cloud cloud_without(const BoardBeams& beams, const ModelledMovements& movements)
   return out;
 }
 
-// The boundary response of returns, circles and planes without the effects, and the beam as the
-// model measures it.
-void respond_without(const Discovery& discovery, const ModelledMovements& movements,
+// The boundary response of returns, circles and planes without the effects.
+void respond_without(const ModelledMovements& movements, const std::vector<BoardBeams>& beams,
                      const std::vector<SceneObservations>& observations,
                      const std::vector<std::size_t>& index, const Target& target,
                      CalibrationResult& result) {
-  const double black = black_share(target);
   std::vector<Cloud> clouds(observations.size());
   std::vector<BoardRefinement> refined(observations.size());
   std::vector<ResponseInput> inputs;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const SceneResult& scene = result.scenes[index[k]];
     if (!scene.used || !scene.refinement || scene.refinement->nodes.empty()) continue;
-    clouds[k] = cloud_without(
-        BoardBeams(result, index[k], observations[k].lidar_from_board, discovery, black),
-        movements);
+    clouds[k] = cloud_without(beams[k], movements);
     refined[k] = *scene.refinement;
     refined[k].nodes = observations[k].nodes;
     refined[k].plane = observations[k].plane;
@@ -440,15 +437,15 @@ void respond_without(const Discovery& discovery, const ModelledMovements& moveme
   }
   if (auto response = calibrate_boundary_response(inputs, target, result.options.response, {}))
     result.response = std::move(*response);
-  if (!result.forward) return;
-  result.forward->state.beam = discovery.state.beam;
-  if (!discovery.fit) return;
-  // The blur stands behind the extrinsic and the effects.
-  Eigen::Index at = 6;
-  for (const EffectInUse& use : discovery.model) at += use.values.size();
+}
+
+// The beam as the model measures it.
+void tell_beam(const Discovery& discovery, ForwardSolution& forward) {
+  forward.state.beam = discovery.state.beam;
+  if (!discovery.fit || !forward.uses_intensity) return;
+  const Eigen::Index at = blur_place(discovery.model);
   const Eigen::MatrixXd& covariance = discovery.fit->covariance;
-  if (result.forward->uses_intensity && covariance.rows() >= at + 3)
-    result.forward->blur_covariance = covariance.block<3, 3>(at, at);
+  if (covariance.rows() >= at + 3) forward.blur_covariance = covariance.block<3, 3>(at, at);
 }
 
 // Everything that is told of the scenes, under the model's effects: residuals, methods, what single
@@ -462,15 +459,17 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   auto observations = observations_of(result, use, index);
   const Target target = target_in_use(result, observations);
   auto paper = with_paper_nodes(observations, result, index);
+  std::vector<BoardBeams> beams;
   std::vector<std::optional<FittedPlane>> planes;
   const double black = black_share(target);
   for (std::size_t k = 0; k < observations.size(); ++k) {
-    const BoardBeams beams(result, index[k], observations[k].lidar_from_board, discovery, black);
-    planes.push_back(plane_without_effects(beams, observations[k], movements, target));
+    beams.emplace_back(result, index[k], observations[k].lidar_from_board, discovery, black);
+    planes.push_back(plane_without_effects(beams[k], observations[k], movements, target));
   }
-  take_out(discovery, movements, result, index, target, planes, paper);
-  take_out(discovery, movements, result, index, target, planes, observations);
-  respond_without(discovery, movements, observations, index, target, result);
+  take_out(discovery, movements, result.camera, target, index, beams, planes, paper);
+  take_out(discovery, movements, result.camera, target, index, beams, planes, observations);
+  respond_without(movements, beams, observations, index, target, result);
+  if (result.forward) tell_beam(discovery, *result.forward);
   const ExtrinsicOptions& how = result.options.extrinsic;
   const auto again = solve_extrinsic(observations, result.camera, target, how);
   if (again) ask_scenes_again(observations, index, target, *again, result);

@@ -28,7 +28,7 @@ struct CloudOptions {
 struct QualityOptions {
   double scale_warning = 0.003;  ///< Size difference between LiDAR and model worth a warning.
   double scale_failure = 0.01;   ///< And one that makes the result untrustworthy.
-  double max_sigma_px = 1.5;     ///< Corner noise above this makes the result doubtful.
+  double max_sigma_px = 1.5;     ///< Doubtful above this, where no replicates tell the noise.
   double max_noise_scale = 2.0;  ///< LiDAR residuals this many times their σ make it doubtful:
                                  ///< three quarters of their variance are then not noise.
   double max_dark_offset_m =

@@ -90,9 +90,7 @@ std::vector<EffectInUse> EffectSearch::fitted() const {
 
 std::optional<MeasuredBlur> EffectSearch::measured_blur() const {
   if (!sees_print() || reference_.fit.covariance.rows() == 0) return std::nullopt;
-  // The blur stands behind the effects in use.
-  Eigen::Index at = 6;
-  for (const EffectInUse& use : in_use_) at += use.values.size();
+  const Eigen::Index at = blur_place(in_use_);
   const Eigen::Matrix2d& blur = state_.beam.blur_rad2;
   return MeasuredBlur{{blur(0, 0), blur(0, 1), blur(1, 1)},
                       reference_.fit.covariance.block<3, 3>(at, at)};

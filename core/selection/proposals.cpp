@@ -113,9 +113,26 @@ EffectFinding finding_in_model(const ModelTerm& term) {
 
 }  // namespace
 
+namespace {
+
+bool any_suggested(const std::vector<EffectProposal>& proposals) {
+  return std::any_of(proposals.begin(), proposals.end(),
+                     [](const EffectProposal& p) { return p.suggested; });
+}
+
+}  // namespace
+
 bool ModelRanking::nothing_missing() const {
-  return unknown.empty() && std::none_of(proposals.begin(), proposals.end(),
-                                         [](const EffectProposal& p) { return p.suggested; });
+  return unknown.empty() && !any_suggested(proposals);
+}
+
+bool ModelRanking::unknown_matters() const {
+  return std::any_of(unknown.begin(), unknown.end(),
+                     [](const StructureScore& s) { return s.matters; });
+}
+
+bool ModelRanking::speaks_against_good() const {
+  return any_suggested(proposals) || unknown_matters();
 }
 
 Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& context) {
@@ -138,9 +155,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   out.in_use.assign(findings.begin(), others);
   out.proposals = propose(search, step.state.camera_from_lidar, {others, findings.end()}, options);
   if (context.stopped()) return Error::cancelled();
-  const bool any = std::any_of(out.proposals.begin(), out.proposals.end(),
-                               [](const EffectProposal& p) { return p.suggested; });
-  if (!any) {
+  if (!any_suggested(out.proposals)) {
     const EffectSearch explained = search.with_faint();
     if (context.stopped()) return Error::cancelled();
     out.unknown = notable_of(

@@ -39,6 +39,10 @@ struct ModelRanking {
   Matrix6d covariance_total = Matrix6d::Zero();
 
   [[nodiscard]] bool nothing_missing() const;
+  /// Whether structure is left that would move the extrinsic by more than the tolerance.
+  [[nodiscard]] bool unknown_matters() const;
+  /// Whether what is missing speaks against a good result: an effect is suggested, or that.
+  [[nodiscard]] bool speaks_against_good() const;
 };
 
 /// Judges the effects in use and tries every other. Structure that is left gets closed forms; the

@@ -346,9 +346,7 @@ void MissingPane::updateVerdict() {
     verdict_->setText(
         tr("<b>Nothing is missing</b> in the model, as far as these scenes can tell."));
   } else if (!ranking_->unknown.empty()) {
-    const bool matters = std::any_of(ranking_->unknown.begin(), ranking_->unknown.end(),
-                                     [](const StructureScore& s) { return s.matters; });
-    verdict_->setText(matters
+    verdict_->setText(ranking_->unknown_matters()
                           ? tr("<b>Something is left</b> that no known effect explains.")
                           : tr("<b>Nothing that matters is missing.</b> Structure is left that no "
                                "known effect explains, too small to move the extrinsic."));

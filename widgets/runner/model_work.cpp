@@ -23,14 +23,6 @@ std::string key_of(const std::vector<ModelDecision>& decisions) {
 
 constexpr char kContext[] = "lvcalib::widgets::ModelWork";
 
-// What is missing and speaks against "good".
-bool lacks(const ModelRanking& ranking) {
-  return std::any_of(ranking.proposals.begin(), ranking.proposals.end(),
-                     [](const EffectProposal& p) { return p.suggested; }) ||
-         std::any_of(ranking.unknown.begin(), ranking.unknown.end(),
-                     [](const StructureScore& s) { return s.matters; });
-}
-
 // An effect by its title; a formula or curve as it was entered.
 DescribedCommand::Words words_of(const char* text, const std::string& spec) {
   return {text, {}, effect_named(spec)};
@@ -146,7 +138,7 @@ void ModelWork::keep_ranking(const Key& key, ModelRanking ranking) {
   const auto shown = result_ ? result_ : source_;
   const auto missing = this->ranking();
   if (!missing) return;
-  const bool judged = shown && lacks(*missing) && shown->quality == Quality::kGood;
+  const bool judged = shown && missing->speaks_against_good() && shown->quality == Quality::kGood;
   const bool budgeted = shown && !shown->model.empty() && shown->budget.empty();
   if (results_.running() || judged || budgeted) build_result();
 }
@@ -330,7 +322,8 @@ void ModelWork::build_result() {
   const auto found = discovery();
   const auto missing = ranking();
   const bool base = !found || found->model.empty();
-  if (!source_ || (base && !(missing && lacks(*missing) && source_->quality == Quality::kGood))) {
+  if (!source_ || (base && !(missing && missing->speaks_against_good() &&
+                             source_->quality == Quality::kGood))) {
     results_.cancel();
     result_ = nullptr;
     Q_EMIT result_changed();
