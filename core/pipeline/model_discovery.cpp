@@ -409,30 +409,43 @@ void ask_scenes_again(std::vector<SceneObservations> observations,
   }
 }
 
-// A scene's board returns with what the effects did to them taken out.
-Cloud cloud_without(const BoardBeams& beams, const ModelledMovements& movements) {
+// A scene's board returns with what the effects did to them taken out, a bent board's height too.
+Cloud cloud_without(const BoardBeams& beams, const ModelledMovements& movements,
+                    const Target& target) {
   Cloud out = beams.cloud();
+  const Eigen::Vector3d normal = beams.geometry().normal();
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (const auto beam = beams.of(i)) out.points_m[i] -= movements.point(*beam).cast<float>();
+    const auto beam = beams.of(i);
+    if (!beam) continue;
+    PrintPoint at;
+    at.board_m = beam->board_m;
+    const double bent_m = movements.print(at, target).z() / normal.dot(beam->direction);
+    out.points_m[i] -= (movements.point(*beam) + bent_m * beam->direction).cast<float>();
   }
   return out;
 }
 
 // The boundary response of returns, circles and planes without the effects.
-void respond_without(const ModelledMovements& movements, const std::vector<BoardBeams>& beams,
+void respond_without(const Discovery& discovery, const ModelledMovements& movements,
+                     const std::vector<BoardBeams>& beams,
                      const std::vector<SceneObservations>& observations,
                      const std::vector<std::size_t>& index, const Target& target,
                      CalibrationResult& result) {
   std::vector<Cloud> clouds(observations.size());
   std::vector<BoardRefinement> refined(observations.size());
   std::vector<ResponseInput> inputs;
+  std::size_t board = 0;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const SceneResult& scene = result.scenes[index[k]];
-    if (!scene.used || !scene.refinement || scene.refinement->nodes.empty()) continue;
-    clouds[k] = cloud_without(beams[k], movements);
+    if (!takes_part(scene) || board >= discovery.state.camera_from_board.size()) continue;
+    const Rigid3 lidar_from_board =
+        discovery.state.camera_from_lidar.inverse() * discovery.state.camera_from_board[board++];
+    if (scene.refinement->nodes.empty()) continue;
+    clouds[k] = cloud_without(beams[k], movements, target);
     refined[k] = *scene.refinement;
     refined[k].nodes = observations[k].nodes;
     refined[k].plane = observations[k].plane;
+    refined[k].lidar_from_board = lidar_from_board;
     inputs.push_back({scene.name, &clouds[k], &refined[k]});
   }
   if (auto response = calibrate_boundary_response(inputs, target, result.options.response, {}))
@@ -468,7 +481,7 @@ void report_model(const Discovery& discovery, const ModelledMovements& movements
   }
   take_out(discovery, movements, result.camera, target, index, beams, planes, paper);
   take_out(discovery, movements, result.camera, target, index, beams, planes, observations);
-  respond_without(movements, beams, observations, index, target, result);
+  respond_without(discovery, movements, beams, observations, index, target, result);
   if (result.forward) tell_beam(discovery, *result.forward);
   const ExtrinsicOptions& how = result.options.extrinsic;
   const auto again = solve_extrinsic(observations, result.camera, target, how);
