@@ -56,7 +56,7 @@ take "$scale" "$((1600 * scale))x$((1000 * scale))" "$folder" "${@:2}"
 # Few colours and less size: a guide's picture has 150 kB at most.
 if [[ -n $guide ]]; then
   for name in welcome import-light running scene-light crop-light refinement-light extrinsic-light \
-    extrinsic-2-light response-light exports-light scene-dark check-light plan-light watch-light \
+    extrinsic-2-light response-light camera-page-alone-light exports-light scene-dark check-light plan-light watch-light \
     model-missing-light model-added-light model-unseen-light; do
     small="$guide/workbench-${name%-light}.png"
     # Thousands of coloured dots do not shrink as well as widgets do.

@@ -129,6 +129,14 @@ Export it all the same?</source>
         <translation>不应使用它：其警告说明了原因。
 仍要导出吗？</translation>
     </message>
+    <message>
+        <source>Add images of the board</source>
+        <translation>添加标定板图像</translation>
+    </message>
+    <message>
+        <source>Images (*.png *.jpg *.jpeg *.bmp *.tif *.tiff)</source>
+        <translation>图像 (*.png *.jpg *.jpeg *.bmp *.tif *.tiff)</translation>
+    </message>
 </context>
 <context>
     <name>CloudSceneText</name>
@@ -4995,6 +5003,18 @@ Export it all the same?</source>
         <source>tag corners miss their model by %1 px, where their own noise is %2 px: that may move the extrinsic by up to %3 mm and %4 mrad; check the intrinsics, the sizes in target.yaml and that the board is flat</source>
         <translation>标签角点偏离模型 %1 px，而其自身噪声为 %2 px：这最多可能使外参移动 %3 mm 和 %4 mrad；请检查内参、target.yaml 中的尺寸以及标定板是否平整</translation>
     </message>
+    <message>
+        <source>another image of this name is in %1 already</source>
+        <translation>%1 中已有同名的另一幅图像</translation>
+    </message>
+    <message>
+        <source>give it another name</source>
+        <translation>请另取一个名称</translation>
+    </message>
+    <message>
+        <source>not an image; expected a png, jpg, bmp or tiff file</source>
+        <translation>不是图像；应为 png、jpg、bmp 或 tiff 文件</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -5684,6 +5704,82 @@ Export it all the same?</source>
         <source>In total: %1 px to %2 px.</source>
         <translation>总计：%1 px 至 %2 px。</translation>
     </message>
+    <message>
+        <source>given</source>
+        <translation>给定</translation>
+    </message>
+    <message>
+        <source>with the LiDAR</source>
+        <translation>与激光雷达一同估计</translation>
+    </message>
+    <message>
+        <source>images alone</source>
+        <translation>仅由图像</translation>
+    </message>
+    <message>
+        <source>No board reached these parts of the image: %1. The distortion there is extrapolated.</source>
+        <translation>标定板没有到达图像的这些部分：%1。那里的畸变是外推的。</translation>
+    </message>
+    <message>
+        <source>A direction falls into the image with a standard deviation of %1 px where it is best to %2 px where it is worst.</source>
+        <translation>一个方向落在图像中的标准差：最好处为 %1 px，最差处为 %2 px。</translation>
+    </message>
+    <message>
+        <source>The intrinsics are taken as given; the scenes check them.</source>
+        <translation>内参按给定值使用，并由各场景检验。</translation>
+    </message>
+    <message>
+        <source>The intrinsics are estimated with the extrinsic, and drawn to the given ones as the standard deviations in camera.yaml say.</source>
+        <translation>内参与外参一同估计，并按 camera.yaml 中的标准差向给定值约束。</translation>
+    </message>
+    <message>
+        <source>The intrinsics are estimated with the extrinsic, and drawn to the given ones as an ordinary calibration deserves.</source>
+        <translation>内参与外参一同估计，并按一般标定应有的精度向给定值约束。</translation>
+    </message>
+    <message>
+        <source>The intrinsics are estimated with the extrinsic, by these images alone.</source>
+        <translation>内参与外参一同估计，仅依据这些图像。</translation>
+    </message>
+    <message>
+        <source>model</source>
+        <translation>模型</translation>
+    </message>
+    <message>
+        <source>fx, px</source>
+        <translation>fx，px</translation>
+    </message>
+    <message>
+        <source>fy, px</source>
+        <translation>fy，px</translation>
+    </message>
+    <message>
+        <source>cx, px</source>
+        <translation>cx，px</translation>
+    </message>
+    <message>
+        <source>cy, px</source>
+        <translation>cy，px</translation>
+    </message>
+    <message>
+        <source>The images contradict the given intrinsics: %1.</source>
+        <translation>图像与给定的内参矛盾：%1。</translation>
+    </message>
+    <message>
+        <source>With that freed the extrinsic moves by %1.</source>
+        <translation>将其放开后，外参移动 %1。</translation>
+    </message>
+    <message>
+        <source>The images contradict target.yaml: %1.</source>
+        <translation>图像与 target.yaml 矛盾：%1。</translation>
+    </message>
+    <message>
+        <source>%1 of %2 images, %3 px RMS; noise of a corner %4 px.</source>
+        <translation>%2 幅图像中的 %1 幅，RMS %3 px；角点噪声 %4 px。</translation>
+    </message>
+    <message>
+        <source>Distortion models by the images that they were not fitted to: %1.</source>
+        <translation>各畸变模型在未参与拟合的图像上的误差：%1。</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::AboutDialog</name>
@@ -6077,6 +6173,93 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Tangential %1</source>
         <translation>切向 %1</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CameraPage</name>
+    <message>
+        <source>YAML (*.yaml *.yml)</source>
+        <translation>YAML (*.yaml *.yml)</translation>
+    </message>
+    <message>
+        <source>The image is being loaded …</source>
+        <translation>正在加载图像 …</translation>
+    </message>
+    <message>
+        <source>There is no image: %1</source>
+        <translation>没有图像：%1</translation>
+    </message>
+    <message>
+        <source>&amp;Shown</source>
+        <translation>显示(&amp;S)</translation>
+    </message>
+    <message>
+        <source>camera of this calibration</source>
+        <translation>本次标定的相机</translation>
+    </message>
+    <message>
+        <source>camera from images alone</source>
+        <translation>仅由图像标定的相机</translation>
+    </message>
+    <message>
+        <source>&amp;Add images…</source>
+        <translation>添加图像(&amp;A)…</translation>
+    </message>
+    <message>
+        <source>Images of the board without a cloud: they are copied into the dataset&apos;s folder intrinsics/ and count for the camera alone</source>
+        <translation>没有点云的标定板图像：复制到数据集的 intrinsics/ 文件夹，只用于相机</translation>
+    </message>
+    <message>
+        <source>&amp;Calibrate the camera</source>
+        <translation>标定相机(&amp;C)</translation>
+    </message>
+    <message>
+        <source>From all images of the board, without the LiDAR and without the given intrinsics</source>
+        <translation>由标定板的全部图像，不用激光雷达，也不用给定的内参</translation>
+    </message>
+    <message>
+        <source>Sa&amp;ve camera.yaml…</source>
+        <translation>保存 camera.yaml(&amp;V)…</translation>
+    </message>
+    <message>
+        <source>The camera shown, with its standard deviations</source>
+        <translation>所显示的相机及其标准差</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>corners</source>
+        <translation>角点</translation>
+    </message>
+    <message>
+        <source>RMS, px</source>
+        <translation>RMS，px</translation>
+    </message>
+    <message>
+        <source>not used because</source>
+        <translation>未使用的原因</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>不确定度</translation>
+    </message>
+    <message>
+        <source>Intrinsics</source>
+        <translation>内参</translation>
+    </message>
+    <message>
+        <source>Images of the board</source>
+        <translation>标定板图像</translation>
     </message>
 </context>
 <context>
@@ -7456,6 +7639,24 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
 *规划场景*说明下一步把标定板放在哪里，以及届时外参有多可靠。*文件 › 监视*在场景出现时即行采用，并以大字显示下一个位姿。*用新数据检验*把位姿叠加到有无标定板的画面上，说明激光雷达与图像的边缘是否吻合；也可在那里手动寻找粗略位姿。*比较*把两个结果并列，*校正点云*从点云中去除模型的效应；标定板的打印和描述也在同一菜单中。
 </translation>
     </message>
+    <message>
+        <source># Camera
+The intrinsics as given, as estimated with the extrinsic and from images alone, with their standard deviations, and what the images say against them. Every image is listed with what its corners miss the camera by.
+
+- **Add images…** takes images of the board without a cloud: they count for the camera alone. Bring the board to all parts of the image, turned another way each time.
+- **Calibrate the camera** needs the images only; distortion models are compared on images that they were not fitted to. *Save camera.yaml…* keeps it.
+- *Residuals* shows as arrows what the corners miss the camera by; *Uncertainty* how well a direction is known over the image.
+- Whether the extrinsic&apos;s solve takes the intrinsics as given or estimates them is an option of the parameters.
+</source>
+        <translation># 相机
+内参的给定值、与外参一同估计的值和仅由图像得到的值并列显示，各附标准差，并说明图像对它们的异议。每幅图像都列出其角点偏离相机模型的程度。
+
+- **添加图像…** 接收没有点云的标定板图像：它们只用于相机。请把标定板带到图像的各个部分，每次转向不同的方向。
+- **标定相机** 只需要图像；各畸变模型在未参与拟合的图像上比较。用 *保存 camera.yaml…* 保存结果。
+- *残差* 用箭头显示角点偏离相机模型的程度；*不确定度* 显示图像各处方向的精度。
+- 求解外参时内参按给定值使用还是一同估计，是参数中的一个选项。
+</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ImagePane</name>
@@ -8467,6 +8668,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>Model</source>
         <translation>模型</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
     </message>
 </context>
 <context>
@@ -10384,6 +10589,18 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <source>Where in the image a LiDAR point falls is known to one standard deviation of so many pixels, by the noise of these scenes alone. Where the colour is bright, take a scene with the board there.</source>
         <translation>激光点落在图像中的位置的一倍标准差（像素），仅由这些场景的噪声引起。在颜色明亮处，请拍摄标定板位于该处的场景。</translation>
     </message>
+    <message>
+        <source>standard deviation (px)</source>
+        <translation>标准差 (px)</translation>
+    </message>
+    <message>
+        <source>Where in the image a direction falls is known to one standard deviation of so many pixels. Where the colour is bright, take images with the board there.</source>
+        <translation>一个方向落在图像何处，其标准差为这么多像素。颜色明亮之处，请把标定板放到那里再拍图像。</translation>
+    </message>
+    <message>
+        <source>the intrinsics are taken as given, without standard deviations</source>
+        <translation>内参按给定值使用，没有标准差</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::UncertaintyPane</name>
@@ -10738,6 +10955,10 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
     <message>
         <source>New: scene %1</source>
         <translation>新增：场景 %1</translation>
+    </message>
+    <message>
+        <source>The dataset was read again</source>
+        <translation>已重新读取数据集</translation>
     </message>
 </context>
 <context>

@@ -9,6 +9,7 @@
 #include "overwriting.h"
 #include "pipeline/camera_calibration.h"
 #include "pipeline/dataset.h"
+#include "solve/uncertainty_report.h"
 
 namespace lvcalib::cli {
 namespace {
@@ -46,6 +47,16 @@ std::string comparison(const CameraCalibration& result) {
   return text.empty() ? text : " (held-out images: " + text + " px)";
 }
 
+// How well the camera images a direction, where it does so best and where worst.
+std::string certainty(const CameraCalibration& result) {
+  const auto reach = project_intrinsics(result.camera, result.covariance).reach_px();
+  if (!reach) return {};
+  char text[96];
+  std::snprintf(text, sizeof text, ", directions known to %.3f px at best and %.3f px at worst",
+                reach->first, reach->second);
+  return text;
+}
+
 std::string summary_of(const CameraCalibration& result, const std::string& output) {
   char text[256];
   std::snprintf(text, sizeof text,
@@ -53,7 +64,7 @@ std::string summary_of(const CameraCalibration& result, const std::string& outpu
                 result.used_images(), result.images.size(), result.rms_px, result.camera.fx,
                 result.sigma(0), result.camera.fy, result.sigma(1),
                 name_of(result.camera.model).c_str());
-  return text + comparison(result) + " -> " + output;
+  return text + comparison(result) + certainty(result) + " -> " + output;
 }
 
 Result<Target> load_board(const fs::path& path, bool given, const Session& session) {

@@ -65,7 +65,7 @@ MainWindow::MainWindow(AppSettings& settings, Choices& choices, QWidget* parent)
       status_(new StatusLine(this)),
       results_(new ResultActions(choices, settings, *this)) {
   setObjectName(QStringLiteral("main_window"));
-  pages_->add_model_page(*model_work_);
+  pages_->add_pages(*model_work_, choices_);
   setAcceptDrops(true);
   setCentralWidget(pages_);
   setStatusBar(status_);
@@ -284,6 +284,13 @@ void MainWindow::connect_pages() {
             }
             workspace_->set_edits(edits);
           });
+  connect(pages_, &PageStack::dataset_changed, this, [this] {
+    if (Status s = workspace_->reread(); !s) {
+      show_error(s.error());
+    } else {
+      pages_->set_dataset(workspace_->dataset());
+    }
+  });
   connect(pages_, &PageStack::insist_wanted, this,
           [this](int scene) { workspace_->set_insist({scene_name(scene)}, true); });
   connect(pages_, &PageStack::scene_wanted, this,
@@ -360,7 +367,7 @@ void MainWindow::take_opened() {
   model_.set_scenes(dataset, workspace_->missing_scenes());
   loader_.load_thumbnails(dataset.scenes);
   scene_.clear();
-  pages_->start(dataset.target);
+  pages_->start(dataset);
   read_truth_of(dataset);
   pages_->show_pages();
   if (!dataset.scenes.empty()) scenes_->select(scene_name(0));

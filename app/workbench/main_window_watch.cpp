@@ -76,7 +76,7 @@ void MainWindow::take_new_scenes() {
   const QString shown = std::exchange(scene_, QString());
   model_.set_scenes(dataset, workspace_->missing_scenes());
   loader_.load_thumbnails(dataset.scenes);
-  pages_->start(dataset.target);
+  pages_->start(dataset);
   if (!dataset.scenes.empty()) scenes_->select(shown.isEmpty() ? scene_name(0) : shown);
   update_actions();
 }

@@ -4,6 +4,7 @@
 #include <QEvent>
 #include <QTabWidget>
 
+#include "intrinsics/camera_page.h"
 #include "modelling/model_page.h"
 #include "pages/extrinsic_page.h"
 #include "pages/refinement_page.h"
@@ -62,9 +63,14 @@ PageStack::PageStack(QWidget* parent)
   retranslate();
 }
 
-void PageStack::add_model_page(ModelWork& work) {
+void PageStack::add_pages(ModelWork& work, Choices& choices) {
   model_ = new ModelPage(work, tabs_);
   tabs_->addTab(model_, {});
+  camera_ = new CameraPage(tabs_);
+  camera_->setChoices(choices);
+  tabs_->addTab(camera_, {});
+  connect(camera_, &CameraPage::failed, this, &PageStack::failed);
+  connect(camera_, &CameraPage::datasetChanged, this, &PageStack::dataset_changed);
   connect(model_, &ModelPage::failed, this, &PageStack::failed);
   connect(&work, &ModelWork::changed, scene_, [this, &work] { scene_->setModel(work.step()); });
   connect(model_, &ModelPage::samplesSelected, this,
@@ -111,10 +117,15 @@ int PageStack::tab_count() const {
   return tabs_->count();
 }
 
-void PageStack::start(const Target& target) {
+void PageStack::start(const Dataset& dataset) {
   set_result(nullptr);
-  refinement_->setTarget(target);
+  refinement_->setTarget(dataset.target);
   set_scene(-1, std::nullopt);
+  set_dataset(dataset);
+}
+
+void PageStack::set_dataset(const Dataset& dataset) {
+  if (camera_ != nullptr) camera_->setDataset(dataset);
 }
 
 void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& result) {
@@ -125,6 +136,7 @@ void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& resul
   refinement_->setResult(result);
   extrinsic_->setResult(result);
   response_->setResult(result);
+  if (camera_ != nullptr) camera_->setResult(result);
 }
 
 void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {
@@ -180,6 +192,7 @@ void PageStack::retranslate() {
   tabs_->setTabText(2, tr("Extrinsic"));
   tabs_->setTabText(3, tr("Boundary response"));
   if (model_ != nullptr) tabs_->setTabText(4, tr("Model"));
+  if (camera_ != nullptr) tabs_->setTabText(5, tr("Camera"));
 }
 
 }  // namespace lvcalib::widgets

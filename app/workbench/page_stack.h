@@ -16,6 +16,8 @@ class QTabWidget;
 
 namespace lvcalib::widgets {
 
+class CameraPage;
+class Choices;
 class ExtrinsicPage;
 class ModelPage;
 class ModelWork;
@@ -32,11 +34,12 @@ class PageStack : public QStackedWidget {
 
  public:
   explicit PageStack(QWidget* parent = nullptr);
-  /// Adds the Model page; `work` must outlive this.
-  void add_model_page(ModelWork& work);
+  /// Adds the Model page and the Camera page; `work` and `choices` must outlive this.
+  void add_pages(ModelWork& work, Choices& choices);
   [[nodiscard]] ModelPage* model_page() const { return model_; }
   [[nodiscard]] ThresholdPane* thresholds() const;
   [[nodiscard]] ExtrinsicPage* extrinsic_page() const { return extrinsic_; }
+  [[nodiscard]] CameraPage* camera_page() const { return camera_; }
   [[nodiscard]] WelcomePage& welcome() const { return *welcome_; }
   void show_welcome();
   void show_pages();
@@ -46,7 +49,9 @@ class PageStack : public QStackedWidget {
   [[nodiscard]] int tab() const;
 
   /// Another dataset: nothing of the one before stays.
-  void start(const Target& target);
+  void start(const Dataset& dataset);
+  /// What is open, after a change on disk too: on the page of the camera.
+  void set_dataset(const Dataset& dataset);
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
   void set_scene(int scene, const std::optional<CropBox>& box);
   /// The box in force; a box that is being edited stays unless this one is another than before.
@@ -64,6 +69,8 @@ class PageStack : public QStackedWidget {
   void edits_wanted(int scene, const lvcalib::SceneEdits& edits);
   /// A tag, or else a circle, that the program refused is to be used all the same.
   void keep_wanted(const QString& scene, bool tag, int id);
+  /// The dataset's images, or its camera.yaml, have changed on disk.
+  void dataset_changed();
   /// A patch of the board is to be left out of every scene.
   void patch_excluded(const std::vector<Eigen::Vector2d>& patch_m);
   void crop_wanted(int scene, const std::optional<lvcalib::CropBox>& box);
@@ -95,6 +102,7 @@ class PageStack : public QStackedWidget {
   ExtrinsicPage* extrinsic_;
   ResponsePage* response_;
   ModelPage* model_ = nullptr;
+  CameraPage* camera_ = nullptr;
   std::map<QString, Samples> samples_;
   std::shared_ptr<const CalibrationResult> result_;
 };

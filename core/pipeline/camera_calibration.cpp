@@ -9,6 +9,7 @@
 #include "base/statistics.h"
 #include "base/text.h"
 #include "detection/board_pose.h"
+#include "pipeline/camera_figures.h"
 
 namespace lvcalib {
 namespace {
@@ -292,27 +293,6 @@ bool leave_out_strays(const std::vector<double>& rms_px, const Indices& use,
   return any;
 }
 
-// Thirds of the image, row by row, that hold no corner.
-std::vector<Message> unreached_parts(const std::vector<BoardImage>& images, const Indices& use,
-                                     const Camera& camera) {
-  const std::array names = {Message("top left"),    Message("top"),    Message("top right"),
-                            Message("left"),        Message("middle"), Message("right"),
-                            Message("bottom left"), Message("bottom"), Message("bottom right")};
-  std::array<bool, 9> seen{};
-  const auto third = [](double at, int size) {
-    return static_cast<std::size_t>(std::clamp(3.0 * (at + 0.5) / size, 0.0, 2.0));
-  };
-  for (const std::size_t i : use) {
-    for (const CornerObservation& c : images[i].view->corners)
-      seen[3 * third(c.pixel.y(), camera.height_px) + third(c.pixel.x(), camera.width_px)] = true;
-  }
-  std::vector<Message> out;
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    if (!seen[k]) out.push_back(names[k]);
-  }
-  return out;
-}
-
 // The widest angle between the normals of two boards.
 double widest_turn_deg(const std::vector<BoardImage>& images, const Indices& use) {
   double least = 1.0;
@@ -343,7 +323,11 @@ void judge_views(const Indices& use, CameraCalibration& out) {
                   formatted("%.0f", turn)));
     }
   }
-  const auto parts = unreached_parts(out.images, use, out.camera);
+  std::vector<Eigen::Vector2d> pixels;
+  for (const std::size_t i : use) {
+    for (const CornerObservation& c : out.images[i].view->corners) pixels.push_back(c.pixel);
+  }
+  const auto parts = unreached_parts(pixels, out.camera);
   if (!parts.empty()) {
     warnings.push_back(Message(
         "no board reached these parts of the image: %1; the distortion there is extrapolated",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "base/file_io.h"
 #include "base/yaml_file.h"
 
 namespace lvcalib {
@@ -110,6 +111,44 @@ Result<std::vector<fs::path>> list_images(const fs::path& folder) {
   if (code) return Error::input(Message("cannot be listed: %1", code.message()), folder.string());
   std::sort(images.begin(), images.end());
   return images;
+}
+
+Status add_camera_images(Dataset& dataset, const std::vector<fs::path>& images) {
+  // Beyond any camera's; a film of the board is not what is asked for.
+  constexpr std::size_t kLargest_bytes = 512U << 20U;
+  const fs::path folder = dataset.path / "intrinsics";
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const fs::path& image : images) {
+    if (!is_image_name(image))
+      return Error::input(Message("not an image; expected a png, jpg, bmp or tiff file"),
+                          image.string());
+    auto content = read_text_file(image, kLargest_bytes);
+    if (!content) return content.error();
+    const std::string name = image.filename().string();
+    std::error_code code;
+    const auto given = std::find_if(files.begin(), files.end(),
+                                    [&](const auto& file) { return file.first == name; });
+    const bool on_disk = fs::exists(folder / name, code);
+    std::optional<std::string> there;
+    if (given != files.end()) there = given->second;
+    if (on_disk) {
+      auto text = read_text_file(folder / name, kLargest_bytes);
+      if (!text) return text.error();
+      there = std::move(*text);
+    }
+    if (there && *there != *content)
+      return Error::input(Message("another image of this name is in %1 already", folder.string()),
+                          image.string(), Message("give it another name"));
+    if (!there) files.emplace_back(name, std::move(*content));
+  }
+  if (!files.empty()) {
+    if (Status s = create_folder(folder); !s) return s;
+    if (Status s = write_files_together(folder, files); !s) return s;
+  }
+  auto listed = list_images(folder);
+  if (!listed) return listed.error();
+  dataset.camera_images = std::move(*listed);
+  return Done{};
 }
 
 Result<CameraImages> find_camera_images(const fs::path& path) {

@@ -61,6 +61,12 @@ Result<Dataset> open_dataset(const std::filesystem::path& path,
 /// folder, or it cannot be listed.
 Result<std::vector<std::filesystem::path>> list_images(const std::filesystem::path& folder);
 
+/// Copies images of the board into the dataset's intrinsics/, all or none of them, and lists them
+/// with those that are there. What is there already, the same to the byte, is no error.
+/// Errors (kInput): not the name of an image; cannot be read; another image of this name is there,
+/// or among those given. kOutput if they cannot be written.
+Status add_camera_images(Dataset& dataset, const std::vector<std::filesystem::path>& images);
+
 /// What a camera alone is calibrated from.
 struct CameraImages {
   std::filesystem::path target;  ///< target.yaml of the folder; need not exist.

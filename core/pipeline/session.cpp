@@ -21,14 +21,26 @@ std::vector<std::string> names_of(const Dataset& dataset) {
   return names;
 }
 
+// True if target, camera and the images for the camera alone are those of a result.
+bool same_basis(const Dataset& dataset, const CalibrationResult& result) {
+  const std::vector<BoardImage>& images = result.intrinsics.extra_images;
+  const IntrinsicsReport camera = start_intrinsics(dataset, result.intrinsics.mode);
+  return result.dataset == place_of(dataset) && to_yaml(result.target) == to_yaml(dataset.target) &&
+         to_yaml(result.intrinsics.given) == to_yaml(camera.given) &&
+         result.intrinsics.prior_sigma == camera.prior_sigma &&
+         std::equal(images.begin(), images.end(), dataset.camera_images.begin(),
+                    dataset.camera_images.end(),
+                    [](const BoardImage& image, const std::filesystem::path& path) {
+                      return image.path == path;
+                    });
+}
+
 // True if the kept features answer the request: only scenes are left out or taken back in, and
 // every wanted scene took part in the last whole run.
 bool solving_is_enough(const Dataset& dataset, const CalibrationRequest& request,
                        const SessionState& state) {
-  if (!state.whole || state.scene_names != names_of(dataset) ||
-      state.whole->dataset != place_of(dataset)) {
+  if (!state.whole || state.scene_names != names_of(dataset) || !same_basis(dataset, *state.whole))
     return false;
-  }
   const CalibrationRequest& last = state.request;
   if (!same_options(last.options, request.options) || !same_guess(last.guess, request.guess) ||
       last.use_crops != request.use_crops || last.crop_boxes != request.crop_boxes ||

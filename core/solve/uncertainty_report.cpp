@@ -117,10 +117,10 @@ void compare_halves(const Target& target, const ExtrinsicSolution& joint,
         "extrinsic");
 }
 
-ProjectedUncertainty map_over_image(const Camera& camera, const Matrix6d& covariance,
-                                    double range_m, int columns) {
+// `spread_of`: the covariance of the pixel that a ray falls into.
+template <typename SpreadOf>
+ProjectedUncertainty map_over_image(const Camera& camera, int columns, const SpreadOf& spread_of) {
   ProjectedUncertainty map;
-  map.range_m = range_m;
   map.columns = std::max(2, columns);
   map.rows = std::max(2, static_cast<int>(std::lround(static_cast<double>(map.columns) *
                                                       camera.height_px / camera.width_px)));
@@ -130,7 +130,7 @@ ProjectedUncertainty map_over_image(const Camera& camera, const Matrix6d& covari
                                   (camera.height_px - 1.0) * row / (map.rows - 1.0));
       map.pixel.push_back(pixel);
       const auto ray = camera.unproject(pixel);
-      const auto spread = ray ? pixel_covariance(camera, range_m * *ray, covariance) : std::nullopt;
+      const std::optional<Eigen::Matrix2d> spread = ray ? spread_of(*ray) : std::nullopt;
       map.sigma_px.push_back(spread ? std::sqrt(spread->trace())
                                     : std::numeric_limits<double>::quiet_NaN());
     }
@@ -139,6 +139,28 @@ ProjectedUncertainty map_over_image(const Camera& camera, const Matrix6d& covari
 }
 
 }  // namespace
+
+std::optional<std::pair<double, double>> ProjectedUncertainty::reach_px() const {
+  std::optional<std::pair<double, double>> out;
+  for (const double sigma : sigma_px) {
+    if (!std::isfinite(sigma)) continue;
+    if (!out) out.emplace(sigma, sigma);
+    out->first = std::min(out->first, sigma);
+    out->second = std::max(out->second, sigma);
+  }
+  return out;
+}
+
+ProjectedUncertainty project_intrinsics(const Camera& camera,
+                                        const Eigen::Matrix<double, 12, 12>& covariance,
+                                        int columns) {
+  return map_over_image(camera, columns,
+                        [&](const Eigen::Vector3d& ray) -> std::optional<Eigen::Matrix2d> {
+                          Eigen::Matrix<double, 2, 12> by_intrinsics;
+                          if (!camera.project(ray, nullptr, &by_intrinsics)) return std::nullopt;
+                          return by_intrinsics * covariance * by_intrinsics.transpose();
+                        });
+}
 
 std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
                                                 const Eigen::Vector3d& point_in_camera_m,
@@ -154,7 +176,10 @@ std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
 UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance,
                                       const UncertaintyOptions& how) {
   UncertaintyReport report;
-  report.maps.push_back(map_over_image(camera, covariance, how.map_range_m, how.map_columns));
+  report.maps.push_back(map_over_image(camera, how.map_columns, [&](const Eigen::Vector3d& ray) {
+    return pixel_covariance(camera, how.map_range_m * ray, covariance);
+  }));
+  report.maps.back().range_m = how.map_range_m;
   for (const double range : how.ranges_m) {
     const Eigen::Matrix3d at = origin_covariance(covariance, {0.0, 0.0, range});
     report.by_range.push_back(

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solve/feature_solver.h"
@@ -24,13 +25,15 @@ struct SplitHalf {
   [[nodiscard]] bool agrees() const { return chi_square <= gate; }
 };
 
-/// How the extrinsic's uncertainty shows in the image.
+/// How an uncertainty shows in the image: the extrinsic's, or the intrinsics'.
 struct ProjectedUncertainty {
   int columns = 0;
   int rows = 0;
-  double range_m = 0.0;
+  double range_m = 0.0;                ///< 0: of a direction.
   std::vector<Eigen::Vector2d> pixel;  ///< Row by row.
   std::vector<double> sigma_px;  ///< Root of the trace of the pixel's covariance; NaN: no ray.
+  /// The best and the worst place of the image; nothing where no ray is seen.
+  [[nodiscard]] std::optional<std::pair<double, double>> reach_px() const;
 };
 
 /// How it shows in space: at this distance along the camera's axis.
@@ -70,6 +73,14 @@ UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scene
 /// The same projections of another covariance of the extrinsic (its total one), without halves.
 UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance,
                                       const UncertaintyOptions& how = {});
+
+/// How far a direction that is known in the camera's frame may fall elsewhere in the image when the
+/// intrinsics (fx fy cx cy, eight distortion entries) have this covariance: J Σ Jᵀ with J = ∂π/∂θ.
+/// An extrinsic that is estimated with this camera takes up the part that a turn of the camera
+/// would do as well.
+ProjectedUncertainty project_intrinsics(const Camera& camera,
+                                        const Eigen::Matrix<double, 12, 12>& covariance,
+                                        int columns = UncertaintyOptions{}.map_columns);
 
 /// Covariance (px²) of the pixel of a point (camera frame) when the extrinsic has this one.
 /// Nothing where the camera sees no such point.

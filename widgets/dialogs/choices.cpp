@@ -78,6 +78,12 @@ QString Choices::target_to_open(QWidget* parent, const QString& folder) {
       words(QT_TRANSLATE_NOOP("Choices", "YAML (*.yaml *.yml)")));
 }
 
+QStringList Choices::images_to_add(QWidget* parent, const QString& folder) {
+  return QFileDialog::getOpenFileNames(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Add images of the board")), folder,
+      words(QT_TRANSLATE_NOOP("Choices", "Images (*.png *.jpg *.jpeg *.bmp *.tif *.tiff)")));
+}
+
 QString Choices::camera_to_open(QWidget* parent, const QString& folder) {
   return QFileDialog::getOpenFileName(
       parent, words(QT_TRANSLATE_NOOP("Choices", "Open a camera file")), folder,

@@ -24,6 +24,8 @@ class Choices {
   virtual QString project_to_open(QWidget* parent, const QString& folder);
   /// `suggestion`: path of the project so far, or a good new one.
   virtual QString project_to_save(QWidget* parent, const QString& suggestion);
+  /// Images of the board.
+  virtual QStringList images_to_add(QWidget* parent, const QString& folder);
   virtual QStringList scenes_to_add(QWidget* parent, const QString& folder);
   virtual QString file_to_export(QWidget* parent, const QString& suggestion, const QString& filter);
   /// A YAML file with T_imu_lidar.

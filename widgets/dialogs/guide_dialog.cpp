@@ -92,6 +92,19 @@ void GuideDialog::retranslate() {
          "How returns scatter at the circles' edges: the transition of the intensity, pitch and "
          "yaw with their ellipse, and ranges off the plane. The table has the numbers for all "
          "scenes and each one. *Left out* lists what the program refused, with its reasons.\n"),
+      tr("# Camera\n"
+         "The intrinsics as given, as estimated with the extrinsic and from images alone, with "
+         "their standard deviations, and what the images say against them. Every image is listed "
+         "with what its corners miss the camera by.\n\n"
+         "- **Add images…** takes images of the board without a cloud: they count for the camera "
+         "alone. Bring the board to all parts of the image, turned another way each time.\n"
+         "- **Calibrate the camera** needs the images only; distortion models are compared on "
+         "images that they were not fitted to. *Save camera.yaml…* keeps it.\n"
+         "- *Residuals* shows as arrows what the corners miss the camera by; *Uncertainty* how "
+         "well "
+         "a direction is known over the image.\n"
+         "- Whether the extrinsic's solve takes the intrinsics as given or estimates them is an "
+         "option of the parameters.\n"),
       tr("# Tools\n"
          "*Plan scenes* says where to hold the board next and how sure the extrinsic is then. "
          "*File "
@@ -118,7 +131,10 @@ void GuideDialog::show_page(int page) {
 
 void GuideDialog::showChapter() {
   constexpr int kModelTab = 4;
-  const int chapter = page_ < 0 ? 0 : page_ == kModelTab ? 1 : page_ + 2;
+  const int chapter = page_ < 0            ? 0
+                      : page_ == kModelTab ? 1
+                      : page_ < kModelTab  ? page_ + 2
+                                           : page_ + 1;
   // Room below, so that the last chapters too can stand at the top.
   QTextFrame* frame = browser_->document()->rootFrame();
   QTextFrameFormat format = frame->frameFormat();

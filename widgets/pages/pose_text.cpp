@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "pages/page_tr.h"
 #include "report/stored_model.h"
+#include "style/html.h"
 #include "style/theme.h"
 #include "words/core_text.h"
 #include "words/total_note.h"
@@ -16,20 +17,6 @@ namespace {
 
 QString number(double value, int decimals) {
   return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
-}
-
-QString heading(const QString& text) {
-  return "<h4>" + text.toHtmlEscaped() + "</h4>";
-}
-
-// Right-aligned cells; the first one names the row.
-QString row(const QStringList& cells) {
-  QString out = "<tr>";
-  for (int k = 0; k < cells.size(); ++k) {
-    out += QString("<td align='%1' style='padding-right:10px'>%2</td>")
-               .arg(k == 0 ? "left" : "right", cells[k]);
-  }
-  return out + "</tr>";
 }
 
 QString quality_line(const CalibrationResult& result, const QPalette& palette) {
@@ -57,16 +44,16 @@ QString quality_line(const CalibrationResult& result, const QPalette& palette) {
 
 // Above every two columns of standard deviations.
 QString statistical_and_total() {
-  return row({"", "", tr("statistical"), tr("in total")});
+  return html_row({"", "", tr("statistical"), tr("in total")});
 }
 
 QString translation_table(const UncertainRigid3& pose, const UncertainRigid3& total) {
   QString out = "<table>" + statistical_and_total();
   const char* axes[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) {
-    out += row({axes[k], number(kMmPerM * pose.transform.translation(k), 2) + " mm",
-                "± " + number(kMmPerM * std::sqrt(pose.covariance(k, k)), 2) + " mm",
-                "± " + number(kMmPerM * std::sqrt(total.covariance(k, k)), 2) + " mm"});
+    out += html_row({axes[k], number(kMmPerM * pose.transform.translation(k), 2) + " mm",
+                     "± " + number(kMmPerM * std::sqrt(pose.covariance(k, k)), 2) + " mm",
+                     "± " + number(kMmPerM * std::sqrt(total.covariance(k, k)), 2) + " mm"});
   }
   return out + "</table>";
 }
@@ -81,22 +68,22 @@ QString rotation_table(const UncertainRigid3& pose, const UncertainRigid3& total
   };
   QString out = "<table>" + statistical_and_total();
   for (int k = 0; k < 3; ++k) {
-    out += row({names[k], number(kDegPerRad * turn.angles_rad(k), 4) + "°",
-                sigma(turn.sigmas_rad(k)), sigma(in_total.sigmas_rad(k))});
+    out += html_row({names[k], number(kDegPerRad * turn.angles_rad(k), 4) + "°",
+                     sigma(turn.sigmas_rad(k)), sigma(in_total.sigmas_rad(k))});
   }
   return out + "</table>";
 }
 
 // Of the perturbation in the camera frame: what the covariances of the result file say.
 QString camera_sigma_table(const UncertainRigid3& pose, const UncertainRigid3& total) {
-  QString out = "<table>" + row({"", tr("statistical"), "", tr("in total"), ""});
+  QString out = "<table>" + html_row({"", tr("statistical"), "", tr("in total"), ""});
   const char* axes[] = {"x", "y", "z"};
   const auto sigma = [](const UncertainRigid3& of, int k) {
     return number(1e3 * std::sqrt(of.covariance(k, k)), 3);
   };
   for (int k = 0; k < 3; ++k) {
-    out += row({axes[k], sigma(pose, k) + " mm", sigma(pose, k + 3) + " mrad",
-                sigma(total, k) + " mm", sigma(total, k + 3) + " mrad"});
+    out += html_row({axes[k], sigma(pose, k) + " mm", sigma(pose, k + 3) + " mrad",
+                     sigma(total, k) + " mm", sigma(total, k + 3) + " mrad"});
   }
   return out + "</table>";
 }
@@ -107,7 +94,7 @@ QString matrix_table(const Rigid3& pose) {
   for (int r = 0; r < 4; ++r) {
     QStringList cells{""};
     for (int c = 0; c < 4; ++c) cells.push_back(number(m(r, c), 6));
-    out += row(cells);
+    out += html_row(cells);
   }
   return out + "</table>";
 }
@@ -136,23 +123,23 @@ QString pose_html(const CalibrationResult& result, const QPalette& palette) {
   html += QStringLiteral("<p><b>%1</b> %2<br>%3</p>")
               .arg(tr("Model:").toHtmlEscaped(), core_text(use.model).toHtmlEscaped(),
                    core_text(use.clouds).toHtmlEscaped());
-  html += heading(tr("Translation (LiDAR origin in the camera frame)")) +
+  html += html_heading(tr("Translation (LiDAR origin in the camera frame)")) +
           translation_table(pose, total);
-  html += heading(tr("Roll, pitch, yaw (R = Rz·Ry·Rx)")) + rotation_table(pose, total);
+  html += html_heading(tr("Roll, pitch, yaw (R = Rz·Ry·Rx)")) + rotation_table(pose, total);
   html += "<p>" +
           (tr("Statistical: what the noise of these scenes leaves open.") + QLatin1Char(' ') +
            total_note(result))
               .toHtmlEscaped() +
           "</p>";
-  html += heading(tr("T_camera_lidar")) + matrix_table(pose.transform);
-  html += heading(tr("Quaternion x y z w")) + quaternion_line(pose.transform);
-  html +=
-      heading(tr("Standard deviations along the camera's axes")) + camera_sigma_table(pose, total);
-  html += heading(tr("Weak directions"));
+  html += html_heading(tr("T_camera_lidar")) + matrix_table(pose.transform);
+  html += html_heading(tr("Quaternion x y z w")) + quaternion_line(pose.transform);
+  html += html_heading(tr("Standard deviations along the camera's axes")) +
+          camera_sigma_table(pose, total);
+  html += html_heading(tr("Weak directions"));
   html += result.extrinsic.weak_directions.empty()
               ? "<p>" + tr("None: the scenes determine all six.") + "</p>"
               : list(result.extrinsic.weak_directions);
-  if (!result.warnings.empty()) html += heading(tr("Warnings")) + list(result.warnings);
+  if (!result.warnings.empty()) html += html_heading(tr("Warnings")) + list(result.warnings);
   return html;
 }
 

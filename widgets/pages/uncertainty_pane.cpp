@@ -22,7 +22,7 @@ UncertaintyPane::UncertaintyPane(QWidget* parent) : QWidget(parent) {
   text_->setWordWrapMode(QTextOption::WordWrap);  // Never within a word of a narrow column.
   auto* plots = new QSplitter(Qt::Horizontal, halves);
   plots->setChildrenCollapsible(false);
-  map_ = new UncertaintyMapPlot(plots);
+  map_ = new UncertaintyMapPlot(UncertaintyMapPlot::Of::kExtrinsic, plots);
   range_ = new UncertaintyRangePlot(plots);
   connect(map_->figureActions(), &FigureActions::failed, this, &UncertaintyPane::failed);
   connect(range_->figureActions(), &FigureActions::failed, this, &UncertaintyPane::failed);

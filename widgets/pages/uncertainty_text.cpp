@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pages/page_tr.h"
+#include "style/html.h"
 #include "style/theme.h"
 #include "words/core_text.h"
 
@@ -16,21 +17,8 @@ QString words(const std::string& text) {
   return QString::fromStdString(text).toHtmlEscaped();
 }
 
-QString heading(const QString& text) {
-  return "<h4>" + text.toHtmlEscaped() + "</h4>";
-}
-
 QString paragraph(const QString& html) {
   return "<p>" + html + "</p>";
-}
-
-QString row(const QStringList& cells, const char* tag = "td") {
-  QString out = "<tr>";
-  for (int k = 0; k < cells.size(); ++k) {
-    out += QString("<%1 align='%2' style='padding-right:14px'>%3</%1>")
-               .arg(QLatin1String(tag), k == 0 ? "left" : "right", cells[k]);
-  }
-  return out + "</tr>";
 }
 
 // Breaks between the two where it has to, not between a number and its unit.
@@ -58,18 +46,19 @@ QString weak_directions(const CalibrationResult& result) {
 QString split_halves(const UncertaintyReport& report, const StateColors& colors) {
   QString out;
   if (!report.splits.empty()) {
-    out += "<table>" + row({tr("Halves"), tr("scenes"), tr("difference"), tr("by noise alone"),
-                            tr("χ² (limit)"), QString()},
-                           "th");
+    out += "<table>" + html_row({tr("Halves"), tr("scenes"), tr("difference"), tr("by noise alone"),
+                                 tr("χ² (limit)"), QString()},
+                                "th");
     for (const SplitHalf& s : report.splits) {
       const QString verdict =
           s.agrees()
               ? QString("<span style='color:%1'>%2</span>").arg(colors.good.name(), tr("agree"))
               : QString("<b style='color:%1'>%2</b>").arg(colors.bad.name(), tr("disagree"));
-      out += row({core_text(s.name).toHtmlEscaped(), names(s.first) + " | " + names(s.second),
-                  pair(s.translation_mm, s.rotation_mrad),
-                  pair(s.expected_translation_mm, s.expected_rotation_mrad),
-                  QString("%1 (%2)").arg(s.chi_square, 0, 'f', 1).arg(s.gate, 0, 'f', 1), verdict});
+      out += html_row({core_text(s.name).toHtmlEscaped(), names(s.first) + " | " + names(s.second),
+                       pair(s.translation_mm, s.rotation_mrad),
+                       pair(s.expected_translation_mm, s.expected_rotation_mrad),
+                       QString("%1 (%2)").arg(s.chi_square, 0, 'f', 1).arg(s.gate, 0, 'f', 1),
+                       verdict});
     }
     out += "</table>";
   }
@@ -81,9 +70,9 @@ QString split_halves(const UncertaintyReport& report, const StateColors& colors)
 QString leave_one_out(const CalibrationResult& result) {
   const auto& list = result.extrinsic.leave_one_out;
   if (list.empty()) return paragraph(tr("Not enough scenes: three are needed."));
-  QString out = "<table>" + row({tr("Without"), tr("moves and turns by")}, "th");
+  QString out = "<table>" + html_row({tr("Without"), tr("moves and turns by")}, "th");
   for (const LeaveOneOut& l : list)
-    out += row({words(l.without), pair(l.translation_mm, l.rotation_mrad)});
+    out += html_row({words(l.without), pair(l.translation_mm, l.rotation_mrad)});
   return out + "</table>";
 }
 
@@ -92,33 +81,20 @@ QString by_range(const UncertaintyReport& report, const std::optional<Uncertaint
   const auto mm = [](double value) { return tr("%1 mm").arg(value, 0, 'f', 2); };
   QStringList titles = {tr("Range"), tr("across the ray"), tr("along it")};
   if (both) titles << tr("across, total") << tr("along, total");
-  QString out = "<table>" + row(titles, "th");
+  QString out = "<table>" + html_row(titles, "th");
   for (std::size_t k = 0; k < report.by_range.size(); ++k) {
     const RangeUncertainty& r = report.by_range[k];
     QStringList cells = {tr("%1 m").arg(r.range_m), mm(r.across_mm), mm(r.along_mm)};
     if (both) cells << mm(total->by_range[k].across_mm) << mm(total->by_range[k].along_mm);
-    out += row(cells);
+    out += html_row(cells);
   }
   return out + "</table>";
-}
-
-// The best and the worst place of the image; nothing where no ray is seen.
-std::optional<std::pair<double, double>> reach_of(const ProjectedUncertainty& map) {
-  double low = HUGE_VAL;
-  double high = 0.0;
-  for (const double sigma : map.sigma_px) {
-    if (!std::isfinite(sigma)) continue;
-    low = std::min(low, sigma);
-    high = std::max(high, sigma);
-  }
-  if (low > high) return std::nullopt;
-  return std::pair(low, high);
 }
 
 QString over_image(const UncertaintyReport& report, const std::optional<UncertaintyReport>& total) {
   QString out;
   for (std::size_t k = 0; k < report.maps.size(); ++k) {
-    const auto noise = reach_of(report.maps[k]);
+    const auto noise = report.maps[k].reach_px();
     if (!noise) continue;
     QString text =
         tr("A LiDAR point at %1 m falls into the image with a standard deviation of %2 px where "
@@ -126,7 +102,7 @@ QString over_image(const UncertaintyReport& report, const std::optional<Uncertai
             .arg(report.maps[k].range_m)
             .arg(noise->first, 0, 'f', 3)
             .arg(noise->second, 0, 'f', 3);
-    const auto all = total && k < total->maps.size() ? reach_of(total->maps[k]) : std::nullopt;
+    const auto all = total && k < total->maps.size() ? total->maps[k].reach_px() : std::nullopt;
     if (all)
       text +=
           QLatin1Char(' ') +
@@ -146,13 +122,13 @@ std::optional<UncertaintyReport> total_report(const CalibrationResult& result) {
 
 QString uncertainty_html(const CalibrationResult& result, const QPalette& palette) {
   const UncertaintyReport& report = result.uncertainty;
-  QString html = heading(tr("Weak directions")) + weak_directions(result);
-  html += heading(tr("Halves of the scenes against each other")) +
+  QString html = html_heading(tr("Weak directions")) + weak_directions(result);
+  html += html_heading(tr("Halves of the scenes against each other")) +
           split_halves(report, state_colors(palette));
-  html += heading(tr("Leaving one scene out")) + leave_one_out(result);
+  html += html_heading(tr("Leaving one scene out")) + leave_one_out(result);
   if (!report.by_range.empty()) {
     const std::optional<UncertaintyReport> total = total_report(result);
-    html += heading(tr("In the camera's view, one standard deviation")) +
+    html += html_heading(tr("In the camera's view, one standard deviation")) +
             over_image(report, total) + by_range(report, total);
   }
   return html;

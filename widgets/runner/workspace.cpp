@@ -366,6 +366,18 @@ Status Workspace::take_new_scenes(const QStringList& folders) {
   return Done{};
 }
 
+Status Workspace::reread() {
+  auto opened = open_project_dataset(project());
+  if (!opened) return opened.error();
+  if (opened->dataset_moved) return Done{};
+  dataset_ = std::move(opened->dataset);
+  up_to_date_ = false;
+  Q_EMIT logged(tr("The dataset was read again"));
+  Q_EMIT decisions_changed();
+  if (state_.latest) bring_up_to_date();
+  return Done{};
+}
+
 void Workspace::decide(DecisionCommand::Words words, Decisions after, const QString& merge_key) {
   undo_.push(new DecisionCommand([this](const Decisions& d) { apply(d); }, decisions_,
                                  std::move(after), std::move(words), merge_key));

@@ -93,6 +93,10 @@ class Workspace : public QObject {
   /// comes before. Errors as add_scenes() of the session; nothing is taken then.
   Status take_new_scenes(const QStringList& folders);
 
+  /// Reads what is open again from disk: images or camera.yaml have changed there. No decision, and
+  /// a result is brought up to date. Errors as open_dataset(); all stays as it is then.
+  Status reread();
+
   /// Runs what is not up to date.
   void run();
   /// Runs all stages of these scenes again.

@@ -31,9 +31,10 @@ QSharedPointer<QCPAxisTickerLog> decades() {
 
 }  // namespace
 
-UncertaintyMapPlot::UncertaintyMapPlot(QWidget* parent) : PlotView(parent) {
-  setObjectName("uncertainty-map");
-  figureActions()->setName("uncertainty-map");
+UncertaintyMapPlot::UncertaintyMapPlot(Of of, QWidget* parent) : PlotView(parent), of_(of) {
+  const char* name = of == Of::kExtrinsic ? "uncertainty-map" : "camera-uncertainty";
+  setObjectName(name);
+  figureActions()->setName(name);
   yAxis->setRangeReversed(true);
   scale_ = new QCPColorScale(this);
   scale_->setType(QCPAxis::atRight);
@@ -47,11 +48,17 @@ UncertaintyMapPlot::UncertaintyMapPlot(QWidget* parent) : PlotView(parent) {
   follow_language(this, [this] {
     xAxis->setLabel(tr("image u (px)"));
     yAxis->setLabel(tr("image v (px)"));
-    scale_->axis()->setLabel(tr("standard deviation by noise (px)"));
+    const bool extrinsic = of_ == Of::kExtrinsic;
+    scale_->axis()->setLabel(extrinsic ? tr("standard deviation by noise (px)")
+                                       : tr("standard deviation (px)"));
     setToolTip(
-        tr("Where in the image a LiDAR point falls is known to one standard deviation of so many "
-           "pixels, by the noise of these scenes alone. Where the colour is bright, take a "
-           "scene with the board there."));
+        !extrinsic
+            ? tr("Where in the image a direction falls is known to one standard deviation of so "
+                 "many pixels. Where the colour is bright, take images with the board there.")
+            : tr("Where in the image a LiDAR point falls is known to one standard deviation of so "
+                 "many "
+                 "pixels, by the noise of these scenes alone. Where the colour is bright, take a "
+                 "scene with the board there."));
   });
   connect(this, &QCustomPlot::afterLayout, this, [this] {
     if (axisRect()->size() == fitted_to_) return;
@@ -136,7 +143,9 @@ void UncertaintyMapPlot::rebuild() {
                       csv_number(map_->sigma_px[k])});
     }
   } else {
-    showMessage(tr("no result yet"));
+    showMessage(of_ == Of::kExtrinsic || image_px_.isEmpty()
+                    ? tr("no result yet")
+                    : tr("the intrinsics are taken as given, without standard deviations"));
   }
   setTable({"u_px", "v_px", "sigma_px"}, std::move(rows));
   replot(rpQueuedReplot);

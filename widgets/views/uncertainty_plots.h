@@ -9,12 +9,14 @@
 
 namespace lvcalib::widgets {
 
-/// One standard deviation (px) of the pixel that a LiDAR point falls into, over the image.
+/// One standard deviation (px), over the image, of the pixel that a LiDAR point falls into by the
+/// extrinsic's uncertainty, or that a direction falls into by the intrinsics'.
 class UncertaintyMapPlot : public PlotView {
   Q_OBJECT
 
  public:
-  explicit UncertaintyMapPlot(QWidget* parent = nullptr);
+  enum class Of { kExtrinsic, kIntrinsics };
+  explicit UncertaintyMapPlot(Of of, QWidget* parent = nullptr);
 
   /// Shows a map of an image of this size; nothing: says that there is none.
   void setMap(std::optional<ProjectedUncertainty> map, const QSize& image_px);
@@ -27,6 +29,7 @@ class UncertaintyMapPlot : public PlotView {
   void drawCells(const ProjectedUncertainty& map);
   void styleScale();
 
+  Of of_;
   std::optional<ProjectedUncertainty> map_;
   QSize image_px_;
   QSize fitted_to_;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "pipeline/camera_figures.h"
 #include "support/simulated_dataset.h"
 #include "support/synthetic_observations.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
@@ -240,6 +242,68 @@ TEST(CalibrateCamera, RefusesImagesOfTwoSizesAndNone) {
   EXPECT_EQ(result.error().kind, ErrorKind::kInput);
   EXPECT_EQ(result.error().where, "image3.png");
   EXPECT_EQ(calibrate_camera(std::vector<BoardImage>{}, {}, {}).error().kind, ErrorKind::kInput);
+}
+
+// The field of residuals and the map of directions, over many sets of images: the map must say how
+// far directions scatter from set to set.
+TEST(CameraFigures, DirectionsFallAsFarAsideAsTheMapSays) {
+  const Camera truth = camera_of(DistortionModel::kPlumbBob);
+  CameraCalibrationOptions options;
+  options.model = DistortionModel::kPlumbBob;
+  std::vector<double> whitened;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    const CameraCalibration made = calibrated(images_of(truth, {}, seed), options);
+    const CameraFigures figures = camera_figures(made);
+    ASSERT_EQ(figures.images.size(), made.images.size());
+    std::size_t corners = 0;
+    for (const CameraFigures::Image& image : figures.images) corners += image.corners;
+    EXPECT_EQ(figures.corners.size(), 2 * corners);
+    for (std::size_t k = 0; k < figures.projection.pixel.size(); k += 31) {
+      const auto there = made.camera.unproject(figures.projection.pixel[k]);
+      ASSERT_TRUE(there.has_value());
+      const double miss = (*truth.project(*there) - figures.projection.pixel[k]).norm();
+      whitened.push_back(std::pow(miss / figures.projection.sigma_px[k], 2));
+    }
+  }
+  // One on average; 25 sets of about four free numbers each: known to 14 %.
+  double mean = 0.0;
+  for (const double w : whitened) mean += w / static_cast<double>(whitened.size());
+  EXPECT_GT(mean, 0.6);
+  EXPECT_LT(mean, 1.5);
+}
+
+TEST(CameraFigures, ResidualsAreThoseOfTheImages) {
+  const Camera truth = camera_of(DistortionModel::kPlumbBob);
+  auto images = images_of(truth, {}, 5);
+  images.push_back(images.front());
+  images.back().path = "again.png";
+  const CameraCalibration made = calibrated(std::move(images));
+  const CameraFigures figures = camera_figures(made);
+  const CameraFigures::Image& again = figures.images.back();
+  EXPECT_EQ(again.corners, 0U);
+  EXPECT_THAT(again.reason.text(), HasSubstr("counts once"));
+  double squares = 0.0;
+  std::size_t corners = 0;
+  for (const CameraFigures::Image& image : figures.images) {
+    squares += static_cast<double>(image.corners) * image.rms_px * image.rms_px;
+    corners += image.corners;
+  }
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(corners)), made.rms_px, 1e-6);
+  double sum = 0.0;
+  for (const float v : figures.corners.value)
+    sum += static_cast<double>(v) * static_cast<double>(v);
+  EXPECT_NEAR(std::sqrt(sum / static_cast<double>(corners)), made.rms_px, 1e-4);
+  EXPECT_TRUE(figures.corners.find("image x") != nullptr);
+}
+
+TEST(CameraFigures, PartsOfTheImageThatNoCornerReached) {
+  Camera camera = camera_of(DistortionModel::kPlumbBob);
+  camera.width_px = 300;
+  camera.height_px = 90;
+  const auto parts = unreached_parts({{10, 10}, {150, 10}, {290, 10}, {10, 45}, {150, 45}}, camera);
+  std::vector<std::string> names;
+  for (const Message& part : parts) names.push_back(part.text());
+  EXPECT_THAT(names, ElementsAre("right", "bottom left", "bottom", "bottom right"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/file_io.h"
 #include "support/pose_matchers.h"
 #include "support/synthetic_observations.h"
 #include "support/temporary_folder.h"
@@ -73,6 +74,37 @@ TEST_F(DatasetTest, ListsImagesForTheCameraAlone) {
   EXPECT_EQ(folder->images.size(), 4U);
   EXPECT_THAT(find_camera_images(path() / "scenes/B/cloud.pcd").error().text(),
               HasSubstr("folder not found"));
+}
+
+TEST_F(DatasetTest, ImagesForTheCameraAreCopiedAllOrNone) {
+  auto dataset = open_dataset(path());
+  ASSERT_TRUE(dataset.ok()) << dataset.error().text();
+  const fs::path a = folder_.write("pictures/a.png", "first");
+  const fs::path b = folder_.write("pictures/b.jpg", "second");
+  ASSERT_TRUE(add_camera_images(*dataset, {a, b}).ok());
+  ASSERT_EQ(dataset->camera_images.size(), 2U);
+  EXPECT_EQ(dataset->camera_images, open_dataset(path())->camera_images);
+  EXPECT_EQ(*read_text_file(path() / "intrinsics/b.jpg", 100), "second");
+  // The same once more is no error, and changes nothing.
+  const auto before = fs::last_write_time(path() / "intrinsics/a.png");
+  ASSERT_TRUE(add_camera_images(*dataset, {a}).ok());
+  EXPECT_EQ(dataset->camera_images.size(), 2U);
+  EXPECT_EQ(fs::last_write_time(path() / "intrinsics/a.png"), before);
+  // What cannot be taken leaves all as it is.
+  const fs::path c = folder_.write("pictures/c.png", "third");
+  const fs::path other = folder_.write("elsewhere/a.png", "another");
+  const auto refused = [&](const std::vector<fs::path>& images, const char* why) {
+    const Status s = add_camera_images(*dataset, images);
+    ASSERT_FALSE(s.ok()) << why;
+    EXPECT_THAT(s.error().text(), HasSubstr(why));
+    EXPECT_FALSE(fs::exists(path() / "intrinsics/c.png")) << why;
+    EXPECT_EQ(*read_text_file(path() / "intrinsics/a.png", 100), "first");
+    EXPECT_EQ(dataset->camera_images.size(), 2U);
+  };
+  refused({c, other}, "another image of this name");
+  refused({c, folder_.write("elsewhere/c.png", "no copy of it")}, "another image of this name");
+  refused({c, folder_.write("pictures/notes.txt", "")}, "not an image");
+  refused({c, folder_.path() / "pictures/none.png"}, "none.png");
 }
 
 TEST_F(DatasetTest, MissingTarget) {

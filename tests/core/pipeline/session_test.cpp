@@ -117,6 +117,25 @@ TEST_F(Session, AChangedOptionRunsItsStageAndLaterOnesAsCalibrateWould) {
   }
 }
 
+// As when images are added for the camera, or camera.yaml is replaced, while the dataset is open.
+TEST_F(Session, AnotherCameraOrMoreImagesOfItAreNoSolveAlone) {
+  const auto runs_whole = [](const Dataset& dataset) {
+    const SessionRun run = run_session(dataset, {}, first_.state, {});
+    EXPECT_FALSE(run.error) << run.error->text();
+    return !run.solved_only;
+  };
+  EXPECT_FALSE(runs_whole(dataset_));
+  Dataset other = dataset_;
+  other.camera_images.push_back(dataset_.scenes[0].image);
+  EXPECT_TRUE(runs_whole(other));
+  other = dataset_;
+  other.camera.cx += 0.1;
+  EXPECT_TRUE(runs_whole(other));
+  other = dataset_;
+  other.camera_deviations = CameraDeviations::Constant(0.01);
+  EXPECT_TRUE(runs_whole(other));
+}
+
 TEST_F(Session, ACropBoxRunsThatSceneAlone) {
   const RefinedNode& node = first_.state.latest->scenes[2].refinement->nodes[4];
   Decisions decisions;

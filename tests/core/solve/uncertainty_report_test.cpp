@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/uncertainty_report.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "base/statistics.h"
+#include "solve/intrinsics_fit.h"
 #include "support/synthetic_observations.h"
 
 namespace lvcalib {
@@ -131,6 +135,39 @@ TEST_F(Uncertainty, TheMapCoversTheImageAndGrowsWithRange) {
   for (const double sigma : map.sigma_px) EXPECT_GT(sigma, 0.0);
   for (std::size_t k = 1; k < report.by_range.size(); ++k)
     EXPECT_GT(report.by_range[k].across_mm, report.by_range[k - 1].across_mm);
+}
+
+// Against intrinsics that are drawn from the covariance.
+TEST_F(Uncertainty, DirectionsScatterOverTheImageAsTheIntrinsicsDo) {
+  Random random(11);
+  Eigen::Matrix<double, 12, 12> root = Eigen::Matrix<double, 12, 12>::Zero();
+  // fx, fy, cx, cy, k1, k2: correlated, so that no entry alone decides.
+  const std::array scale = {0.8, 0.7, 0.5, 0.6, 4e-3, 8e-3};
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j)
+      root(i, j) = scale[static_cast<std::size_t>(i)] * (i == j ? 1.0 : 0.4);
+  }
+  const ProjectedUncertainty map = project_intrinsics(camera_, root * root.transpose(), 5);
+  ASSERT_EQ(map.columns, 5);
+  ASSERT_EQ(map.pixel.size(), static_cast<std::size_t>(map.columns * map.rows));
+  constexpr int kDraws = 2000;
+  std::vector<double> squares(map.pixel.size(), 0.0);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Eigen::Matrix<double, 12, 1> normal;
+    for (double& n : normal) n = random.normal();
+    const Camera other = with_intrinsics(camera_, intrinsics_of(camera_) + root * normal);
+    for (std::size_t k = 0; k < squares.size(); ++k)
+      squares[k] += (*other.project(*camera_.unproject(map.pixel[k])) - map.pixel[k]).squaredNorm();
+  }
+  // A variance of 2000 draws of two coordinates is known to 3 % of itself, its root to half that:
+  // four of those.
+  for (std::size_t k = 0; k < squares.size(); ++k)
+    EXPECT_NEAR(std::sqrt(squares[k] / kDraws) / map.sigma_px[k], 1.0, 0.07) << map.pixel[k];
+  const auto reach = map.reach_px();
+  ASSERT_TRUE(reach.has_value());
+  EXPECT_EQ(reach->first, *std::min_element(map.sigma_px.begin(), map.sigma_px.end()));
+  EXPECT_EQ(reach->second, *std::max_element(map.sigma_px.begin(), map.sigma_px.end()));
+  EXPECT_FALSE(ProjectedUncertainty{}.reach_px().has_value());
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ TEST(GuideDialog, LeadsFromTheBoardToTheResultAndCloses) {
 
 // Each page's chapter begins at the top of what is in view.
 TEST(GuideDialog, OpensAtThePageInView) {
-  const char* titles[] = {"From the board", "Scene",    "Refinement",
-                          "Extrinsic",      "Boundary", "Model"};
-  for (int page = -1; page < 5; ++page) {
+  const char* titles[] = {"From the board", "Scene", "Refinement", "Extrinsic",
+                          "Boundary",       "Model", "Camera"};
+  for (int page = -1; page < 6; ++page) {
     GuideDialog dialog(page, nullptr);
     dialog.setAttribute(Qt::WA_DeleteOnClose, false);
     dialog.resize(600, 300);

@@ -103,5 +103,21 @@ TEST_F(WorkspaceTest, SavingMakesCleanAndUndoingThenMakesDirty) {
   EXPECT_TRUE(workspace_->dirty());
 }
 
+TEST_F(WorkspaceTest, WhatHasChangedOnDiskIsReadAgain) {
+  workspace_->set_use({"A"}, false);
+  const QString path = folder_.filePath("d");
+  ASSERT_TRUE(QDir(path).mkdir("intrinsics"));
+  ASSERT_TRUE(QFile::copy(path + "/scenes/A/image.png", path + "/intrinsics/more.png"));
+  ASSERT_TRUE(workspace_->reread().ok());
+  EXPECT_EQ(workspace_->dataset().camera_images.size(), 1U);
+  EXPECT_FALSE(decision_of(decisions(), "A").use) << "decisions stay";
+  EXPECT_FALSE(workspace_->up_to_date());
+  // What cannot be read leaves all as it was.
+  ASSERT_TRUE(QFile::remove(path + "/camera.yaml"));
+  const Status failed = workspace_->reread();
+  ASSERT_FALSE(failed.ok());
+  EXPECT_EQ(workspace_->dataset().camera_images.size(), 1U);
+}
+
 }  // namespace
 }  // namespace lvcalib::widgets::workspace_test

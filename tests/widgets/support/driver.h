@@ -77,6 +77,8 @@ class Answers : public widgets::Choices {
   QString dataset_to_open(QWidget*, const QString&) override { return dataset; }
   QString project_to_open(QWidget*, const QString&) override { return project; }
   QString project_to_save(QWidget*, const QString&) override { return save_as; }
+  QStringList images;
+  QStringList images_to_add(QWidget*, const QString&) override { return images; }
   QStringList scenes_to_add(QWidget*, const QString&) override { return scenes; }
   QString file_to_export(QWidget*, const QString&, const QString&) override { return export_to; }
   QString transform_to_open(QWidget*, const QString&) override { return transform; }

@@ -52,7 +52,7 @@ TEST(PageStack, LiveRefinementsOfAnyKindAreTakenWithoutHarm) {
   stack.show();
   stack.show_pages();
   stack.show_tab(1);
-  stack.start(Target{});
+  stack.start(Dataset{});
   stack.set_scene(0, std::nullopt);
   stack.show_board_points(0, std::make_shared<const Cloud>());
   for (const int scene : {0, 1, -1})

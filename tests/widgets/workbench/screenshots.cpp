@@ -20,6 +20,7 @@
 #include <cstdio>
 
 #include "importing/stretch_list.h"
+#include "intrinsics/camera_page.h"
 #include "modelling/residual_plot.h"
 #include "pipeline/refusals.h"
 #include "report/result_file.h"
@@ -72,7 +73,7 @@ void choose(const widgets::MainWindow& window, const char* what, const QString& 
 void photograph_pages(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
   const QStringList names = {QStringLiteral("scene"), QStringLiteral("refinement"),
                              QStringLiteral("extrinsic"), QStringLiteral("response"),
-                             QStringLiteral("model")};
+                             QStringLiteral("model"), QStringLiteral("camera-page")};
   auto* tabs = test::find<QTabWidget>(window, "pages");
   for (int tab = 0; tab < tabs->count(); ++tab) {
     tabs->setCurrentIndex(tab);
@@ -91,6 +92,14 @@ void photograph_pages(widgets::MainWindow& window, Photographer& camera, const Q
       camera.take(QStringLiteral("%1-%2-%3").arg(name).arg(k + 1).arg(theme));
     }
     if (inner != nullptr) inner->setCurrentIndex(0);
+    auto* page = qobject_cast<widgets::CameraPage*>(tabs->currentWidget());
+    if (page == nullptr) continue;
+    test::find<QPushButton>(*page, "camera_calibrate")->click();
+    test::wait_until([page] { return page->calibration() && !page->busy(); }, 60'000);
+    camera.take(QStringLiteral("camera-page-alone-") + theme);
+    inner->setCurrentIndex(1);
+    camera.take(QStringLiteral("camera-page-alone-2-") + theme);
+    inner->setCurrentIndex(0);
   }
 }
 
