@@ -51,6 +51,7 @@ WIDGET_DOORS = {
     "pages": ["words", "style", "views"],
     "modelling": ["words", "style", "views", "runner"],
     "dialogs": ["words", "style", "runner"],
+    "intrinsics": ["words", "style", "views", "pages", "runner", "modelling", "dialogs"],
     "tools": ["words", "style", "views", "runner", "modelling", "dialogs"],
     "importing": ["words", "style", "runner", "dialogs", "tools"],
     "docks": ["words", "style", "models"],

@@ -71,9 +71,9 @@ void choose(const widgets::MainWindow& window, const char* what, const QString& 
 }
 
 void photograph_pages(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
-  const QStringList names = {QStringLiteral("scene"), QStringLiteral("refinement"),
+  const QStringList names = {QStringLiteral("scene"),     QStringLiteral("refinement"),
                              QStringLiteral("extrinsic"), QStringLiteral("response"),
-                             QStringLiteral("model"), QStringLiteral("camera-page")};
+                             QStringLiteral("model"),     QStringLiteral("camera-page")};
   auto* tabs = test::find<QTabWidget>(window, "pages");
   for (int tab = 0; tab < tabs->count(); ++tab) {
     tabs->setCurrentIndex(tab);
