@@ -88,7 +88,7 @@ class ShotSimulator {
     if (planted_.range.active()) {
       error += planted_.range.error_m({hit.range_m, hit.power, hit.cos_incidence,
                                        std::atan2(shot.direction.y(), shot.direction.x()),
-                                       clock_s_ + shot.time_s, shot.line});
+                                       clock_s_ + shot.time_s, shot.time_s, shot.line});
     }
     if (radiometry.saturates()) error += radiometry.saturation_error_m(hit.power);
     if (error != 0.0) hit.range_m += error;

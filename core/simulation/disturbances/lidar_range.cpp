@@ -36,6 +36,7 @@ RangeDisturbance::RangeDisturbance(EffectPlan& plan, int lines)
       cyclic_m_(plan.si("range_cyclic")),
       near_m_(plan.si("range_near")),
       warmup_m_(plan.si("range_warmup")),
+      drift_m_(plan.si("range_drift")),
       ripple_m_(plan.si("x_azimuth_ripple")) {
   const double white = lead(power_at_reference(PrintedBoard::kWhite));
   const double black = lead(power_at_reference(PrintedBoard::kBlack));
@@ -54,6 +55,7 @@ RangeDisturbance::RangeDisturbance(EffectPlan& plan, int lines)
   plan.note("range_near", "decay_m", kNearRange);
   plan.note("range_warmup", "time_constants_s", {60.0, 240.0});
   plan.note("range_warmup", "scene_interval_s", kSceneIntervalS);
+  plan.note("range_drift", "time_constants_s", {0.2, 0.8});
   Random random = plan.random("channel_range_offset");
   line_m_ = plan.per_line("channel_range_offset", "line_mm", plan.si("channel_range_offset"), 1e-3,
                           lines, random);
@@ -64,8 +66,8 @@ RangeDisturbance::RangeDisturbance(EffectPlan& plan, int lines)
   plan.note("x_azimuth_ripple", "periods_per_turn", ripple_periods_);
   plan.note("x_azimuth_ripple", "phase_rad", ripple_phase_rad_);
   active_ = offset_m_ != 0.0 || scale_ != 0.0 || walk_width_m_ != 0.0 || incidence_m_ != 0.0 ||
-            cyclic_m_ != 0.0 || near_m_ != 0.0 || warmup_m_ != 0.0 || ripple_m_ != 0.0 ||
-            plan.si("channel_range_offset") != 0.0;
+            cyclic_m_ != 0.0 || near_m_ != 0.0 || warmup_m_ != 0.0 || drift_m_ != 0.0 ||
+            ripple_m_ != 0.0 || plan.si("channel_range_offset") != 0.0;
 }
 
 double RangeDisturbance::walk_m(double power) const {
@@ -81,6 +83,10 @@ double RangeDisturbance::warmup_m(double clock_s) const {
   return warmup_m_ * (0.7 * std::exp(-clock_s / 60.0) + 0.3 * std::exp(-clock_s / 240.0));
 }
 
+double RangeDisturbance::drift_m(double time_s) const {
+  return drift_m_ * (1.0 - 0.7 * std::exp(-time_s / 0.2) - 0.3 * std::exp(-time_s / 0.8));
+}
+
 double RangeDisturbance::error_m(const RangeConditions& shot) const {
   double error = offset_m_ + scale_ * shot.range_m;
   if (walk_width_m_ != 0.0) error += walk_m(shot.power);
@@ -90,6 +96,7 @@ double RangeDisturbance::error_m(const RangeConditions& shot) const {
   if (cyclic_m_ != 0.0) error += cyclic_m(shot.range_m);
   if (near_m_ != 0.0) error += near_m_ * std::exp(-shot.range_m / kNearRange);
   if (warmup_m_ != 0.0) error += warmup_m(shot.clock_s);
+  if (drift_m_ != 0.0) error += drift_m(shot.time_s);
   if (!line_m_.empty()) error += line_m_[shot.line];
   if (ripple_m_ != 0.0) {
     error += ripple_m_ * std::sin(ripple_periods_ * shot.azimuth_rad + ripple_phase_rad_);

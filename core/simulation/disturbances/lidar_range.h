@@ -15,6 +15,7 @@ struct RangeConditions {
   double cos_incidence = 1.0;
   double azimuth_rad = 0.0;  ///< Reported.
   double clock_s = 0.0;      ///< Since the device was switched on.
+  double time_s = 0.0;       ///< Since the scan started.
   std::uint16_t line = 0;
 };
 
@@ -26,6 +27,7 @@ struct RangeConditions {
 /// is an eighth of black's power there.
 /// Cyclic: crosstalk at the modulation frequency, with 15 % of its second harmonic.
 /// Warm-up: electronics and housing settle with time constants of 60 s and 240 s, 70 : 30.
+/// Drift: the laser is switched on for every scan and settles with 0.2 s and 0.8 s, 70 : 30.
 class RangeDisturbance {
  public:
   /// Time between the starts of two scenes.
@@ -43,6 +45,7 @@ class RangeDisturbance {
   [[nodiscard]] double walk_m(double power) const;
   [[nodiscard]] double cyclic_m(double range_m) const;
   [[nodiscard]] double warmup_m(double clock_s) const;
+  [[nodiscard]] double drift_m(double time_s) const;
 
   bool active_ = false;
   double offset_m_ = 0.0;
@@ -55,6 +58,7 @@ class RangeDisturbance {
   double second_phase_rad_ = 0.0;
   double near_m_ = 0.0;
   double warmup_m_ = 0.0;
+  double drift_m_ = 0.0;
   std::vector<double> line_m_;
   double ripple_m_ = 0.0;
   double ripple_periods_ = 0.0;

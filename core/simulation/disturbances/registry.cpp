@@ -24,6 +24,8 @@ std::vector<Disturbance> lidar_disturbances() {
        "range error at range 0, decaying with range over 1.5 m"},
       {"range_warmup", "mm", -100, 100, 10, false,
        "range error when the first scene starts, decaying as the device warms up"},
+      {"range_drift", "mm", -200, 200, 20, false,
+       "range error that every scan would settle to, growing anew from its start"},
       {"channel_range_offset", "mm", 0, 100, 10, true,
        "RMS of a range offset that every line has of its own"},
       {"boundary_range_pull", "1", 0, 10, 3, false,
