@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,28 @@
 
 namespace lvcalib {
 
+/// Faults that every device has some of, however good: what a solve that lacks them leaves out.
+/// Their values are the columns of FaultMoves.
+enum class DeviceFault {
+  kRangeOffset,         ///< Of all ranges (m).
+  kRangeScale,          ///< Of all ranges.
+  kAzimuthScale,        ///< Of the azimuth,
+  kElevationScale,      ///< of the elevation.
+  kEccentricitySine,    ///< An eccentric encoder, by sin az (rad),
+  kEccentricityCosine,  ///< by cos az (rad).
+  kAxisTilt,            ///< By sin el (rad).
+  kOriginAcross,        ///< Beams start beside the frame's origin: across (m),
+  kOriginUp,            ///< upwards (m).
+};
+inline constexpr int kDeviceFaults = 9;
+/// What of a device they are faults of: ranges, angles or the beams' origin.
+enum class FaultKind { kRange, kAngle, kOrigin };
+constexpr FaultKind kind_of(DeviceFault fault) {
+  return fault <= DeviceFault::kRangeScale ? FaultKind::kRange
+         : fault <= DeviceFault::kAxisTilt ? FaultKind::kAngle
+                                           : FaultKind::kOrigin;
+}
+
 /// One linear coefficient of an effect. Values are in SI units (m, rad, s, px, 1).
 struct EffectParameter {
   std::string name;
@@ -21,6 +44,8 @@ struct EffectParameter {
   double material = 0.0;     ///< Size (SI) that planned scenes shall show; no verdict asks it.
   double prior_sigma = 0.0;  ///< Standard deviation (SI) of what is believable.
   double lowest = -std::numeric_limits<double>::infinity();  ///< No device has less (SI).
+  /// Its usual size is in LeftOutSizes. It depends on the beam alone.
+  std::optional<DeviceFault> device_fault = std::nullopt;
 };
 
 /// What an effect needs besides the channels it acts on.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <map>
 
 #include <Eigen/Cholesky>
@@ -65,18 +64,24 @@ BudgetItem item_of(const EffectColumns& columns, const Candidate& candidate) {
 
 // The faults that a calibration's total uncertainty holds: those that the data are asked for
 // (angles, origin, intrinsics), then ranges.
-std::vector<EffectSearch::LeftOutGroup> left_out_effects(const LeftOutSizes& sizes) {
-  const auto of = [](const char* id, std::initializer_list<double> sigma) {
-    Eigen::VectorXd out(static_cast<Eigen::Index>(sigma.size()));
-    std::copy(sigma.begin(), sigma.end(), out.begin());
-    return EffectSearch::LeftOut{find_effect(id), out};
-  };
-  return {{of("angle_scale", {sizes.angle_scale, sizes.angle_scale}),
-           of("encoder_eccentricity", {sizes.eccentricity_rad, sizes.eccentricity_rad}),
-           of("axis_wobble", {0.0, sizes.axis_tilt_rad})},
-          {of("beam_origin_offset", {sizes.origin_m, sizes.origin_m})},
-          {{camera_intrinsics(), sizes.intrinsics}},
-          {of("range_offset", {sizes.range_offset_m}), of("range_scale", {sizes.range_scale})}};
+std::vector<EffectSearch::LeftOutGroup> left_out_effects(const MeasurementTable& table,
+                                                         const LeftOutSizes& sizes) {
+  const auto of_the_lidar = sizes.of_the_lidar();
+  EffectSearch::LeftOutGroup ranges, angles, origin;
+  for (const EffectPtr& effect : effect_catalogue()) {
+    EffectSearch::LeftOutGroup* group = nullptr;
+    const auto parameters = effect->parameters(table);
+    Eigen::VectorXd sigma = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      if (!parameters[k].device_fault) continue;
+      const DeviceFault fault = *parameters[k].device_fault;
+      sigma(static_cast<Eigen::Index>(k)) = of_the_lidar(static_cast<Eigen::Index>(fault));
+      const FaultKind kind = kind_of(fault);
+      group = kind == FaultKind::kRange ? &ranges : kind == FaultKind::kAngle ? &angles : &origin;
+    }
+    if (group != nullptr) group->push_back({effect, sigma});
+  }
+  return {angles, origin, {{camera_intrinsics(), sizes.intrinsics}}, ranges};
 }
 
 }  // namespace
@@ -85,7 +90,7 @@ std::optional<Matrix6d> total_covariance(const EffectSearch& search, const Matri
                                          const LeftOutSizes& sizes) {
   constexpr std::size_t kAsked = 3;  // Groups, from the first on.
   const ModelFit& fit = search.reference().fit;
-  const auto with = search.fits_with(left_out_effects(sizes));
+  const auto with = search.fits_with(left_out_effects(search.table(), sizes));
   if (with.empty()) return std::nullopt;
   // Estimation with more unknowns cannot be better; rounding may say so.
   Matrix6d more = without_negative_axes<6>(with.front().covariance.topLeftCorner<6, 6>() -

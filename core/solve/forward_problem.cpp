@@ -5,10 +5,12 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "model/device_faults.h"
 #include "model/linear_model.h"
 #include "model/scan_velocity.h"
 #include "solve/surface_noise.h"
@@ -186,21 +188,6 @@ struct Accumulator {
   }
 };
 
-// By how much one unit of each fault of angles and origin moves the reported direction of a point,
-// horizontally and vertically (rad).
-Eigen::Matrix<double, 2, kAngleFaults + kOriginFaults> direction_faults(
-    const Eigen::Vector3d& point_m) {
-  const double range = point_m.norm();
-  const double azimuth = std::atan2(point_m.y(), point_m.x());
-  const double sine = point_m.z() / range;
-  const double cosine = point_m.head<2>().norm() / range;
-  Eigen::Matrix<double, 2, kAngleFaults + kOriginFaults> out;
-  out << azimuth * cosine, 0.0, std::sin(azimuth) * cosine, std::cos(azimuth) * cosine, sine,
-      1.0 / range, 0.0,  //
-      0.0, std::asin(sine), 0.0, 0.0, 0.0, 0.0, 1.0 / range;
-  return out;
-}
-
 class LidarRows {
  public:
   LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
@@ -221,6 +208,7 @@ class LidarRows {
         has_intensity_(returns.has_intensity),
         range_z(returns.size(), kUnused),
         intensity_z(returns.size(), kUnused) {
+    if (options.faults) faults_.emplace();
     if (options.faults && has_intensity_ && returns.size() > 0)
       scan_rad_s_ = scan_velocities(*returns.cloud);
     if (layout.sensor < 0) return;
@@ -245,13 +233,15 @@ class LidarRows {
       LocalPrint* const seen = seen_ != nullptr ? &(*seen_)[k] : nullptr;
       const auto p = predictor_.predict(point / range, {}, seen, seen);
       if (!p) continue;
-      add_range(k, range - p->range_m, *p, out);
-      if (has_intensity_) add_intensity(k, returns_.intensity(k) - p->intensity, *p, out);
+      const FaultMoves moves = faults_ ? faults_->moves(point) : FaultMoves(FaultMoves::Zero());
+      add_range(k, range - p->range_m, *p, moves, out);
+      if (has_intensity_) add_intensity(k, returns_.intensity(k) - p->intensity, *p, moves, out);
     }
   }
 
  private:
-  void add_range(std::size_t k, double e, const ReturnPrediction& p, Accumulator& out) {
+  void add_range(std::size_t k, double e, const ReturnPrediction& p, const FaultMoves& moves,
+                 Accumulator& out) {
     const double sigma = noise_between(noise_.range_white_m, noise_.range_black_m, p.white);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.range_by_pose(i));
@@ -276,17 +266,11 @@ class LidarRows {
     const double robust = huber_weight(z, options_.robust_threshold);
     const double weight = robust / (sigma * sigma * noise_.range_inflation);
     out.add(row, e, weight);
-    if (options_.faults) {
+    if (faults_) {
       FaultRow by = FaultRow::Zero();
-      const Eigen::Vector3d point = returns_.point_m(k);
-      by.head<kRangeFaults>() << 1.0, point.norm();
-      // A direction moved by δ changes the range to the plane by −r·nᵀδ/(nᵀd), and n/(nᵀd) is what
-      // a displaced board changes.
-      const BeamAxes axes = beam_axes(point.normalized());
-      const Eigen::RowVector3d by_board = point.norm() * p.range_by_pose.head<3>();
-      by.segment<kAngleFaults + kOriginFaults>(kFirstAngle) =
-          Eigen::RowVector2d(by_board.dot(axes.horizontal), by_board.dot(axes.vertical)) *
-          direction_faults(point);
+      // A displaced point moves measured minus predicted by what the board displaced the same way
+      // moves the predicted range.
+      by.head<kDeviceFaults>() = p.range_by_pose.head<3>() * moves;
       by.segment<kMotionFaults>(kFirstMotion) = time_s(k) * p.range_by_pose.head<kMotionFaults>();
       out.add_faults(row, by, e, weight);
     }
@@ -295,11 +279,11 @@ class LidarRows {
     note_noise(p.white, e, sigma, 0, out);
   }
 
-  void add_intensity(std::size_t k, double e, const ReturnPrediction& p, Accumulator& out) {
+  void add_intensity(std::size_t k, double e, const ReturnPrediction& p, const FaultMoves& moves,
+                     Accumulator& out) {
     const double plain = noise_between(noise_.intensity_white, noise_.intensity_black, p.white);
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
-    const Eigen::Matrix2d& jitter = state_.beam.jitter_rad2;
-    const double variance = plain * plain + by_angle * jitter * by_angle.transpose();
+    const double variance = intensity_variance(plain, by_angle, state_.beam.jitter_rad2);
     const double sigma = std::sqrt(variance);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.intensity_by_pose(i));
@@ -320,10 +304,14 @@ class LidarRows {
     const double robust = huber_weight(z, options_.robust_threshold);
     const double weight = robust / (variance * noise_.intensity_inflation);
     out.add(row, e, weight);
-    if (options_.faults) {
+    if (faults_) {
       FaultRow by = FaultRow::Zero();
-      by.segment<kAngleFaults + kOriginFaults>(kFirstAngle) =
-          -by_angle * direction_faults(returns_.point_m(k));
+      // What turns the reported direction away from the spot that was lit.
+      const Eigen::Vector3d point = returns_.point_m(k);
+      const BeamAxes axes = beam_axes(point.normalized());
+      by.head<kDeviceFaults>() =
+          (by_angle(0) * axes.horizontal + by_angle(1) * axes.vertical).transpose() * moves /
+          -point.norm();
       by.segment<kMotionFaults>(kFirstMotion) =
           time_s(k) * p.intensity_by_pose.head<kMotionFaults>();
       if (!scan_rad_s_.empty()) by(kLagFault) = by_angle.dot(scan_rad_s_[returns_.index[k]]);
@@ -374,6 +362,7 @@ class LidarRows {
   Eigen::Vector2d center_;
   Eigen::Vector2d half_;
   bool has_intensity_;
+  std::optional<DeviceFaults> faults_;       // Where asked for.
   std::vector<Eigen::Vector2d> scan_rad_s_;  // Per point of the cloud; empty where not asked for.
   Vector6d board_ = Vector6d::Zero();        // Left perturbation that the board's own motion makes.
 

@@ -16,6 +16,7 @@
 #include "cloud/cloud.h"
 #include "detection/board_view.h"
 #include "model/board_prediction.h"
+#include "model/effect.h"
 #include "solve/board_returns.h"
 #include "solve/pointing_jitter.h"
 
@@ -139,17 +140,14 @@ struct SharedErrorColumns {
   Eigen::Index total = 0;
 };
 
-/// Faults that the solve does not have, as columns of the LiDAR's rows: an offset (m) and a scale
-/// of all ranges; scales of azimuth and elevation, an eccentric encoder (sin az, cos az; rad) and a
-/// tilted axis (sin el; rad); beams that start beside the frame's origin (across, upwards; m);
-/// where times tell, a velocity of the boards against the LiDAR while it scans (m/s, LiDAR frame),
-/// and a lag of the intensities along the scan (s).
-inline constexpr int kRangeFaults = 2;
-inline constexpr int kAngleFaults = 5;
-inline constexpr int kOriginFaults = 2;
-inline constexpr int kFirstAngle = kRangeFaults;
-inline constexpr int kFirstOrigin = kFirstAngle + kAngleFaults;
-inline constexpr int kFirstMotion = kFirstOrigin + kOriginFaults;
+/// Faults that the solve does not have, as columns of the LiDAR's rows: those that every device has
+/// (see DeviceFault); where times tell, a velocity of the boards against the LiDAR while it scans
+/// (m/s, LiDAR frame), and a lag of the intensities along the scan (s).
+inline constexpr int kFirstAngle = static_cast<int>(DeviceFault::kAzimuthScale);
+inline constexpr int kFirstOrigin = static_cast<int>(DeviceFault::kOriginAcross);
+inline constexpr int kFirstMotion = kDeviceFaults;
+inline constexpr int kAngleFaults = kFirstOrigin - kFirstAngle;
+inline constexpr int kOriginFaults = kFirstMotion - kFirstOrigin;
 inline constexpr int kMotionFaults = 3;
 inline constexpr int kLagFault = kFirstMotion + kMotionFaults;
 inline constexpr int kFaults = kLagFault + 1;

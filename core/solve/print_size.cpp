@@ -9,6 +9,7 @@
 
 #include "base/paired_moments.h"
 #include "base/statistics.h"
+#include "solve/surface_noise.h"
 
 namespace lvcalib {
 namespace {
@@ -121,10 +122,10 @@ std::optional<SizeStep> take_step(const SeenBoard& board, std::vector<Place>& pl
     const Eigen::Vector3d at = board.lidar_from_board * Eigen::Vector3d(q.x(), q.y(), 0.0);
     const auto p = predictor.predict(at.normalized(), {}, &place.seen, &place.seen);
     if (!p) continue;
-    const double plain = std::exp(p->white * std::log(board.noise.intensity_white) +
-                                  (1.0 - p->white) * std::log(board.noise.intensity_black));
-    const double variance = plain * plain + p->intensity_by_angle * board.beam.jitter_rad2 *
-                                                p->intensity_by_angle.transpose();
+    const double plain =
+        noise_between(board.noise.intensity_white, board.noise.intensity_black, p->white);
+    const double variance =
+        intensity_variance(plain, p->intensity_by_angle, board.beam.jitter_rad2);
     const double e = place.intensity - p->intensity;
     const double z = e / std::sqrt(variance);
     const double w = huber_weight(z, 3.0) / variance;

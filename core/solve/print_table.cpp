@@ -208,9 +208,9 @@ class SceneRows {
     JitterRegression out;
     for (const Return& r : returns_) {
       if (r.by_angle.isZero()) continue;
-      const double plain = noise_between(noise_.intensity[0], noise_.intensity[1], r.white);
+      const double plain = plain_sigma(r);
       out.add(r.by_angle, r.intensity - r.predicted, plain * plain,
-              plain * plain + jitter_variance(r));
+              intensity_variance(plain, r.by_angle, jitter_rad2_));
     }
     return out;
   }
@@ -413,13 +413,13 @@ class SceneRows {
     return row;
   }
 
-  [[nodiscard]] double jitter_variance(const Return& r) const {
-    return std::max(0.0, r.by_angle.dot(r.by_angle * jitter_rad2_));
+  [[nodiscard]] double plain_sigma(const Return& r) const {
+    return noise_between(noise_.intensity[0], noise_.intensity[1], r.white);
   }
 
   [[nodiscard]] double intensity_sigma(const Return& r) const {
-    const double plain = noise_between(noise_.intensity[0], noise_.intensity[1], r.white);
-    return robust_sigma(std::sqrt(plain * plain + jitter_variance(r)), r.intensity - r.predicted);
+    const double variance = intensity_variance(plain_sigma(r), r.by_angle, jitter_rad2_);
+    return robust_sigma(std::sqrt(variance), r.intensity - r.predicted);
   }
 
   [[nodiscard]] BoundaryRow edge_row(const Return& r) const {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+
+#include <Eigen/Core>
 
 namespace lvcalib {
 
@@ -10,6 +13,15 @@ namespace lvcalib {
 /// the light that comes back.
 inline double noise_between(double on_white, double on_black, double white) {
   return std::exp(white * std::log(on_white) + (1.0 - white) * std::log(on_black));
+}
+
+/// Variance of a return's intensity: that on plain print, whose standard deviation is
+/// `plain_sigma`, and what the pointing jitter makes of it where the intensity changes with the
+/// beam's direction.
+inline double intensity_variance(double plain_sigma, const Eigen::RowVector2d& by_angle,
+                                 const Eigen::Matrix2d& jitter_rad2) {
+  return plain_sigma * plain_sigma +
+         std::max(0.0, (by_angle * jitter_rad2 * by_angle.transpose()).value());
 }
 
 }  // namespace lvcalib

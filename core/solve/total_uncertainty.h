@@ -22,9 +22,9 @@ struct LeftOutSizes {
   double axis_tilt_rad = 1e-3;
   /// and drawings of devices show beams that start millimetres beside the frame's origin.
   double origin_m = 3e-3;
-  /// All but the intrinsics, in the order of the faults' columns (see kFaults).
-  [[nodiscard]] Eigen::Matrix<double, kFirstMotion, 1> of_the_lidar() const {
-    Eigen::Matrix<double, kFirstMotion, 1> out;
+  /// All but the intrinsics, by DeviceFault.
+  [[nodiscard]] Eigen::Matrix<double, kDeviceFaults, 1> of_the_lidar() const {
+    Eigen::Matrix<double, kDeviceFaults, 1> out;
     out << range_offset_m, range_scale, angle_scale, angle_scale, eccentricity_rad,
         eccentricity_rad, axis_tilt_rad, origin_m, origin_m;
     return out;

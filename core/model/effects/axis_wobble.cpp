@@ -18,7 +18,17 @@ class AxisWobble final : public CatalogueEffect {
                          .source = "Lichti and Licht 2006",
                          .discriminating_pose = "boards high and low",
                          .needs = {}},
-                        {{"c", "mrad", 1e-3, 0.5e-3, 0.02}, {"i", "mrad", 1e-3, 0.5e-3, 0.02}}) {}
+                        {{.name = "c",
+                          .unit = "mrad",
+                          .unit_in_si = 1e-3,
+                          .material = 0.5e-3,
+                          .prior_sigma = 0.02},
+                         {.name = "i",
+                          .unit = "mrad",
+                          .unit_in_si = 1e-3,
+                          .material = 0.5e-3,
+                          .prior_sigma = 0.02,
+                          .device_fault = DeviceFault::kAxisTilt}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

@@ -19,7 +19,18 @@ class BeamOriginOffset final : public CatalogueEffect {
              .source = "NISTIR 6922; VLS-128 manual",
              .discriminating_pose = "boards below 2 m beside boards beyond 4 m",
              .needs = {}},
-            {{"horizontal", "mm", 1e-3, 2e-3, 0.05}, {"vertical", "mm", 1e-3, 2e-3, 0.05}}) {}
+            {{.name = "horizontal",
+              .unit = "mm",
+              .unit_in_si = 1e-3,
+              .material = 2e-3,
+              .prior_sigma = 0.05,
+              .device_fault = DeviceFault::kOriginAcross},
+             {.name = "vertical",
+              .unit = "mm",
+              .unit_in_si = 1e-3,
+              .material = 2e-3,
+              .prior_sigma = 0.05,
+              .device_fault = DeviceFault::kOriginUp}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

@@ -17,7 +17,18 @@ class EncoderEccentricity final : public CatalogueEffect {
                          .source = "Lichti and Licht 2006",
                          .discriminating_pose = "boards all around the LiDAR",
                          .needs = {}},
-                        {{"a", "mrad", 1e-3, 0.3e-3, 0.02}, {"b", "mrad", 1e-3, 0.3e-3, 0.02}}) {}
+                        {{.name = "a",
+                          .unit = "mrad",
+                          .unit_in_si = 1e-3,
+                          .material = 0.3e-3,
+                          .prior_sigma = 0.02,
+                          .device_fault = DeviceFault::kEccentricitySine},
+                         {.name = "b",
+                          .unit = "mrad",
+                          .unit_in_si = 1e-3,
+                          .material = 0.3e-3,
+                          .prior_sigma = 0.02,
+                          .device_fault = DeviceFault::kEccentricityCosine}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

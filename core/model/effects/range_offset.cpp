@@ -18,7 +18,12 @@ class RangeOffset final : public CatalogueEffect {
                          .source = "Lichti and Licht 2006; HDL-64E S3 manual",
                          .discriminating_pose = "boards turned to ±40 degrees",
                          .needs = {}},
-                        {{"a", "mm", 1e-3, 3e-3, 0.05}}) {}
+                        {{.name = "a",
+                          .unit = "mm",
+                          .unit_in_si = 1e-3,
+                          .material = 3e-3,
+                          .prior_sigma = 0.05,
+                          .device_fault = DeviceFault::kRangeOffset}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

@@ -18,7 +18,12 @@ class RangeScale final : public CatalogueEffect {
              .source = "Lichti and Licht 2006",
              .discriminating_pose = "measure the printed board: a wrong print scale looks the same",
              .needs = {}},
-            {{"m", "ppm", 1e-6, 500e-6, 5e-3}}) {}
+            {{.name = "m",
+              .unit = "ppm",
+              .unit_in_si = 1e-6,
+              .material = 500e-6,
+              .prior_sigma = 5e-3,
+              .device_fault = DeviceFault::kRangeScale}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

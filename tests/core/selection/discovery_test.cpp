@@ -9,6 +9,7 @@
 
 #include "selection/effect_search.h"
 #include "selection/findings.h"
+#include "selection/model_growth.h"
 #include "support/pose_matchers.h"
 #include "support/synthetic_table.h"
 
@@ -19,25 +20,17 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Adds what is accepted, one effect after the other.
-std::vector<std::string> grow(EffectSearch& search, const DiscoveryOptions& options,
-                              std::vector<Selection>* selections = nullptr) {
-  std::vector<std::string> ids;
-  for (int k = 0; k < options.max_effects; ++k) {
-    search.rank();
-    const auto best = search.best();
-    if (!best) break;
-    const Candidate& c = search.candidates()[*best];
-    const EffectColumns columns = search.linear().columns.list()[c.columns];
-    ids.push_back(columns.effect->info().id);
-    if (selections != nullptr) {
-      selections->push_back({ids.back(), aliases_of(search, *best, options), c.best_heldout_gain(),
-                             c.total_gain(), c.p_value});
-    }
-    search.add(columns.effect, columns.shape);
-  }
-  search.rank();
-  return ids;
+// The product's own search; what it has selected, in order.
+std::vector<Selection> grow(EffectSearch& search, const DiscoveryOptions& options) {
+  std::vector<Selection> selections;
+  grow_model(search, selections, options, {}, [] {});
+  return selections;
+}
+
+std::vector<std::string> ids_of(const std::vector<Selection>& selections) {
+  std::vector<std::string> out;
+  for (const Selection& s : selections) out.push_back(s.id);
+  return out;
 }
 
 const EffectFinding& finding(const std::vector<EffectFinding>& all, const std::string& id) {
@@ -75,9 +68,8 @@ TEST_F(Search, TwoEffectsAreFoundAndTheExtrinsicIsMended) {
   EffectSearch search(made.table, made.truth, options_, context_);
   const double before =
       translation_distance_m(search.state().camera_from_lidar, made.truth.camera_from_lidar);
-  std::vector<Selection> selections;
-  const auto ids = grow(search, options_, &selections);
-  EXPECT_THAT(ids, ::testing::UnorderedElementsAre("range_walk", "corner_bias"));
+  const auto selections = grow(search, options_);
+  EXPECT_THAT(ids_of(selections), ::testing::UnorderedElementsAre("range_walk", "corner_bias"));
   const auto findings = judge_effects(search, selections, options_);
   const EffectFinding& walk = finding(findings, "range_walk");
   EXPECT_EQ(walk.verdict, EffectVerdict::kPresent);
@@ -124,15 +116,14 @@ TEST_F(Search, EffectsWithOnePatternAreAliased) {
   wrong.edge_m = [](const BoundaryRow&) { return 0.001; };
   const auto made = test::synthetic_table({}, wrong);
   EffectSearch search(made.table, made.truth, options_, context_);
-  std::vector<Selection> selections;
-  const auto ids = grow(search, options_, &selections);
-  ASSERT_EQ(ids.size(), 1U);
+  const auto selections = grow(search, options_);
+  ASSERT_EQ(selections.size(), 1U);
   EXPECT_FALSE(selections[0].aliases.empty());
   std::vector<std::string> group = selections[0].aliases;
-  group.push_back(ids[0]);
+  group.push_back(selections[0].id);
   EXPECT_THAT(group, ::testing::IsSupersetOf({"boundary_bias", "ink_gain"}));
   const auto findings = judge_effects(search, selections, options_);
-  EXPECT_EQ(finding(findings, ids[0]).verdict, EffectVerdict::kAliased);
+  EXPECT_EQ(finding(findings, selections[0].id).verdict, EffectVerdict::kAliased);
 }
 
 TEST_F(Search, AbsorbedEffectsAreNeverCalledAbsent) {
@@ -183,7 +174,7 @@ TEST_F(Search, SameInputSameAnswer) {
   one.threads = 1;
   EffectSearch a(made.table, made.truth, options_, one);
   EffectSearch b(made.table, made.truth, options_, context_);
-  EXPECT_EQ(grow(a, options_), grow(b, options_));
+  EXPECT_EQ(ids_of(grow(a, options_)), ids_of(grow(b, options_)));
   EXPECT_EQ(a.state().camera_from_lidar.matrix(), b.state().camera_from_lidar.matrix());
 }
 
