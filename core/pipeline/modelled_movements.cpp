@@ -37,30 +37,37 @@ Eigen::Vector2d print_scale(const ModelledMovements& movements, const Target& ta
 }
 
 // By which share a board looks larger along its axes than it is: one that reads farther does, and
-// one whose angles are stretched.
+// one whose angles are stretched. Over its own returns: what the model does may depend on their
+// time, line and darkness.
 Eigen::Vector2d seen_scale(const ModelledMovements& movements, const BoardOutline& outline,
-                           double darkness, std::size_t scene, const Rigid3& lidar_from_board) {
-  const Eigen::Vector2d half = 0.5 * outline.size_m();
-  const auto beam_at = [&](const Eigen::Vector2d& from_middle) {
-    const Eigen::Vector2d at = outline.center_m() + from_middle;
-    return beam_towards(lidar_from_board * Eigen::Vector3d(at.x(), at.y(), 0.0), scene,
-                        lidar_from_board, darkness);
-  };
-  // Of a place of the board, across its beam, along an axis of the board.
-  const auto aside = [&](const Eigen::Vector2d& from_middle, Eigen::Index axis) {
-    const BeamPoint beam = beam_at(from_middle);
-    const Eigen::Vector3d moved = movements.point(beam);
-    const Eigen::Vector3d across = moved - beam.direction * beam.direction.dot(moved);
-    return Eigen::Vector3d(lidar_from_board.rotation.conjugate() * across)(axis);
-  };
-  const BeamPoint middle = beam_at(Eigen::Vector2d::Zero());
-  const double farther = middle.direction.dot(movements.point(middle)) / middle.range_m;
-  Eigen::Vector2d out;
-  for (Eigen::Index axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector2d end = half(axis) * Eigen::Vector2d::Unit(axis);
-    out(axis) = farther + (aside(end, axis) - aside(-end, axis)) / (2.0 * half(axis));
+                           const BoardBeams& beams, const Rigid3& lidar_from_board) {
+  constexpr std::size_t kMost = 2000;  // A mean of smooth functions.
+  const Rigid3 board_from_lidar = lidar_from_board.inverse();
+  const std::size_t stride = 1 + beams.cloud().size() / kMost;
+  double count = 0.0;
+  double farther = 0.0;
+  Eigen::Array2d place = Eigen::Array2d::Zero(), squares = place, aside = place, products = place;
+  for (std::size_t i = 0; i < beams.cloud().size(); i += stride) {
+    const std::optional<BeamPoint> beam = beams.of(i);
+    if (!beam) continue;
+    const Eigen::Array2d at =
+        (board_from_lidar * Eigen::Vector3d(beam->range_m * beam->direction)).head<2>().array();
+    if ((at < outline.lower_left_m.array()).any() || (at > outline.upper_right_m.array()).any())
+      continue;
+    const Eigen::Vector3d moved = movements.point(*beam);
+    const double along = beam->direction.dot(moved);
+    const Eigen::Array2d across =
+        (board_from_lidar.rotation * (moved - along * beam->direction)).head<2>().array();
+    count += 1.0;
+    farther += along / beam->range_m;
+    place += at;
+    squares += at * at;
+    aside += across;
+    products += at * across;
   }
-  return out;
+  const Eigen::Array2d spread = squares - place * place / std::max(1.0, count);
+  if (count < 3.0 || !(spread > 0.0).all()) return Eigen::Vector2d::Zero();
+  return farther / count + (products - place * aside / count) / spread;
 }
 
 }  // namespace
@@ -191,7 +198,8 @@ ModelledScales modelled_scales(const Discovery& discovery, const ModelledMovemen
   for (std::size_t s = 0; s < boards.size(); ++s) {
     if (!boards[s]) continue;
     const Rigid3 lidar_from_board = discovery.state.camera_from_lidar.inverse() * *boards[s];
-    const Eigen::Vector2d seen = seen_scale(movements, outline, darkness, s, lidar_from_board);
+    const BoardBeams beams(result, s, lidar_from_board, discovery.scales, darkness);
+    const Eigen::Vector2d seen = seen_scale(movements, outline, beams, lidar_from_board);
     sum += seen;
     ++count;
     out.scenes[s] = (seen + out.print).mean();

@@ -862,6 +862,7 @@ void add_planted(Kinds& all) {
       {"range_cyclic", {3, 10}},
       {"range_near", {30}},
       {"range_warmup", {10, 30}},
+      {"range_drift", {20}},
       {"channel_range_offset", {10}},
       {"boundary_range_pull", {3}},
       {"angle_scale", {500, 2000}},

@@ -80,6 +80,19 @@ TEST(RangeDisturbance, WarmupDecaysOverTheSceneClock) {
   EXPECT_NEAR(error_mm({{"range_warmup", 10}}, 3.0, 0.85, 0.0, 60.0), 4.912, 0.02);
 }
 
+TEST(RangeDisturbance, DriftGrowsAnewInEveryScan) {
+  const PlantedEffects planted = plant({{"range_drift", 20}});
+  RangeConditions shot;
+  shot.range_m = 3.0;
+  shot.clock_s = 100.0;
+  EXPECT_NEAR(planted.range.error_m(shot), 0.0, 1e-9);
+  // 20 (1 − 0.7 e⁻¹ − 0.3 e^−0.25) = 10.177.
+  shot.time_s = 0.2;
+  EXPECT_NEAR(1e3 * planted.range.error_m(shot), 10.177, 1e-3);
+  shot.time_s = 10.0;
+  EXPECT_NEAR(1e3 * planted.range.error_m(shot), 20.0, 1e-3);
+}
+
 TEST(RangeDisturbance, LinesDifferByTheirNotedOffsets) {
   const PlantedEffects planted = plant({{"channel_range_offset", 10}});
   const auto& noted = planted.details.at("channel_range_offset").at("line_mm");
