@@ -170,12 +170,14 @@ void judge_scene_scales(const CalibrationResult& result, const QualityOptions& o
 // What nodes and planes miss the model by, and the scene that fits clearly worse than the others,
 // if there is one.
 Message misfit(const ExtrinsicSolution& x) {
-  const std::string nodes = formatted("%.1f", x.node_scale);
   const std::string planes = formatted("%.1f", x.plane_scale);
-  const Message all = Message(
-      "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is "
-      "missing in the model",
-      nodes, planes);
+  // Boards without circles have planes alone.
+  const Message how =
+      x.uses_nodes()
+          ? Message("LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise",
+                    formatted("%.1f", x.node_scale), planes)
+          : Message("the boards' planes miss the LiDAR's ranges by %1 times their noise", planes);
+  const Message all = Message("%1: an effect is missing in the model", how);
   constexpr double kClearly = 2.0;
   const SceneSolution* worst = nullptr;
   for (const SceneSolution& scene : x.scenes) {
@@ -192,24 +194,19 @@ Message misfit(const ExtrinsicSolution& x) {
   // Metres say only that the circles were not found; the number would say nothing.
   constexpr double kMeaningful_mm = 100.0;
   if (worst->rms_mm > kMeaningful_mm) {
-    return Message(
-        "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is "
-        "missing in the model; scene %3 misses most",
-        nodes, planes, worst->name);
+    return Message("%1: an effect is missing in the model; scene %2 misses most", how, worst->name);
   }
   // What an effect does differs between scenes by their distances and tilts, a few times at most.
   constexpr double kAlone = 5.0;
   if (worst->rms_mm > kAlone * usual) {
     return Message(
-        "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise; scene %3 misses "
-        "most: %4 mm, the others %5 mm: did the board or a sensor move while it was taken, or is "
-        "an effect missing in the model?",
-        nodes, planes, worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
+        "%1; scene %2 misses most: %3 mm, the others %4 mm: did the board or a sensor move while "
+        "it was taken, or is an effect missing in the model?",
+        how, worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
   }
   return Message(
-      "LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is "
-      "missing in the model; scene %3 misses most: %4 mm, the others %5 mm",
-      nodes, planes, worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
+      "%1: an effect is missing in the model; scene %2 misses most: %3 mm, the others %4 mm", how,
+      worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
 }
 
 // What a search leaves: an effect that it would add, and structure that moves the extrinsic by more

@@ -36,7 +36,7 @@ tr.best td { background: #e8f3ea; }
 svg.plot { width: 27rem; max-width: 100%; } svg.photo { width: 100%; max-width: 46rem; }
 figure { margin: .3rem 0; } .figures figure { width: 27rem; max-width: 100%; } figcaption, .note { color: #555; font-size: .88rem; }
 code, .hash { font: .82rem ui-monospace, monospace; overflow-wrap: anywhere; }
-@page { size: A4; margin: 16mm; }
+@page { margin: 16mm; }
 @media print { body { max-width: none; margin: 0; font-size: 9.5pt; }
   .verdict { border: 1px solid #000; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   figure, table, svg { break-inside: avoid; } h2, h3 { break-after: avoid; }

@@ -7,6 +7,7 @@
 
 #include "report/report_figures.h"
 #include "report/result_file.h"
+#include "target/target_text.h"
 
 namespace lvcalib {
 namespace {
@@ -233,12 +234,18 @@ std::string pose_section(const json& result) {
          matrix_table(pose.at("matrix")) + "<p>Quaternion x, y, z, w: <code>" + quaternion +
          "</code></p>\n<h3>Standard deviations</h3>\n<p class=\"note\">Of the left perturbation in "
          "the camera frame, from the noise estimated: corners " +
-         shown(result.at("sigma_px").get<double>(), 3) + " px, LiDAR nodes widened " +
-         shown(result.at("node_noise_scale").get<double>(), 3) + " times, planes " +
-         shown(result.at("plane_noise_scale").get<double>(), 3) + " times. " +
+         shown(result.at("sigma_px").get<double>(), 3) + " px, " +
+         (result.at("rms_mm").is_number()
+              ? "LiDAR nodes widened " + shown(result.at("node_noise_scale").get<double>(), 3) +
+                    " times, "
+              : "") +
+         "planes widened " + shown(result.at("plane_noise_scale").get<double>(), 3) + " times. " +
          total_uncertainty_note().text() + "</p>\n" + html_table(sigma) + "<p>Residuals: corners " +
-         shown(result.at("rms_px").get<double>(), 4) + " px, nodes " +
-         shown(number_of(result.at("rms_mm")), 4) + " mm (RMS).</p>\n";
+         shown(result.at("rms_px").get<double>(), 4) + " px" +
+         (result.at("rms_mm").is_number()
+              ? ", circles " + shown(result.at("rms_mm").get<double>(), 4) + " mm"
+              : "") +
+         " (RMS).</p>\n";
 }
 
 std::string uncertainty_section(const json& result) {
@@ -301,12 +308,37 @@ std::string methods_section(const json& result) {
          ablation_table(result);
 }
 
+// Where the board's frame begins, which depends on its kind.
+std::string board_frame(const json& result) {
+  const auto text = result.find("target_yaml");
+  if (text == result.end() || !text->is_string()) return {};
+  const auto file = target_from_text(text->get<std::string>(), "target.yaml");
+  if (!file) return {};
+  std::string where =
+      "x right, y up, z out of the board; origin at the outer lower-left corner of "
+      "the lowest tag";
+  switch (file->target.type) {
+    case TargetType::kCheckerboard:
+      where =
+          "x along the columns, y along the rows, z out of the board; origin at the first "
+          "inner corner";
+      break;
+    case TargetType::kCharuco:
+      where = "x right, y up, z out of the board; origin at the lower left inner corner";
+      break;
+    default:
+      break;
+  }
+  return "<li>Board: " + where + ".</li>";
+}
+
 std::string provenance_section(const json& result) {
   std::string out =
       "<h2>Conventions</h2>\n<ul><li>T_a_b takes a point in frame b to frame a.</li>"
       "<li>Camera: x right, y down, z forward; pixel (0, 0) is the centre of the top-left "
-      "pixel.</li><li>Board: x right, y up, z out of the board; origin at the outer lower-left "
-      "corner of the lowest tag.</li><li>Covariances: left perturbation in the camera frame, order "
+      "pixel.</li>" +
+      board_frame(result) +
+      "<li>Covariances: left perturbation in the camera frame, order "
       "tx ty tz (m) rx ry rz (rad).</li><li>Pitch grows upwards, yaw towards z × line of sight; "
       "both are true angles.</li></ul>\n<h2>Provenance</h2>\n<p>LV-Calib " +
       html_escaped(result.at("version").get<std::string>()) + ", report by " +

@@ -66,20 +66,10 @@ ordered_json nodes_json(const BoardRefinement& refinement, const SceneSolution* 
   return nodes;
 }
 
-bool uses_nodes(const SceneSolution& scene) {
-  return std::any_of(scene.nodes.begin(), scene.nodes.end(),
-                     [](const NodeResidual& node) { return node.used; });
-}
-
-bool has_nodes(const ExtrinsicSolution& x) {
-  return std::any_of(x.scenes.begin(), x.scenes.end(),
-                     [](const SceneSolution& s) { return s.used && uses_nodes(s); });
-}
-
 // What planes alone leave is no distance of nodes.
 ordered_json node_rms_mm(const SceneSolution* scene) {
   if (scene == nullptr) return 0.0;
-  return uses_nodes(*scene) ? ordered_json(scene->rms_mm) : ordered_json(nullptr);
+  return scene->uses_nodes() ? ordered_json(scene->rms_mm) : ordered_json(nullptr);
 }
 
 ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
@@ -249,7 +239,7 @@ ordered_json to_json(const CalibrationResult& result) {
       {"circle_radius_m", result.target.has_circles() ? result.target.circle_radius_m : 0.0}};
   j["inputs"] = inputs_json(result.inputs);
   j["rms_px"] = x.rms_px;
-  j["rms_mm"] = has_nodes(x) ? ordered_json(x.rms_mm) : ordered_json(nullptr);
+  j["rms_mm"] = x.uses_nodes() ? ordered_json(x.rms_mm) : ordered_json(nullptr);
   j["sigma_px"] = x.sigma_px;
   j["node_noise_scale"] = x.node_scale;
   j["plane_noise_scale"] = x.plane_scale;
@@ -389,14 +379,14 @@ std::string result_as_yaml(const CalibrationResult& result) {
   out += result.warnings.empty() ? " []\n" : "\n";
   for (const Message& w : result.warnings) out += "  - " + yaml_quoted(w.text()) + "\n";
   out += "rms_px: " + yaml_number(x.rms_px) +
-         "\nrms_mm: " + (has_nodes(x) ? yaml_number(x.rms_mm) : "null") + "\nscenes:\n";
+         "\nrms_mm: " + (x.uses_nodes() ? yaml_number(x.rms_mm) : "null") + "\nscenes:\n";
   for (const SceneResult& scene : result.scenes) {
     out += "  - {name: " + yaml_quoted(scene.name) + ", used: " + (scene.used ? "true" : "false") +
            ", reason: " + yaml_quoted(scene.reason.text());
     const SceneSolution* solution = solution_of(result, scene.name);
     if (solution != nullptr) {
       out += ", rms_px: " + yaml_number(solution->rms_px) +
-             ", rms_mm: " + (uses_nodes(*solution) ? yaml_number(solution->rms_mm) : "null");
+             ", rms_mm: " + (solution->uses_nodes() ? yaml_number(solution->rms_mm) : "null");
     }
     out += "}\n";
   }

@@ -134,18 +134,22 @@ std::string photograph(const json& result, const json& scene, std::vector<Messag
   std::snprintf(place, sizeof place, "x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"",
                 image->from_px.x(), image->from_px.y(), image->size_px.x(), image->size_px.y());
   const std::string stroke = shown(image->size_px.x() / 500.0, 3);
-  std::string out = std::string("<figure><svg class=\"photo\" viewBox=\"") + box +
-                    "\" role=\"img\" aria-label=\"image with LiDAR circles\"><image " + place +
-                    " href=\"" + image->data_uri + "\"/><g fill=\"none\" stroke-width=\"" + stroke +
-                    "\"><polygon stroke=\"#3f7fd0\" points=\"" + coordinates(outline) + "\"/>";
+  std::string out =
+      std::string("<figure><svg class=\"photo\" viewBox=\"") + box +
+      "\" role=\"img\" aria-label=\"image with the board as the LiDAR measured it\"><image " +
+      place + " href=\"" + image->data_uri + "\"/><g fill=\"none\" stroke-width=\"" + stroke +
+      "\"><polygon stroke=\"#3f7fd0\" points=\"" + coordinates(outline) + "\"/>";
   for (const json& node : scene.at("nodes")) {
     if (!node.at("valid").get<bool>()) continue;
     out += "<polygon stroke=\"#e0532c\" points=\"" +
            coordinates(overlay.circle(point_of(node.at("center_lidar_m")))) + "\"/>";
   }
-  return out +
-         "</g></svg><figcaption>Circles (orange) and board outline (blue) as the LiDAR measured "
-         "them, through the extrinsic.</figcaption></figure>\n";
+  return out + "</g></svg><figcaption>" +
+         (scene.at("nodes").empty()
+              ? "The board's outline (blue) as the LiDAR measured it, through the extrinsic."
+              : "Circles (orange) and board outline (blue) as the LiDAR measured them, through the "
+                "extrinsic.") +
+         "</figcaption></figure>\n";
 }
 
 void collect(const json& nodes, std::vector<Eigen::Vector2d>& points) {
@@ -214,10 +218,14 @@ std::string scene_section(const json& result, const json& scene, std::vector<Mes
   const std::string reason = scene.at("reason").get<std::string>();
   if (!scene.at("used").get<bool>())
     out += "<p><b>Not used</b>" + (reason.empty() ? "" : ": " + html_escaped(reason)) + "</p>\n";
-  out += "<p>" + std::to_string(scene.at("tags").get<int>()) + " tags, " +
-         std::to_string(scene.at("board_points").get<long>()) + " LiDAR points on the board; " +
-         shown(scene.at("rms_px").get<double>()) + " px, " +
-         shown(scene.at("rms_mm").get<double>()) + " mm RMS.</p>\n";
+  // A board without tags has none to count, one without circles no centres to compare.
+  const int tags = scene.at("tags").get<int>();
+  const json& rms_mm = scene.at("rms_mm");
+  out += "<p>" + (tags > 0 ? std::to_string(tags) + " tags, " : "") +
+         std::to_string(scene.at("board_points").get<long>()) +
+         " LiDAR points on the board; corners " + shown(scene.at("rms_px").get<double>()) + " px" +
+         (rms_mm.is_number() ? ", circles " + shown(rms_mm.get<double>()) + " mm" : "") +
+         " RMS.</p>\n";
   if (scene.contains("nodes")) {
     out += photograph(result, scene, warnings);
     if (!scene["nodes"].empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,10 @@ struct SceneSolution {
   double rms_mm = 0.0;  ///< Of the node residuals; of the plane's heights without nodes.
   std::vector<CornerResidual> corners;
   std::vector<NodeResidual> nodes;
+  /// Whether a node took part; without one only the plane tells of the LiDAR.
+  [[nodiscard]] bool uses_nodes() const {
+    return std::any_of(nodes.begin(), nodes.end(), [](const NodeResidual& n) { return n.used; });
+  }
 };
 
 /// How the extrinsic moves when one scene is left out.
@@ -96,6 +101,10 @@ struct ExtrinsicSolution {
   std::vector<Message> weak_directions;  ///< In words; empty when none is.
   int used_scenes = 0;
   int iterations = 0;
+  [[nodiscard]] bool uses_nodes() const {
+    return std::any_of(scenes.begin(), scenes.end(),
+                       [](const SceneSolution& s) { return s.used && s.uses_nodes(); });
+  }
 };
 
 /// Joint weighted solve over T_camera_lidar and every board pose (LV-Calib, section III-C):

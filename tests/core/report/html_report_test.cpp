@@ -13,6 +13,7 @@
 #include "report/discovery_file.h"
 #include "report/exports.h"
 #include "report/result_file.h"
+#include "support/ordinary_boards.h"
 #include "support/simulated_dataset.h"
 
 namespace lvcalib {
@@ -133,7 +134,7 @@ TEST_F(HtmlReportTest, HoldsEverySectionAndLoadsNothing) {
   EXPECT_EQ(nesting_error(html), "");
   for (const char* part : {"Pose", "Uncertainty", "Methods side by side", "Scene A", "Scene C",
                            "Boundary response", "Conventions", "Provenance", "joint_refined",
-                           "pnp_raw", "@page { size: A4", "data:image/jpeg;base64,", "<svg"}) {
+                           "pnp_raw", "@page { margin", "data:image/jpeg;base64,", "<svg"}) {
     EXPECT_THAT(html, HasSubstr(part));
   }
   // Self-contained: no address, script or style from elsewhere.
@@ -189,6 +190,36 @@ TEST_F(HtmlReportTest, IsTheSameOfAStoredAndOfAFreshResult) {
     if (a.ok()) {
       EXPECT_EQ(*a, *b);
     }
+  }
+}
+
+// Whose results have no circles, no nodes and no boundary response.
+TEST_F(HtmlReportTest, BoardsWithoutCirclesHaveAReportInTheirWords) {
+  struct Case {
+    Target target;
+    const char* origin;
+    bool tags;
+  };
+  for (const Case& c :
+       {Case{test::checkerboard_target(), "origin at the first inner corner", false},
+        Case{test::charuco_target(), "origin at the lower left inner corner", true},
+        Case{test::single_tag_target(), "origin at the outer lower-left corner", true}}) {
+    SCOPED_TRACE(c.origin);
+    simulation::SimulationOptions options = test::dataset_options(3, 3);
+    options.target = c.target;
+    const test::SimulatedDataset data(options);
+    const auto result = calibrate(data.open(), {}, {});
+    ASSERT_TRUE(result.ok()) << result.error().text();
+    ASSERT_TRUE(write_results(*result, out_.path()).ok());
+    const auto report = html_report(out_.path(), {});
+    ASSERT_TRUE(report.ok()) << report.error().text();
+    EXPECT_THAT(report->html, HasSubstr(c.origin));
+    EXPECT_THAT(report->html, HasSubstr("Scene A"));
+    EXPECT_THAT(report->html, Not(HasSubstr("Circles (orange)")));
+    EXPECT_THAT(report->html, Not(HasSubstr("nodes widened")));
+    EXPECT_THAT(report->html, Not(HasSubstr("0 tags")));
+    EXPECT_EQ(report->html.find(" tags, ") != std::string::npos, c.tags);
+    EXPECT_EQ(nesting_error(report->html), "");
   }
 }
 
