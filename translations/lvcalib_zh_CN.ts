@@ -332,14 +332,6 @@ Export it all the same?</source>
         <translation>标签角点偏离模型 %1 px：请检查内参以及标定板是否平整</translation>
     </message>
     <message>
-        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model; scene %3 misses most: %4 mm, the others %5 mm</source>
-        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应；场景 %3 偏差最大：%4 mm，其余为 %5 mm</translation>
-    </message>
-    <message>
-        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise; scene %3 misses most: %4 mm, the others %5 mm: did the board or a sensor move while it was taken, or is an effect missing in the model?</source>
-        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）；场景 %3 偏差最大：%4 mm，其余为 %5 mm：拍摄该场景时标定板或传感器是否移动过，还是模型中缺少一个效应？</translation>
-    </message>
-    <message>
         <source>the board is not found in any cloud, but it is if the lengths in target.yaml are %1</source>
         <translation>在任何点云中都找不到标定板，但若 target.yaml 中的长度%1，则可以找到</translation>
     </message>
@@ -350,10 +342,6 @@ Export it all the same?</source>
     <message>
         <source>lengths are in metres</source>
         <translation>长度以米为单位</translation>
-    </message>
-    <message>
-        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model</source>
-        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应</translation>
     </message>
     <message>
         <source>another assignment of the board is nearly as good (margin %1)</source>
@@ -3120,10 +3108,6 @@ Export it all the same?</source>
         <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 约小 %1 %</translation>
     </message>
     <message>
-        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model; scene %3 misses most</source>
-        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应；场景 %3 偏差最大</translation>
-    </message>
-    <message>
         <source>No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out variance, %4 %5); to take it out anyway: --with %6</source>
         <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4 %5）；仍要去除它：--with %6</translation>
     </message>
@@ -5014,6 +4998,30 @@ Export it all the same?</source>
     <message>
         <source>not an image; expected a png, jpg, bmp or tiff file</source>
         <translation>不是图像；应为 png、jpg、bmp 或 tiff 文件</translation>
+    </message>
+    <message>
+        <source>%1: an effect is missing in the model</source>
+        <translation>%1：模型中缺少一个效应</translation>
+    </message>
+    <message>
+        <source>%1: an effect is missing in the model; scene %2 misses most</source>
+        <translation>%1：模型中缺少一个效应；场景 %2 偏差最大</translation>
+    </message>
+    <message>
+        <source>%1: an effect is missing in the model; scene %2 misses most: %3 mm, the others %4 mm</source>
+        <translation>%1：模型中缺少一个效应；场景 %2 偏差最大：%3 mm，其余为 %4 mm</translation>
+    </message>
+    <message>
+        <source>%1; scene %2 misses most: %3 mm, the others %4 mm: did the board or a sensor move while it was taken, or is an effect missing in the model?</source>
+        <translation>%1；场景 %2 偏差最大：%3 mm，其余为 %4 mm：拍摄该场景时标定板或传感器是否移动过，还是模型中缺少一个效应？</translation>
+    </message>
+    <message>
+        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise</source>
+        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）</translation>
+    </message>
+    <message>
+        <source>the boards&apos; planes miss the LiDAR&apos;s ranges by %1 times their noise</source>
+        <translation>标定板平面与激光雷达测距之差为其噪声的 %1 倍</translation>
     </message>
 </context>
 <context>
