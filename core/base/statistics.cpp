@@ -137,15 +137,8 @@ double normal_pdf(double x) {
 }
 
 double chi_square_gate(int degrees_of_freedom, double tail) {
-  // Quantile z of the normal by bisection of the complementary error function.
-  double low = -10.0;
-  double high = 10.0;
-  for (int i = 0; i < 80; ++i) {
-    const double mid = 0.5 * (low + high);
-    (0.5 * std::erfc(mid / std::numbers::sqrt2) > tail ? low : high) = mid;
-  }
   const double k = degrees_of_freedom;
-  const double base = 1.0 - 2.0 / (9.0 * k) + low * std::sqrt(2.0 / (9.0 * k));
+  const double base = 1.0 - 2.0 / (9.0 * k) - normal_quantile(tail) * std::sqrt(2.0 / (9.0 * k));
   return k * base * base * base;
 }
 

@@ -122,6 +122,16 @@ void apply(FittedPlane& plane, const Eigen::Vector3d& step) {
 
 }  // namespace
 
+Eigen::Matrix3d PlaneFrame::turned(double angle_rad) const {
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  Eigen::Matrix3d axes;
+  axes.col(0) = c * axis_u + s * axis_v;
+  axes.col(1) = -s * axis_u + c * axis_v;
+  axes.col(2) = normal;
+  return axes;
+}
+
 std::optional<Eigen::Vector2d> FittedPlane::ray_hit(const Eigen::Vector3d& point_m) const {
   const double along = normal.dot(point_m);
   if (std::abs(along) < kMinCosIncidence * point_m.norm()) return std::nullopt;

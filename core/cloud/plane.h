@@ -12,12 +12,27 @@
 
 namespace lvcalib {
 
-/// A plane fitted to LiDAR points, with an in-plane frame and the covariance of its pose.
-struct FittedPlane {
+/// A plane in the LiDAR frame, with axes in it.
+struct PlaneFrame {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< Unit, towards the LiDAR.
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< A point of the plane, amid the points.
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX();
   Eigen::Vector3d axis_v = Eigen::Vector3d::UnitY();  ///< axis_u × axis_v = normal.
+
+  [[nodiscard]] Eigen::Vector2d to_plane(const Eigen::Vector3d& point_m) const {
+    const Eigen::Vector3d d = point_m - center_m;
+    return {axis_u.dot(d), axis_v.dot(d)};
+  }
+  [[nodiscard]] Eigen::Vector3d to_lidar(const Eigen::Vector2d& uv_m) const {
+    return center_m + uv_m.x() * axis_u + uv_m.y() * axis_v;
+  }
+  /// Axes in the plane turned by an angle from axis_u towards axis_v, and the normal:
+  /// R_lidar_board.
+  [[nodiscard]] Eigen::Matrix3d turned(double angle_rad) const;
+};
+
+/// A plane fitted to LiDAR points, with the covariance of its pose.
+struct FittedPlane : PlaneFrame {
   /// Covariance of (height at center_m [m], slope along axis_u, slope along axis_v).
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Robust standard deviation of the range residuals, per group of points (see fit_plane).
@@ -28,13 +43,6 @@ struct FittedPlane {
   std::array<double, 4> group_offset_m{};
   std::array<double, 4> group_offset_sigma_m{};
 
-  [[nodiscard]] Eigen::Vector2d to_plane(const Eigen::Vector3d& point_m) const {
-    const Eigen::Vector3d d = point_m - center_m;
-    return {axis_u.dot(d), axis_v.dot(d)};
-  }
-  [[nodiscard]] Eigen::Vector3d to_lidar(const Eigen::Vector2d& uv_m) const {
-    return center_m + uv_m.x() * axis_u + uv_m.y() * axis_v;
-  }
   /// Where the ray through a point meets the plane, in plane coordinates: free of range noise.
   [[nodiscard]] std::optional<Eigen::Vector2d> ray_hit(const Eigen::Vector3d& point_m) const;
   /// Measured minus predicted range of a point, in metres.

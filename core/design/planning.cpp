@@ -216,8 +216,9 @@ Result<ScenePlan> plan_scenes(const Target& target, const Camera& camera,
   out.poses_tried = poses->size();
   std::vector<bool> taken(poses->size(), false);
   for (const Rigid3& pose : options.taken) taken[nearest_to(pose, *poses, target.outline())] = true;
-  const auto added = predicted_information(*poses, sensors, table, out.camera_from_lidar, *columns,
-                                           subset, noise_alone(), context);
+  const ModelVariances variances = noise_alone();
+  const auto added = predicted_information(
+      *poses, {sensors, table, out.camera_from_lidar, *columns, subset, variances}, context);
   if (added.empty()) return Error::cancelled();
   Eigen::MatrixXd now = information_before(options.known, subset);
   for (int scene = 0; scene < options.scenes; ++scene) {

@@ -341,11 +341,10 @@ void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
   state.camera_from_board.push_back(pose.camera_from_board);
 }
 
-std::vector<Eigen::MatrixXd> predicted_information(
-    const std::vector<GridPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
-    const Rigid3& camera_from_lidar, const EffectColumnsList& columns, const ColumnSubset& subset,
-    const ModelVariances& variances, const RunContext& context) {
-  MeasurementTable empty = like.without_rows();
+std::vector<Eigen::MatrixXd> predicted_information(const std::vector<GridPose>& poses,
+                                                   const PredictionModel& model,
+                                                   const RunContext& context) {
+  MeasurementTable empty = model.like.without_rows();
   empty.scenes.clear();
   RunContext one_thread = context;
   one_thread.threads = 1;
@@ -353,11 +352,11 @@ std::vector<Eigen::MatrixXd> predicted_information(
   parallel_for(poses.size(), context.thread_count(), [&](std::size_t k) {
     if (context.stopped()) return;
     MeasurementTable table = empty;
-    ModelState state{camera_from_lidar, {}};
-    append_predicted_scene(poses[k], sensors, table, state);
-    const Linearization linear = linearize(table, state, {}, columns, one_thread);
+    ModelState state{model.camera_from_lidar, {}};
+    append_predicted_scene(poses[k], model.sensors, table, state);
+    const Linearization linear = linearize(table, state, {}, model.columns, one_thread);
     if (!context.stopped())
-      out[k] = scene_term(linear.scenes.front(), subset, variances).information;
+      out[k] = scene_term(linear.scenes.front(), model.subset, model.variances).information;
   });
   if (context.stopped()) out.clear();
   return out;

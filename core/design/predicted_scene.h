@@ -52,12 +52,20 @@ bool lidar_sees(const SensorModel& sensors, const Target& target, const Rigid3& 
 void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
                             MeasurementTable& table, ModelState& state);
 
-/// What each pose would say about the extrinsic and all columns, in the order of `poses`.
-/// `like` gives target, camera, print, levels and lines. In chunks, so that memory stays small;
-/// stops early (short list) when asked to.
-std::vector<Eigen::MatrixXd> predicted_information(
-    const std::vector<GridPose>& poses, const SensorModel& sensors, const MeasurementTable& like,
-    const Rigid3& camera_from_lidar, const EffectColumnsList& columns, const ColumnSubset& subset,
-    const ModelVariances& variances, const RunContext& context);
+/// What a pose's worth is told by. Refers to all of it.
+struct PredictionModel {
+  const SensorModel& sensors;
+  const MeasurementTable& like;  ///< Gives target, camera, print, levels and lines.
+  const Rigid3& camera_from_lidar;
+  const EffectColumnsList& columns;
+  const ColumnSubset& subset;
+  const ModelVariances& variances;
+};
+
+/// What each pose would say about the extrinsic and all columns, in the order of `poses`; nothing
+/// when stopped.
+std::vector<Eigen::MatrixXd> predicted_information(const std::vector<GridPose>& poses,
+                                                   const PredictionModel& model,
+                                                   const RunContext& context);
 
 }  // namespace lvcalib

@@ -91,8 +91,9 @@ Knowledge collect(const ScenesTaken& taken, const OpenQuestions& questions,
                        camera_from_lidar.inverse() * pose.camera_from_board);
   });
   std::iota(subset.columns.begin(), subset.columns.end(), 0);
-  out.added = predicted_information(out.poses, sensors, taken.table, camera_from_lidar, predicted,
-                                    subset, taken.variances, context);
+  out.added = predicted_information(
+      out.poses, {sensors, taken.table, camera_from_lidar, predicted, subset, taken.variances},
+      context);
   return out;
 }
 

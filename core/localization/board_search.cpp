@@ -100,10 +100,8 @@ void drop_repeated(std::vector<PatchMatches>& found) {
     const bool repeated = std::any_of(kept.begin(), kept.end(), [&](const PatchMatches& other) {
       const auto& a = item.matches.front().pose.center_m;
       const auto& b = other.matches.front().pose.center_m;
-      const Eigen::Vector3d pa =
-          item.patch.center_m + a.x() * item.patch.axis_u + a.y() * item.patch.axis_v;
-      const Eigen::Vector3d pb =
-          other.patch.center_m + b.x() * other.patch.axis_u + b.y() * other.patch.axis_v;
+      const Eigen::Vector3d pa = item.patch.to_lidar(a);
+      const Eigen::Vector3d pb = other.patch.to_lidar(b);
       return (pa - pb).norm() < 0.1 * other.patch.extent_m.y() &&
              item.patch.normal.dot(other.patch.normal) > std::cos(5.0 * kRadPerDeg);
     });
@@ -179,8 +177,7 @@ std::vector<Cloud> gather(const SearchInput& in, const std::vector<PatchMatches>
   std::vector<Slab> slabs;
   for (const PatchMatches& item : found) {
     const Eigen::Vector2d c = item.matches.front().pose.center_m;
-    const Eigen::Vector3d center =
-        item.patch.center_m + c.x() * item.patch.axis_u + c.y() * item.patch.axis_v;
+    const Eigen::Vector3d center = item.patch.to_lidar(c);
     // Voxel means are calmer than single points: allow for several times the thickness.
     const double tolerance = std::max(0.05 * in.size.minCoeff(), 6.0 * item.patch.thickness_m);
     slabs.push_back({item.patch.normal.cast<float>(), item.patch.center_m.cast<float>(),
@@ -247,16 +244,10 @@ std::vector<PlanarPose> promising_poses(const SearchInput& in,
 
 Rigid3 pose_of(const PlanarPatch& patch, const PlanarPose& pose,
                const Eigen::Vector2d& board_center_m) {
-  const double c = std::cos(pose.angle_rad);
-  const double s = std::sin(pose.angle_rad);
-  Eigen::Matrix3d rotation;
-  rotation.col(0) = c * patch.axis_u + s * patch.axis_v;
-  rotation.col(1) = -s * patch.axis_u + c * patch.axis_v;
-  rotation.col(2) = patch.normal;
-  const Eigen::Vector3d center =
-      patch.center_m + pose.center_m.x() * patch.axis_u + pose.center_m.y() * patch.axis_v;
+  const Eigen::Matrix3d rotation = patch.turned(pose.angle_rad);
   return Rigid3::from_matrix(
-      rotation, center - rotation * Eigen::Vector3d(board_center_m.x(), board_center_m.y(), 0.0));
+      rotation, patch.to_lidar(pose.center_m) -
+                    rotation * Eigen::Vector3d(board_center_m.x(), board_center_m.y(), 0.0));
 }
 
 // Covariance of a pose known by position σ and rotation σ about the board's centre.

@@ -7,26 +7,18 @@
 #include <Eigen/Core>
 
 #include "base/progress.h"
+#include "cloud/plane.h"
 #include "localization/voxel_cloud.h"
 
 namespace lvcalib {
 
 /// A connected flat piece of a scene.
-struct PlanarPatch {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Unit, towards the LiDAR.
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX();  ///< In-plane axes; axis_u × axis_v = normal.
-  Eigen::Vector3d axis_v = Eigen::Vector3d::UnitY();
+struct PlanarPatch : PlaneFrame {
   double thickness_m = 0.0;  ///< Robust standard deviation about the plane.
   Eigen::Vector2d extent_m =
       Eigen::Vector2d::Zero();  ///< Sides of the smallest bounding rectangle, longer first.
   bool open = false;            ///< Goes on beyond the searched radius (a wall).
   std::vector<std::uint32_t> voxels;
-
-  [[nodiscard]] Eigen::Vector2d to_plane(const Eigen::Vector3d& point_m) const {
-    const Eigen::Vector3d d = point_m - center_m;
-    return {axis_u.dot(d), axis_v.dot(d)};
-  }
 };
 
 /// How points of a plane hang together.

@@ -63,10 +63,6 @@ struct ModelFit {
   /// Per scene: pose, levels, and the random effects that are not held absent.
   std::vector<Eigen::VectorXd> local;
   [[nodiscard]] Eigen::VectorXd parameters() const { return solution.tail(solution.size() - 6); }
-  [[nodiscard]] Eigen::MatrixXd parameter_covariance() const {
-    const Eigen::Index p = solution.size() - 6;
-    return covariance.bottomRightCorner(p, p);
-  }
 };
 
 /// Which variances a fit estimates.

@@ -314,9 +314,8 @@ Status search_again(const CalibrationInput& in, Calibration& run,
                                                         Eigen::Vector3d(c.x(), c.y(), 0.0));
       region.radius_m = 0.75 * outline.size_m().norm();
     }
-    if (Status status = search_scene_again(in.dataset.scenes[s], in.request, region, in.context,
-                                           pyramid, run.result, s, in.cache);
-        !status)
+    const SecondSearch where{in.dataset.scenes[s], in.request, region, run.result.target, pyramid};
+    if (Status status = search_scene_again(where, in.context, scene, in.cache); !status)
       return status;
     run.looked_twice[s] = 1;
   }

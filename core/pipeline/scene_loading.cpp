@@ -253,11 +253,9 @@ Status load_extra_images(const Dataset& dataset, const CalibrationRequest& reque
   return Done{};
 }
 
-Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,
-                          const BoardSearchRegion& region, const RunContext& context,
-                          const PatternPyramid& pyramid, CalibrationResult& result,
-                          std::size_t index, StageCache* cache) {
-  SceneResult& scene = result.scenes[index];
+Status search_scene_again(const SecondSearch& where, const RunContext& context, SceneResult& scene,
+                          StageCache* cache) {
+  const BoardSearchRegion& region = where.region;
   // A board that the first look found is still somewhere if the second does not see it here.
   const auto take = [&scene](const SecondLook& look) {
     scene.place = look.place;
@@ -266,24 +264,24 @@ Status search_scene_again(const SceneFiles& files, const CalibrationRequest& req
   std::string key;
   if (cache != nullptr) {
     // The first look came before, so its key stands for files and options.
-    key = second_look_key(cache->scene(files.name).search.key, region);
-    if (const auto* kept = cache->scene(files.name).second_look.find(key)) {
+    key = second_look_key(cache->scene(where.files.name).search.key, region);
+    if (const auto* kept = cache->scene(where.files.name).second_look.find(key)) {
       take(*kept);
       return Done{};
     }
   }
-  auto cloud = read_scene_cloud(files, request, context.stop);
+  auto cloud = read_scene_cloud(where.files, where.request, context.stop);
   if (!cloud) return cloud.error();
-  BoardSearchOptions options = request.options.localization;
+  BoardSearchOptions options = where.request.options.localization;
   options.search_walls = true;
   SecondLook look;
   look.search =
-      search_board(*cloud, result.target, pyramid, board_distance(*scene.view, result.target),
+      search_board(*cloud, where.target, where.pyramid, board_distance(*scene.view, where.target),
                    region.radius_m > 0 ? std::optional(region) : std::nullopt, options, context);
   if (context.stopped()) return Error::cancelled();
-  if (region.radius_m > 0) look.place = look_at_place(*cloud, region.center_m, result.target);
+  if (region.radius_m > 0) look.place = look_at_place(*cloud, region.center_m, where.target);
   take(look);
-  if (cache != nullptr) cache->scene(files.name).second_look.keep(key, std::move(look));
+  if (cache != nullptr) cache->scene(where.files.name).second_look.keep(key, std::move(look));
   return Done{};
 }
 

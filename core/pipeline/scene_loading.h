@@ -27,12 +27,19 @@ Status load_extra_images(const Dataset& dataset, const CalibrationRequest& reque
                          const RunContext& context, CalibrationResult& result,
                          StageCache* cache = nullptr);
 
+/// Where and for what to look once more. Refers to all of it.
+struct SecondSearch {
+  const SceneFiles& files;
+  const CalibrationRequest& request;
+  const BoardSearchRegion& region;
+  const Target& target;
+  const PatternPyramid& pyramid;  ///< Of the target.
+};
+
 /// Reads one scene's cloud (or crop) and searches the board in it once more, in a region.
-/// What is found has taken the place of scenes[index].search; if nothing is, that stays as it was.
-Status search_scene_again(const SceneFiles& files, const CalibrationRequest& request,
-                          const BoardSearchRegion& region, const RunContext& context,
-                          const PatternPyramid& pyramid, CalibrationResult& result,
-                          std::size_t index, StageCache* cache = nullptr);
+/// What is found has taken the place of scene.search; if nothing is, that stays as it was.
+Status search_scene_again(const SecondSearch& where, const RunContext& context, SceneResult& scene,
+                          StageCache* cache = nullptr);
 
 /// What the LiDAR measures where the board should stand with its middle at `center_m` (LiDAR
 /// frame): the rays end behind the place, before it, or on it (or too few of them tell).

@@ -203,16 +203,6 @@ void place_on_layout(const LayoutPose& layout, double sigma_floor_m, const NodeF
   node.covariance_m2 = sigma * sigma * Eigen::Matrix2d::Identity();
 }
 
-Rigid3 pose_of(const LayoutPose& layout, const FittedPlane& plane) {
-  const double c = std::cos(layout.angle_rad);
-  const double s = std::sin(layout.angle_rad);
-  Eigen::Matrix3d R;
-  R.col(0) = c * plane.axis_u + s * plane.axis_v;
-  R.col(1) = -s * plane.axis_u + c * plane.axis_v;
-  R.col(2) = plane.normal;
-  return Rigid3::from_matrix(R, plane.to_lidar(layout.translation_m));
-}
-
 void finish(const NodeInput& in, const NodeState& at, const LayoutPose& first,
             BoardRefinement& result) {
   // Bins that scatter more than their standard deviations say: widen all by the common factor.
@@ -257,7 +247,8 @@ void finish(const NodeInput& in, const NodeState& at, const LayoutPose& first,
   const TransitionNoise& noise = at.model.noise();
   result.transition_noise = noise;
   result.intensity_noise = std::sqrt(0.5 * (noise.variance(-4.0) + noise.variance(4.0)));
-  result.lidar_from_board = pose_of(at.layout, result.plane);
+  result.lidar_from_board = Rigid3::from_matrix(result.plane.turned(at.layout.angle_rad),
+                                                result.plane.to_lidar(at.layout.translation_m));
 }
 
 }  // namespace

@@ -187,8 +187,7 @@ std::optional<std::size_t> ModelStep::find(const std::string& spec) const {
 }
 
 MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options) {
-  return print_table(input.scenes, input.print, input.camera, input.state, input.noise,
-                     input.sigma_px, options, {});
+  return print_table(input, input.state, options, {});
 }
 
 Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& table,

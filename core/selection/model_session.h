@@ -23,16 +23,11 @@ namespace lvcalib {
 
 class EffectSearch;
 
-/// What discovery starts from: the scenes in use and the state of the plain calibration.
-struct DiscoveryInput {
-  std::vector<SceneMeasurements> scenes;
+/// What discovery starts from: the scenes in use and the state of the plain calibration. The print
+/// is null where the joint solve over every return failed.
+struct DiscoveryInput : TableInput {
   Target target;
-  Camera camera;
   ModelState state;
-  double sigma_px = 0.0;
-  /// The print and the noise that the joint solve over every return found. Null where that failed.
-  std::shared_ptr<const BlurredPrint> print;
-  ForwardNoise noise;
 };
 
 /// The measurements of a calibration, with every covariate. The input needs its print.

@@ -72,15 +72,6 @@ void check_placement(const PlacementOptions& o, RangeCheck& check) {
 
 }  // namespace
 
-const std::vector<std::string>& plantable_effects() {
-  static const std::vector<std::string> ids = [] {
-    std::vector<std::string> list;
-    for (const Disturbance& disturbance : disturbances()) list.push_back(disturbance.id);
-    return list;
-  }();
-  return ids;
-}
-
 Status check(const SimulationOptions& options) {
   RangeCheck range;
   range.in("number of scenes", options.scenes, 1, 1000);

@@ -87,9 +87,6 @@ struct SimulationOptions {
   std::map<std::string, double> effects;
 };
 
-/// Ids of the effects that can be planted; disturbances() says what they are.
-const std::vector<std::string>& plantable_effects();
-
 /// kUsage for a value outside its range or an unknown effect (naming the nearest);
 /// the target's own error for an impossible board.
 Status check(const SimulationOptions& options);

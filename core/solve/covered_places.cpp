@@ -8,7 +8,6 @@
 #include <optional>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
 #include "base/statistics.h"
@@ -324,8 +323,7 @@ void cover_patches(const std::vector<PlacedReturn>& kept, const Cloud& cloud,
   std::vector<double> sizes;
   for (const PatchMean& p : patches) sizes.push_back(p.off_m / std::sqrt(p.variance_m2));
   const double scatter = std::max(1.0, mad_sigma(sizes));
-  const double gate = boost::math::quantile(boost::math::complement(
-      boost::math::normal(), 0.5 * kFalseCover / static_cast<double>(patches.size())));
+  const double gate = -normal_quantile(0.5 * kFalseCover / static_cast<double>(patches.size()));
   const auto levels = cloud.has_intensity() ? plain_levels(plain) : std::nullopt;
   std::vector<const PatchMean*> other;
   for (const PatchMean& p : patches) {

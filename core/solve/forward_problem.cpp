@@ -190,37 +190,37 @@ struct Accumulator {
 
 class LidarRows {
  public:
-  LidarRows(const BoardReturns& returns, const BlurredPrint& print, const ForwardState& state,
-            std::size_t index, const SceneNoise& noise, const Layout& layout,
-            const LinearizationOptions& options, std::vector<LocalPrint>* seen)
-      : returns_(returns),
+  LidarRows(const LinearizationInput& in, std::size_t index, const Layout& layout,
+            const LinearizationOptions& options, std::vector<LocalPrint>& seen)
+      : returns_(in.returns[index]),
         seen_(seen),
-        print_(print),
-        state_(state),
-        noise_(noise),
+        print_(in.print),
+        state_(in.state),
+        noise_(in.noise.scenes[index]),
         layout_(layout),
         options_(options),
         lidar_(Eigen::VectorXd::Zero(0)),
-        predictor_(print, state.lidar_from_board(index), state.levels[index], state.beam),
-        blur_by_factor_(blur_by_factor(blur_factor(state.beam.blur_rad2))),
-        center_(print.outline().center_m()),
-        half_(0.5 * print.outline().size_m()),
-        has_intensity_(returns.has_intensity),
-        range_z(returns.size(), kUnused),
-        intensity_z(returns.size(), kUnused) {
+        predictor_(print_, state_.lidar_from_board(index), state_.levels[index], state_.beam),
+        blur_by_factor_(blur_by_factor(blur_factor(state_.beam.blur_rad2))),
+        center_(print_.outline().center_m()),
+        half_(0.5 * print_.outline().size_m()),
+        has_intensity_(returns_.has_intensity),
+        range_z(returns_.size(), kUnused),
+        intensity_z(returns_.size(), kUnused) {
     if (options.faults) faults_.emplace();
-    if (options.faults && has_intensity_ && returns.size() > 0)
-      scan_rad_s_ = scan_velocities(*returns.cloud);
+    if (options.faults && has_intensity_ && returns_.size() > 0)
+      scan_rad_s_ = scan_velocities(*returns_.cloud);
     if (layout.sensor < 0) return;
     // The LiDAR's own shared errors and the sensor's, as they stand among its unknowns.
     const Eigen::Index own = layout.sensor - kLidarFixed;
-    lidar_ = Eigen::VectorXd::Zero(own + state.sensor.count());
-    if (state.sensor.values.size() == state.sensor.count())
-      lidar_.tail(state.sensor.count()) = state.sensor.values;
-    if (index >= state.shared.size() || state.shared[index].size() != layout.columns.total) return;
-    lidar_.head(own) = state.shared[index].head(own);
+    lidar_ = Eigen::VectorXd::Zero(own + state_.sensor.count());
+    if (state_.sensor.values.size() == state_.sensor.count())
+      lidar_.tail(state_.sensor.count()) = state_.sensor.values;
+    if (index >= state_.shared.size() || state_.shared[index].size() != layout.columns.total)
+      return;
+    lidar_.head(own) = state_.shared[index].head(own);
     // The board's own motion moves a row as its pose does.
-    board_ = board_motion(state.lidar_from_board(index), center_) *
+    board_ = board_motion(state_.lidar_from_board(index), center_) *
              lidar_.segment<kBoardTerms>(layout.board - kLidarFixed);
   }
 
@@ -230,7 +230,7 @@ class LidarRows {
     for (std::size_t k = begin; k < end; k += options_.stride) {
       const Eigen::Vector3d point = returns_.point_m(k);
       const double range = point.norm();
-      LocalPrint* const seen = seen_ != nullptr ? &(*seen_)[k] : nullptr;
+      LocalPrint* const seen = &seen_[k];
       const auto p = predictor_.predict(point / range, {}, seen, seen);
       if (!p) continue;
       const FaultMoves moves = faults_ ? faults_->moves(point) : FaultMoves(FaultMoves::Zero());
@@ -350,7 +350,7 @@ class LidarRows {
   }
 
   const BoardReturns& returns_;
-  std::vector<LocalPrint>* seen_;
+  std::vector<LocalPrint>& seen_;
   const BlurredPrint& print_;
   const ForwardState& state_;
   const SceneNoise& noise_;
@@ -422,55 +422,6 @@ void update_noise(const SceneNoise& before, const Accumulator& sums, const Lidar
   }
 }
 
-// Adds the corners: unknowns T_camera_board and the group's shift.
-void add_corners(const ForwardScene& scene, std::size_t index, const BlurredPrint& print,
-                 const ForwardState& state, double sigma_px, const Layout& layout,
-                 const LinearizationOptions& options, SceneEquations& out, SceneFit& fit) {
-  const Rigid3& camera_from_board = state.camera_from_board[index];
-  const bool tags = print.target().has_tags();
-  const Eigen::Index pose = out.globals;
-  for (const CornerObservation& c : scene.corners) {
-    const Eigen::Vector3d p =
-        camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
-    Eigen::Matrix<double, 2, 3> by_point;
-    Eigen::Matrix<double, 2, kIntrinsics> by_intrinsics;
-    const auto pixel = state.camera.project(p, &by_point, &by_intrinsics);
-    if (!pixel) continue;
-    Eigen::Matrix<double, 3, 6> moved;
-    moved.leftCols<3>().setIdentity();
-    moved.rightCols<3>() = -skew(p);
-    const Eigen::Matrix<double, 2, 6> j = by_point * moved;
-    Eigen::Vector2d e = c.pixel - *pixel;
-    Eigen::Index at = -1;
-    if (layout.corner_group >= 0) {
-      const int feature = tags ? c.feature_id : layout.patches.of(print.outline(), c.board_m);
-      const Eigen::Index own =
-          layout.corner_group - kLidarFixed + 2 * layout.corner_group_of.at(feature);
-      if (own + 1 < out.shared.size()) e -= out.shared.segment<2>(own);
-      at = out.globals + kLocals + own;
-    }
-    const double size = e.norm() / sigma_px;
-    const double w = huber_weight(size, options.robust_threshold + 1.0) / (sigma_px * sigma_px);
-    fit.corner_squares += w * e.squaredNorm();
-    fit.corner_rows += 2;
-    out.normal.block<6, 6>(pose, pose) += w * j.transpose() * j;
-    out.gradient.segment<6>(pose) += w * j.transpose() * e;
-    out.normal.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) +=
-        w * by_intrinsics.transpose() * by_intrinsics;
-    out.normal.block<6, kIntrinsics>(pose, kFirstIntrinsic) += w * j.transpose() * by_intrinsics;
-    out.normal.block<kIntrinsics, 6>(kFirstIntrinsic, pose) += w * by_intrinsics.transpose() * j;
-    out.gradient.segment<kIntrinsics>(kFirstIntrinsic) += w * by_intrinsics.transpose() * e;
-    if (at < 0) continue;
-    out.normal.block<2, 6>(at, pose) += w * j;
-    out.normal.block<6, 2>(pose, at) += w * j.transpose();
-    out.normal.block<2, kIntrinsics>(at, kFirstIntrinsic) += w * by_intrinsics;
-    out.normal.block<kIntrinsics, 2>(kFirstIntrinsic, at) += w * by_intrinsics.transpose();
-    out.normal(at, at) += w;
-    out.normal(at + 1, at + 1) += w;
-    out.gradient.segment<2>(at) += w * e;
-  }
-}
-
 }  // namespace
 
 Eigen::Vector3d blur_factor(const Eigen::Matrix2d& blur) {
@@ -496,26 +447,21 @@ namespace {
 // One scene's linearization in three steps, so that all scenes' rows are worked off side by side.
 class SceneLinearization {
  public:
-  SceneLinearization(const ForwardScene& scene, std::size_t index, const BoardReturns& returns,
-                     const BlurredPrint& print, const ForwardState& state,
-                     const ForwardNoise& noise, const LinearizationOptions& options,
-                     std::vector<LocalPrint>* seen)
-      : scene_(scene),
+  SceneLinearization(const LinearizationInput& in, std::size_t index,
+                     const LinearizationOptions& options, std::vector<LocalPrint>& seen)
+      : in_(in),
         index_(index),
-        returns_(returns),
-        print_(print),
-        state_(state),
-        noise_(noise),
+        returns_(in.returns[index]),
         options_(options),
-        layout_(make_layout(scene, returns, print, state.sensor, options)),
-        rows_(returns, print, state, index, noise.scenes[index], layout_, options, seen),
-        sensor_(layout_.sensor < 0 ? 0 : state.sensor.count()),
+        layout_(make_layout(in.scenes[index], returns_, in.print, in.state.sensor, options)),
+        rows_(in, index, layout_, options, seen),
+        sensor_(layout_.sensor < 0 ? 0 : in.state.sensor.count()),
         own_size_(layout_.sensor < 0 ? layout_.size : layout_.sensor) {
     // Chunks of a fixed size, summed in order: the result does not depend on the threads. With
     // shared errors a sum is some hundred kilobytes, which many small chunks would be busy with.
     const std::size_t rows = options.shared_errors ? 4096 : 1024;
     chunk_ = rows * options.stride;
-    parts_.assign((returns.size() + chunk_ - 1) / chunk_, Accumulator(0));
+    parts_.assign((returns_.size() + chunk_ - 1) / chunk_, Accumulator(0));
   }
 
   [[nodiscard]] std::size_t chunks() const { return parts_.size(); }
@@ -530,11 +476,11 @@ class SceneLinearization {
     for (const Accumulator& part : parts_) sums.merge(part);
     sums.normal.triangularView<Eigen::StrictlyLower>() = sums.normal.transpose();
     fit = sums.fit;
-    update_noise(noise_.scenes[index_], sums, rows_, returns_, fit);
+    update_noise(in_.noise.scenes[index_], sums, rows_, returns_, fit);
 
     // From the board's pose in the LiDAR frame to both poses in the camera frame:
     // T_LB = X⁻¹ B, so δ = Ad(X⁻¹)(ξ_B − ξ_X).
-    const Matrix6d ad = state_.camera_from_lidar.inverse().adjoint();
+    const Matrix6d ad = in_.state.camera_from_lidar.inverse().adjoint();
     const Eigen::Index shared = layout_.size - kLidarFixed;
     const Eigen::Index globals = kGlobals + sensor_;
     const Eigen::Index size = globals + kLocals + shared;
@@ -545,7 +491,7 @@ class SceneLinearization {
     pose.middleCols<6>(globals) = ad;
     if (layout_.board >= 0) {
       pose.middleCols<kBoardTerms>(globals + kLocals + layout_.board - kLidarFixed) =
-          board_motion(state_.lidar_from_board(index_), print_.outline().center_m());
+          board_motion(in_.state.lidar_from_board(index_), in_.print.outline().center_m());
     }
     const auto place = [&](Eigen::Index i) {
       if (i < 6 + kBlurParameters) return i;
@@ -561,8 +507,8 @@ class SceneLinearization {
     SceneEquations out;
     out.globals = globals;
     out.columns = layout_.columns;
-    out.shared = index_ < state_.shared.size() && state_.shared[index_].size() == shared
-                     ? state_.shared[index_]
+    out.shared = index_ < in_.state.shared.size() && in_.state.shared[index_].size() == shared
+                     ? in_.state.shared[index_]
                      : Eigen::VectorXd(Eigen::VectorXd::Zero(shared));
     out.normal = placed(placed(sums.normal).transpose());
     out.gradient = placed(sums.gradient);
@@ -574,22 +520,68 @@ class SceneLinearization {
     for (Eigen::Index i = 0; i < 2; ++i) {
       const Eigen::Index at = globals + 6 + 2 + i;
       out.normal(at, at) += 1.0 / (kSlopeSigma * kSlopeSigma);
-      out.gradient(at) -= state_.levels[index_].slope(i) / (kSlopeSigma * kSlopeSigma);
+      out.gradient(at) -= in_.state.levels[index_].slope(i) / (kSlopeSigma * kSlopeSigma);
     }
-    add_corners(scene_, index_, print_, state_, noise_.corner_px, layout_, options_, out, fit);
+    add_corners(out, fit);
     return out;
   }
 
  private:
+  // Adds the corners: unknowns T_camera_board and the group's shift.
+  void add_corners(SceneEquations& out, SceneFit& fit) const {
+    const double sigma_px = in_.noise.corner_px;
+    const Rigid3& camera_from_board = in_.state.camera_from_board[index_];
+    const bool tags = in_.print.target().has_tags();
+    const Eigen::Index pose = out.globals;
+    for (const CornerObservation& c : in_.scenes[index_].corners) {
+      const Eigen::Vector3d p =
+          camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
+      Eigen::Matrix<double, 2, 3> by_point;
+      Eigen::Matrix<double, 2, kIntrinsics> by_intrinsics;
+      const auto pixel = in_.state.camera.project(p, &by_point, &by_intrinsics);
+      if (!pixel) continue;
+      Eigen::Matrix<double, 3, 6> moved;
+      moved.leftCols<3>().setIdentity();
+      moved.rightCols<3>() = -skew(p);
+      const Eigen::Matrix<double, 2, 6> j = by_point * moved;
+      Eigen::Vector2d e = c.pixel - *pixel;
+      Eigen::Index at = -1;
+      if (layout_.corner_group >= 0) {
+        const int feature =
+            tags ? c.feature_id : layout_.patches.of(in_.print.outline(), c.board_m);
+        const Eigen::Index own =
+            layout_.corner_group - kLidarFixed + 2 * layout_.corner_group_of.at(feature);
+        if (own + 1 < out.shared.size()) e -= out.shared.segment<2>(own);
+        at = out.globals + kLocals + own;
+      }
+      const double size = e.norm() / sigma_px;
+      const double w = huber_weight(size, options_.robust_threshold + 1.0) / (sigma_px * sigma_px);
+      fit.corner_squares += w * e.squaredNorm();
+      fit.corner_rows += 2;
+      out.normal.block<6, 6>(pose, pose) += w * j.transpose() * j;
+      out.gradient.segment<6>(pose) += w * j.transpose() * e;
+      out.normal.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic) +=
+          w * by_intrinsics.transpose() * by_intrinsics;
+      out.normal.block<6, kIntrinsics>(pose, kFirstIntrinsic) += w * j.transpose() * by_intrinsics;
+      out.normal.block<kIntrinsics, 6>(kFirstIntrinsic, pose) += w * by_intrinsics.transpose() * j;
+      out.gradient.segment<kIntrinsics>(kFirstIntrinsic) += w * by_intrinsics.transpose() * e;
+      if (at < 0) continue;
+      out.normal.block<2, 6>(at, pose) += w * j;
+      out.normal.block<6, 2>(pose, at) += w * j.transpose();
+      out.normal.block<2, kIntrinsics>(at, kFirstIntrinsic) += w * by_intrinsics;
+      out.normal.block<kIntrinsics, 2>(kFirstIntrinsic, at) += w * by_intrinsics.transpose();
+      out.normal(at, at) += w;
+      out.normal(at + 1, at + 1) += w;
+      out.gradient.segment<2>(at) += w * e;
+    }
+  }
+
   // The LiDAR's own unknowns, and with the sensor's errors.
   [[nodiscard]] Eigen::Index lidar_size() const { return own_size_ + sensor_; }
 
-  const ForwardScene& scene_;
+  const LinearizationInput& in_;
   std::size_t index_;
   const BoardReturns& returns_;
-  const BlurredPrint& print_;
-  const ForwardState& state_;
-  const ForwardNoise& noise_;
   const LinearizationOptions& options_;
   Layout layout_;
   LidarRows rows_;
@@ -601,27 +593,24 @@ class SceneLinearization {
 
 }  // namespace
 
-std::vector<SceneEquations> linearize_scenes(const std::vector<ForwardScene>& scenes,
-                                             const std::vector<BoardReturns>& returns,
-                                             const BlurredPrint& print, const ForwardState& state,
-                                             const ForwardNoise& noise,
-                                             const LinearizationOptions& options, int threads,
-                                             std::vector<SceneFit>& fits,
-                                             std::vector<std::vector<LocalPrint>>& seen) {
-  std::vector<std::unique_ptr<SceneLinearization>> work(scenes.size());
-  parallel_for(scenes.size(), threads, [&](std::size_t s) {
-    work[s] = std::make_unique<SceneLinearization>(scenes[s], s, returns[s], print, state, noise,
-                                                   options, &seen[s]);
+LinearizedScenes linearize_scenes(const LinearizationInput& in, const LinearizationOptions& options,
+                                  std::vector<std::vector<LocalPrint>>& seen, int threads) {
+  const std::size_t scenes = in.scenes.size();
+  std::vector<std::unique_ptr<SceneLinearization>> work(scenes);
+  parallel_for(scenes, threads, [&](std::size_t s) {
+    work[s] = std::make_unique<SceneLinearization>(in, s, options, seen[s]);
   });
   std::vector<std::pair<std::size_t, std::size_t>> chunks;  // Scene and chunk.
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
+  for (std::size_t s = 0; s < scenes; ++s) {
     for (std::size_t c = 0; c < work[s]->chunks(); ++c) chunks.emplace_back(s, c);
   }
   parallel_for(chunks.size(), threads,
                [&](std::size_t k) { work[chunks[k].first]->add_chunk(chunks[k].second); });
-  std::vector<SceneEquations> out(scenes.size());
-  fits.assign(scenes.size(), {});
-  parallel_for(scenes.size(), threads, [&](std::size_t s) { out[s] = work[s]->finish(fits[s]); });
+  LinearizedScenes out;
+  out.equations.resize(scenes);
+  out.fits.resize(scenes);
+  parallel_for(scenes, threads,
+               [&](std::size_t s) { out.equations[s] = work[s]->finish(out.fits[s]); });
   return out;
 }
 

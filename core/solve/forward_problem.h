@@ -188,15 +188,25 @@ struct LinearizationOptions {
   bool faults = false;  ///< Fill SceneEquations' faults.
 };
 
-/// Linearizes corners, ranges and intensities of all scenes at a state, in parallel. `fits` becomes
-/// one per scene. `seen`: per scene one per return, kept from one linearization to the next.
-std::vector<SceneEquations> linearize_scenes(const std::vector<ForwardScene>& scenes,
-                                             const std::vector<BoardReturns>& returns,
-                                             const BlurredPrint& print, const ForwardState& state,
-                                             const ForwardNoise& noise,
-                                             const LinearizationOptions& options, int threads,
-                                             std::vector<SceneFit>& fits,
-                                             std::vector<std::vector<LocalPrint>>& seen);
+/// Measurements of all scenes, and the state and noise to linearize at. Refers to all of it.
+struct LinearizationInput {
+  const std::vector<ForwardScene>& scenes;
+  const std::vector<BoardReturns>& returns;  ///< One per scene.
+  const BlurredPrint& print;
+  const ForwardState& state;
+  const ForwardNoise& noise;
+};
+
+/// One of each per scene.
+struct LinearizedScenes {
+  std::vector<SceneEquations> equations;
+  std::vector<SceneFit> fits;
+};
+
+/// Linearizes corners, ranges and intensities of all scenes at a state, in parallel. `seen`: per
+/// scene one per return, kept from one linearization to the next.
+LinearizedScenes linearize_scenes(const LinearizationInput& in, const LinearizationOptions& options,
+                                  std::vector<std::vector<LocalPrint>>& seen, int threads);
 
 /// The beam's blur as its Cholesky factor (a, b, c), and back.
 Eigen::Vector3d blur_factor(const Eigen::Matrix2d& blur_rad2);

@@ -335,14 +335,21 @@ void update_noise(double sigma_px_floor, Iteration& it) {
   }
 }
 
+// The equations about the state as it is; the iteration keeps how well the scenes fit.
+std::vector<SceneEquations> linearized(const ForwardInput& in, Iteration& it,
+                                       const LinearizationOptions& how) {
+  LinearizedScenes out = linearize_scenes({in.scenes, it.returns, in.print, it.state, it.noise},
+                                          how, it.seen, in.context.thread_count());
+  it.fits = std::move(out.fits);
+  return std::move(out.equations);
+}
+
 // One Gauss–Newton step; the size of the extrinsic's move in its σ.
 std::optional<double> iterate(const ForwardInput& in, Iteration& it,
                               const LinearizationOptions& how, bool free_blur) {
   if (in.context.stopped()) return std::nullopt;
   ++it.solution.iterations;
-  std::vector<SceneEquations> equations =
-      linearize_scenes(in.scenes, it.returns, in.print, it.state, it.noise, how,
-                       in.context.thread_count(), it.fits, it.seen);
+  const std::vector<SceneEquations> equations = linearized(in, it, how);
   it.prior = global_prior(in, it.state.camera, free_blur, how.stride == 1);
   GlobalSolution step =
       solve_equations(equations, it.prior, it.state.sensor, it.noise.shared, BoardMotion::kWidens,
@@ -454,8 +461,7 @@ SharedVariances measure_board_motion(const ForwardInput& in, Iteration& it) {
 void last_step(const ForwardInput& in, Iteration& it) {
   LinearizationOptions how = final_rows(in.options);
   how.faults = true;
-  it.equations = linearize_scenes(in.scenes, it.returns, in.print, it.state, it.noise, how,
-                                  in.context.thread_count(), it.fits, it.seen);
+  it.equations = linearized(in, it, how);
   it.prior = global_prior(in, it.state.camera, true, true);
   it.before = it.state.sensor;
   const SharedVariances boards_determined = measure_board_motion(in, it);

@@ -93,25 +93,31 @@ double correlation(const Samples& samples, const TurnedSamples& turned,
   return va > 0.0 && samples.squares > 0.0 ? ai / std::sqrt(va * samples.squares) : 0.0;
 }
 
+// How far to shift and turn, in which steps, under which blur.
+struct TrialGrid {
+  double sigma_m;
+  double reach_m, step_m;
+  double turns_rad, turn_rad;
+};
+
 // All shifts and turns about a pose, by steps; best first.
 std::vector<Trial> trials_about(const Trial& from, const Samples& samples,
-                                const BlurredPrint& print, double sigma_m, double reach_m,
-                                double turns_rad, double step_m, double turn_rad, int threads = 1) {
-  const int n = static_cast<int>(std::ceil(reach_m / step_m));
-  const int m = static_cast<int>(std::ceil(turns_rad / turn_rad));
-  const BlurredPrint::Coarse blurred = print.coarse(sigma_m);
+                                const BlurredPrint& print, const TrialGrid& grid, int threads = 1) {
+  const int n = static_cast<int>(std::ceil(grid.reach_m / grid.step_m));
+  const int m = static_cast<int>(std::ceil(grid.turns_rad / grid.turn_rad));
+  const BlurredPrint::Coarse blurred = print.coarse(grid.sigma_m);
   const Eigen::Vector2d center = print.outline().center_m();
   const auto side = static_cast<std::size_t>(2 * n + 1);
   const auto turns = static_cast<std::size_t>(2 * m + 1);
   std::vector<Trial> tried(turns * side * side);
   parallel_for(turns, threads, [&](std::size_t k) {
     Trial t = from;
-    t.turn_rad += turn_rad * (static_cast<int>(k) - m);
+    t.turn_rad += grid.turn_rad * (static_cast<int>(k) - m);
     const TurnedSamples turned(samples, blurred, center, t.turn_rad);
     Trial* at = tried.data() + k * side * side;
     for (int ix = -n; ix <= n; ++ix) {
       for (int iy = -n; iy <= n; ++iy) {
-        t.shift_m = from.shift_m + step_m * Eigen::Vector2d(ix, iy);
+        t.shift_m = from.shift_m + grid.step_m * Eigen::Vector2d(ix, iy);
         t.correlation = correlation(samples, turned, blurred, t.shift_m);
         *at++ = t;
       }
@@ -149,10 +155,14 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   const double radius = 0.5 * print.outline().size_m().norm();
   const auto turn_of = [&](double sigma) { return std::max(0.002, 1.2 * sigma / radius); };
   constexpr double kCoarse_m = 0.016;
-  std::vector<Trial> best =
-      distinct(trials_about({}, samples, print, kCoarse_m, search.reach_m, search.turn_rad,
-                            kCoarse_m, turn_of(kCoarse_m), threads),
-               kOtherPlace_m, search.places);
+  std::vector<Trial> best = distinct(trials_about({}, samples, print,
+                                                  {.sigma_m = kCoarse_m,
+                                                   .reach_m = search.reach_m,
+                                                   .step_m = kCoarse_m,
+                                                   .turns_rad = search.turn_rad,
+                                                   .turn_rad = turn_of(kCoarse_m)},
+                                                  threads),
+                                     kOtherPlace_m, search.places);
   // Down to a millimetre: a place is worse than another by its step otherwise. No beam sees finer
   // than the last blur.
   constexpr double kFinest_m = 0.004;
@@ -161,12 +171,15 @@ std::vector<PrintMatch> match_print(const BoardReturns& returns, const BlurredPr
   constexpr int kMostMoves = 8;
   parallel_for(best.size(), threads, [&](std::size_t k) {
     for (const double step : {0.008, 0.004, 0.002, 0.001}) {
-      const double sigma = std::max(step, kFinest_m);
+      // The nearest neighbours.
+      const TrialGrid grid{.sigma_m = std::max(step, kFinest_m),
+                           .reach_m = step,
+                           .step_m = step,
+                           .turns_rad = turn_of(step),
+                           .turn_rad = turn_of(step)};
       for (int move = 0; move < kMostMoves; ++move) {
         const Trial before = best[k];
-        best[k] =
-            trials_about(before, samples, print, sigma, step, turn_of(step), step, turn_of(step))
-                .front();
+        best[k] = trials_about(before, samples, print, grid).front();
         if (best[k].shift_m == before.shift_m && best[k].turn_rad == before.turn_rad) break;
       }
     }

@@ -18,6 +18,15 @@ struct SceneMeasurements {
   const Cloud* board_points = nullptr;
 };
 
+/// What a table is made of: the scenes in use, and what the joint solve found.
+struct TableInput {
+  std::vector<SceneMeasurements> scenes;
+  Camera camera;
+  std::shared_ptr<const BlurredPrint> print;
+  ForwardNoise noise;
+  double sigma_px = 0.0;  ///< Of corners.
+};
+
 struct TableOptions {
   int max_rows_per_scene = 20000;  ///< Of each kind, spread evenly over board cells and print.
 };
@@ -34,11 +43,9 @@ void add_corners(const SceneMeasurements& input, int scene, const ModelState& st
 /// Noise is that of replicates (see Replicates), so that what is missing in the model does not
 /// count as noise; in edges the beam's jitter joins it. Rows that the solve weighs down keep their
 /// weight, the same whatever is added to the model. `state` needs a pose and levels per scene;
-/// variances of structure are those of `noise`. More than options.max_rows_per_scene of a kind are
-/// thinned evenly over the board.
-MeasurementTable print_table(const std::vector<SceneMeasurements>& scenes,
-                             const std::shared_ptr<const BlurredPrint>& print, const Camera& camera,
-                             const ModelState& state, const ForwardNoise& noise, double sigma_px,
+/// variances of structure are those of the input's noise. More than options.max_rows_per_scene of a
+/// kind are thinned evenly over the board.
+MeasurementTable print_table(const TableInput& input, const ModelState& state,
                              const TableOptions& options, const RunContext& context);
 
 }  // namespace lvcalib

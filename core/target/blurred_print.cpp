@@ -448,14 +448,6 @@ double BlurredPrint::sigma_m(int index) const {
   return first_sigma_m_ * std::pow(kRatio, index);
 }
 
-double BlurredPrint::smallest_sigma_m() const {
-  return first_sigma_m_;
-}
-
-double BlurredPrint::largest_sigma_m() const {
-  return sigma_m(kLevels - 1);
-}
-
 int BlurredPrint::level_below(double sigma) const {
   return static_cast<int>(std::floor(std::log(sigma / first_sigma_m_) / std::log(kRatio)));
 }

@@ -56,8 +56,8 @@ class BlurredPrint {
   BlurredPrint(const BlurredPrint&) = delete;
   BlurredPrint& operator=(const BlurredPrint&) = delete;
 
-  /// The print seen at a board point with blur covariance S (m², symmetric, positive). Widths below
-  /// smallest_sigma_m() are taken as that one.
+  /// The print seen at a board point with blur covariance S (m², symmetric, positive). Widths
+  /// below that of the first level are taken as that one.
   [[nodiscard]] PrintSample at(const Eigen::Vector2d& board_m,
                                const Eigen::Matrix2d& blur_m2) const;
 
@@ -93,8 +93,6 @@ class BlurredPrint {
   /// is made when it is first asked for.
   void prepare(double smallest_m, double largest_m, int threads) const;
 
-  [[nodiscard]] double smallest_sigma_m() const;
-  [[nodiscard]] double largest_sigma_m() const;
   [[nodiscard]] const Target& target() const { return target_; }
   [[nodiscard]] const PrintEdges& edges() const { return edges_; }
   [[nodiscard]] const BoardOutline& outline() const { return outline_; }

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole calibration from warm files, its stages, solving again after a rejection, the joint
-// solve with every scene left out once, and the boundary response. Three simulated scenes (or as
-// many as the second argument says) with 1920 × 1200 images; the first argument is the number of
-// points a scene, so that the time per point shows whether the cost is linear.
+// solve with every scene left out once, how long a calibration takes to stop, and the boundary
+// response. Three simulated scenes (of solve_again as many as the second argument says) with
+// 1920 × 1200 images; the first argument is the number of points a scene, so that the time per
+// point shows whether the cost is linear.
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>
@@ -122,6 +126,24 @@ void leave_one_out(benchmark::State& state) {
   }
 }
 
+// From the wish to stop, so many milliseconds after the start, until calibrate() is back.
+void cancelled(benchmark::State& state) {
+  using Clock = std::chrono::steady_clock;
+  const auto dataset = open_dataset(datasets().get(state.range(0)));
+  if (!dataset) give_up(dataset.error());
+  for (auto _ : state) {
+    std::stop_source source;
+    RunContext context;
+    context.stop = source.get_token();
+    std::thread run([&] { static_cast<void>(calibrate(*dataset, {}, context)); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(state.range(1)));
+    const auto asked = Clock::now();
+    source.request_stop();
+    run.join();
+    state.SetIterationTime(std::chrono::duration<double>(Clock::now() - asked).count());
+  }
+}
+
 void boundary_response(benchmark::State& state) {
   const CalibrationResult result = calibrated(datasets().get(state.range(0)));
   std::vector<ResponseInput> inputs;
@@ -151,6 +173,11 @@ BENCHMARK(solve_again)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK(leave_one_out)->Arg(10)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(cancelled)
+    ->ArgsProduct({{500'000}, {0, 30, 150, 400, 800}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5)
+    ->UseManualTime();
 BENCHMARK(boundary_response)->Arg(500'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 BENCHMARK_MAIN();

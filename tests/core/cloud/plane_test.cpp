@@ -2,6 +2,7 @@
 #include "cloud/plane.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -182,6 +183,18 @@ TEST(AppendPoint, TakesAllFieldsThatAreThere) {
   Cloud bare;
   append_point(bare, from, 0);
   EXPECT_FALSE(bare.has_intensity() || bare.has_time() || bare.has_line());
+}
+
+TEST(PlaneFrame, AxesTurnFromUTowardsV) {
+  PlaneFrame frame;
+  frame.normal = {0.0, 0.0, -1.0};
+  frame.axis_u = {0.0, 1.0, 0.0};
+  frame.axis_v = {1.0, 0.0, 0.0};
+  const Eigen::Matrix3d quarter = frame.turned(std::numbers::pi / 2.0);
+  EXPECT_NEAR((quarter.col(0) - frame.axis_v).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((quarter.col(1) + frame.axis_u).norm(), 0.0, 1e-15);
+  EXPECT_EQ(quarter.col(2), frame.normal);
+  EXPECT_NEAR(frame.turned(0.3).determinant(), 1.0, 1e-15);
 }
 
 }  // namespace

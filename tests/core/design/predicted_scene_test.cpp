@@ -105,7 +105,7 @@ TEST(PredictedScene, PromisesAboutWhatASceneDelivers) {
     poses[s].camera_from_board = made.truth.camera_from_board[s];
   const ModelVariances variances;
   const auto predicted = predicted_information(
-      poses, sensors, made.table, made.truth.camera_from_lidar, none, {}, variances, {});
+      poses, {sensors, made.table, made.truth.camera_from_lidar, none, {}, variances}, {});
   ASSERT_EQ(predicted.size(), poses.size());
   Matrix6d taken = Matrix6d::Zero();
   Matrix6d promised = Matrix6d::Zero();
@@ -127,8 +127,10 @@ TEST(PredictedScene, StopsWhenAsked) {
   context.stop = stop.get_token();
   GridPose pose;
   pose.camera_from_board = made.truth.camera_from_board[0];
-  EXPECT_TRUE(predicted_information({pose}, sensors_of(made.table), made.table,
-                                    made.truth.camera_from_lidar, {}, {}, {}, context)
+  EXPECT_TRUE(predicted_information(
+                  {pose},
+                  {sensors_of(made.table), made.table, made.truth.camera_from_lidar, {}, {}, {}},
+                  context)
                   .empty());
 }
 

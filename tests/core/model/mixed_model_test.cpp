@@ -46,7 +46,7 @@ TEST(MixedModel, CoversExtrinsicAndParameter) {
     const Vector6d x = f.solution.head<6>();
     const Matrix6d c = f.covariance.topLeftCorner<6, 6>();
     extrinsic += x.dot(c.ldlt().solve(x)) < chi_square_gate(6, 0.05) ? 1 : 0;
-    const double sigma = std::sqrt(f.parameter_covariance()(0, 0));
+    const double sigma = std::sqrt(f.covariance(6, 6));
     parameter += std::abs(f.parameters()(0) - 0.006) < 1.96 * sigma ? 1 : 0;
   }
   EXPECT_GE(extrinsic, 57 - 7);
@@ -247,7 +247,7 @@ TEST(MixedModel, RunsOfParametersSumToZero) {
         fit_model(linearize(made.table, made.truth, {}, columns, {}), subset, {}, {});
     EXPECT_NEAR(f.parameters().sum(), 0.0, 1e-4);
     for (Eigen::Index k = 0; k < 6; ++k) {
-      const double sigma = std::sqrt(f.parameter_covariance()(k, k));
+      const double sigma = std::sqrt(f.covariance(6 + k, 6 + k));
       EXPECT_LT(sigma, 0.0005);
       EXPECT_NEAR(f.parameters()(k), own[static_cast<std::size_t>(k)], 4.0 * sigma);
     }

@@ -108,15 +108,16 @@ TEST(SearchSceneAgain, LooksInTheRegion) {
   BoardSearchRegion region;
   region.center_m = data.rig().scenes[0].lidar_from_board * Eigen::Vector3d(c.x(), c.y(), 0.0);
   region.radius_m = 1.0;
-  ASSERT_TRUE(search_scene_again(dataset.scenes[0], {}, region, {}, pyramid, result, 0).ok());
+  const CalibrationRequest request;
+  const SecondSearch where{dataset.scenes[0], request, region, dataset.target, pyramid};
+  ASSERT_TRUE(search_scene_again(where, {}, result.scenes[0]).ok());
   ASSERT_TRUE(result.scenes[0].search.has_value());
   EXPECT_FALSE(result.scenes[0].search->candidates.empty());
   std::stop_source stop;
   stop.request_stop();
   RunContext context;
   context.stop = stop.get_token();
-  const Status stopped =
-      search_scene_again(dataset.scenes[0], {}, region, context, pyramid, result, 0);
+  const Status stopped = search_scene_again(where, context, result.scenes[0]);
   ASSERT_FALSE(stopped.ok());
   EXPECT_EQ(stopped.error().kind, ErrorKind::kCancelled);
 }
@@ -136,10 +137,11 @@ TEST(SearchSceneAgain, KeepsWhatTheFirstLookFoundElsewhere) {
   BoardSearchRegion region;
   region.center_m = 0.3 * (data.rig().scenes[0].lidar_from_board * Eigen::Vector3d::Zero());
   region.radius_m = 0.2;
+  const CalibrationRequest request;
+  const SecondSearch where{dataset.scenes[0], request, region, dataset.target, pyramid};
   for (int time = 0; time < 2; ++time) {  // Searched, then kept.
     result.scenes[0].place = BoardPlace::kOpen;
-    ASSERT_TRUE(
-        search_scene_again(dataset.scenes[0], {}, region, {}, pyramid, result, 0, &cache).ok());
+    ASSERT_TRUE(search_scene_again(where, {}, result.scenes[0], &cache).ok());
     EXPECT_EQ(result.scenes[0].search->candidates.size(), found);
     EXPECT_EQ(result.scenes[0].place, BoardPlace::kPast);
   }

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/disturbances/registry.h"
+
 namespace lvcalib::simulation {
 namespace {
 
@@ -83,7 +85,7 @@ TEST(SimulationOptions, RefusesEffectsOutOfRangeOrWithoutLines) {
   board.effects["corner_bias"] = 0.2;
   EXPECT_FALSE(check(board).ok());
   SimulationOptions options;
-  for (const std::string& id : plantable_effects()) options.effects[id] = 0.3;
+  for (const Disturbance& planted : disturbances()) options.effects[planted.id] = 0.3;
   EXPECT_TRUE(check(options).ok());
 }
 

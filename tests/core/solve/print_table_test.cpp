@@ -32,15 +32,23 @@ class PrintTable : public testing::Test {
     const auto solved = test::solve(rig_, Vector6d::Zero());
     ASSERT_TRUE(solved) << solved.error().text();
     solution_ = *solved;
-    std::vector<SceneMeasurements> scenes;
+    TableInput input = input_of_rig();
     for (const ForwardScene& scene : rig_.scenes)
-      scenes.push_back({scene.name, scene.corners, scene.board_points});
+      input.scenes.push_back({scene.name, scene.corners, scene.board_points});
     state_ = {solution_.state.camera_from_lidar, solution_.state.camera_from_board,
               solution_.state.levels, solution_.state.beam};
     TableOptions how;
     how.max_rows_per_scene = 3000;
-    table_ = print_table(scenes, std::make_shared<const BlurredPrint>(rig_.target), rig_.camera,
-                         state_, solution_.noise, test::kRigCornerSigma_px, how, {});
+    table_ = print_table(input, state_, how, {});
+  }
+
+  // The scenes still to come.
+  static TableInput input_of_rig() {
+    return {.scenes = {},
+            .camera = rig_.camera,
+            .print = std::make_shared<const BlurredPrint>(rig_.target),
+            .noise = solution_.noise,
+            .sigma_px = test::kRigCornerSigma_px};
   }
 
   // Half the sum of squared residuals in σ, over all channels.
@@ -106,19 +114,17 @@ TEST_F(PrintTable, MadeAgainItRefersToTheSameLevels) {
 TEST_F(PrintTable, MadeAgainItHasTheReturnsThatTheModelPredicts) {
   constexpr double kOffset_m = 0.12;
   std::vector<Cloud> far;
-  std::vector<SceneMeasurements> scenes;
   for (const ForwardScene& scene : rig_.scenes) {
     far.push_back(*scene.board_points);
     for (Eigen::Vector3f& p : far.back().points_m)
       p *= 1.0F + static_cast<float>(kOffset_m) / p.norm();
   }
+  TableInput input = input_of_rig();
   for (std::size_t s = 0; s < far.size(); ++s)
-    scenes.push_back({rig_.scenes[s].name, rig_.scenes[s].corners, &far[s]});
+    input.scenes.push_back({rig_.scenes[s].name, rig_.scenes[s].corners, &far[s]});
   TableOptions how;
   how.max_rows_per_scene = 3000;
-  const auto table =
-      print_table(scenes, std::make_shared<const BlurredPrint>(rig_.target), rig_.camera, state_,
-                  solution_.noise, test::kRigCornerSigma_px, how, {});
+  const auto table = print_table(input, state_, how, {});
   EXPECT_LT(table.range.size(), table_.range.size() / 10);
   const std::vector<EffectInUse> in_use{
       {find_effect("range_offset"), 0.0, Eigen::VectorXd::Constant(1, kOffset_m)}};
