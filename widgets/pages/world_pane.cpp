@@ -6,6 +6,8 @@
 #include <QEvent>
 #include <QVBoxLayout>
 
+#include <Eigen/Geometry>
+
 #include "pages/scene_overlay.h"
 #include "style/texts.h"
 #include "views/cloud_scene_builder.h"
@@ -80,6 +82,13 @@ void WorldPane::rebuild() {
       input.scenes.push_back({QString::fromStdString(scene.name), colors.series(place).rgb()});
     }
     for (const Eigen::Vector3d& p : camera_pyramid(*result_)) input.landmarks_m.push_back(p);
+    // All boards, also one that stands far behind the others.
+    Eigen::AlignedBox3f boards;
+    for (const Eigen::Vector3f& p : boards_->points_m) boards.extend(p);
+    if (!boards.isEmpty()) {
+      for (const Eigen::Vector3f& p : {boards.min(), boards.max()})
+        input.landmarks_m.push_back(p.cast<double>());
+    }
   } else {
     input.problem = tr("run the calibration first");
   }

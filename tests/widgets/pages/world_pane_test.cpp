@@ -50,6 +50,20 @@ TEST_F(WorldPaneTest, HoldsEveryBoardAndBothSensors) {
   EXPECT_NEAR(pixel->x(), demo_.result->camera.width_px - 0.5, 0.01);
 }
 
+// Single points far away do not count when a cloud is opened; here all boards do.
+TEST_F(WorldPaneTest, OpensOnABoardFarBehindTheOthers) {
+  auto result = std::make_shared<CalibrationResult>(*demo_.result);
+  std::vector<Eigen::Vector3f>& far = result->scenes[0].board_points.points_m;
+  far.resize(far.size() / 50);  // As few as its returns would be there.
+  for (Eigen::Vector3f& p : far) p *= 20.0F;
+  pane_.setResult(result);
+  ASSERT_TRUE(settle());
+  const CloudScene& scene = *pane_.view()->scene();
+  EXPECT_GT(scene.high_m.norm(), 20.0);
+  EXPECT_EQ(scene.most_low_m, scene.low_m);
+  EXPECT_EQ(scene.most_high_m, scene.high_m);
+}
+
 // Scenes have names, not an order: a colour of its own for each, and a legend that says which.
 TEST_F(WorldPaneTest, EverySceneHasItsColourAndItsName) {
   pane_.setResult(demo_.result);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick|model
+// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick|model|opened
 // [dark]]. Opens a dataset (without one: the demo), runs it and writes a picture of every page and
-// dialog to the folder, in light and dark; quick: in one of both; model: of the Model page alone.
+// dialog to the folder, in light and dark; quick: in one of both; model: of the Model page
+// alone; opened: of the window before the run.
 // The size is the window's.
 
 #include <QApplication>
@@ -362,6 +363,7 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (!test::wait_until([&] { return window.workspace().is_open(); })) return 1;
   if (!test::wait_until([&] { return !window.workspace().busy(); })) return 1;
   camera.take(QStringLiteral("opened"));
+  if (what == QLatin1String("opened")) return 0;
   test::trigger(window, "run");
   QTest::qWait(500);
   camera.take(QStringLiteral("running"));
@@ -413,7 +415,7 @@ int main(int argc, char** argv) {
   if (arguments.size() < 2) {
     std::fprintf(stderr,
                  "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] "
-                 "[quick|model [dark]]\n");
+                 "[quick|model|opened [dark]]\n");
     return 2;
   }
   QDir().mkpath(arguments.at(1));
@@ -427,7 +429,7 @@ int main(int argc, char** argv) {
     choose(window, "language", arguments.value(3, QStringLiteral("en")));
     const QString dataset = arguments.value(2);
     QString what;
-    for (const char* part : {"quick", "model"}) {
+    for (const char* part : {"quick", "model", "opened"}) {
       if (arguments.contains(QLatin1String(part))) what = QLatin1String(part);
     }
     const QStringList size = arguments.value(4).split(QLatin1Char('x'));
