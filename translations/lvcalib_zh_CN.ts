@@ -1964,10 +1964,6 @@ Export it all the same?</source>
         <translation>此文件夹不是数据集；数据集包含 target.yaml（标定板）、camera.yaml（内参），以及每个场景的 scenes/NAME/，其中有 image.png 和 cloud.pcd</translation>
     </message>
     <message>
-        <source>choose the folder that holds these, or make one from a recording</source>
-        <translation>请选择包含这些内容的文件夹，或由录制数据生成一个</translation>
-    </message>
-    <message>
         <source>&apos;%1&apos; is no name of a frame; expected letters, digits and _ - . /, not beginning with - and without --</source>
         <translation>“%1”不是坐标系名称；只能用字母、数字和 _ - . /，不能以 - 开头，也不能含 --</translation>
     </message>
@@ -4995,6 +4991,14 @@ Export it all the same?</source>
         <source>tag corners miss their model by %1 px, where their own noise is %2 px: that may move the extrinsic by up to %3 mm and %4 mrad; check the intrinsics, the sizes in target.yaml and that the board is flat</source>
         <translation>标签角点偏离模型 %1 px，而其自身噪声为 %2 px：这最多可能使外参移动 %3 mm 和 %4 mrad；请检查内参、target.yaml 中的尺寸以及标定板是否平整</translation>
     </message>
+    <message>
+        <source>choose the folder that holds these, or make a dataset from a recording or from files</source>
+        <translation>请选择包含这些内容的文件夹，或由录制数据或文件生成数据集</translation>
+    </message>
+    <message>
+        <source>open it where it is now, or make a dataset from a recording or from files</source>
+        <translation>请到其现在的位置打开，或由录制数据或文件生成数据集</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -5112,6 +5116,12 @@ Export it all the same?</source>
     <message>
         <source>, </source>
         <translation>、</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n parts of the board</source>
+        <translation>
+            <numerusform>标定板的 %n 个部分</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -9672,8 +9682,8 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>仍然采用</translation>
     </message>
     <message>
-        <source>Use the selected tags and circles although they miss the board&apos;s pose by more than the gate</source>
-        <translation>即使所选标签和圆偏离标定板位姿超过门限，也仍然采用</translation>
+        <source>Use the selected tags and circles although they miss the board&apos;s pose by more than the gate, and the parts of the board with the selected points although something seems to cover them</source>
+        <translation>即使所选标签和圆偏离标定板位姿超过门限，也仍然采用；所选点所在的标定板部分即使看似被遮盖，也仍然采用</translation>
     </message>
 </context>
 <context>
@@ -10759,12 +10769,34 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
         <translation>点的颜色</translation>
     </message>
     <message>
-        <source>What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the camera sees it (blue), the LiDAR&apos;s axes (x red, y green, z blue), the camera&apos;s view (pyramid). A click on a board goes to its scene.</source>
-        <translation>点的颜色所表示的量。线条：激光雷达所见（橙色）与相机所见（蓝色）的各标定板、激光雷达坐标轴（x 红、y 绿、z 蓝）、相机视野（棱锥）。单击标定板可转到其场景。</translation>
-    </message>
-    <message>
         <source>run the calibration first</source>
         <translation>请先运行标定</translation>
+    </message>
+    <message>
+        <source>What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the camera sees it (blue), the LiDAR&apos;s axes (x red, y green, z blue), the views of both (pyramids). A click on a board goes to its scene.</source>
+        <translation>点的颜色所表示的量。线条：激光雷达所见（橙色）与相机所见（蓝色）的各标定板、激光雷达坐标轴（x 红、y 绿、z 蓝）、两者的视野（棱锥）。单击标定板可转到其场景。</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a line about points to select them, at whatever depth. With Shift they are added to those selected</source>
+        <translation>圈住要选中的点，不论远近。按住 Shift 则加入已选中的点</translation>
+    </message>
+    <message>
+        <source>Exclude these</source>
+        <translation>排除所选</translation>
+    </message>
+    <message>
+        <source>Leave out what is selected, in every scene, and solve again</source>
+        <translation>在所有场景中排除所选内容并重新求解</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n points</source>
+        <translation>
+            <numerusform>%n 个点</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -22,6 +22,7 @@
 #include "modelling/model_page.h"
 #include "pages/extrinsic_page.h"
 #include "pages/threshold_pane.h"
+#include "pipeline/refusals.h"
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
@@ -272,6 +273,16 @@ void MainWindow::connect_pages() {
   connect(pages_, &PageStack::keep_wanted, this, [this](const QString& scene, bool tag, int id) {
     SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
     (tag ? edits.kept_tags : edits.kept_circles).push_back(id);
+    workspace_->set_edits({{scene, edits}});
+  });
+  connect(pages_, &PageStack::keep_patch_wanted, this, [this](const QString& scene, int id) {
+    if (!workspace_->result()) return;
+    SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+    for (const Refusal& refusal : refusals(*workspace_->result())) {
+      if (refusal.scene == scene.toStdString() && refusal.what == Refusal::What::kPatch &&
+          refusal.id == id)
+        keep(edits, refusal);
+    }
     workspace_->set_edits({{scene, edits}});
   });
   connect(pages_, &PageStack::patch_excluded, this,

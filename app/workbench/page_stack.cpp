@@ -44,6 +44,7 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::patchExcluded, this, &PageStack::patch_excluded);
   connect(scene_, &ScenePage::insistWanted, this, &PageStack::insist_wanted);
   connect(response_, &ResponsePage::keepWanted, this, &PageStack::keep_wanted);
+  connect(response_, &ResponsePage::keepPatchWanted, this, &PageStack::keep_patch_wanted);
   connect(refinement_, &RefinementPage::keepWanted, this, &PageStack::keep_wanted);
   connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {
     for (std::size_t s = 0; result_ && s < result_->scenes.size(); ++s) {

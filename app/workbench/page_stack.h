@@ -64,6 +64,8 @@ class PageStack : public QStackedWidget {
   void edits_wanted(int scene, const lvcalib::SceneEdits& edits);
   /// A tag, or else a circle, that the program refused is to be used all the same.
   void keep_wanted(const QString& scene, bool tag, int id);
+  /// The same of a part of the board, by its number among those refused in the scene.
+  void keep_patch_wanted(const QString& scene, int id);
   /// A patch of the board is to be left out of every scene.
   void patch_excluded(const std::vector<Eigen::Vector2d>& patch_m);
   void crop_wanted(int scene, const std::optional<lvcalib::CropBox>& box);

@@ -105,13 +105,15 @@ ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
   j["rms_mm"] = node_rms_mm(solution);
   const SceneEdits& edits = scene.edits;
   if (!edits.empty()) {
-    j["by_hand"] = {
-        {"left_out",
-         {{"points", scene.left_out_points.size()},
-          {"patches", edits.patches_m.size()},
-          {"tags", edits.tags},
-          {"circles", edits.circles}}},
-        {"used_all_the_same", {{"tags", edits.kept_tags}, {"circles", edits.kept_circles}}}};
+    j["by_hand"] = {{"left_out",
+                     {{"points", scene.left_out_points.size()},
+                      {"patches", edits.patches_m.size()},
+                      {"tags", edits.tags},
+                      {"circles", edits.circles}}},
+                    {"used_all_the_same",
+                     {{"tags", edits.kept_tags},
+                      {"circles", edits.kept_circles},
+                      {"patches", edits.kept_patches.size()}}}};
   }
   if (scene.refinement) {
     j["refinement"] = refinement_json(*scene.refinement);

@@ -81,11 +81,13 @@ QWidget* ResponsePage::createTables() {
   reasons_->setObjectName("response-reasons");
   reasons_->setOpenLinks(false);
   connect(reasons_, &QTextBrowser::anchorClicked, this, [this](const QUrl& what) {
-    // "scene:NAME", "tag:ID/NAME" or "circle:ID/NAME"
+    // "scene:NAME", "tag:ID/NAME", "circle:ID/NAME" or "patch:ID/NAME"
     const QString path = what.path(QUrl::FullyEncoded);
     const QString name = QUrl::fromPercentEncoding(path.section('/', -1).toUtf8());
     if (what.scheme() == QLatin1String("scene")) {
       Q_EMIT insistWanted(name);
+    } else if (what.scheme() == QLatin1String("patch")) {
+      Q_EMIT keepPatchWanted(name, path.section('/', 0, 0).toInt());
     } else {
       Q_EMIT keepWanted(name, what.scheme() == QLatin1String("tag"),
                         path.section('/', 0, 0).toInt());
@@ -192,10 +194,11 @@ void ResponsePage::fillReasons() {
       html += "<li>" + describe(refusal).toHtmlEscaped() + " " +
               core_text(refusal.reason).toHtmlEscaped();
       if (refusal.can_be_used) {
-        const QString what = refusal.what == Refusal::What::kScene ? QStringLiteral("scene:")
-                             : refusal.what == Refusal::What::kTag
-                                 ? QStringLiteral("tag:%1/").arg(refusal.id)
-                                 : QStringLiteral("circle:%1/").arg(refusal.id);
+        const QString what =
+            refusal.what == Refusal::What::kScene   ? QStringLiteral("scene:")
+            : refusal.what == Refusal::What::kTag   ? QStringLiteral("tag:%1/").arg(refusal.id)
+            : refusal.what == Refusal::What::kPatch ? QStringLiteral("patch:%1/").arg(refusal.id)
+                                                    : QStringLiteral("circle:%1/").arg(refusal.id);
         const QByteArray scene = QUrl::toPercentEncoding(QString::fromStdString(refusal.scene));
         html += QStringLiteral(" <a href=\"%1%2\">%3</a>")
                     .arg(what, QString::fromUtf8(scene), tr("Use it all the same"));

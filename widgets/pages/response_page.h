@@ -37,6 +37,8 @@ class ResponsePage : public QWidget {
   void insistWanted(const QString& scene);
   /// A tag, or else a circle, that the program refused is to be used all the same.
   void keepWanted(const QString& scene, bool tag, int id);
+  /// Part of the board, by its number among those refused in the scene.
+  void keepPatchWanted(const QString& scene, int id);
 
  protected:
   void showEvent(QShowEvent* event) override;

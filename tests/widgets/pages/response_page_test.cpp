@@ -123,6 +123,18 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
   EXPECT_EQ(keep.first(), (QVariantList{QString("B"), false, 2}));
   ASSERT_EQ(insist.count(), 1);
   EXPECT_EQ(insist.first().first().toString(), "C");
+  // And a part of the board that something seems to cover.
+  changed = std::make_shared<CalibrationResult>(*demo_.result);
+  Eigen::AlignedBox2d box(Eigen::Vector2d(0.1, 0.1), Eigen::Vector2d(0.2, 0.2));
+  changed->forward->scenes[1].covered = {{box, 40}};
+  changed->forward->scenes[1].refused = 40;
+  page_.setResult(changed);
+  QSignalSpy patch(&page_, &ResponsePage::keepPatchWanted);
+  const QString text = list->toHtml();
+  ASSERT_TRUE(text.contains("href=\"patch:0/B\"")) << text.toStdString();
+  Q_EMIT list->anchorClicked(QUrl("patch:0/B"));
+  ASSERT_EQ(patch.count(), 1);
+  EXPECT_EQ(patch.first(), (QVariantList{QString("B"), 0}));
   page_.setResult(nullptr);
   EXPECT_EQ(table()->rowCount(), 0);
   EXPECT_TRUE(csv<SampleMapPlot>().isEmpty());
