@@ -305,6 +305,14 @@ TEST_F(MainWindowTest, UnusableThingsAreNamedAndNothingOpens) {
     named = named || label->text().contains("nowhere");
   EXPECT_TRUE(named);
   EXPECT_FALSE(workspace().is_open());
+  // A folder that has gone says what to do, and that is at hand.
+  auto* dialog = find<QDialog>(*window_, "error_dialog");
+  bool told = false;
+  for (const QLabel* label : dialog->findChildren<QLabel*>())
+    told = told || label->text().contains("What to do: open it where it is now");
+  EXPECT_TRUE(told);
+  EXPECT_NE(find<QPushButton>(*dialog, "import_files"), nullptr);
+  EXPECT_NE(find<QPushButton>(*dialog, "import_recording"), nullptr);
 }
 
 TEST_F(MainWindowTest, AFolderDroppedOnTheWindowOpensAndIsRemembered) {
