@@ -285,6 +285,15 @@ void MainWindow::connect_pages() {
     }
     workspace_->set_edits({{scene, edits}});
   });
+  connect(pages_, &PageStack::points_excluded, this, [this](const PointsOfScenes& points) {
+    std::map<QString, SceneEdits> edits;
+    for (const auto& [scene, out] : points) {
+      SceneEdits& edit = edits[scene];
+      edit = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+      edit.points_m.insert(edit.points_m.end(), out.begin(), out.end());
+    }
+    workspace_->set_edits(edits);
+  });
   connect(pages_, &PageStack::patch_excluded, this,
           [this](const std::vector<Eigen::Vector2d>& patch) {
             std::map<QString, SceneEdits> edits;

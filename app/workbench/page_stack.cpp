@@ -54,6 +54,7 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::failed, this, &PageStack::failed);
   connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
+  connect(extrinsic_->world(), &WorldPane::excludeWanted, this, &PageStack::points_excluded);
   connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
   connect(response_, &ResponsePage::failed, this, &PageStack::failed);
   connect(response_, &ResponsePage::sceneActivated, this, &PageStack::scene_wanted);

@@ -2,8 +2,10 @@
 #include "pages/world_pane.h"
 
 #include <QComboBox>
+#include <QLabel>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
@@ -93,6 +95,33 @@ TEST_F(WorldPaneTest, AClickOnABoardGoesToItsScene) {
   Q_EMIT pane_.view()->pointPicked(first);
   ASSERT_EQ(activated.count(), 1);
   EXPECT_EQ(activated[0][0].toInt(), 1);
+}
+
+// The brush selects points of several scenes at once; each goes to its own.
+TEST_F(WorldPaneTest, BrushedPointsAreLeftOutOfTheirScenes) {
+  pane_.setResult(demo_.result);
+  ASSERT_TRUE(settle());
+  auto* exclude = pane_.findChild<QToolButton*>("world-exclude");
+  EXPECT_FALSE(exclude->isVisible());
+  const auto first = static_cast<std::uint32_t>(demo_.result->scenes[0].board_points.size());
+  Q_EMIT pane_.view()->pointsBrushed({3, first + 5}, false);
+  Q_EMIT pane_.view()->pointsBrushed({first + 5, first + 9}, true);
+  ASSERT_TRUE(exclude->isVisible());
+  EXPECT_EQ(pane_.findChild<QLabel*>("world-selection")->text(), "3 points");
+  PointsOfScenes wanted;
+  QObject::connect(&pane_, &WorldPane::excludeWanted, &pane_,
+                   [&](const PointsOfScenes& points) { wanted = points; });
+  exclude->click();
+  ASSERT_EQ(wanted.size(), 2U);
+  const auto& scenes = demo_.result->scenes;
+  EXPECT_EQ(wanted[QString::fromStdString(scenes[0].name)],
+            std::vector<Eigen::Vector3f>{scenes[0].board_points.points_m[3]});
+  EXPECT_EQ(wanted[QString::fromStdString(scenes[1].name)],
+            (std::vector<Eigen::Vector3f>{scenes[1].board_points.points_m[5],
+                                          scenes[1].board_points.points_m[9]}));
+  // Places in one result's boards mean nothing in another's.
+  pane_.setResult(demo_.result);
+  EXPECT_FALSE(exclude->isVisible());
 }
 
 TEST_F(WorldPaneTest, WithoutAResultItSaysWhatToDo) {
