@@ -124,10 +124,12 @@ were saved. Take them up again?</source>
         <translation>结果失败</translation>
     </message>
     <message>
-        <source>It is not to be used: its warnings say why.
-Export it all the same?</source>
-        <translation>不应使用它：其警告说明了原因。
-仍要导出吗？</translation>
+        <source>This result has failed: it is not to be used, and its warnings say why.</source>
+        <translation>该结果已失败：不应使用，原因见其警告。</translation>
+    </message>
+    <message>
+        <source>Export it all the same</source>
+        <translation>仍然导出</translation>
     </message>
 </context>
 <context>

@@ -2,7 +2,7 @@
 // Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick|model|opened
 // [dark]]. Opens a dataset (without one: the demo), runs it and writes a picture of every page and
 // dialog to the folder, in light and dark; quick: in one of both; model: of the Model page
-// alone; opened: of the window before the run.
+// alone; opened: of the window before and after the run.
 // The size is the window's.
 
 #include <QApplication>
@@ -16,6 +16,7 @@
 #include <QSurfaceFormat>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QUndoStack>
@@ -209,6 +210,14 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   take("guide_dialog", QStringLiteral("guide"));
   test::trigger(window, "about");
   take("about_dialog", QStringLiteral("about"));
+  // A question as its user gets it; tests answer others.
+  QTimer::singleShot(500, &window, [&] {
+    QWidget* question = QApplication::activeModalWidget();
+    if (question == nullptr) return;
+    camera.take(QStringLiteral("failed-") + theme, question);
+    question->close();
+  });
+  widgets::Choices().hand_on_failed(&window);
   window.open(QStringLiteral("/nowhere/rig"));
   test::wait_until([&] { return test::find<QDialog>(window, "error_dialog") != nullptr; }, 5000);
   take("error_dialog", QStringLiteral("error"));
@@ -363,7 +372,12 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (!test::wait_until([&] { return window.workspace().is_open(); })) return 1;
   if (!test::wait_until([&] { return !window.workspace().busy(); })) return 1;
   camera.take(QStringLiteral("opened"));
-  if (what == QLatin1String("opened")) return 0;
+  if (what == QLatin1String("opened")) {
+    test::trigger(window, "run");
+    test::wait_until([&] { return !window.workspace().busy(); });
+    camera.take(QStringLiteral("opened-2"));
+    return 0;
+  }
   test::trigger(window, "run");
   QTest::qWait(500);
   camera.take(QStringLiteral("running"));
