@@ -9150,6 +9150,22 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
             <numerusform>场景 %1，标定板上 x %2 至 %3 m、y %4 至 %5 m 处的 %n 个点：</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a rectangle over the samples on the board: returns there can be left out, of the scene chosen in the table or of all</source>
+        <translation>在标定板上的样本处框选一个矩形：可将其中的回波从表中所选场景或全部场景中排除</translation>
+    </message>
+    <message>
+        <source>Exclude this part of the board in every scene</source>
+        <translation>在所有场景中排除标定板的这一部分</translation>
+    </message>
+    <message>
+        <source>Exclude this part of the board in scene %1</source>
+        <translation>在场景 %1 中排除标定板的这一部分</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResultActions</name>

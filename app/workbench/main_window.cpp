@@ -294,6 +294,12 @@ void MainWindow::connect_pages() {
     }
     workspace_->set_edits(edits);
   });
+  connect(pages_, &PageStack::scene_patch_excluded, this,
+          [this](const QString& scene, const std::vector<Eigen::Vector2d>& patch) {
+            SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+            edits.patches_m.push_back(patch);
+            workspace_->set_edits({{scene, edits}});
+          });
   connect(pages_, &PageStack::patch_excluded, this,
           [this](const std::vector<Eigen::Vector2d>& patch) {
             std::map<QString, SceneEdits> edits;

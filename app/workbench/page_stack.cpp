@@ -44,6 +44,14 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::patchExcluded, this, &PageStack::patch_excluded);
   connect(scene_, &ScenePage::insistWanted, this, &PageStack::insist_wanted);
   connect(response_, &ResponsePage::keepWanted, this, &PageStack::keep_wanted);
+  connect(response_, &ResponsePage::partExcluded, this,
+          [this](const QString& scene, const std::vector<Eigen::Vector2d>& patch_m) {
+            if (scene.isEmpty()) {
+              Q_EMIT patch_excluded(patch_m);
+            } else {
+              Q_EMIT scene_patch_excluded(scene, patch_m);
+            }
+          });
   connect(response_, &ResponsePage::keepPatchWanted, this, &PageStack::keep_patch_wanted);
   connect(refinement_, &RefinementPage::keepWanted, this, &PageStack::keep_wanted);
   connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {

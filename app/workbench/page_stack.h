@@ -69,6 +69,8 @@ class PageStack : public QStackedWidget {
   void keep_patch_wanted(const QString& scene, int id);
   /// Points are to be left out of several scenes.
   void points_excluded(const lvcalib::widgets::PointsOfScenes& points);
+  /// A patch of the board is to be left out of one scene.
+  void scene_patch_excluded(const QString& scene, const std::vector<Eigen::Vector2d>& patch_m);
   /// A patch of the board is to be left out of every scene.
   void patch_excluded(const std::vector<Eigen::Vector2d>& patch_m);
   void crop_wanted(int scene, const std::optional<lvcalib::CropBox>& box);

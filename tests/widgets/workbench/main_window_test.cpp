@@ -31,6 +31,7 @@
 #include "dialogs/guide_dialog.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
+#include "pages/response_page.h"
 #include "pages/scene_page.h"
 #include "pages/world_pane.h"
 #include "pipeline/project_file.h"
@@ -337,6 +338,26 @@ TEST_F(MainWindowTest, PointsBrushedInAllScenesAreLeftOutAtOnce) {
   EXPECT_EQ(workspace().result()->scenes[1].left_out_points.size(), 1U);
   ASSERT_TRUE(trigger(*window_, "undo"));
   EXPECT_TRUE(left_out("A").empty() && left_out("B").empty());
+}
+
+TEST_F(MainWindowTest, APartOfTheBoardIsLeftOutOfOneSceneOrOfAll) {
+  run();
+  auto* page = window_->findChild<widgets::ResponsePage*>();
+  ASSERT_NE(page, nullptr);
+  const std::vector<Eigen::Vector2d> patch = {{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}};
+  const auto patches = [&](const char* scene) {
+    return decision_of(workspace().decisions(), scene).edits.patches_m.size();
+  };
+  Q_EMIT page->partExcluded("B", patch);
+  EXPECT_EQ(patches("A"), 0U);
+  EXPECT_EQ(patches("B"), 1U);
+  Q_EMIT page->partExcluded({}, patch);
+  EXPECT_EQ(patches("A"), 1U);
+  EXPECT_EQ(patches("B"), 2U);
+  EXPECT_EQ(patches("C"), 1U);
+  ASSERT_TRUE(trigger(*window_, "undo"));
+  EXPECT_EQ(patches("A"), 0U);
+  ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
 }
 
 TEST_F(MainWindowTest, AFolderDroppedOnTheWindowOpensAndIsRemembered) {
