@@ -124,10 +124,12 @@ were saved. Take them up again?</source>
         <translation>结果失败</translation>
     </message>
     <message>
-        <source>It is not to be used: its warnings say why.
-Export it all the same?</source>
-        <translation>不应使用它：其警告说明了原因。
-仍要导出吗？</translation>
+        <source>This result has failed: it is not to be used, and its warnings say why.</source>
+        <translation>该结果已失败：不应使用，原因见其警告。</translation>
+    </message>
+    <message>
+        <source>Export it all the same</source>
+        <translation>仍然导出</translation>
     </message>
     <message>
         <source>Add images of the board</source>
@@ -1958,10 +1960,6 @@ Export it all the same?</source>
     <message>
         <source>this folder is no dataset; a dataset holds target.yaml (the board), camera.yaml (the intrinsics) and scenes/NAME/ with image.png and cloud.pcd for every scene</source>
         <translation>此文件夹不是数据集；数据集包含 target.yaml（标定板）、camera.yaml（内参），以及每个场景的 scenes/NAME/，其中有 image.png 和 cloud.pcd</translation>
-    </message>
-    <message>
-        <source>choose the folder that holds these, or make one from a recording</source>
-        <translation>请选择包含这些内容的文件夹，或由录制数据生成一个</translation>
     </message>
     <message>
         <source>&apos;%1&apos; is no name of a frame; expected letters, digits and _ - . /, not beginning with - and without --</source>
@@ -5023,6 +5021,14 @@ Export it all the same?</source>
         <source>the boards&apos; planes miss the LiDAR&apos;s ranges by %1 times their noise</source>
         <translation>标定板平面与激光雷达测距之差为其噪声的 %1 倍</translation>
     </message>
+    <message>
+        <source>choose the folder that holds these, or make a dataset from a recording or from files</source>
+        <translation>请选择包含这些内容的文件夹，或由录制数据或文件生成数据集</translation>
+    </message>
+    <message>
+        <source>open it where it is now, or make a dataset from a recording or from files</source>
+        <translation>请到其现在的位置打开，或由录制数据或文件生成数据集</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -5140,6 +5146,12 @@ Export it all the same?</source>
     <message>
         <source>, </source>
         <translation>、</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n parts of the board</source>
+        <translation>
+            <numerusform>标定板的 %n 个部分</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -9351,6 +9363,22 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
             <numerusform>场景 %1，标定板上 x %2 至 %3 m、y %4 至 %5 m 处的 %n 个点：</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a rectangle over the samples on the board: returns there can be left out, of the scene chosen in the table or of all</source>
+        <translation>在标定板上的样本处框选一个矩形：可将其中的回波从表中所选场景或全部场景中排除</translation>
+    </message>
+    <message>
+        <source>Exclude this part of the board in every scene</source>
+        <translation>在所有场景中排除标定板的这一部分</translation>
+    </message>
+    <message>
+        <source>Exclude this part of the board in scene %1</source>
+        <translation>在场景 %1 中排除标定板的这一部分</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResultActions</name>
@@ -9885,8 +9913,8 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
         <translation>仍然采用</translation>
     </message>
     <message>
-        <source>Use the selected tags and circles although they miss the board&apos;s pose by more than the gate</source>
-        <translation>即使所选标签和圆偏离标定板位姿超过门限，也仍然采用</translation>
+        <source>Use the selected tags and circles although they miss the board&apos;s pose by more than the gate, and the parts of the board with the selected points although something seems to cover them</source>
+        <translation>即使所选标签和圆偏离标定板位姿超过门限，也仍然采用；所选点所在的标定板部分即使看似被遮盖，也仍然采用</translation>
     </message>
 </context>
 <context>
@@ -10988,12 +11016,34 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
         <translation>点的颜色</translation>
     </message>
     <message>
-        <source>What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the camera sees it (blue), the LiDAR&apos;s axes (x red, y green, z blue), the camera&apos;s view (pyramid). A click on a board goes to its scene.</source>
-        <translation>点的颜色所表示的量。线条：激光雷达所见（橙色）与相机所见（蓝色）的各标定板、激光雷达坐标轴（x 红、y 绿、z 蓝）、相机视野（棱锥）。单击标定板可转到其场景。</translation>
-    </message>
-    <message>
         <source>run the calibration first</source>
         <translation>请先运行标定</translation>
+    </message>
+    <message>
+        <source>What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the camera sees it (blue), the LiDAR&apos;s axes (x red, y green, z blue), the views of both (pyramids). A click on a board goes to its scene.</source>
+        <translation>点的颜色所表示的量。线条：激光雷达所见（橙色）与相机所见（蓝色）的各标定板、激光雷达坐标轴（x 红、y 绿、z 蓝）、两者的视野（棱锥）。单击标定板可转到其场景。</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a line about points to select them, at whatever depth. With Shift they are added to those selected</source>
+        <translation>圈住要选中的点，不论远近。按住 Shift 则加入已选中的点</translation>
+    </message>
+    <message>
+        <source>Exclude these</source>
+        <translation>排除所选</translation>
+    </message>
+    <message>
+        <source>Leave out what is selected, in every scene, and solve again</source>
+        <translation>在所有场景中排除所选内容并重新求解</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n points</source>
+        <translation>
+            <numerusform>%n 个点</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -49,7 +49,7 @@ void print_ablation(const std::vector<AblationStep>& steps, Session& session) {
 Result<std::string> run(const CalibrationArguments& arguments, Session& session) {
   auto result = run_calibration(arguments, session);
   if (!result) return result.error();
-  if (Status s = write_results(*result, arguments.output); !s) return s.error();
+  if (Status s = write_results(*result, arguments.output, arguments.frames); !s) return s.error();
   if (!result->ablation.empty()) print_ablation(result->ablation, session);
   if (result->quality == Quality::kFailed || result->extrinsic.used_scenes < 2)
     return untrusted_result(*result, arguments);

@@ -8,6 +8,7 @@
 #include "base/file_io.h"
 #include "base/yaml_file.h"
 #include "overwriting.h"
+#include "report/exports.h"
 
 namespace lvcalib::cli {
 namespace {
@@ -97,6 +98,10 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
   command.add_option("--insist", arguments.insisted,
                      "use this scene though it contradicts the others or shows too few circles "
                      "(repeatable)");
+  command.add_option("--lidar-frame", arguments.frames.lidar,
+                     "what the LiDAR's frame is called in the results (default: lidar)");
+  command.add_option("--camera-frame", arguments.frames.camera,
+                     "what the camera's frame is called in the results (default: camera)");
   command.add_flag("--skip-unreadable", arguments.skip_unreadable,
                    "leave out scenes whose files are missing or cannot be read, with a warning; "
                    "otherwise they are an error");
@@ -104,6 +109,9 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
 
 Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments, Session& session) {
   if (Status s = check_output(arguments.output, {}); !s) return s.error();
+  for (const std::string& name : {arguments.frames.lidar, arguments.frames.camera}) {
+    if (Status s = check_frame_name(name); !s) return s.error();
+  }
   if (Status s = check_folder_usable(arguments.output); !s) return s.error();
   auto dataset = open_dataset(arguments.dataset, unusable_scenes(arguments));
   if (!dataset) return dataset.error();

@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "pipeline/calibration.h"
+#include "report/frame_names.h"
 
 namespace lvcalib::cli {
 
@@ -23,6 +24,7 @@ struct CalibrationArguments {
   bool skip_unreadable = false;  ///< Leave out scenes whose files are missing or unreadable.
   std::vector<std::string> rejected;
   std::vector<std::string> insisted;
+  FrameNames frames;
 };
 
 void add_calibration_arguments(CLI::App& command, CalibrationArguments& arguments,

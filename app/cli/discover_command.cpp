@@ -74,7 +74,8 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
     if (error.where.empty()) error.where = options.calibration.dataset;
     if (error.kind == ErrorKind::kUntrusted && !session.context.stopped()) {
       // Too little to look for effects, but there is a calibration.
-      if (Status s = write_results(*result, output); !s) return s.error();
+      if (Status s = write_results(*result, output, options.calibration.frames); !s)
+        return s.error();
       error.message += Message("; the plain calibration is in %1", output);
     }
     return error;
@@ -88,7 +89,8 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
     if (std::find(said.begin(), said.end(), warning) == said.end()) session.warn(warning);
   }
   if (session.context.stopped()) return Error::cancelled();
-  if (Status s = write_discovery(*discovery, final, output); !s) return s.error();
+  if (Status s = write_discovery(*discovery, final, output, options.calibration.frames); !s)
+    return s.error();
   if (final.quality == Quality::kFailed) return untrusted_result(final, options.calibration);
   return summary_of(*discovery, before, final, output);
 }

@@ -85,9 +85,9 @@ Command add_export_command(CLI::App& app) {
   command->add_option("--imu", options->imu,
                       "YAML file with T_imu_lidar (takes a LiDAR point to the IMU frame)");
   command->add_option("--lidar-frame", options->lidar_frame,
-                      "what the LiDAR's frame is called (default: lidar)");
+                      "what the LiDAR's frame is called (default: as the result says)");
   command->add_option("--camera-frame", options->camera_frame,
-                      "what the camera's frame is called (default: camera)");
+                      "what the camera's frame is called (default: as the result says)");
   command->add_flag("--force", options->force, "export a result that has failed, too");
   return {command, [options](Session& session) { return run(*options, session.context); }};
 }

@@ -22,6 +22,7 @@
 #include "modelling/model_page.h"
 #include "pages/extrinsic_page.h"
 #include "pages/threshold_pane.h"
+#include "pipeline/refusals.h"
 #include "report/result_file.h"
 #include "runner/demo.h"
 #include "start/welcome_page.h"
@@ -274,6 +275,31 @@ void MainWindow::connect_pages() {
     (tag ? edits.kept_tags : edits.kept_circles).push_back(id);
     workspace_->set_edits({{scene, edits}});
   });
+  connect(pages_, &PageStack::keep_patch_wanted, this, [this](const QString& scene, int id) {
+    if (!workspace_->result()) return;
+    SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+    for (const Refusal& refusal : refusals(*workspace_->result())) {
+      if (refusal.scene == scene.toStdString() && refusal.what == Refusal::What::kPatch &&
+          refusal.id == id)
+        keep(edits, refusal);
+    }
+    workspace_->set_edits({{scene, edits}});
+  });
+  connect(pages_, &PageStack::points_excluded, this, [this](const PointsOfScenes& points) {
+    std::map<QString, SceneEdits> edits;
+    for (const auto& [scene, out] : points) {
+      SceneEdits& edit = edits[scene];
+      edit = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+      edit.points_m.insert(edit.points_m.end(), out.begin(), out.end());
+    }
+    workspace_->set_edits(edits);
+  });
+  connect(pages_, &PageStack::scene_patch_excluded, this,
+          [this](const QString& scene, const std::vector<Eigen::Vector2d>& patch) {
+            SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+            edits.patches_m.push_back(patch);
+            workspace_->set_edits({{scene, edits}});
+          });
   connect(pages_, &PageStack::patch_excluded, this,
           [this](const std::vector<Eigen::Vector2d>& patch) {
             std::map<QString, SceneEdits> edits;

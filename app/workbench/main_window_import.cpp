@@ -55,7 +55,10 @@ void MainWindow::open(const QString& path) {
   }
   if (!may_drop_decisions()) return;
   folder_wanted_.clear();
-  if (QFileInfo(path).isDir()) {
+  // What is not there any more was a folder, unless its name says otherwise.
+  const QFileInfo info(path);
+  const bool project = info.suffix() == QLatin1String("lvcalib");
+  if (info.isDir() || (!info.exists() && !project)) {
     folder_wanted_ = QDir::cleanPath(QDir::current().absoluteFilePath(path));
     workspace_->open_dataset(path);
   } else {

@@ -45,6 +45,15 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::patchExcluded, this, &PageStack::patch_excluded);
   connect(scene_, &ScenePage::insistWanted, this, &PageStack::insist_wanted);
   connect(response_, &ResponsePage::keepWanted, this, &PageStack::keep_wanted);
+  connect(response_, &ResponsePage::partExcluded, this,
+          [this](const QString& scene, const std::vector<Eigen::Vector2d>& patch_m) {
+            if (scene.isEmpty()) {
+              Q_EMIT patch_excluded(patch_m);
+            } else {
+              Q_EMIT scene_patch_excluded(scene, patch_m);
+            }
+          });
+  connect(response_, &ResponsePage::keepPatchWanted, this, &PageStack::keep_patch_wanted);
   connect(refinement_, &RefinementPage::keepWanted, this, &PageStack::keep_wanted);
   connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {
     for (std::size_t s = 0; result_ && s < result_->scenes.size(); ++s) {
@@ -54,6 +63,7 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::failed, this, &PageStack::failed);
   connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
+  connect(extrinsic_->world(), &WorldPane::excludeWanted, this, &PageStack::points_excluded);
   connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
   connect(response_, &ResponsePage::failed, this, &PageStack::failed);
   connect(response_, &ResponsePage::sceneActivated, this, &PageStack::scene_wanted);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "pages/world_pane.h"
 #include "pipeline/calibration.h"
 #include "runner/scene_data.h"
 
@@ -71,6 +72,12 @@ class PageStack : public QStackedWidget {
   void keep_wanted(const QString& scene, bool tag, int id);
   /// The dataset's images, or its camera.yaml, have changed on disk.
   void dataset_changed();
+  /// The same of a part of the board, by its number among those refused in the scene.
+  void keep_patch_wanted(const QString& scene, int id);
+  /// Points are to be left out of several scenes.
+  void points_excluded(const lvcalib::widgets::PointsOfScenes& points);
+  /// A patch of the board is to be left out of one scene.
+  void scene_patch_excluded(const QString& scene, const std::vector<Eigen::Vector2d>& patch_m);
   /// A patch of the board is to be left out of every scene.
   void patch_excluded(const std::vector<Eigen::Vector2d>& patch_m);
   void crop_wanted(int scene, const std::optional<lvcalib::CropBox>& box);

@@ -60,7 +60,8 @@ void ResultActions::write_report(const std::shared_ptr<const CalibrationResult>&
   QString path = choices_.file_to_export(&window_, suggestion, tr("HTML (*.html)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".html");
-  report_.write(result, discovery, path);
+  report_.write(result, discovery, path,
+                {settings_.lidar_frame().toStdString(), settings_.camera_frame().toStdString()});
   Q_EMIT busy_changed();
 }
 

@@ -41,9 +41,11 @@ std::optional<BoardSurface> by_solve(const CalibrationResult& result, const Scen
       return std::nullopt;
     const SceneNoise& noise = result.forward->noise.scenes[place];
     const Rigid3 pose = state.lidar_from_board(place);
-    const BoardReturns returns = select_returns(scene.board_points, *result.print, pose, state.beam,
-                                                {noise.range_white_m, noise.range_black_m},
-                                                result.options.forward.selection);
+    ReturnSelection selection = result.options.forward.selection;
+    selection.uncovered = scene.edits.kept_patches;
+    const BoardReturns returns =
+        select_returns(scene.board_points, *result.print, pose, state.beam,
+                       {noise.range_white_m, noise.range_black_m}, selection);
     const BoardPredictor predictor(*result.print, pose, state.levels[place], state.beam);
     const auto samples = range_samples(scene.board_points, returns.index, predictor);
     if (samples.empty()) return std::nullopt;

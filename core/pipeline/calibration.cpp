@@ -606,6 +606,75 @@ Status refine(const CalibrationInput& in, Calibration& run) {
   return not_found(in, run);
 }
 
+// One scene by itself, with the board where others' extrinsic has it. Nothing is left of it where
+// image or cloud do not show the board there.
+Status look_where_others_have_it(const CalibrationInput& in, Calibration& run) {
+  SceneResult& scene = run.result.scenes.front();
+  const Rigid3& place = run.result.consensus.camera_from_lidar.transform;
+  if (Status s = load_scenes(in.dataset, in.request, in.context, run.result, in.cache); !s)
+    return s;
+  take_out_tags(run.result.scenes);
+  if (!scene.view || !scene.reason.empty()) return Done{};
+  const auto choose = [&] {
+    const auto found = decide_scenes(hypotheses(run.result), place, in.request.options.consensus);
+    scene.chosen = found ? found->chosen.front() : std::nullopt;
+  };
+  choose();
+  if (!scene.chosen) {
+    run.result.consensus.chosen = {std::nullopt};
+    if (Status s = search_again(in, run, place); !s) return s;
+    choose();
+  }
+  if (!scene.chosen) return Done{};
+  run.planes.assign(1, {});
+  auto refinement = refine_scene(in, run, 0);
+  if (!refinement)
+    return refinement.error().kind == ErrorKind::kCancelled ? Status(refinement.error())
+                                                            : Status(Done{});
+  scene.refinement = std::move(*refinement);
+  if (!scene.refinement->nodes.empty()) scene.paper_nodes = refine_as_in_paper(in, run, 0);
+  take_out_circles(scene);
+  return Done{};
+}
+
+// How the scenes that the user rejected fit what the others give. They are looked at when all is
+// decided but the last solve, which they have no part in: nothing may depend on them, nor fail by
+// them.
+Status look_at_rejected(const CalibrationInput& in, CalibrationResult& result) {
+  const CalibrationObserver nobody;
+  CalibrationRequest request = in.request;
+  request.unusable = UnusableScenes::kLeaveOut;
+  RunContext quiet = in.context;
+  quiet.progress = {};
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    SceneResult& scene = result.scenes[s];
+    if (!scene.rejected || in.dataset.scenes[s].problem) continue;
+    Dataset one = in.dataset;
+    one.scenes = {in.dataset.scenes[s]};
+    Calibration run;
+    run.result.target = result.target;
+    run.result.camera = result.camera;
+    run.result.options = result.options;
+    run.result.consensus.camera_from_lidar = result.consensus.camera_from_lidar;
+    run.looked_twice.assign(1, 0);
+    SceneResult looked;
+    looked.name = scene.name;
+    looked.edits = scene.edits;
+    run.result.scenes.push_back(std::move(looked));
+    const Status status = look_where_others_have_it({one, request, quiet, in.cache, nobody}, run);
+    if (in.context.stopped()) return Error::cancelled();
+    if (!status) continue;
+    StageTimes& times = result.times;
+    times.load_ms += run.result.times.load_ms;
+    times.detect_ms += run.result.times.detect_ms;
+    times.localize_ms += run.result.times.localize_ms;
+    scene = std::move(run.result.scenes.front());
+    scene.unreadable = false;  // By the user's wish it is left out, whatever else there is.
+    reject(scene);
+  }
+  return Done{};
+}
+
 Status optimize(const CalibrationInput& in, CalibrationResult& result) {
   in.context.report("optimize", 0.92, Message("joint solve"));
   const auto start = Clock::now();
@@ -634,6 +703,7 @@ Result<CalibrationResult> calibrate_once(const CalibrationInput& in) {
   free_camera(result);
   if (Status s = agree(in, run); !s) return s.error();
   if (Status s = refine(in, run); !s) return s.error();
+  if (Status s = look_at_rejected(in, result); !s) return s.error();
   if (Status s = optimize(in, result); !s) return s.error();
   result.times.total_ms = ms_since(start);
   in.context.report("optimize", 1.0, Message("done"));

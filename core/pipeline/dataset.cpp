@@ -241,7 +241,8 @@ Result<Dataset> open_dataset(const fs::path& path, UnusableScenes unusable) {
   if (!fs::is_directory(path, code)) {
     return Error::input(
         Message("dataset folder not found; expected target.yaml, camera.yaml and scenes/ in it"),
-        path.string());
+        path.string(),
+        Message("open it where it is now, or make a dataset from a recording or from files"));
   }
   // Who opens some other folder learns what a dataset is, not which of its files came first.
   if (!fs::exists(path / "target.yaml", code) && !fs::exists(path / "camera.yaml", code) &&
@@ -249,7 +250,9 @@ Result<Dataset> open_dataset(const fs::path& path, UnusableScenes unusable) {
     return Error::input(
         Message("this folder is no dataset; a dataset holds target.yaml (the board), camera.yaml "
                 "(the intrinsics) and scenes/NAME/ with image.png and cloud.pcd for every scene"),
-        path.string(), Message("choose the folder that holds these, or make one from a recording"));
+        path.string(),
+        Message("choose the folder that holds these, or make a dataset from a recording or from "
+                "files"));
   }
   Dataset dataset;
   dataset.path = path;

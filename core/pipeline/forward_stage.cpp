@@ -65,6 +65,7 @@ std::vector<ForwardScene> forward_scenes(const CalibrationResult& result,
       if (solved.corners[i].used) scene.corners.push_back(from.corners[i]);
     }
     scene.board_points = &result.scenes[index[k]].board_points;
+    scene.uncovered = result.scenes[index[k]].edits.kept_patches;
     scene.camera_from_board = solved.camera_from_board;
     scene.lidar_from_board = from.lidar_from_board;
     const auto& sigma = from.plane.group_sigma_m;

@@ -166,6 +166,7 @@ DiscoveryInput discovery_input(const CalibrationResult& result) {
         m.corners.push_back(scene.view->corners[k]);
     }
     m.board_points = &scene.board_points;
+    m.uncovered = scene.edits.kept_patches;
     input.scenes.push_back(std::move(m));
     input.state.camera_from_board.push_back(solution->camera_from_board);
   }

@@ -70,6 +70,16 @@ void emit_edits(YAML::Emitter& out, const SceneEdits& edits) {
     }
     out << YAML::EndSeq;
   }
+  if (!edits.kept_patches.empty()) {
+    out << YAML::Key << "kept_patches_m" << YAML::Value << YAML::BeginSeq;
+    for (const BoardOutline& part : edits.kept_patches) {
+      out << YAML::Flow << YAML::BeginSeq;
+      for (const Eigen::Vector2d& p : {part.lower_left_m, part.upper_right_m})
+        out << number(p.x()) << number(p.y());
+      out << YAML::EndSeq;
+    }
+    out << YAML::EndSeq;
+  }
   if (!edits.patches_m.empty()) {
     out << YAML::Key << "patches_m" << YAML::Value << YAML::BeginSeq;
     for (const auto& patch : edits.patches_m) {
@@ -162,6 +172,13 @@ Result<SceneEdits> scene_edits(const YamlFile& file) {
   if (!points) return points.error();
   for (std::size_t k = 0; k < points->size(); k += 3)
     edits.points_m.emplace_back(Eigen::Vector3d(points->data() + k).cast<float>());
+  if (const YamlValue* kept = file.root().find("kept_patches_m"); kept != nullptr) {
+    auto corners = grouped(file, kept, "kept_patches_m", 4);
+    if (!corners) return corners.error();
+    for (std::size_t k = 0; k < corners->size(); k += 4)
+      edits.kept_patches.push_back(
+          {Eigen::Vector2d(corners->data() + k), Eigen::Vector2d(corners->data() + k + 2)});
+  }
   const YamlValue* patches = file.root().find("patches_m");
   if (patches == nullptr) return edits;
   if (patches->kind != YamlValue::Kind::kList)

@@ -65,6 +65,18 @@ bool can_be_insisted_on(const SceneResult& scene) {
          !scene.rejected;
 }
 
+void keep(SceneEdits& edits, const Refusal& refusal) {
+  const auto add = [&](std::vector<int>& ids) {
+    if (!contains_id(ids, refusal.id)) ids.push_back(refusal.id);
+    std::sort(ids.begin(), ids.end());
+  };
+  if (!refusal.can_be_used) return;
+  if (refusal.what == What::kTag) add(edits.kept_tags);
+  if (refusal.what == What::kCircle) add(edits.kept_circles);
+  if (refusal.what == What::kPatch)
+    edits.kept_patches.push_back({refusal.board_m.min(), refusal.board_m.max()});
+}
+
 std::vector<Refusal> refusals(const CalibrationResult& result) {
   std::vector<Refusal> out;
   std::size_t forward = 0;
@@ -77,7 +89,7 @@ std::vector<Refusal> refusals(const CalibrationResult& result) {
         const CoveredPatch& patch = returns.covered[k];
         off_plane -= std::min(off_plane, patch.returns);
         out.push_back({solved.name, What::kPatch, static_cast<int>(k), patch.returns,
-                       Message("something stands before the board there or lies on it"), false,
+                       Message("something stands before the board there or lies on it"), true,
                        patch.board_m});
       }
       if (off_plane > 0)
@@ -160,7 +172,8 @@ std::vector<std::uint32_t> refused_returns(const CalibrationResult& result, std:
     if (place >= result.forward->noise.scenes.size()) return {};
     const SceneNoise& noise = result.forward->noise.scenes[place];
     const RangeNoise range{noise.range_white_m, noise.range_black_m};
-    const ReturnSelection& usual = result.options.forward.selection;
+    ReturnSelection usual = result.options.forward.selection;
+    usual.uncovered = from.edits.kept_patches;
     ReturnSelection open = usual;
     open.range_gate = std::numeric_limits<double>::infinity();
     open.covers = false;

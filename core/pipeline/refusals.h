@@ -36,6 +36,10 @@ Message misses_the_pose(const NodeResidual& node);
 /// The scene was refused by the program, and has what it takes to be used all the same.
 bool can_be_insisted_on(const SceneResult& scene);
 
+/// Writes into a scene's edits that what is refused there is to be used all the same; nothing for
+/// what cannot be, and for whole scenes.
+void keep(SceneEdits& edits, const Refusal& refusal);
+
 /// Everything that the program refused, by scene. What the user left out is not in it, and of a
 /// scene that is refused as a whole nothing else is listed.
 std::vector<Refusal> refusals(const CalibrationResult& result);

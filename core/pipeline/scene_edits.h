@@ -27,6 +27,8 @@ struct SceneEdits {
   /// Used by id, though they miss the board's pose by more than the gate.
   std::vector<int> kept_tags;
   std::vector<int> kept_circles;
+  /// Used, though something seems to cover the board there.
+  std::vector<BoardOutline> kept_patches;
 
   [[nodiscard]] bool empty() const { return *this == SceneEdits{}; }
   bool operator==(const SceneEdits&) const = default;

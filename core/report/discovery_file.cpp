@@ -239,12 +239,12 @@ std::string discovery_summary(const Discovery& d) {
 }
 
 Status write_discovery(const Discovery& discovery, const CalibrationResult& result,
-                       const std::filesystem::path& folder) {
+                       const std::filesystem::path& folder, const FrameNames& frames) {
   if (Status s = create_folder(folder); !s) return s.error();
   return write_files_together(folder, {{"discovery.json", discovery_as_json(discovery)},
                                        {"discovery.txt", discovery_summary(discovery)},
-                                       {"result.yaml", result_as_yaml(result)},
-                                       {"result.json", result_as_json(result)}});
+                                       {"result.yaml", result_as_yaml(result, frames)},
+                                       {"result.json", result_as_json(result, frames)}});
 }
 
 }  // namespace lvcalib

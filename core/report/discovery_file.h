@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "pipeline/calibration.h"
+#include "report/frame_names.h"
 #include "selection/discovery.h"
 
 namespace lvcalib {
@@ -21,6 +22,6 @@ std::string discovery_summary(const Discovery& discovery);
 /// Writes discovery.json, discovery.txt, and result.json and result.yaml of the model found into a
 /// folder (created if needed): all of one run, or none.
 Status write_discovery(const Discovery& discovery, const CalibrationResult& result,
-                       const std::filesystem::path& folder);
+                       const std::filesystem::path& folder, const FrameNames& frames = {});
 
 }  // namespace lvcalib

@@ -141,6 +141,16 @@ Result<ExportInput> read_export_input(const std::filesystem::path& result_json) 
   const auto quality = j.find("quality");
   if (quality != j.end() && quality->is_string()) input.quality = quality->get<std::string>();
   if (const auto model = model_in(*text, result_json.string())) input.use = pose_use(*model);
+  if (const auto frames = j.find("frames"); frames != j.end() && frames->is_object()) {
+    // Names that no format takes are as good as none.
+    for (const auto& [key, name] :
+         {std::pair("lidar", &input.lidar_frame), std::pair("camera", &input.camera_frame)}) {
+      const auto found = frames->find(key);
+      if (found == frames->end() || !found->is_string()) continue;
+      const auto text_of = found->get<std::string>();
+      if (check_frame_name(text_of)) *name = text_of;
+    }
+  }
   input.scenes = scenes_of(j);
   input.result_json = std::move(*text);
   return input;

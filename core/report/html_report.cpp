@@ -147,9 +147,9 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
 }
 
 Result<HtmlReport> html_report(const CalibrationResult& result, const Discovery* discovery,
-                               const RunContext& context) {
+                               const RunContext& context, const FrameNames& frames) {
   const json found = discovery != nullptr ? parse_json(discovery_as_json(*discovery)) : json();
-  return report_of(result_as_json(result), "the result", found,
+  return report_of(result_as_json(result, frames), "the result", found,
                    day_of(std::chrono::system_clock::now()), context);
 }
 

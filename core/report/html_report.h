@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "report/frame_names.h"
 
 namespace lvcalib {
 
@@ -29,6 +30,6 @@ Result<HtmlReport> html_report(const std::filesystem::path& folder, const RunCon
 
 /// The same of a calibration that is not stored. `discovery` may be null.
 Result<HtmlReport> html_report(const CalibrationResult& result, const Discovery* discovery,
-                               const RunContext& context);
+                               const RunContext& context, const FrameNames& frames = {});
 
 }  // namespace lvcalib

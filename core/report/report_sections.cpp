@@ -229,8 +229,13 @@ std::string pose_section(const json& result) {
   std::string quaternion;
   for (const json& v : pose.at("quaternion_xyzw"))
     quaternion += (quaternion.empty() ? "" : ", ") + shown(v.get<double>(), 9);
-  return "<h2>Pose</h2>\n<p>T_camera_lidar takes a point from the LiDAR frame to the camera frame "
-         "(x right, y down, z forward).</p>\n" +
+  // An older result has no names.
+  const json frames = result.value("frames", json::object());
+  const auto name = [&](const char* sensor) {
+    return "<code>" + html_escaped(frames.value(sensor, sensor)) + "</code>";
+  };
+  return "<h2>Pose</h2>\n<p>T_camera_lidar takes a point from the LiDAR frame (" + name("lidar") +
+         ") to the camera frame (" + name("camera") + "; x right, y down, z forward).</p>\n" +
          matrix_table(pose.at("matrix")) + "<p>Quaternion x, y, z, w: <code>" + quaternion +
          "</code></p>\n<h3>Standard deviations</h3>\n<p class=\"note\">Of the left perturbation in "
          "the camera frame, from the noise estimated: corners " +

@@ -95,13 +95,15 @@ ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
   j["rms_mm"] = node_rms_mm(solution);
   const SceneEdits& edits = scene.edits;
   if (!edits.empty()) {
-    j["by_hand"] = {
-        {"left_out",
-         {{"points", scene.left_out_points.size()},
-          {"patches", edits.patches_m.size()},
-          {"tags", edits.tags},
-          {"circles", edits.circles}}},
-        {"used_all_the_same", {{"tags", edits.kept_tags}, {"circles", edits.kept_circles}}}};
+    j["by_hand"] = {{"left_out",
+                     {{"points", scene.left_out_points.size()},
+                      {"patches", edits.patches_m.size()},
+                      {"tags", edits.tags},
+                      {"circles", edits.circles}}},
+                    {"used_all_the_same",
+                     {{"tags", edits.kept_tags},
+                      {"circles", edits.kept_circles},
+                      {"patches", edits.kept_patches.size()}}}};
   }
   if (scene.refinement) {
     j["refinement"] = refinement_json(*scene.refinement);
@@ -210,12 +212,13 @@ const SceneSolution* solution_of(const CalibrationResult& result, const std::str
   return nullptr;
 }
 
-ordered_json to_json(const CalibrationResult& result) {
+ordered_json to_json(const CalibrationResult& result, const FrameNames& frames) {
   const ExtrinsicSolution& x = result.extrinsic;
   ordered_json j;
   j["version"] = version();
   j["dataset"] = result.dataset;
   j["T_camera_lidar"] = pose_json(x.camera_from_lidar.transform);
+  j["frames"] = {{"lidar", frames.lidar}, {"camera", frames.camera}};
   j["covariance"] = rows_of(x.camera_from_lidar.covariance);
   j["covariance_total"] = rows_of(result.covariance_total);
   j["applies_to"] = pose_use(result).corrected ? "corrected" : "raw";
@@ -335,11 +338,12 @@ std::string version() {
   return LVCALIB_VERSION;
 }
 
-std::string result_as_json(const CalibrationResult& result) {
-  return to_json(result).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+std::string result_as_json(const CalibrationResult& result, const FrameNames& frames) {
+  return to_json(result, frames).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+         "\n";
 }
 
-std::string result_as_yaml(const CalibrationResult& result) {
+std::string result_as_yaml(const CalibrationResult& result, const FrameNames& frames) {
   const ExtrinsicSolution& x = result.extrinsic;
   const Rigid3& pose = x.camera_from_lidar.transform;
   const Eigen::Vector4d q = pose.rotation.coeffs();
@@ -352,6 +356,8 @@ std::string result_as_yaml(const CalibrationResult& result) {
   out += "  translation_m: " +
          yaml_list({pose.translation.x(), pose.translation.y(), pose.translation.z()}) + "\n";
   out += "  quaternion_xyzw: " + yaml_list({q(0), q(1), q(2), q(3)}) + "\n";
+  out += "frames: {lidar: " + yaml_quoted(frames.lidar) +
+         ", camera: " + yaml_quoted(frames.camera) + "}\n";
   out += "# Standard deviations of the left perturbation in the camera frame.\n";
   out +=
       "sigma_translation_mm: " + yaml_list({1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2)}) + "\n";
@@ -393,10 +399,11 @@ std::string result_as_yaml(const CalibrationResult& result) {
   return out;
 }
 
-Status write_results(const CalibrationResult& result, const std::filesystem::path& folder) {
+Status write_results(const CalibrationResult& result, const std::filesystem::path& folder,
+                     const FrameNames& frames) {
   if (Status s = create_folder(folder); !s) return s;
-  return write_files_together(
-      folder, {{"result.yaml", result_as_yaml(result)}, {"result.json", result_as_json(result)}});
+  return write_files_together(folder, {{"result.yaml", result_as_yaml(result, frames)},
+                                       {"result.json", result_as_json(result, frames)}});
 }
 
 Result<StoredExtrinsic> read_result(const std::filesystem::path& path) {

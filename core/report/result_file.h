@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "pipeline/calibration.h"
+#include "report/frame_names.h"
 
 namespace lvcalib {
 
@@ -18,13 +19,14 @@ inline constexpr std::size_t kMaxResultBytes = std::size_t{256} << 20;
 std::string version();
 
 /// The calibration as the text of result.json (keys: see resources/guide/files.md).
-std::string result_as_json(const CalibrationResult& result);
+std::string result_as_json(const CalibrationResult& result, const FrameNames& frames = {});
 
 /// The short form for people and YAML readers: pose, uncertainty, quality, scenes.
-std::string result_as_yaml(const CalibrationResult& result);
+std::string result_as_yaml(const CalibrationResult& result, const FrameNames& frames = {});
 
 /// Writes result.json and result.yaml into a folder (created if needed): both of one run, or none.
-Status write_results(const CalibrationResult& result, const std::filesystem::path& folder);
+Status write_results(const CalibrationResult& result, const std::filesystem::path& folder,
+                     const FrameNames& frames = {});
 
 /// What `evaluate` needs of a result file.
 struct StoredExtrinsic {

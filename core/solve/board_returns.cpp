@@ -96,8 +96,12 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
     cover_patches(kept, cloud, outline, covered);
   }
   for (const Eigen::AlignedBox2d& box : covered.patches()) out.covered.push_back({box, 0});
+  const auto is_uncovered = [&](const Eigen::Vector2d& place_m) {
+    return std::any_of(selection.uncovered.begin(), selection.uncovered.end(),
+                       [&](const BoardOutline& part) { return part.contains(place_m); });
+  };
   for (const PlacedReturn& r : kept) {
-    if (!covered.covers(r.board_m)) {
+    if (!covered.covers(r.board_m) || is_uncovered(r.board_m)) {
       out.index.push_back(r.point);
       continue;
     }

@@ -55,6 +55,8 @@ struct ReturnSelection {
   /// Look for what stands close before the board or lies on it (see cover_crowds() and
   /// cover_patches()). Off while the board may be off its place.
   bool covers = true;
+  /// Parts of the board where nothing counts as covered, whatever it looks like.
+  std::vector<BoardOutline> uncovered = {};
 };
 
 /// Picks the returns on a board at `lidar_from_board`: those whose ray meets the board's inside and

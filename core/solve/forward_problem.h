@@ -28,9 +28,10 @@ struct ForwardScene {
   std::string name;
   std::vector<CornerObservation> corners;
   const Cloud* board_points = nullptr;
-  Rigid3 camera_from_board;     ///< Start, from the corners alone.
-  Rigid3 lidar_from_board;      ///< Start, from the cloud alone.
-  double range_sigma_m = 0.01;  ///< Start.
+  Rigid3 camera_from_board;                  ///< Start, from the corners alone.
+  Rigid3 lidar_from_board;                   ///< Start, from the cloud alone.
+  double range_sigma_m = 0.01;               ///< Start.
+  std::vector<BoardOutline> uncovered = {};  ///< See ReturnSelection.
 };
 
 /// A line has an error of its own if so many of its returns are on the board; with fewer its mean

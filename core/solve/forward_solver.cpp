@@ -107,6 +107,7 @@ bool select(const ForwardInput& in, Iteration& it, bool settled) {
   parallel_for(in.scenes.size(), in.context.thread_count(), [&](std::size_t s) {
     const SceneNoise& n = it.noise.scenes[s];
     ReturnSelection here = how;
+    here.uncovered = in.scenes[s].uncovered;
     if (settled && !it.returns[s].has_intensity)
       here.place_m =
           place_margin_m(in.print.outline(), it.state.camera_from_board[s], it.last.covariance);

@@ -275,9 +275,11 @@ class SceneRows {
         return look ? look->by_effects.range_m : 0.0;
       };
     }
+    ReturnSelection selection;
+    selection.uncovered = input_.uncovered;
     const BoardReturns kept =
         select_returns(cloud, print_, geometry_.lidar_from_board(), beam,
-                       {noise.range_white_m, noise.range_black_m}, {}, added_m);
+                       {noise.range_white_m, noise.range_black_m}, selection, added_m);
     has_intensity_ = kept.has_intensity;
     for (std::size_t k = 0; k < kept.size(); ++k) {
       const auto look = look_at(kept.index[k], predictor, rotation, beam, effects);

@@ -16,6 +16,7 @@ struct SceneMeasurements {
   std::string name;
   std::vector<CornerObservation> corners;
   const Cloud* board_points = nullptr;
+  std::vector<BoardOutline> uncovered = {};  ///< See ReturnSelection.
 };
 
 /// What a table is made of: the scenes in use, and what the joint solve found.

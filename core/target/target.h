@@ -40,6 +40,10 @@ struct BoardOutline {
   Eigen::Vector2d upper_right_m = Eigen::Vector2d::Zero();
   [[nodiscard]] Eigen::Vector2d size_m() const { return upper_right_m - lower_left_m; }
   [[nodiscard]] Eigen::Vector2d center_m() const { return 0.5 * (lower_left_m + upper_right_m); }
+  [[nodiscard]] bool contains(const Eigen::Vector2d& p) const {
+    return (p.array() >= lower_left_m.array()).all() && (p.array() <= upper_right_m.array()).all();
+  }
+  bool operator==(const BoardOutline&) const = default;
 };
 
 /// The printed board. Board frame: x right, y up, z out of the board towards the viewer.

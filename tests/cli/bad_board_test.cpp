@@ -180,7 +180,14 @@ TEST(OneScene, GivesAResultThatIsDoubtfulAndSaysWhy) {
   input.arguments = {"--reject", "A", "--reject", "C"};
   const SpoiledRun rejected(input);
   rejected.expect_as_described();
-  EXPECT_TRUE(fs::exists(rejected.output() / "result.json"));
+  ASSERT_TRUE(fs::exists(rejected.output() / "result.json"));
+  // How the rejected ones would fit.
+  const auto fits = nlohmann::json::parse(read_file(rejected.output() / "result.json"));
+  ASSERT_EQ(fits["scenes"].size(), 3U);
+  for (const auto& scene : fits["scenes"]) {
+    EXPECT_GT(scene["rms_px"].get<double>(), 0.0) << scene["name"];
+    EXPECT_GT(scene["rms_mm"].get<double>(), 0.0) << scene["name"];
+  }
 }
 
 TEST(OneBoardMissing, CostsOneScene) {

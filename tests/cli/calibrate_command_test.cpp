@@ -65,6 +65,24 @@ TEST_F(CalibrateFlags, MethodsIsATableBeforeTheSummaryAndAKeyOfTheResult) {
   EXPECT_EQ(j["ablation"].back()["T_camera_lidar"], j["T_camera_lidar"]["matrix"]);
 }
 
+// The frames as the user calls them, in the result and in what is exported from it.
+TEST_F(CalibrateFlags, FramesAreCalledAsTheUserCallsThem) {
+  const Outcome named = calibrate(
+      "named", {"--lidar-frame", "velodyne", "--camera-frame", "cam0/optical", "--quiet"});
+  ASSERT_EQ(named.status, 0) << named.err;
+  EXPECT_EQ(result("named")["frames"], (json{{"lidar", "velodyne"}, {"camera", "cam0/optical"}}));
+  const std::string file = fs::path(at("named")) / "result.json";
+  const Outcome urdf = run_lvcalib({"export", file, "--format", "urdf", "-o", at("rig.urdf")});
+  ASSERT_EQ(urdf.status, 0) << urdf.err;
+  EXPECT_THAT(read_file(at("rig.urdf")), HasSubstr("<parent link=\"velodyne\"/>"));
+  EXPECT_EQ(run_lvcalib({"report", at("named"), "-o", at("named.html")}).status, 0);
+  EXPECT_THAT(read_file(at("named.html")), HasSubstr("<code>cam0/optical</code>"));
+  const Outcome bad = calibrate("bad", {"--lidar-frame", "a b", "--quiet"});
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_THAT(bad.err, HasSubstr("'a b' is no name of a frame"));
+  EXPECT_FALSE(fs::exists(at("bad")));
+}
+
 TEST_F(CalibrateFlags, EvaluateTellsEveryStepsDistanceToTheTruth) {
   const fs::path file = fs::path(at("methods")) / "result.json";
   const std::string truth = good_dataset().string() + "-truth.json";

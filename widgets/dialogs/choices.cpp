@@ -5,6 +5,7 @@
 #include <QCoreApplication>
 #include <QFileDialog>
 #include <QMessageBox>
+#include <QPushButton>
 
 namespace lvcalib::widgets {
 namespace {
@@ -160,12 +161,19 @@ bool Choices::recover(QWidget* parent, const QString& dataset) {
 }
 
 bool Choices::hand_on_failed(QWidget* parent) {
-  return QMessageBox::warning(
-             parent, words(QT_TRANSLATE_NOOP("Choices", "The result has failed")),
-             words(QT_TRANSLATE_NOOP("Choices",
-                                     "It is not to be used: its warnings say why.\n"
-                                     "Export it all the same?")),
-             QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
+  QMessageBox box(QMessageBox::Warning,
+                  words(QT_TRANSLATE_NOOP("Choices", "The result has failed")),
+                  words(QT_TRANSLATE_NOOP("Choices",
+                                          "This result has failed: it is not to be "
+                                          "used, and its warnings say why.")),
+                  QMessageBox::Cancel, parent);
+  // What a button does stands on it: nobody exports by a hasty Yes.
+  auto* all_the_same = box.addButton(words(QT_TRANSLATE_NOOP("Choices", "Export it all the same")),
+                                     QMessageBox::AcceptRole);
+  all_the_same->setObjectName(QStringLiteral("export_all_the_same"));
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == all_the_same;
 }
 
 }  // namespace lvcalib::widgets

@@ -139,6 +139,7 @@ QString results_html(const CalibrationResult& result) {
 }
 
 void ResultsDialog::set_frame_names(const QString& lidar, const QString& camera) {
+  frames_ = {lidar.toStdString(), camera.toStdString()};
   exports_->setFrameNames(lidar, camera);
 }
 
@@ -155,7 +156,11 @@ ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Ch
   exports_ = new ExportPane(export_input_of(*result_), choices_, folder_, tabs);
   connect(exports_, &ExportPane::exported, this, &ResultsDialog::exported);
   connect(exports_, &ExportPane::failed, this, &ResultsDialog::failed);
-  connect(exports_, &ExportPane::frameNamesChanged, this, &ResultsDialog::frame_names_changed);
+  connect(exports_, &ExportPane::frameNamesChanged, this,
+          [this](const QString& lidar, const QString& camera) {
+            frames_ = {lidar.toStdString(), camera.toStdString()};
+            Q_EMIT frame_names_changed(lidar, camera);
+          });
   tabs->addTab(exports_, {});
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   const auto add = [&](const char* name) {
@@ -169,10 +174,10 @@ ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Ch
   connect(copy, &QPushButton::clicked, this,
           [this] { QGuiApplication::clipboard()->setText(matrix_text(*result_)); });
   connect(yaml, &QPushButton::clicked, this, [this] {
-    export_file(QStringLiteral("yaml"), tr("YAML (*.yaml)"), result_as_yaml(*result_));
+    export_file(QStringLiteral("yaml"), tr("YAML (*.yaml)"), result_as_yaml(*result_, frames_));
   });
   connect(json, &QPushButton::clicked, this, [this] {
-    export_file(QStringLiteral("json"), tr("JSON (*.json)"), result_as_json(*result_));
+    export_file(QStringLiteral("json"), tr("JSON (*.json)"), result_as_json(*result_, frames_));
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);

@@ -6,6 +6,7 @@
 
 #include "dialogs/choices.h"
 #include "pipeline/calibration.h"
+#include "report/frame_names.h"
 
 namespace lvcalib::widgets {
 
@@ -40,6 +41,7 @@ class ResultsDialog : public QDialog {
   std::shared_ptr<const CalibrationResult> result_;
   Choices& choices_;
   QString folder_;
+  FrameNames frames_;
   ExportPane* exports_ = nullptr;
 };
 

@@ -193,6 +193,7 @@ void ScenesDock::fit_columns() {
   const QHeaderView* header = view_->header();
   const QAbstractItemView& rows = *view_;  // There its hints are public.
   int needed = 0;
+  int least = 0;
   int state = 0;
   for (int column = 0; column < header->count(); ++column) {
     if (view_->isColumnHidden(column)) continue;
@@ -200,11 +201,17 @@ void ScenesDock::fit_columns() {
     if (column == SceneModel::kState) state = width;
     if (column != SceneModel::kState) width = std::max(width, rows.sizeHintForColumn(column));
     needed += width;
+    // Notes may be as long as their writer likes: they can be scrolled to.
+    if (column != SceneModel::kNote) least += width;
   }
+  const int shown = model_.thumbnail_width();
+  const int picture = shown > 0 ? shown + kThumbnailMargin : 0;
+  // The pages beside it ask for room, too, and must not push columns out of sight.
+  const int beside_viewport = view_->width() - view_->viewport()->width();
+  view_->setMinimumWidth(least - picture + std::max(0, beside_viewport));
   const int words = view_->fontMetrics().horizontalAdvance(SceneModel::used_words());
   const int said = std::max(0, kSign + words - state);
-  const int shown = model_.thumbnail_width();
-  if (shown > 0) needed -= shown + kThumbnailMargin;
+  needed -= picture;
   const int room = view_->viewport()->width();
   const auto with = [&](int width) { return needed + (width > 0 ? width + kThumbnailMargin : 0); };
   // The usual state in full, or its sign alone: "us…" says nothing. Small pictures go before words.

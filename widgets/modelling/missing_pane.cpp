@@ -24,6 +24,7 @@
 #include "model/row_covariates.h"
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
+#include "style/fitting.h"
 #include "style/texts.h"
 #include "style/theme.h"
 #include "words/core_text.h"
@@ -208,23 +209,9 @@ void MissingPane::setPattern(const std::shared_ptr<const ResidualFigure>& figure
   pattern_->setFigure(figure, tr("its pattern cannot be seen"));
 }
 
-// A tree's rows do not grow with their words by themselves.
 void MissingPane::fitRows() {
-  const auto fit = [this](QTreeWidgetItem* item, int depth) {
-    const int width = item->treeWidget()->header()->sectionSize(kEffect);
-    const int room = std::max(40, width - list_->indentation() * (depth + 1) - 8);
-    const QRect text =
-        QFontMetrics(item->font(kEffect).resolve(list_->font()))
-            .boundingRect(QRect(0, 0, room, 1000), Qt::TextWordWrap, item->text(kEffect));
-    const QSize size(room, text.height() + 4);
-    if (item->sizeHint(kEffect) != size) item->setSizeHint(kEffect, size);
-  };
-  for (int k = 0; k < list_->topLevelItemCount(); ++k) {
-    QTreeWidgetItem* top = list_->topLevelItem(k);
-    fit(top, 0);
-    for (int c = 0; c < top->childCount(); ++c) fit(top->child(c), 1);
-  }
-  for (int k = 0; k < budget_->topLevelItemCount(); ++k) fit(budget_->topLevelItem(k), 0);
+  wrap_words(*list_, kEffect);
+  wrap_words(*budget_, kEffect);
 }
 
 const EffectProposal* MissingPane::current() const {

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "modelling/model_text.h"
+#include "style/fitting.h"
 #include "style/texts.h"
 #include "words/core_text.h"
 
@@ -23,6 +24,7 @@ namespace {
 enum Column { kName, kValue, kHeld, kColumns };
 constexpr int kTerm = Qt::UserRole;           // Index of the term.
 constexpr int kParameter = Qt::UserRole + 1;  // Index of its parameter; −1: the term itself.
+constexpr int kLeastSection = 28;
 
 }  // namespace
 
@@ -36,10 +38,12 @@ TermList::TermList(QWidget* parent)
   tree_->setObjectName(QStringLiteral("terms"));
   tree_->setColumnCount(kColumns);
   tree_->setRootIsDecorated(true);
-  tree_->setUniformRowHeights(true);
+  // Names take more lines where they have little room; values are read in one.
+  tree_->setWordWrap(true);
+  tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->header()->setStretchLastSection(false);
-  // Both in full: what does not fit can be scrolled to.
-  tree_->header()->setSectionResizeMode(kName, QHeaderView::ResizeToContents);
+  tree_->header()->setMinimumSectionSize(kLeastSection);
+  tree_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
   tree_->header()->setSectionResizeMode(kValue, QHeaderView::ResizeToContents);
   tree_->header()->setSectionResizeMode(kHeld, QHeaderView::ResizeToContents);
   tree_->setIndentation(14);
@@ -63,6 +67,10 @@ TermList::TermList(QWidget* parent)
     if (current() >= 0) Q_EMIT removeWanted(current());
   });
   connect(tree_, &QTreeWidget::itemChanged, this, &TermList::take);
+  // Not within the layout that has moved the section.
+  connect(tree_->header(), &QHeaderView::sectionResized, this, [this](int column) {
+    if (column == kName) QMetaObject::invokeMethod(this, &TermList::fitRows, Qt::QueuedConnection);
+  });
   connect(tree_, &QTreeWidget::currentItemChanged, this, [this] {
     updateButtons();
     if (current() >= 0) Q_EMIT chosen(current());
@@ -126,13 +134,23 @@ void TermList::fill() {
                           move_text(1e3 * sigma.head<3>().norm(), 1e3 * sigma.tail<3>().norm())));
 }
 
-// Wide enough for all columns, as far as the figures beside can spare it.
+// As narrow as the longest word of a name and the values allow: what this list takes is missing to
+// the figures beside it and to the list of scenes.
 void TermList::fitWidth() {
-  constexpr int kWidest = 320;
-  tree_->doItemsLayout();
-  tree_->header()->resizeSections(QHeaderView::ResizeToContents);
-  tree_->setMinimumWidth(
-      std::min(kWidest, tree_->header()->length() + 2 * tree_->frameWidth() + 2));
+  const QAbstractItemView& rows = *tree_;  // There its hints are public.
+  const QHeaderView& header = *tree_->header();
+  int width = std::max(width_of_longest_word(*tree_, kName), header.sectionSizeHint(kName));
+  for (const int column : {kValue, kHeld})
+    width += std::max({rows.sizeHintForColumn(column), header.sectionSizeHint(column),
+                       header.minimumSectionSize()});
+  const int bar = style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, tree_);
+  tree_->setMinimumWidth(width + bar + 2 * tree_->frameWidth());
+  fitRows();
+}
+
+void TermList::fitRows() {
+  const QSignalBlocker quiet(tree_);  // Taller rows are no wish of the user's.
+  wrap_words(*tree_, kName);
 }
 
 void TermList::addTerm(int k) {

@@ -38,6 +38,7 @@ class TermList : public QWidget {
   void retranslate();
   void fill();
   void fitWidth();
+  void fitRows();
   void addTerm(int k);
   void take(QTreeWidgetItem* item, int column);
   void updateButtons();

@@ -4,6 +4,7 @@
 #include <QGuiApplication>
 #include <QMimeData>
 #include <QPalette>
+#include <QRegularExpression>
 #include <algorithm>
 #include <tuple>
 
@@ -24,6 +25,16 @@ constexpr const char* kSceneNames = "application/x-lvcalib-scenes";
 
 QVariant fixed(const std::optional<double>& value, int decimals) {
   return value ? QVariant(QString::number(*value, 'f', decimals)) : QVariant();
+}
+
+// A file of the scene by its name alone: where the scene lies would fill the little room there is.
+QString without_folder(const QString& words, const QString& scene) {
+  static const QRegularExpression kEndOfPlace(QStringLiteral("[:：]"));
+  const qsizetype end = words.indexOf(kEndOfPlace);
+  if (end < 0) return words;
+  const QString folder = QLatin1Char('/') + scene + QLatin1Char('/');
+  const qsizetype at = words.left(end).lastIndexOf(folder);
+  return at < 0 ? words : words.mid(at + folder.size());
 }
 
 }  // namespace
@@ -259,7 +270,7 @@ QVariant SceneModel::text(const Row& row, int column) const {
     case kInfluence:
       return fixed(row.influence_mm, 2);
     case kState:
-      return state_words(row);
+      return without_folder(state_words(row), row.name);
     case kNote:
       return row.note;
     default:

@@ -241,6 +241,7 @@ void ExtrinsicPage::setSceneData(int scene, std::shared_ptr<const Cloud> full_cl
   scene_ = scene;
   full_cloud_ = std::move(full_cloud);
   image_ = std::move(image);
+  world_->setScan(full_cloud_);
   colourise();
 }
 

@@ -2,6 +2,7 @@
 #include "pages/response_page.h"
 
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QSignalBlocker>
@@ -9,6 +10,7 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTextBrowser>
+#include <QToolButton>
 #include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -47,6 +49,10 @@ void ResponsePage::retranslate() {
   tabs_->setTabText(0, tr("Scenes"));
   tabs_->setTabText(1, tr("By range and incidence"));
   tabs_->setTabText(2, tr("Left out"));
+  brush_->setText(tr("Brush"));
+  brush_->setToolTip(
+      tr("Draw a rectangle over the samples on the board: returns there can be left out, of the "
+         "scene chosen in the table or of all"));
   stale_ = unseen(*this);
   if (!stale_) refresh();
 }
@@ -81,11 +87,13 @@ QWidget* ResponsePage::createTables() {
   reasons_->setObjectName("response-reasons");
   reasons_->setOpenLinks(false);
   connect(reasons_, &QTextBrowser::anchorClicked, this, [this](const QUrl& what) {
-    // "scene:NAME", "tag:ID/NAME" or "circle:ID/NAME"
+    // "scene:NAME", "tag:ID/NAME", "circle:ID/NAME" or "patch:ID/NAME"
     const QString path = what.path(QUrl::FullyEncoded);
     const QString name = QUrl::fromPercentEncoding(path.section('/', -1).toUtf8());
     if (what.scheme() == QLatin1String("scene")) {
       Q_EMIT insistWanted(name);
+    } else if (what.scheme() == QLatin1String("patch")) {
+      Q_EMIT keepPatchWanted(name, path.section('/', 0, 0).toInt());
     } else {
       Q_EMIT keepWanted(name, what.scheme() == QLatin1String("tag"),
                         path.section('/', 0, 0).toInt());
@@ -93,6 +101,24 @@ QWidget* ResponsePage::createTables() {
   });
   for (QWidget* page : std::initializer_list<QWidget*>{scenes_, classes_, reasons_})
     tabs_->addTab(page, {});
+  auto* tools = new QWidget(tabs_);
+  auto* row = new QHBoxLayout(tools);
+  row->setContentsMargins(0, 0, 0, 0);
+  exclude_ = new QToolButton(tools);
+  exclude_->setObjectName("response-exclude");
+  brush_ = new QToolButton(tools);
+  brush_->setObjectName("response-brush");
+  brush_->setCheckable(true);
+  row->addWidget(exclude_);
+  row->addWidget(brush_);
+  tabs_->setCornerWidget(tools);
+  connect(brush_, &QToolButton::toggled, this, [this](bool on) {
+    map_->setBrushing(on);
+    if (!on) choosePart(std::nullopt);
+  });
+  connect(map_, &SampleMapPlot::brushed, this, &ResponsePage::choosePart);
+  connect(exclude_, &QToolButton::clicked, this, &ResponsePage::excludePart);
+  exclude_->hide();
   connect(scenes_, &QTableWidget::currentCellChanged, this, [this](int row) { activate(row); });
   return tabs_;
 }
@@ -192,10 +218,11 @@ void ResponsePage::fillReasons() {
       html += "<li>" + describe(refusal).toHtmlEscaped() + " " +
               core_text(refusal.reason).toHtmlEscaped();
       if (refusal.can_be_used) {
-        const QString what = refusal.what == Refusal::What::kScene ? QStringLiteral("scene:")
-                             : refusal.what == Refusal::What::kTag
-                                 ? QStringLiteral("tag:%1/").arg(refusal.id)
-                                 : QStringLiteral("circle:%1/").arg(refusal.id);
+        const QString what =
+            refusal.what == Refusal::What::kScene   ? QStringLiteral("scene:")
+            : refusal.what == Refusal::What::kTag   ? QStringLiteral("tag:%1/").arg(refusal.id)
+            : refusal.what == Refusal::What::kPatch ? QStringLiteral("patch:%1/").arg(refusal.id)
+                                                    : QStringLiteral("circle:%1/").arg(refusal.id);
         const QByteArray scene = QUrl::toPercentEncoding(QString::fromStdString(refusal.scene));
         html += QStringLiteral(" <a href=\"%1%2\">%3</a>")
                     .arg(what, QString::fromUtf8(scene), tr("Use it all the same"));
@@ -230,6 +257,26 @@ ResponseScope ResponsePage::scopeOf(int row) const {
   return scope;
 }
 
+void ResponsePage::choosePart(const std::optional<BoardOutline>& part) {
+  part_ = part;
+  map_->setPart(part);
+  exclude_->setVisible(part.has_value());
+  exclude_->setText(
+      chosen_.empty()
+          ? tr("Exclude this part of the board in every scene")
+          : tr("Exclude this part of the board in scene %1").arg(QString::fromStdString(chosen_)));
+}
+
+void ResponsePage::excludePart() {
+  if (!part_) return;
+  const Eigen::Vector2d& low = part_->lower_left_m;
+  const Eigen::Vector2d& high = part_->upper_right_m;
+  const std::vector<Eigen::Vector2d> patch = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  const QString scene = QString::fromStdString(chosen_);
+  choosePart(std::nullopt);
+  Q_EMIT partExcluded(scene, patch);
+}
+
 void ResponsePage::showScope(const ResponseScope& scope) {
   transition_->setScope(scope);
   map_->setScope(scope);
@@ -242,6 +289,7 @@ void ResponsePage::activate(int row) {
   chosen_.clear();
   if (row > 0) chosen_ = result_->response.scenes[static_cast<std::size_t>(row) - 1].name;
   showScope(scopeOf(row));
+  choosePart(part_);  // Of this scene, or of all.
   const auto found = std::find_if(result_->scenes.begin(), result_->scenes.end(),
                                   [&](const SceneResult& s) { return s.name == chosen_; });
   if (found != result_->scenes.end())

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <memory>
+#include <optional>
 
 #include "pipeline/calibration.h"
 #include "pipeline/refusals.h"
@@ -12,6 +13,7 @@ class QLabel;
 class QTabWidget;
 class QTableWidget;
 class QTextBrowser;
+class QToolButton;
 
 namespace lvcalib::widgets {
 
@@ -37,6 +39,10 @@ class ResponsePage : public QWidget {
   void insistWanted(const QString& scene);
   /// A tag, or else a circle, that the program refused is to be used all the same.
   void keepWanted(const QString& scene, bool tag, int id);
+  /// Part of the board, by its number among those refused in the scene.
+  void keepPatchWanted(const QString& scene, int id);
+  /// Returns on a part of the board are to be left out of a scene, or of every one (empty).
+  void partExcluded(const QString& scene, const std::vector<Eigen::Vector2d>& patch_m);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -50,6 +56,8 @@ class ResponsePage : public QWidget {
   void fillReasons();
   [[nodiscard]] static QString describe(const Refusal& refusal);
   void showScope(const ResponseScope& scope);
+  void choosePart(const std::optional<BoardOutline>& part);
+  void excludePart();
   void activate(int row);
   [[nodiscard]] ResponseScope scopeOf(int row) const;
 
@@ -64,6 +72,9 @@ class ResponsePage : public QWidget {
   QTableWidget* scenes_ = nullptr;
   QTableWidget* classes_ = nullptr;
   QTabWidget* tabs_ = nullptr;
+  std::optional<BoardOutline> part_;  // Brushed on the map.
+  QToolButton* brush_ = nullptr;
+  QToolButton* exclude_ = nullptr;
   QTextBrowser* reasons_ = nullptr;
 };
 

@@ -12,6 +12,9 @@
 namespace lvcalib::widgets {
 namespace {
 
+// The pyramids of both views, and the LiDAR's axes between them.
+constexpr double kPyramid_m = 0.4;
+
 constexpr std::array<double, 3> kLidarColor{1.0, 0.6, 0.0};
 constexpr std::array<double, 3> kCameraColor{0.15, 0.55, 1.0};
 constexpr std::array<double, 3> kRefusedColor{1.0, 0.2, 0.2};
@@ -257,7 +260,6 @@ Cloud all_boards(const CalibrationResult& result) {
 }
 
 std::vector<Eigen::Vector3d> camera_pyramid(const CalibrationResult& result) {
-  constexpr double kDepth_m = 0.4;
   const Rigid3 lidar_from_camera = result.extrinsic.camera_from_lidar.transform.inverse();
   const double right = result.camera.width_px - 0.5;
   const double bottom = result.camera.height_px - 0.5;
@@ -266,13 +268,25 @@ std::vector<Eigen::Vector3d> camera_pyramid(const CalibrationResult& result) {
        {Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(right, -0.5), Eigen::Vector2d(right, bottom),
         Eigen::Vector2d(-0.5, bottom)}) {
     const auto ray = result.camera.unproject(pixel);
-    if (ray) out.emplace_back(lidar_from_camera * Eigen::Vector3d(kDepth_m * *ray));
+    if (ray) out.emplace_back(lidar_from_camera * Eigen::Vector3d(kPyramid_m * *ray));
   }
   return out;
 }
 
-std::vector<CloudLine> world_lines(const CalibrationResult& result) {
-  std::vector<CloudLine> lines = lidar_axes(0.4);
+std::vector<CloudLine> lidar_pyramid(const FieldOfView& view) {
+  std::vector<CloudLine> lines;
+  for (const Eigen::Vector3d& edge : view.edges)
+    lines.push_back({{Eigen::Vector3d::Zero(), kPyramid_m * edge}, kLidarColor, false});
+  for (const std::vector<Eigen::Vector3d>& border : view.outlines) {
+    CloudLine& line = lines.emplace_back(CloudLine{{}, kLidarColor, true});
+    for (const Eigen::Vector3d& d : border) line.points_m.push_back(kPyramid_m * d);
+  }
+  return lines;
+}
+
+std::vector<CloudLine> world_lines(const CalibrationResult& result, const FieldOfView& lidar) {
+  std::vector<CloudLine> lines = lidar_axes(kPyramid_m);
+  for (CloudLine& line : lidar_pyramid(lidar)) lines.push_back(std::move(line));
   for (const SceneResult& scene : result.scenes) {
     for (CloudLine& line : cloud_lines(result, scene)) lines.push_back(std::move(line));
   }

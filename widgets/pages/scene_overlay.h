@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloud/field_of_view.h"
 #include "pipeline/calibration.h"
 #include "pipeline/crop_box.h"
 #include "views/cloud_pipeline.h"
@@ -41,8 +42,12 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
 Cloud all_boards(const CalibrationResult& result);
 
 /// Every board as the LiDAR (orange) and as the camera with the extrinsic (blue) sees it, the
-/// LiDAR's axes, and the camera as the pyramid of its view.
-std::vector<CloudLine> world_lines(const CalibrationResult& result);
+/// LiDAR's axes, and both sensors as the pyramids of their views: that of the LiDAR as far as its
+/// returns tell (nothing: not drawn).
+std::vector<CloudLine> world_lines(const CalibrationResult& result, const FieldOfView& lidar = {});
+
+/// The pyramid of the LiDAR's view: what is drawn of it.
+std::vector<CloudLine> lidar_pyramid(const FieldOfView& view);
 
 /// The pyramid of the camera's view in the LiDAR's frame: its tip, then the image's corners.
 std::vector<Eigen::Vector3d> camera_pyramid(const CalibrationResult& result);

@@ -32,6 +32,10 @@ bool any_not_in(const std::vector<int>& ids, const std::vector<int>& in) {
   return std::any_of(ids.begin(), ids.end(), [&](int id) { return !contains_id(in, id); });
 }
 
+bool contains_part(const std::vector<BoardOutline>& parts, const BoardOutline& part) {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
 Cloud cloud_of(const std::vector<Eigen::Vector3f>& points_m) {
   Cloud cloud;
   cloud.points_m = points_m;
@@ -100,7 +104,8 @@ void SelectionBar::retranslate() {
   keep_->setText(tr("Use it all the same"));
   keep_->setToolTip(
       tr("Use the selected tags and circles although they miss the board's pose by more than the "
-         "gate"));
+         "gate, and the parts of the board with the selected points although something seems to "
+         "cover them"));
 }
 
 void SelectionBar::setText(const QString& text) {
@@ -131,6 +136,31 @@ std::vector<int> SelectionBar::keepable(Refusal::What what) const {
   return out;
 }
 
+bool SelectionBar::holdsSelected(const BoardOutline& part) const {
+  const Eigen::Vector2d& low = part.lower_left_m;
+  const Eigen::Vector2d& high = part.upper_right_m;
+  SceneEdits one;
+  one.patches_m = {{low, {high.x(), low.y()}, high, {low.x(), high.y()}}};
+  return !left_out_of(selection_.points_m, one, *result_, *scene_).empty();
+}
+
+// The parts of the board that the program refuses, or that are used all the same, and that hold
+// some of the selected points.
+std::vector<BoardOutline> SelectionBar::keepableParts() const {
+  std::vector<BoardOutline> out;
+  if (result_ == nullptr || scene_ == nullptr || selection_.points_m.empty()) return out;
+  std::vector<BoardOutline> parts = edits_.kept_patches;
+  for (const Refusal& refusal : refusals(*result_)) {
+    if (refusal.scene == scene_->name && refusal.what == Refusal::What::kPatch)
+      parts.push_back({refusal.board_m.min(), refusal.board_m.max()});
+  }
+  for (const BoardOutline& part : parts) {
+    if (holdsSelected(part) && std::find(out.begin(), out.end(), part) == out.end())
+      out.push_back(part);
+  }
+  return out;
+}
+
 void SelectionBar::setSelection(SceneSelection selection, const CalibrationResult* result,
                                 const SceneResult* scene) {
   selection_ = std::move(selection);
@@ -149,14 +179,18 @@ void SelectionBar::setSelection(SceneSelection selection, const CalibrationResul
   }
   const auto tags = keepable(Refusal::What::kTag);
   const auto circles = keepable(Refusal::What::kCircle);
-  const bool can_keep = !tags.empty() || !circles.empty();
+  const auto parts = keepableParts();
+  const bool can_keep = !tags.empty() || !circles.empty() || !parts.empty();
+  const bool parts_kept = std::all_of(parts.begin(), parts.end(), [&](const BoardOutline& part) {
+    return contains_part(edits_.kept_patches, part);
+  });
   exclude_->setVisible(out);
   patch_->setEnabled(points && scene_->refinement);
   patch_everywhere_->setEnabled(patch_->isEnabled());
   take_back_->setVisible(back);
   keep_->setVisible(can_keep);
   keep_->setChecked(can_keep && !any_not_in(tags, edits_.kept_tags) &&
-                    !any_not_in(circles, edits_.kept_circles));
+                    !any_not_in(circles, edits_.kept_circles) && parts_kept);
 }
 
 std::vector<Eigen::Vector2d> SelectionBar::patch() const {
@@ -202,9 +236,13 @@ void SelectionBar::keep(bool kept) {
   const auto circles = keepable(Refusal::What::kCircle);
   remove_ids(edits.kept_tags, tags);
   remove_ids(edits.kept_circles, circles);
+  const auto parts = keepableParts();
+  std::erase_if(edits.kept_patches,
+                [&](const BoardOutline& part) { return contains_part(parts, part); });
   if (kept) {
     add_ids(edits.kept_tags, tags);
     add_ids(edits.kept_circles, circles);
+    edits.kept_patches.insert(edits.kept_patches.end(), parts.begin(), parts.end());
   }
   Q_EMIT editsWanted(edits);
 }

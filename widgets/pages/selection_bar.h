@@ -52,6 +52,8 @@ class SelectionBar : public QWidget {
   void keep(bool kept);
   [[nodiscard]] std::vector<Eigen::Vector2d> patch() const;
   [[nodiscard]] std::vector<int> keepable(Refusal::What what) const;
+  [[nodiscard]] bool holdsSelected(const BoardOutline& part) const;
+  [[nodiscard]] std::vector<BoardOutline> keepableParts() const;
 
   SceneSelection selection_;
   SceneEdits edits_;

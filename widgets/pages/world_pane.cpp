@@ -4,7 +4,12 @@
 #include <QAction>
 #include <QComboBox>
 #include <QEvent>
+#include <QLabel>
+#include <QToolButton>
 #include <QVBoxLayout>
+#include <set>
+
+#include <Eigen/Geometry>
 
 #include "pages/scene_overlay.h"
 #include "style/texts.h"
@@ -25,6 +30,16 @@ WorldPane::WorldPane(QWidget* parent)
   bar->addWidget(color_);
   bar->addSeparator();
   for (QAction* action : view_->viewActions()) bar->addTool(action);
+  brush_ = bar->newTool();
+  brush_->setObjectName(QStringLiteral("world-brush"));
+  brush_->setCheckable(true);
+  brush_->setEnabled(view_->hasOpenGl());
+  text_ = new QLabel(bar);
+  text_->setObjectName(QStringLiteral("world-selection"));
+  exclude_ = new QToolButton(bar);
+  exclude_->setObjectName(QStringLiteral("world-exclude"));
+  bar->addWidget(text_);
+  bar->addWidget(exclude_);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 4, 0, 0);
   layout->setSpacing(2);
@@ -37,6 +52,12 @@ WorldPane::WorldPane(QWidget* parent)
     if (boards_ && point < boards_->line.size())
       Q_EMIT sceneActivated(static_cast<int>(boards_->line[point]) - 1);
   });
+  connect(brush_, &QAction::toggled, this, [this](bool on) {
+    view_->setBrushing(on);
+    if (!on) select({}, false);
+  });
+  connect(view_, &CloudView::pointsBrushed, this, &WorldPane::select);
+  connect(exclude_, &QToolButton::clicked, this, &WorldPane::exclude);
   follow_language(this, [this] { retranslate(); });
 }
 
@@ -50,16 +71,50 @@ void WorldPane::retranslate() {
   color_->setAccessibleName(tr("Colour of the points"));
   color_->setToolTip(
       tr("What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the "
-         "camera sees it (blue), the LiDAR's axes (x red, y green, z blue), the camera's view "
-         "(pyramid). A click on a board goes to its scene."));
+         "camera sees it (blue), the LiDAR's axes (x red, y green, z blue), the views of both "
+         "(pyramids). A click on a board goes to its scene."));
+  brush_->setText(tr("Brush"));
+  brush_->setToolTip(
+      tr("Draw a line about points to select them, at whatever depth. With Shift they are added to "
+         "those selected"));
+  exclude_->setText(tr("Exclude these"));
+  exclude_->setToolTip(tr("Leave out what is selected, in every scene, and solve again"));
+  select(selected_, false);
   rebuild();
+}
+
+void WorldPane::select(const std::vector<std::uint32_t>& points, bool add) {
+  std::set<std::uint32_t> all(points.begin(), points.end());
+  if (add) all.insert(selected_.begin(), selected_.end());
+  selected_.assign(all.begin(), all.end());
+  view_->setHighlights(selected_);
+  const bool any = !selected_.empty();
+  text_->setText(any ? tr("%n points", nullptr, static_cast<int>(selected_.size())) : QString());
+  text_->setVisible(any);
+  exclude_->setVisible(any);
+}
+
+void WorldPane::exclude() {
+  PointsOfScenes out;
+  for (const std::uint32_t i : selected_) {
+    const std::size_t scene = boards_->line[i] - 1U;
+    out[QString::fromStdString(result_->scenes[scene].name)].push_back(boards_->points_m[i]);
+  }
+  Q_EMIT excludeWanted(out);
 }
 
 void WorldPane::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
   boards_ = result_ ? std::make_shared<const Cloud>(all_boards(*result_)) : nullptr;
-  view_->setLines(result_ ? world_lines(*result_) : std::vector<CloudLine>());
+  select({}, false);  // Points of another result.
+  view_->setLines(result_ ? world_lines(*result_, lidar_) : std::vector<CloudLine>());
   rebuild();
+}
+
+void WorldPane::setScan(const std::shared_ptr<const Cloud>& scan) {
+  if (!scan) return;  // What another scene has told still holds.
+  lidar_ = field_of_view(*scan);
+  if (result_) view_->setLines(world_lines(*result_, lidar_));
 }
 
 void WorldPane::changeEvent(QEvent* event) {
@@ -80,6 +135,13 @@ void WorldPane::rebuild() {
       input.scenes.push_back({QString::fromStdString(scene.name), colors.series(place).rgb()});
     }
     for (const Eigen::Vector3d& p : camera_pyramid(*result_)) input.landmarks_m.push_back(p);
+    // All boards, also one that stands far behind the others.
+    Eigen::AlignedBox3f boards;
+    for (const Eigen::Vector3f& p : boards_->points_m) boards.extend(p);
+    if (!boards.isEmpty()) {
+      for (const Eigen::Vector3f& p : {boards.min(), boards.max()})
+        input.landmarks_m.push_back(p.cast<double>());
+    }
   } else {
     input.problem = tr("run the calibration first");
   }

@@ -2,20 +2,29 @@
 #pragma once
 
 #include <QWidget>
+#include <map>
 #include <memory>
+#include <vector>
 
+#include "cloud/field_of_view.h"
 #include "pipeline/calibration.h"
 
+class QAction;
 class QComboBox;
+class QLabel;
+class QToolButton;
 
 namespace lvcalib::widgets {
 
 class CloudSceneBuilder;
 class CloudView;
 
+/// Points of several scenes (LiDAR frame), by the scenes' names.
+using PointsOfScenes = std::map<QString, std::vector<Eigen::Vector3f>>;
+
 /// All scenes in one world, about the rig that does not move: the boards' points, every board as
-/// either sensor sees it, the LiDAR's axes and the camera's pyramid. A click on a board goes to its
-/// scene.
+/// either sensor sees it, the LiDAR's axes and the pyramids of both views. A click on a board goes
+/// to its scene.
 class WorldPane : public QWidget {
   Q_OBJECT
 
@@ -24,12 +33,16 @@ class WorldPane : public QWidget {
 
   /// Null: nothing is known yet.
   void setResult(std::shared_ptr<const CalibrationResult> result);
+  /// A whole scan of the LiDAR, of whatever scene: where it looks.
+  void setScan(const std::shared_ptr<const Cloud>& scan);
   [[nodiscard]] CloudView* view() const { return view_; }
   [[nodiscard]] bool busy() const;
 
  Q_SIGNALS:
   /// Index into the result's scenes.
   void sceneActivated(int scene);
+  /// Brushed points are to be left out, by scene.
+  void excludeWanted(const lvcalib::widgets::PointsOfScenes& points);
   void failed(const QString& message);
 
  protected:
@@ -38,12 +51,19 @@ class WorldPane : public QWidget {
  private:
   void retranslate();
   void rebuild();
+  void select(const std::vector<std::uint32_t>& points, bool add);
+  void exclude();
 
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const Cloud> boards_;
+  FieldOfView lidar_;
   CloudView* view_;
   CloudSceneBuilder* builder_ = nullptr;
+  std::vector<std::uint32_t> selected_;  // Places in boards_.
   QComboBox* color_;
+  QAction* brush_;
+  QLabel* text_;
+  QToolButton* exclude_;
 };
 
 }  // namespace lvcalib::widgets

@@ -22,10 +22,11 @@ ReportWriter::ReportWriter(QObject* parent) : QObject(parent) {
 }
 
 void ReportWriter::write(std::shared_ptr<const CalibrationResult> result,
-                         std::shared_ptr<const Discovery> discovery, const QString& path) {
-  runner_.start([this, result = std::move(result), discovery = std::move(discovery), path](
+                         std::shared_ptr<const Discovery> discovery, const QString& path,
+                         const FrameNames& frames) {
+  runner_.start([this, result = std::move(result), discovery = std::move(discovery), path, frames](
                     const RunContext& context, const Runner::Post&) -> Runner::Deliver {
-    const auto report = html_report(*result, discovery.get(), context);
+    const auto report = html_report(*result, discovery.get(), context, frames);
     if (context.stopped()) return {};
     if (!report) return [this, error = report.error()] { Q_EMIT failed(error); };
     if (const Status s = write_file_atomically(path.toStdString(), report->html); !s)

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "pipeline/calibration.h"
+#include "report/frame_names.h"
 #include "runner/runner.h"
 
 namespace lvcalib::widgets {
@@ -20,7 +21,8 @@ class ReportWriter : public QObject {
   /// failed() or cancelled() follows. Takes the place of a report that is being written. A file at
   /// `path` is replaced only by a whole report.
   void write(std::shared_ptr<const CalibrationResult> result,
-             std::shared_ptr<const Discovery> discovery, const QString& path);
+             std::shared_ptr<const Discovery> discovery, const QString& path,
+             const FrameNames& frames = {});
   void cancel() { runner_.cancel(); }
   [[nodiscard]] bool busy() const { return runner_.running(); }
 

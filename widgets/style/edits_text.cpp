@@ -37,6 +37,9 @@ QString edits_text(const SceneResult& scene) {
   if (!edits.kept_tags.empty()) kept << EditsText::tr("tag no. %1").arg(ids_text(edits.kept_tags));
   if (!edits.kept_circles.empty())
     kept << EditsText::tr("circle no. %1").arg(ids_text(edits.kept_circles));
+  if (!edits.kept_patches.empty())
+    kept << EditsText::tr("%n parts of the board", nullptr,
+                          static_cast<int>(edits.kept_patches.size()));
   if (!kept.isEmpty())
     all << EditsText::tr("Used all the same: %1.").arg(kept.join(EditsText::tr(", ")));
   return all.join(QLatin1Char(' '));

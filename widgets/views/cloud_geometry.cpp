@@ -50,6 +50,7 @@ ViewerPose viewer_pose(CloudViewpoint viewpoint, const Eigen::Vector3d& focus_m)
       pose.up = focus_m.head<2>().norm() < 0.01 * std::abs(focus_m.z()) ? Eigen::Vector3d::UnitX()
                                                                         : Eigen::Vector3d::UnitZ();
       break;
+    case CloudViewpoint::kMost:
     case CloudViewpoint::kWhole: {
       // Straight above or below the sensor any direction along the floor is as good.
       Eigen::Vector3d ahead = focus_m.normalized();

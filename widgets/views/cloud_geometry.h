@@ -10,6 +10,7 @@ namespace lvcalib::widgets {
 /// Where the viewer of a cloud stands.
 enum class CloudViewpoint {
   kWhole,   ///< Obliquely from behind the sensor, everything in sight.
+  kMost,    ///< As kWhole, without the few points that lie far beyond the others.
   kTop,     ///< From above, x up.
   kBoard,   ///< From the LiDAR's side onto the board, which fills the view.
   kSensor,  ///< From the LiDAR's origin towards the middle of the points.

@@ -92,6 +92,7 @@ struct CloudPipeline::Vtk {
   std::shared_ptr<const CloudScene> scene;
   std::size_t drawn = 0;  // Portions.
   std::array<double, 6> bounds{-1, 1, -1, 1, -1, 1};
+  std::array<double, 6> most_bounds{-1, 1, -1, 1, -1, 1};
   double point_size_px = 1.6;
   double device_pixel_ratio = 1.0;
   bool ready = false;
@@ -242,8 +243,11 @@ void CloudPipeline::setScene(std::shared_ptr<const CloudScene> scene) {
   if (!vtk_->scene || vtk_->scene->size() == 0) return;
   const CloudScene& s = *vtk_->scene;
   for (std::size_t k = 0; k < 3; ++k) {
-    vtk_->bounds[2 * k] = s.low_m(static_cast<Eigen::Index>(k));
-    vtk_->bounds[2 * k + 1] = s.high_m(static_cast<Eigen::Index>(k));
+    const auto axis = static_cast<Eigen::Index>(k);
+    vtk_->bounds[2 * k] = s.low_m(axis);
+    vtk_->bounds[2 * k + 1] = s.high_m(axis);
+    vtk_->most_bounds[2 * k] = s.most_low_m(axis);
+    vtk_->most_bounds[2 * k + 1] = s.most_high_m(axis);
   }
   vtk_->portions = point_portions(s, *vtk_->point_property);
   for (auto& actor : vtk_->portions) vtk_->renderer->AddActor(actor);
@@ -300,7 +304,8 @@ void CloudPipeline::look(CloudViewpoint viewpoint) {
     vtk_->renderer->ResetCamera(around);
     camera->Dolly(std::clamp(aspect, 0.3, 1.0));
   } else if (pose.fits_bounds) {
-    vtk_->renderer->ResetCamera(vtk_->bounds.data());
+    const bool most = viewpoint == CloudViewpoint::kMost;
+    vtk_->renderer->ResetCamera(most ? vtk_->most_bounds.data() : vtk_->bounds.data());
     // The points fill less than that sphere.
     camera->Dolly(1.05 * std::clamp(aspect, 0.3, 1.0));
   }
@@ -364,7 +369,7 @@ bool CloudPipeline::editingBox() const {
 
 void CloudPipeline::drawFirst(std::size_t points) {
   if (!vtk_->ready) return;
-  if (!vtk_->looked && vtk_->scene) look(CloudViewpoint::kWhole);
+  if (!vtk_->looked && vtk_->scene) look(CloudViewpoint::kMost);
   vtk_->renderer->PreserveColorBufferOff();
   vtk_->renderer->PreserveDepthBufferOff();
   const std::size_t wanted = std::max<std::size_t>(1, points / kCloudPortion);

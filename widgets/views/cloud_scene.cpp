@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "base/statistics.h"
 #include "camera/cloud_projection.h"
@@ -128,26 +131,41 @@ class Builder {
         project_points(scene_->cloud->points_m, in_.camera, *in_.camera_from_lidar, context);
   }
 
+  // Of the ranges of the first points: the upper quartile and one and a half times the distance
+  // between the quartiles.
+  [[nodiscard]] float upper_whisker_m(std::size_t points) const {
+    std::vector<double> ranges;
+    for (std::size_t k = 0; k < points; ++k)
+      ranges.push_back(static_cast<double>(scene_->cloud->points_m[scene_->order[k]].norm()));
+    const double lower = quantile(ranges, 0.25);
+    const double upper = quantile(std::move(ranges), 0.75);
+    // Rounded up: a wall at one range is within.
+    return static_cast<float>(upper + 1.5 * (upper - lower)) * (1.0F + 1e-6F);
+  }
+
   void copyPoints() {
     const Cloud& cloud = *scene_->cloud;
     scene_->xyz_m.reserve(3 * scene_->order.size());
-    Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
-    Eigen::Vector3f high = -low;
+    if (scene_->order.empty()) return;
+    // The beginning of the order stands for all.
+    const std::size_t n = std::min<std::size_t>(scene_->order.size(), 5000);
+    const float whisker_m = upper_whisker_m(n);
+    Eigen::AlignedBox3f all;
+    Eigen::AlignedBox3f most;
     for (const std::uint32_t i : scene_->order) {
       const Eigen::Vector3f& p = cloud.points_m[i];
       scene_->xyz_m.insert(scene_->xyz_m.end(), {p.x(), p.y(), p.z()});
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
+      all.extend(p);
+      if (p.norm() <= whisker_m) most.extend(p);
     }
     for (const Eigen::Vector3d& p : in_.landmarks_m) {
-      low = low.cwiseMin(p.cast<float>());
-      high = high.cwiseMax(p.cast<float>());
+      all.extend(p.cast<float>());
+      most.extend(p.cast<float>());
     }
-    if (scene_->order.empty()) return;
-    scene_->low_m = low.cast<double>();
-    scene_->high_m = high.cast<double>();
-    // The beginning of the order stands for all.
-    const std::size_t n = std::min<std::size_t>(scene_->order.size(), 5000);
+    scene_->low_m = all.min().cast<double>();
+    scene_->high_m = all.max().cast<double>();
+    scene_->most_low_m = most.min().cast<double>();
+    scene_->most_high_m = most.max().cast<double>();
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> values;
       for (std::size_t k = 0; k < n; ++k) {

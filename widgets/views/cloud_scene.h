@@ -99,6 +99,10 @@ struct CloudScene {
   QString notice;    ///< Why the picture is not what was asked for; empty if it is.
   Eigen::Vector3d low_m = Eigen::Vector3d::Zero();  ///< Bounding box of the drawn points.
   Eigen::Vector3d high_m = Eigen::Vector3d::Zero();
+  /// The same without the points that lie farther than the upper whisker of a box plot of the
+  /// ranges: a few returns from the end of the street must not make the rest a speck.
+  Eigen::Vector3d most_low_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d most_high_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< Median of the drawn points.
 
   /// Where the board is, and half its diagonal; radius 0 if it is not known.

@@ -156,18 +156,27 @@ void CloudView::setScene(std::shared_ptr<const CloudScene> scene) {
   // A recoloured cloud is looked at from the same place.
   const bool other = !scene_ || !scene || scene_->cloud != scene->cloud;
   const bool has_board = scene && scene->board_radius_m > 0.0;
-  // What everything is about comes into sight when a cloud is opened, or once it is found.
-  const bool found = has_board && scene_ && !(scene_->board_radius_m > 0.0);
+  // What everything is about comes into sight when a cloud is opened, or once it is found; but who
+  // has chosen a view of his own by then keeps it.
+  const bool found = has_board && scene_ && !(scene_->board_radius_m > 0.0) && !viewerHasMoved();
   scene_ = std::move(scene);
   if (canvas_ != nullptr) {
     canvas_->pipeline().setScene(scene_);
     canvas_->pipeline().setHighlights({});
-    if (other || found) canvas_->land();
-    if (other || found)
-      canvas_->pipeline().look(has_board ? CloudViewpoint::kBoard : CloudViewpoint::kWhole);
+    if (other || found) {
+      canvas_->land();
+      canvas_->pipeline().look(has_board ? CloudViewpoint::kBoard : CloudViewpoint::kMost);
+      framed_ = canvas_->pipeline().viewer();
+    }
     canvas_->redraw();
   }
   updateLegend();
+}
+
+bool CloudView::viewerHasMoved() const {
+  if (canvas_ == nullptr || !framed_) return false;
+  const Viewer now = canvas_->pipeline().viewer();
+  return now.eye_m != framed_->eye_m || now.focus_m != framed_->focus_m || now.up != framed_->up;
 }
 
 void CloudView::setLines(const std::vector<CloudLine>& lines) {

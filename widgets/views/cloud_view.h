@@ -8,6 +8,7 @@
 
 #include "pipeline/crop_box.h"
 #include "views/cloud_canvas.h"
+#include "views/cloud_geometry.h"
 #include "views/cloud_scene.h"
 #include "views/figure_actions.h"
 
@@ -80,6 +81,8 @@ class CloudView : public QWidget {
   /// Says so while the board is looked at from behind.
   void updateSide();
   void showMenu(const QPoint& place);
+  /// Away from where the last cloud was framed.
+  [[nodiscard]] bool viewerHasMoved() const;
 
   std::shared_ptr<const CloudScene> scene_;
   CloudCanvas* canvas_ = nullptr;
@@ -90,6 +93,7 @@ class CloudView : public QWidget {
   FigureActions* figure_actions_ = nullptr;
   std::vector<QAction*> view_actions_;
   QPoint right_pressed_;
+  std::optional<Viewer> framed_;
 };
 
 /// Whether an OpenGL 3.2 context can be had on this screen; looked up once.

@@ -22,6 +22,22 @@ SampleMapPlot::SampleMapPlot(QWidget* parent) : BoardFigure(parent) {
            "those of the overlap region. Dashed red: circles that are left out in one "
            "of the scenes shown; the reasons are in the table below."));
   });
+  connect(selectionRect(), &QCPSelectionRect::accepted, this, [this](const QRect& rect) {
+    const QRect r = rect.normalized();
+    const auto at = [this](const QPoint& p) -> Eigen::Vector2d {
+      return Eigen::Vector2d(xAxis->pixelToCoord(p.x()), yAxis->pixelToCoord(p.y())) / kMmPerM;
+    };
+    Q_EMIT brushed({at(r.bottomLeft()), at(r.topRight())});
+  });
+}
+
+void SampleMapPlot::setBrushing(bool brushing) {
+  setSelectionRectMode(brushing ? QCP::srmCustom : QCP::srmNone);
+}
+
+void SampleMapPlot::setPart(const std::optional<BoardOutline>& part) {
+  part_ = part;
+  rebuild();
 }
 
 void SampleMapPlot::setScope(const ResponseScope& scope) {
@@ -34,6 +50,11 @@ void SampleMapPlot::rebuild() {
   drawOutlines([this](const TargetNode& node) {
     return isRefused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine) : QPen(colors().axis);
   });
+  if (part_) {
+    QColor marked = colors().emphasis;
+    marked.setAlpha(60);
+    drawRectangle(part_->lower_left_m, part_->upper_right_m, marked);
+  }
   QCPGraph* graphs[2];
   for (const bool overlap : {false, true}) {
     QColor color = overlap ? colors().emphasis : colors().axis;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "views/board_figure.h"
 #include "views/response_plots.h"
 
@@ -14,6 +16,13 @@ class SampleMapPlot : public BoardFigure {
  public:
   explicit SampleMapPlot(QWidget* parent = nullptr);
   void setScope(const ResponseScope& scope);
+  /// On: a drag draws a rectangle instead of moving the picture.
+  void setBrushing(bool brushing);
+  /// A part of the board that is marked; none: none.
+  void setPart(const std::optional<BoardOutline>& part);
+
+ Q_SIGNALS:
+  void brushed(const lvcalib::BoardOutline& part);
 
  protected:
   void rebuild() override;
@@ -23,6 +32,7 @@ class SampleMapPlot : public BoardFigure {
   [[nodiscard]] bool isRefused(int id) const;
 
   ResponseScope scope_;
+  std::optional<BoardOutline> part_;
 };
 
 }  // namespace lvcalib::widgets

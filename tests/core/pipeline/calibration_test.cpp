@@ -92,7 +92,7 @@ TEST(Calibrate, RejectedScenesTakeNoPartAndLeavingThemOutLaterIsTheSame) {
   ASSERT_TRUE(all.ok() && rejected.ok());
   EXPECT_FALSE(rejected->scenes[1].used);
   EXPECT_EQ(rejected->scenes[1].reason.text(), "rejected by the user");
-  EXPECT_FALSE(rejected->scenes[1].view.has_value());
+  EXPECT_TRUE(rejected->scenes[1].rejected);
   EXPECT_EQ(rejected->extrinsic.used_scenes, 2);
   expect_within_four_sigma(*rejected, data.rig().camera_from_lidar);
   const auto resolved = resolve_calibration(*all, {true, false, true}, request.options);
@@ -101,6 +101,17 @@ TEST(Calibrate, RejectedScenesTakeNoPartAndLeavingThemOutLaterIsTheSame) {
   EXPECT_FALSE(resolved->scenes[1].used);
   EXPECT_THAT(resolved->extrinsic.camera_from_lidar.transform,
               test::IsNearPose(rejected->extrinsic.camera_from_lidar.transform, 0.01, 0.01));
+  // How the scene fits what the others give is told alike, whenever it was rejected.
+  ASSERT_EQ(rejected->extrinsic.scenes.size(), 3U);
+  const SceneSolution& aside = rejected->extrinsic.scenes[1];
+  const SceneSolution& later = resolved->extrinsic.scenes[1];
+  EXPECT_EQ(aside.name, "B");
+  EXPECT_FALSE(aside.used);
+  EXPECT_GT(aside.rms_px, 0.0);
+  EXPECT_GT(aside.rms_mm, 0.0);
+  EXPECT_NEAR(aside.rms_px, later.rms_px, 0.02 * later.rms_px);
+  EXPECT_NEAR(aside.rms_mm, later.rms_mm, 0.02 * later.rms_mm);
+  EXPECT_EQ(rejected->scenes[1].view->tag_count, all->scenes[1].view->tag_count);
   // Taking it back in gives the first result again.
   const auto again = resolve_calibration(*resolved, {true, true, true}, request.options);
   ASSERT_TRUE(again.ok());
@@ -113,6 +124,34 @@ TEST(Calibrate, RejectedScenesTakeNoPartAndLeavingThemOutLaterIsTheSame) {
   const auto none = resolve_calibration(*all, {false, false, false}, request.options);
   ASSERT_FALSE(none.ok());
   EXPECT_EQ(none.error().kind, ErrorKind::kUntrusted);
+}
+
+// What is wrong with a rejected scene, or not to be seen in it, concerns nobody else.
+TEST(Calibrate, ARejectedSceneMayBeBeyondReading) {
+  const test::SimulatedDataset data(test::dataset_options(3, 3));
+  CalibrationRequest request;
+  request.rejected = {"B"};
+  const auto whole = calibrate(data.open(), request, {});
+  ASSERT_TRUE(whole.ok());
+  {
+    std::ofstream broken(data.path() / "scenes" / "B" / "cloud.pcd", std::ios::trunc);
+    broken << "no cloud";
+  }
+  const auto result = calibrate(data.open(), request, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  const SceneResult& scene = result->scenes[1];
+  EXPECT_TRUE(scene.rejected);
+  EXPECT_FALSE(scene.unreadable);
+  EXPECT_EQ(scene.reason.text(), "rejected by the user");
+  EXPECT_FALSE(scene.refinement.has_value());
+  EXPECT_EQ(result->extrinsic.scenes.size(), 2U);
+  // Nothing depends on what a rejected scene shows.
+  EXPECT_EQ(result->extrinsic.camera_from_lidar.transform.matrix(),
+            whole->extrinsic.camera_from_lidar.transform.matrix());
+  EXPECT_EQ(result->extrinsic.camera_from_lidar.covariance,
+            whole->extrinsic.camera_from_lidar.covariance);
+  EXPECT_EQ(result->warnings, whole->warnings);
+  EXPECT_EQ(result->quality, whole->quality);
 }
 
 TEST(Calibrate, AnUnknownSceneToRejectIsWrongUsage) {

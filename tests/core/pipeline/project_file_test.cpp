@@ -36,6 +36,7 @@ Project example(const fs::path& dataset) {
   odd.edits.circles = {0};
   odd.edits.kept_tags = {5};
   odd.edits.kept_circles = {2, 8};
+  odd.edits.kept_patches = {{{0.1, 0.2}, {0.1 + 0.2, 1e-7}}, {{0, 0}, {1, 1}}};
   project.decisions.scene_order = {"C", "a: \"strange\" name"};
   project.decisions.added_scenes = {dataset.parent_path() / "more" / "X"};
   project.model = {{ModelChange::kAdd, "range_walk", {}},
@@ -83,10 +84,12 @@ TEST(ProjectFile, AModelThatMakesNoSenseIsRefusedWithItsLine) {
 TEST(ProjectFile, EditsThatMakeNoSenseAreRefusedWithTheirLine) {
   const std::string head =
       "format: lvcalib-project\nversion: 1\ndataset: d\nscenes:\n  A:\n    edits:\n      ";
-  const std::pair<const char*, const char*> cases[] = {{"points_m: [1, 2]\n", "3 numbers"},
-                                                       {"patches_m: [[1, 2, 3]]\n", "2 numbers"},
-                                                       {"tags: [0.5]\n", "ids"},
-                                                       {"circles: x\n", "circles"}};
+  const std::pair<const char*, const char*> cases[] = {
+      {"points_m: [1, 2]\n", "3 numbers"},
+      {"patches_m: [[1, 2, 3]]\n", "2 numbers"},
+      {"kept_patches_m: [[1, 2, 3]]\n", "4 numbers"},
+      {"tags: [0.5]\n", "ids"},
+      {"circles: x\n", "circles"}};
   for (const auto& [text, expected] : cases) {
     const auto read = project_from_text(head + text, "p.lvcalib");
     ASSERT_FALSE(read.ok()) << text;

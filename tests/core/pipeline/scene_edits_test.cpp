@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/refusals.h"
+
 namespace lvcalib {
 namespace {
 
@@ -96,6 +98,26 @@ TEST(SceneEdits, OnlyWhatTheRefinementSeesIsInItsKey) {
   EXPECT_EQ(refinement_key(edits), "");
   edits.circles = {3};
   EXPECT_NE(refinement_key(edits), "");
+}
+
+TEST(SceneEdits, WhatIsRefusedIsKeptByItsKind) {
+  using What = Refusal::What;
+  SceneEdits edits;
+  const Eigen::AlignedBox2d box(Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4));
+  keep(edits, {"A", What::kTag, 5, 0, {}, true});
+  keep(edits, {"A", What::kTag, 2, 0, {}, true});
+  keep(edits, {"A", What::kTag, 5, 0, {}, true});
+  keep(edits, {"A", What::kCircle, 7, 0, {}, true});
+  keep(edits, {"A", What::kPatch, 0, 40, {}, true, box});
+  // What cannot be used is not.
+  keep(edits, {"A", What::kCircle, 8, 0, {}, false});
+  keep(edits, {"A", What::kScene, -1, 0, {}, true});
+  keep(edits, {"A", What::kPoints, -1, 9, {}, false});
+  SceneEdits wanted;
+  wanted.kept_tags = {2, 5};
+  wanted.kept_circles = {7};
+  wanted.kept_patches = {{{0.1, 0.2}, {0.3, 0.4}}};
+  EXPECT_EQ(edits, wanted);
 }
 
 }  // namespace

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file_io.h"
 #include "base/yaml_file.h"
+#include "report/exports.h"
 #include "support/pose_matchers.h"
 #include "support/synthetic_observations.h"
 #include "support/temporary_folder.h"
@@ -130,6 +132,35 @@ TEST(ResultJson, NumbersKeepTheirFullPrecision) {
   }
   const auto q = j["T_camera_lidar"]["quaternion_xyzw"];
   EXPECT_EQ(q[3].get<double>(), result.extrinsic.camera_from_lidar.transform.rotation.w());
+}
+
+// What the frames are called is the user's; exports read it from the file.
+TEST(ResultFiles, NameTheFramesAsTheUserDoes) {
+  const CalibrationResult result = sample_result();
+  EXPECT_EQ(json::parse(result_as_json(result))["frames"],
+            (json{{"lidar", "lidar"}, {"camera", "camera"}}));
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(write_results(result, folder.path(), {"velodyne", "cam0/optical"}).ok());
+  const auto text = read_text_file(folder.path() / "result.yaml", 1U << 20U);
+  ASSERT_TRUE(text.ok());
+  const auto yaml = YamlFile::parse(*text, "result.yaml");
+  ASSERT_TRUE(yaml.ok()) << yaml.error().text();
+  EXPECT_EQ(yaml->root().find("frames")->find("lidar")->scalar, "velodyne");
+  EXPECT_EQ(yaml->root().find("frames")->find("camera")->scalar, "cam0/optical");
+  const auto input = read_export_input(folder.path() / "result.json");
+  ASSERT_TRUE(input.ok()) << input.error().text();
+  EXPECT_EQ(input->lidar_frame, "velodyne");
+  EXPECT_EQ(input->camera_frame, "cam0/optical");
+  // A file of an older version has none, and what no format takes is none.
+  json j = json::parse(result_as_json(result, {"velodyne", "--x"}));
+  const auto odd = read_export_input(folder.write("odd.json", j.dump()));
+  ASSERT_TRUE(odd.ok()) << odd.error().text();
+  EXPECT_EQ(odd->lidar_frame, "velodyne");
+  EXPECT_EQ(odd->camera_frame, "camera");
+  j.erase("frames");
+  const auto old = read_export_input(folder.write("old.json", j.dump()));
+  ASSERT_TRUE(old.ok()) << old.error().text();
+  EXPECT_EQ(old->lidar_frame, "lidar");
 }
 
 TEST(ResultYaml, ParsesAndSaysTheSame) {

@@ -194,6 +194,30 @@ TEST(ForwardSolver, AHandAndDirtOnTheBoardAreRefused) {
   EXPECT_LT(size_in_sigmas(solution->camera_from_lidar, rig.camera_from_lidar), 2.5);
 }
 
+// Who knows that nothing covers the board there has the returns back, and only those.
+TEST(ForwardSolver, APartOfTheBoardIsUsedAllTheSame) {
+  ForwardRig rig = forward_rig(options(57, LidarKind::kAvia));
+  const BoardOutline outline = rig.target.outline();
+  const Eigen::Vector2d stain = outline.upper_right_m - Eigen::Vector2d(0.06, 0.09);
+  for (const std::size_t s : {0U, 1U}) {
+    for (std::size_t i = 0; i < rig.clouds[s].size(); ++i) {
+      const Eigen::Vector3d p =
+          rig.lidar_from_board[s].inverse() * rig.clouds[s].points_m[i].cast<double>().eval();
+      if ((p.head<2>() - stain).cwiseAbs().maxCoeff() < 0.04) rig.clouds[s].intensity[i] = 15.0F;
+    }
+  }
+  const auto refused = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(refused);
+  ASSERT_TRUE(is_covered(refused->scenes[0], stain) && is_covered(refused->scenes[1], stain));
+  for (const CoveredPatch& patch : refused->scenes[1].covered)
+    rig.scenes[1].uncovered.push_back({patch.board_m.min(), patch.board_m.max()});
+  const auto kept = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(kept);
+  EXPECT_TRUE(is_covered(kept->scenes[0], stain));
+  EXPECT_FALSE(is_covered(kept->scenes[1], stain));
+  EXPECT_GT(kept->scenes[1].returns, refused->scenes[1].returns + 50);
+}
+
 TEST(ForwardSolver, EveryKindOfBoardIsFoundAndMeasured) {
   for (const Target& target : {test::checkerboard_target(), test::charuco_target(),
                                test::legacy_charuco_target(), test::single_tag_target()}) {

@@ -110,6 +110,32 @@ TEST_F(PrintTable, MadeAgainItRefersToTheSameLevels) {
               0.01 * static_cast<double>(table_.range.size()));
 }
 
+// The solve and the table of measurements leave out the same parts of a board.
+TEST_F(PrintTable, APartOfTheBoardIsUsedAllTheSame) {
+  Cloud stained = *rig_.scenes[0].board_points;
+  const Eigen::Vector2d stain = rig_.target.outline().upper_right_m - Eigen::Vector2d(0.06, 0.09);
+  for (std::size_t i = 0; i < stained.size(); ++i) {
+    const Eigen::Vector3d p =
+        rig_.lidar_from_board[0].inverse() * stained.points_m[i].cast<double>().eval();
+    if ((p.head<2>() - stain).cwiseAbs().maxCoeff() < 0.04) stained.intensity[i] = 15.0F;
+  }
+  const auto ranges = [&](const Cloud& cloud, const std::vector<BoardOutline>& uncovered) {
+    std::vector<SceneMeasurements> scenes;
+    for (const ForwardScene& scene : rig_.scenes)
+      scenes.push_back({scene.name, scene.corners, scene.board_points});
+    scenes[0].board_points = &cloud;
+    scenes[0].uncovered = uncovered;
+    TableOptions how;
+    how.max_rows_per_scene = 1'000'000;
+    return print_table(scenes, std::make_shared<const BlurredPrint>(rig_.target), rig_.camera,
+                       state_, solution_.noise, test::kRigCornerSigma_px, how, {})
+        .range.size();
+  };
+  const std::size_t clean = ranges(*rig_.scenes[0].board_points, {});
+  EXPECT_LT(ranges(stained, {}) + 50, clean);
+  EXPECT_EQ(ranges(stained, {rig_.target.outline()}), clean);
+}
+
 // Farther from the base model than any noise: what belongs to the board follows the model in force.
 TEST_F(PrintTable, MadeAgainItHasTheReturnsThatTheModelPredicts) {
   constexpr double kOffset_m = 0.12;

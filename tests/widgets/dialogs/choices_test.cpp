@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QTest>
 #include <QTimer>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -39,6 +40,26 @@ TEST(Choices, RecoveryAndMovedDatasetsCanBeDeclined) {
   EXPECT_FALSE(choices.recover(nullptr, "/d"));
   answer_with(QMessageBox::Cancel);
   EXPECT_EQ(choices.moved_dataset(nullptr, "/d"), "");
+}
+
+// Escape and Enter leave a failed result where it is.
+TEST(Choices, AFailedResultIsExportedOnlyByTheButtonThatSaysSo) {
+  Choices choices;
+  QString text;
+  const auto with_box = [&](const std::function<void(QMessageBox&)>& answer) {
+    QTimer::singleShot(50, qApp, [&text, answer] {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      ASSERT_NE(box, nullptr);
+      text = box->text();
+      answer(*box);
+    });
+    return choices.hand_on_failed(nullptr);
+  };
+  EXPECT_FALSE(with_box([](QMessageBox& box) { QTest::keyClick(&box, Qt::Key_Escape); }));
+  EXPECT_TRUE(text.contains("This result has failed"));
+  EXPECT_FALSE(with_box([](QMessageBox& box) { box.defaultButton()->click(); }));
+  EXPECT_TRUE(with_box(
+      [](QMessageBox& box) { box.findChild<QPushButton*>("export_all_the_same")->click(); }));
 }
 
 }  // namespace

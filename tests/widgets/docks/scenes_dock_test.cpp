@@ -127,6 +127,30 @@ TEST_F(ScenesDockTest, ANarrowListGivesUpPicturesAndNoColumn) {
   EXPECT_EQ(model_.thumbnail_width(), 48);
 }
 
+// Pages that ask for room push no column out of sight, and a long note asks for none.
+TEST_F(ScenesDockTest, AsksForTheRoomOfItsColumns) {
+  const auto columns = [this] {
+    int width = 0;
+    const QAbstractItemView& rows = *view_;
+    for (int column = 0; column < view_->header()->count(); ++column) {
+      if (view_->isColumnHidden(column) || column == SceneModel::kNote) continue;
+      const int heading = view_->header()->sectionSizeHint(column);
+      // The state may be said by its sign alone.
+      width += column == SceneModel::kState ? heading
+                                            : std::max(heading, rows.sizeHintForColumn(column));
+    }
+    return width;
+  };
+  dock_.resize(100, 300);
+  QTest::qWait(20);
+  EXPECT_GE(view_->viewport()->width(), columns());
+  Decisions decisions;
+  decisions.scenes["A"].note = std::string(400, 'n');
+  model_.set_decisions(decisions);
+  QTest::qWait(20);
+  EXPECT_LT(dock_.minimumSizeHint().width(), 500);
+}
+
 TEST_F(ScenesDockTest, SpaceTicksAndArrowsChangeTheSceneLookedAt) {
   dock_.select("A");
   QSignalSpy activated(&dock_, &ScenesDock::scene_activated);

@@ -45,6 +45,30 @@ TEST_F(Terms, AllColumnsAreSeenHoweverNarrowItsPlaceIs) {
   EXPECT_LE(list_.width(), 330);
 }
 
+// Two effects with long names: what they take is missing to the figures and the list of scenes.
+TEST_F(Terms, LongNamesTakeMoreLinesAndNotMoreWidth) {
+  const auto two = add_effect(test::model_example().mended, "range_incidence", 0.0, {});
+  ASSERT_TRUE(two.ok());
+  list_.setStep(*two, test::model_example().base);
+  list_.resize(120, 300);
+  list_.show();
+  QTest::qWait(50);
+  QTreeWidgetItem* item = tree_->topLevelItem(2);
+  ASSERT_EQ(item->text(0), "Range error with incidence");
+  const QFontMetrics metrics = tree_->fontMetrics();
+  const QRect room = tree_->visualItemRect(item);
+  EXPECT_GE(room.height(), 2 * metrics.height());
+  const int whole = metrics.horizontalAdvance(item->text(0) + item->text(1));
+  EXPECT_LT(tree_->width(), whole + tree_->columnWidth(2));
+  EXPECT_GE(tree_->viewport()->width(), tree_->header()->length());
+  EXPECT_GE(tree_->columnWidth(1), metrics.horizontalAdvance(item->text(1)));
+  EXPECT_GT(tree_->columnWidth(0), metrics.horizontalAdvance(QStringLiteral("incidence")) + 20);
+  // With room for all of it the name stands in one line again.
+  list_.resize(600, 300);
+  QTest::qWait(50);
+  EXPECT_LT(tree_->visualItemRect(item).height(), 2 * metrics.height());
+}
+
 TEST_F(Terms, CheckBoxesAskForOnAndHeld) {
   QSignalSpy on(&list_, &TermList::onWanted);
   walk()->setCheckState(0, Qt::Unchecked);

@@ -66,6 +66,23 @@ TEST_F(SceneModelTest, SaysWhatIsKnownOfEachScene) {
   EXPECT_EQ(text(0, SceneModel::kState), "not run");
 }
 
+// The list has little room: the file at fault by its name, where it lies in the tool tip.
+TEST_F(SceneModelTest, AFileThatCannotBeReadIsNamedWithoutItsFolder) {
+  const Message problem =
+      Error::input(Message("is truncated"), "/data/rig/scenes/B/cloud.pcd").sentence();
+  model_.set_problem("B", problem);
+  EXPECT_EQ(text(1, SceneModel::kState), "cloud.pcd: is truncated");
+  EXPECT_TRUE(model_.index(1, SceneModel::kState)
+                  .data(Qt::ToolTipRole)
+                  .toString()
+                  .contains("/data/rig/scenes/B/cloud.pcd"));
+  auto changed = std::make_shared<CalibrationResult>(*result());
+  changed->scenes[1].reason = problem;
+  model_.set_result(changed);
+  EXPECT_EQ(text(1, SceneModel::kState), "cloud.pcd: is truncated");
+  EXPECT_EQ(text(2, SceneModel::kState), "no tags") << "reasons are told as they are";
+}
+
 // How a scene that is left out fits what the others give: in the colour of what does not count.
 TEST_F(SceneModelTest, ARefusedSceneKeepsItsFigures) {
   auto changed = std::make_shared<CalibrationResult>(*result());

@@ -5,7 +5,9 @@
 #include <QLabel>
 #include <QSignalSpy>
 #include <QTableWidget>
+#include <QTest>
 #include <QTextBrowser>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
@@ -123,10 +125,60 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
   EXPECT_EQ(keep.first(), (QVariantList{QString("B"), false, 2}));
   ASSERT_EQ(insist.count(), 1);
   EXPECT_EQ(insist.first().first().toString(), "C");
+  // And a part of the board that something seems to cover.
+  changed = std::make_shared<CalibrationResult>(*demo_.result);
+  Eigen::AlignedBox2d box(Eigen::Vector2d(0.1, 0.1), Eigen::Vector2d(0.2, 0.2));
+  changed->forward->scenes[1].covered = {{box, 40}};
+  changed->forward->scenes[1].refused = 40;
+  page_.setResult(changed);
+  QSignalSpy patch(&page_, &ResponsePage::keepPatchWanted);
+  const QString text = list->toHtml();
+  ASSERT_TRUE(text.contains("href=\"patch:0/B\"")) << text.toStdString();
+  Q_EMIT list->anchorClicked(QUrl("patch:0/B"));
+  ASSERT_EQ(patch.count(), 1);
+  EXPECT_EQ(patch.first(), (QVariantList{QString("B"), 0}));
   page_.setResult(nullptr);
   EXPECT_EQ(table()->rowCount(), 0);
   EXPECT_TRUE(csv<SampleMapPlot>().isEmpty());
   EXPECT_TRUE(page_.findChild<QLabel*>("response-message")->text().contains("Run the calibration"));
+}
+
+// Samples that look wrong on the map are left out with their part of the board, of the scene chosen
+// in the table or of all.
+TEST_F(ResponsePageTest, APartOfTheBoardIsBrushedAndLeftOut) {
+  page_.setResult(demo_.result);
+  QTest::qWait(20);
+  auto* exclude = page_.findChild<QToolButton*>("response-exclude");
+  auto* brush = page_.findChild<QToolButton*>("response-brush");
+  auto* map = page_.findChild<SampleMapPlot*>();
+  EXPECT_FALSE(exclude->isVisible());
+  brush->setChecked(true);
+  QSignalSpy excluded(&page_, &ResponsePage::partExcluded);
+  QSignalSpy brushed(map, &SampleMapPlot::brushed);
+  // About the middle of the board.
+  const Eigen::Vector2d middle = 1e3 * demo_.result->target.outline().center_m();
+  const QPoint center(static_cast<int>(map->xAxis->coordToPixel(middle.x())),
+                      static_cast<int>(map->yAxis->coordToPixel(middle.y())));
+  QTest::mousePress(map, Qt::LeftButton, {}, center - QPoint(20, 15));
+  QTest::mouseMove(map, center);
+  QTest::mouseMove(map, center + QPoint(20, 15));
+  QTest::mouseRelease(map, Qt::LeftButton, {}, center + QPoint(20, 15));
+  ASSERT_EQ(brushed.count(), 1);
+  const auto part = brushed[0][0].value<BoardOutline>();
+  EXPECT_TRUE(part.contains(1e-3 * middle));
+  EXPECT_GT(part.size_m().minCoeff(), 0.0);
+  ASSERT_TRUE(exclude->isVisible());
+  EXPECT_TRUE(exclude->text().contains("every scene"));
+  table()->setCurrentCell(2, 0);
+  EXPECT_TRUE(exclude->text().contains("scene B"));
+  exclude->click();
+  ASSERT_EQ(excluded.count(), 1);
+  EXPECT_EQ(excluded[0][0].toString(), "B");
+  const auto patch = excluded[0][1].value<std::vector<Eigen::Vector2d>>();
+  ASSERT_EQ(patch.size(), 4U);
+  EXPECT_EQ(patch[0], part.lower_left_m);
+  EXPECT_EQ(patch[2], part.upper_right_m);
+  EXPECT_FALSE(exclude->isVisible());
 }
 
 }  // namespace

@@ -68,6 +68,28 @@ TEST_F(SceneOverlayTest, LinesOfBothSensorsAgree) {
   EXPECT_TRUE(image_overlay(result_, nothing).corners.empty());
 }
 
+// Both sensors show where they look: the boards' points lie within what is drawn of the LiDAR.
+TEST_F(SceneOverlayTest, TheLidarsViewIsDrawnLikeTheCameras) {
+  const FieldOfView view = field_of_view(scene_.board_points);
+  ASSERT_EQ(view.outlines.size(), 1U);
+  const auto pyramid = lidar_pyramid(view);
+  EXPECT_EQ(pyramid.size(), view.edges.size() + 1);
+  EXPECT_EQ(world_lines(result_, view).size(), world_lines(result_).size() + pyramid.size());
+  EXPECT_TRUE(pyramid.front().points_m.front().isZero());
+  const CloudLine& border = pyramid.back();
+  EXPECT_TRUE(border.closed);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : border.points_m) middle += p.normalized();
+  middle.normalize();
+  double inside = 1.0;
+  double outside = 1.0;
+  for (const Eigen::Vector3d& p : border.points_m)
+    inside = std::min(inside, middle.dot(p.normalized()));
+  for (const Eigen::Vector3f& p : scene_.board_points.points_m)
+    outside = std::min(outside, middle.dot(p.cast<double>().normalized()));
+  EXPECT_LT(std::acos(outside), 1.05 * std::acos(inside));
+}
+
 TEST_F(SceneOverlayTest, WhatTheSolveRefusedIsDrawnAsRefused) {
   CalibrationResult result = result_;
   for (SceneSolution& solution : result.extrinsic.scenes) {

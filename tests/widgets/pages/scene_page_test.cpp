@@ -298,6 +298,51 @@ TEST_F(ScenePageTest, ARefusedTagIsUsedAllTheSame) {
   EXPECT_EQ(edits[0][1].value<SceneEdits>().kept_tags, std::vector<int>{tag});
 }
 
+// Points in a part of the board that something seems to cover bring it back, and out again.
+TEST_F(ScenePageTest, ARefusedPartOfTheBoardIsUsedAllTheSame) {
+  auto refused = std::make_shared<CalibrationResult>(*demo_.result);
+  const SceneResult& scene = refused->scenes[1];
+  const Eigen::Vector2d middle = refused->target.outline().center_m();
+  const Eigen::AlignedBox2d box(middle - Eigen::Vector2d(0.1, 0.05),
+                                middle + Eigen::Vector2d(0.1, 0.05));
+  refused->forward->scenes[1].covered = {{box, 40}};
+  refused->forward->scenes[1].refused = 40;
+  page_.setResult(refused);
+  load();
+  page_.setResult(refused);
+  auto* keep = page_.findChild<QToolButton*>("keep");
+  const auto brush = [&](bool inside) {
+    std::vector<std::uint32_t> points;
+    const Cloud& cloud = *page_.cloudPane()->view()->scene()->cloud;
+    const Rigid3 board_from_lidar = scene.refinement->lidar_from_board.inverse();
+    for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+      const Eigen::Vector3d p = board_from_lidar * cloud.points_m[i].cast<double>();
+      const Eigen::Vector2d off = (p.head<2>() - middle).cwiseAbs();
+      const bool in = off.x() < 0.04 && off.y() < 0.04;
+      const bool out = off.x() < 0.04 && off.y() > 0.12 && off.y() < 0.16;
+      if (std::abs(p.z()) < 0.05 && (inside ? in : out)) points.push_back(i);
+    }
+    EXPECT_GT(points.size(), 10U);
+    Q_EMIT page_.cloudPane()->view()->pointsBrushed(points, false);
+  };
+  brush(false);
+  EXPECT_FALSE(keep->isVisible());
+  brush(true);
+  ASSERT_TRUE(keep->isVisible());
+  EXPECT_FALSE(keep->isChecked());
+  QSignalSpy edits(&page_, &ScenePage::editsChanged);
+  QTest::mouseClick(keep, Qt::LeftButton);
+  ASSERT_EQ(edits.count(), 1);
+  const auto wanted = edits[0][1].value<SceneEdits>();
+  EXPECT_EQ(wanted.kept_patches, (std::vector<BoardOutline>{{box.min(), box.max()}}));
+  page_.setEdits(wanted);
+  ASSERT_TRUE(keep->isVisible());
+  EXPECT_TRUE(keep->isChecked());
+  QTest::mouseClick(keep, Qt::LeftButton);
+  ASSERT_EQ(edits.count(), 2);
+  EXPECT_TRUE(edits[1][1].value<SceneEdits>().empty());
+}
+
 // In a narrow window tools take more lines; none goes away.
 TEST_F(ScenePageTest, ToolsWrapWhereThereIsNoRoom) {
   page_.resize(520, 700);

@@ -2,8 +2,10 @@
 #include "pages/world_pane.h"
 
 #include <QComboBox>
+#include <QLabel>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +52,20 @@ TEST_F(WorldPaneTest, HoldsEveryBoardAndBothSensors) {
   EXPECT_NEAR(pixel->x(), demo_.result->camera.width_px - 0.5, 0.01);
 }
 
+// Single points far away do not count when a cloud is opened; here all boards do.
+TEST_F(WorldPaneTest, OpensOnABoardFarBehindTheOthers) {
+  auto result = std::make_shared<CalibrationResult>(*demo_.result);
+  std::vector<Eigen::Vector3f>& far = result->scenes[0].board_points.points_m;
+  far.resize(far.size() / 50);  // As few as its returns would be there.
+  for (Eigen::Vector3f& p : far) p *= 20.0F;
+  pane_.setResult(result);
+  ASSERT_TRUE(settle());
+  const CloudScene& scene = *pane_.view()->scene();
+  EXPECT_GT(scene.high_m.norm(), 20.0);
+  EXPECT_EQ(scene.most_low_m, scene.low_m);
+  EXPECT_EQ(scene.most_high_m, scene.high_m);
+}
+
 // Scenes have names, not an order: a colour of its own for each, and a legend that says which.
 TEST_F(WorldPaneTest, EverySceneHasItsColourAndItsName) {
   pane_.setResult(demo_.result);
@@ -79,6 +95,33 @@ TEST_F(WorldPaneTest, AClickOnABoardGoesToItsScene) {
   Q_EMIT pane_.view()->pointPicked(first);
   ASSERT_EQ(activated.count(), 1);
   EXPECT_EQ(activated[0][0].toInt(), 1);
+}
+
+// The brush selects points of several scenes at once; each goes to its own.
+TEST_F(WorldPaneTest, BrushedPointsAreLeftOutOfTheirScenes) {
+  pane_.setResult(demo_.result);
+  ASSERT_TRUE(settle());
+  auto* exclude = pane_.findChild<QToolButton*>("world-exclude");
+  EXPECT_FALSE(exclude->isVisible());
+  const auto first = static_cast<std::uint32_t>(demo_.result->scenes[0].board_points.size());
+  Q_EMIT pane_.view()->pointsBrushed({3, first + 5}, false);
+  Q_EMIT pane_.view()->pointsBrushed({first + 5, first + 9}, true);
+  ASSERT_TRUE(exclude->isVisible());
+  EXPECT_EQ(pane_.findChild<QLabel*>("world-selection")->text(), "3 points");
+  PointsOfScenes wanted;
+  QObject::connect(&pane_, &WorldPane::excludeWanted, &pane_,
+                   [&](const PointsOfScenes& points) { wanted = points; });
+  exclude->click();
+  ASSERT_EQ(wanted.size(), 2U);
+  const auto& scenes = demo_.result->scenes;
+  EXPECT_EQ(wanted[QString::fromStdString(scenes[0].name)],
+            std::vector<Eigen::Vector3f>{scenes[0].board_points.points_m[3]});
+  EXPECT_EQ(wanted[QString::fromStdString(scenes[1].name)],
+            (std::vector<Eigen::Vector3f>{scenes[1].board_points.points_m[5],
+                                          scenes[1].board_points.points_m[9]}));
+  // Places in one result's boards mean nothing in another's.
+  pane_.setResult(demo_.result);
+  EXPECT_FALSE(exclude->isVisible());
 }
 
 TEST_F(WorldPaneTest, WithoutAResultItSaysWhatToDo) {

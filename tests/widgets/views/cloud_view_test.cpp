@@ -211,6 +211,45 @@ TEST_F(CloudViewTest, TheBoardIsFramedOnceItIsFound) {
   EXPECT_LT((view_.canvas()->pipeline().viewer().eye_m - turned.eye_m).norm(), 1e-9);
 }
 
+TEST_F(CloudViewTest, AViewOfOnesOwnIsKeptWhenTheBoardIsFound) {
+  const auto cloud = wall(50'000);
+  view_.setScene(scene_of(cloud));
+  ASSERT_TRUE(settle());
+  QTest::keyClick(view_.canvas(), Qt::Key_Left);
+  ASSERT_TRUE(settle());
+  const Viewer turned = view_.canvas()->pipeline().viewer();
+  auto found = std::make_shared<CloudScene>(*scene_of(cloud));
+  found->board_center_m = {3.0, 1.2, -0.8};
+  found->board_radius_m = 0.5;
+  found->board_normal = -Eigen::Vector3d::UnitX();
+  view_.setScene(found);
+  ASSERT_TRUE(settle());
+  EXPECT_LT((view_.canvas()->pipeline().viewer().eye_m - turned.eye_m).norm(), 1e-9);
+  // Another cloud is framed anew.
+  auto other = std::make_shared<CloudScene>(*scene_of(wall(40'000)));
+  view_.setScene(other);
+  ASSERT_TRUE(settle());
+  EXPECT_GT((view_.canvas()->pipeline().viewer().eye_m - turned.eye_m).norm(), 1e-3);
+}
+
+// A few returns from far away make the rest no speck when a cloud is opened; Reset shows them, too.
+TEST_F(CloudViewTest, OpensOnWhatMostPointsShow) {
+  view_.setScene(scene_of(wall(50'000)));
+  ASSERT_TRUE(settle());
+  const double usual = covered();
+  auto far = std::make_shared<Cloud>(*wall(50'000));
+  for (int k = 0; k < 20; ++k) {
+    far->points_m.push_back({60.0F + static_cast<float>(k), 30.0F, 2.0F});
+    far->intensity.push_back(1.0F);
+  }
+  view_.setScene(scene_of(far));
+  ASSERT_TRUE(settle());
+  EXPECT_GT(covered(), 0.8 * usual);
+  QTest::keyClick(view_.canvas(), Qt::Key_R);
+  ASSERT_TRUE(settle());
+  EXPECT_LT(covered(), 0.2 * usual);
+}
+
 TEST_F(CloudViewTest, PointSizeAxesAndGridAreChosenInTheToolBar) {
   CloudPane pane;
   pane.setPalette(test::palette_of(true));

@@ -90,6 +90,30 @@ TEST_P(CutTextTest, NothingIsOnAnyPage) {
   }
 }
 
+// Two effects with long names in the model: the list of effects, the figures and the list of scenes
+// share the width. A window of 1920×1080 is also what 3840×2160 at a scale of 2 has.
+TEST_P(CutTextTest, NothingIsWithTwoEffectsInTheModel) {
+  open();
+  ASSERT_NO_FATAL_FAILURE(calibrate());
+  auto* tabs = find<QTabWidget>(*window_, "pages");
+  auto* page = find<QWidget>(*window_, "model_page");
+  tabs->setCurrentWidget(page);
+  auto& work = window_->model_work();
+  ASSERT_TRUE(wait_until([&] { return work.step() && !work.busy(); }, 60'000));
+  for (const char* effect : {"intensity_geometry", "range_incidence"}) {
+    work.add(QString::fromLatin1(effect));
+    ASSERT_TRUE(wait_until([&] { return work.step() && !work.busy(); }, 60'000));
+  }
+  ASSERT_EQ(work.step()->terms.size(), 2U);
+  for (const QSize size : {QSize(1280, 720), QSize(1920, 1080)}) {
+    window_->resize(size);
+    QTest::qWait(50);
+    EXPECT_EQ(window_->width(), size.width());
+    EXPECT_EQ(window_->height(), size.height());
+    look_at(*page, QStringLiteral("%1×%2").arg(size.width()).arg(size.height()));
+  }
+}
+
 TEST_P(CutTextTest, NothingIsInAnyDialog) {
   open();
   ASSERT_NO_FATAL_FAILURE(calibrate());

@@ -31,7 +31,9 @@
 #include "dialogs/guide_dialog.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
+#include "pages/response_page.h"
 #include "pages/scene_page.h"
+#include "pages/world_pane.h"
 #include "pipeline/project_file.h"
 #include "report/result_file.h"
 #include "start/coach_marks.h"
@@ -301,6 +303,57 @@ TEST_F(MainWindowTest, UnusableThingsAreNamedAndNothingOpens) {
     named = named || label->text().contains("nowhere");
   EXPECT_TRUE(named);
   EXPECT_FALSE(workspace().is_open());
+  // A folder that has gone says what to do, and that is at hand.
+  auto* dialog = find<QDialog>(*window_, "error_dialog");
+  bool told = false;
+  for (const QLabel* label : dialog->findChildren<QLabel*>())
+    told = told || label->text().contains("What to do: open it where it is now");
+  EXPECT_TRUE(told);
+  EXPECT_NE(find<QPushButton>(*dialog, "import_files"), nullptr);
+  EXPECT_NE(find<QPushButton>(*dialog, "import_recording"), nullptr);
+}
+
+// One stroke through several boards is one decision, and one to undo.
+TEST_F(MainWindowTest, PointsBrushedInAllScenesAreLeftOutAtOnce) {
+  run();
+  auto* world = window_->findChild<widgets::WorldPane*>();
+  ASSERT_NE(world, nullptr);
+  ASSERT_TRUE(wait_until([&] { return !world->busy() && world->view()->scene(); }));
+  const auto& scenes = workspace().result()->scenes;
+  const auto first = static_cast<std::uint32_t>(scenes[0].board_points.size());
+  const Eigen::Vector3f point = scenes[1].board_points.points_m[4];
+  Q_EMIT world->view()->pointsBrushed({0, first + 4}, false);
+  world->findChild<QToolButton*>("world-exclude")->click();
+  const auto left_out = [&](const char* scene) {
+    return decision_of(workspace().decisions(), scene).edits.points_m;
+  };
+  EXPECT_EQ(left_out("A").size(), 1U);
+  EXPECT_EQ(left_out("B"), std::vector<Eigen::Vector3f>{point});
+  EXPECT_TRUE(left_out("C").empty());
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_EQ(workspace().result()->scenes[1].left_out_points.size(), 1U);
+  ASSERT_TRUE(trigger(*window_, "undo"));
+  EXPECT_TRUE(left_out("A").empty() && left_out("B").empty());
+}
+
+TEST_F(MainWindowTest, APartOfTheBoardIsLeftOutOfOneSceneOrOfAll) {
+  run();
+  auto* page = window_->findChild<widgets::ResponsePage*>();
+  ASSERT_NE(page, nullptr);
+  const std::vector<Eigen::Vector2d> patch = {{0.1, 0.1}, {0.2, 0.1}, {0.2, 0.2}, {0.1, 0.2}};
+  const auto patches = [&](const char* scene) {
+    return decision_of(workspace().decisions(), scene).edits.patches_m.size();
+  };
+  Q_EMIT page->partExcluded("B", patch);
+  EXPECT_EQ(patches("A"), 0U);
+  EXPECT_EQ(patches("B"), 1U);
+  Q_EMIT page->partExcluded({}, patch);
+  EXPECT_EQ(patches("A"), 1U);
+  EXPECT_EQ(patches("B"), 2U);
+  EXPECT_EQ(patches("C"), 1U);
+  ASSERT_TRUE(trigger(*window_, "undo"));
+  EXPECT_EQ(patches("A"), 0U);
+  ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
 }
 
 TEST_F(MainWindowTest, AFolderDroppedOnTheWindowOpensAndIsRemembered) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick
+// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick|model|opened
 // [dark]]. Opens a dataset (without one: the demo), runs it and writes a picture of every page and
-// dialog to the folder, in light and dark; quick: in one of both. The size is the window's.
+// dialog to the folder, in light and dark; quick: in one of both; model: of the Model page
+// alone; opened: of the window before and after the run.
+// The size is the window's.
 
 #include <QApplication>
 #include <QComboBox>
@@ -14,6 +16,7 @@
 #include <QSurfaceFormat>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QUndoStack>
@@ -216,6 +219,14 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
   take("guide_dialog", QStringLiteral("guide"));
   test::trigger(window, "about");
   take("about_dialog", QStringLiteral("about"));
+  // A question as its user gets it; tests answer others.
+  QTimer::singleShot(500, &window, [&] {
+    QWidget* question = QApplication::activeModalWidget();
+    if (question == nullptr) return;
+    camera.take(QStringLiteral("failed-") + theme, question);
+    question->close();
+  });
+  widgets::Choices().hand_on_failed(&window);
   window.open(QStringLiteral("/nowhere/rig"));
   test::wait_until([&] { return test::find<QDialog>(window, "error_dialog") != nullptr; }, 5000);
   take("error_dialog", QStringLiteral("error"));
@@ -311,6 +322,13 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
   channel->setCurrentIndex(channel->findData(static_cast<int>(Channel::kRange)));
   test::find<QPushButton>(window, "find_all")->click();
   if (wait_for_model(window)) camera.take(name("all"));
+  // Two effects with long names and many parameters.
+  window.model_work().go_to(0);
+  for (const char* effect : {"intensity_geometry", "range_incidence"}) {
+    if (!wait_for_model(window)) return;
+    window.model_work().add(QString::fromLatin1(effect));
+  }
+  if (wait_for_model(window)) camera.take(name("two"));
 }
 
 // Every bubble as its reader finds it, up to the one that waits for an effect to be added.
@@ -348,7 +366,8 @@ void photograph_last_bubble(widgets::MainWindow& window, Photographer& camera) {
 }
 
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset,
-               bool quick, const QString& quick_theme) {
+               const QString& what, const QString& quick_theme) {
+  const bool quick = !what.isEmpty();
   Photographer camera(window, folder);
   window.move(0, 0);
   window.show();
@@ -362,6 +381,12 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   if (!test::wait_until([&] { return window.workspace().is_open(); })) return 1;
   if (!test::wait_until([&] { return !window.workspace().busy(); })) return 1;
   camera.take(QStringLiteral("opened"));
+  if (what == QLatin1String("opened")) {
+    test::trigger(window, "run");
+    test::wait_until([&] { return !window.workspace().busy(); });
+    camera.take(QStringLiteral("opened-2"));
+    return 0;
+  }
   test::trigger(window, "run");
   QTest::qWait(500);
   camera.take(QStringLiteral("running"));
@@ -375,6 +400,10 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   photograph_tour(window, camera);
   if (quick) {
     choose(window, "theme", quick_theme);
+    if (what == QLatin1String("model")) {
+      photograph_model(window, camera, quick_theme);
+      return 0;
+    }
     photograph_pages(window, camera, quick_theme);
     photograph_refused(window, camera, quick_theme);
     photograph_left_out(window, camera, quick_theme);
@@ -409,7 +438,7 @@ int main(int argc, char** argv) {
   if (arguments.size() < 2) {
     std::fprintf(stderr,
                  "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] "
-                 "[quick [dark]]\n");
+                 "[quick|model|opened [dark]]\n");
     return 2;
   }
   QDir().mkpath(arguments.at(1));
@@ -422,13 +451,16 @@ int main(int argc, char** argv) {
     widgets::MainWindow window(settings, answers);
     choose(window, "language", arguments.value(3, QStringLiteral("en")));
     const QString dataset = arguments.value(2);
+    QString what;
+    for (const char* part : {"quick", "model", "opened"}) {
+      if (arguments.contains(QLatin1String(part))) what = QLatin1String(part);
+    }
     const QStringList size = arguments.value(4).split(QLatin1Char('x'));
     if (size.size() == 2) window.resize(size[0].toInt(), size[1].toInt());
-    status =
-        photograph(window, arguments.at(1), dataset == QLatin1String("demo") ? QString() : dataset,
-                   arguments.contains(QLatin1String("quick")),
-                   arguments.contains(QLatin1String("dark")) ? QStringLiteral("dark")
-                                                             : QStringLiteral("light"));
+    status = photograph(window, arguments.at(1),
+                        dataset == QLatin1String("demo") ? QString() : dataset, what,
+                        arguments.contains(QLatin1String("dark")) ? QStringLiteral("dark")
+                                                                  : QStringLiteral("light"));
   }
   widgets::Runner::wait_for_workers(10'000);
   return status;
