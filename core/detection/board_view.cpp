@@ -10,6 +10,7 @@
 #include "detection/board_pose.h"
 #include "detection/board_tags.h"
 #include "detection/checkerboard_detector.h"
+#include "detection/circle_radius.h"
 #include "detection/tag_arrangement.h"
 #include "detection/tag_diagnosis.h"
 
@@ -312,8 +313,13 @@ Result<BoardView> find_board_in_image(const GrayImage& image, const Target& targ
     return status.error();
   }
   if (context.stopped()) return Error::cancelled();
-  return target.has_tags() ? view_tags(image, target, camera, options, context)
-                           : view_checkerboard(image, target, camera, options, context);
+  auto view = target.has_tags() ? view_tags(image, target, camera, options, context)
+                                : view_checkerboard(image, target, camera, options, context);
+  if (view) {
+    view->circle_radius =
+        measure_circle_radius(image, target, camera, view->camera_from_board.transform);
+  }
+  return view;
 }
 
 void refit_view(BoardView& view, const Camera& camera, const DetectionOptions& options) {

@@ -299,6 +299,27 @@ Message diagnose_unseen_tags(const CalibrationResult& result) {
                  fields);
 }
 
+Message better_circle_radius(const CalibrationResult& result) {
+  constexpr double kAgree_px = 0.25;
+  double weights = 0.0;
+  double radii = 0.0;
+  double pixels = 0.0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!scene.view || !(scene.view->circle_radius.radius_m > 0.0)) continue;
+    const MeasuredRadius& seen = scene.view->circle_radius;
+    const double weight = 1.0 / (seen.pixel_m * seen.pixel_m);
+    weights += weight;
+    radii += weight * seen.radius_m;
+    pixels += weight * seen.pixel_m;
+  }
+  if (!(weights > 0.0)) return {};
+  const double radius_m = radii / weights;
+  // Alike in all images, so that more of them tell no better.
+  if (std::abs(radius_m - result.target.circle_radius_m) < kAgree_px * pixels / weights) return {};
+  return Message("their circles are of another size: %1 would fit",
+                 formatted("circleRadius: %.4f", radius_m));
+}
+
 SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target) {
   if (!scene.view || !scene.search) return {};
   SceneHypotheses h = seen_by_camera(*scene.view, target);

@@ -65,6 +65,11 @@ std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
 /// "no image shows tags 16 to 19: tagRows: 4 would fit". Empty if there are none.
 Message diagnose_unseen_tags(const CalibrationResult& result);
 
+/// If the images show circles of another radius than target.yaml says, by more than a quarter of a
+/// pixel, which is what the places of edges within one image agree to: "circleRadius: 0.0450 would
+/// fit". Empty if not.
+Message better_circle_radius(const CalibrationResult& result);
+
 /// What a scene that has been searched brings to the joint decision; nothing if it brings nothing.
 SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target);
 

@@ -362,6 +362,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_shared_files(result, verdict);
   if (const Message unseen = diagnose_unseen_tags(result); !unseen.empty())
     verdict.doubtful(unseen);
+  if (const Message radius = better_circle_radius(result); !radius.empty())
+    verdict.doubtful(Message("the images contradict target.yaml: %1; measure the print", radius));
   judge_count(result, verdict);
   const Message bump = diagnose_bump(result);
   if (!bump.empty()) verdict.doubtful(bump);
