@@ -244,30 +244,6 @@ Message diagnose_guess(const Rigid3& guess, const Rigid3& found) {
                  formatted("%.0f", rotation_distance_rad(guess, found) * 180.0 / M_PI));
 }
 
-std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
-                                      const std::vector<InputFile>& inputs) {
-  std::map<std::string, const InputFile*> by_path;
-  for (const InputFile& file : inputs) by_path.emplace(file.path, &file);
-  std::map<std::string, std::size_t> images;
-  std::map<std::string, std::size_t> clouds;
-  // The first scene with a file's content, if that is another.
-  const auto first = [&](auto& seen, const fs::path& path,
-                         std::size_t s) -> std::optional<std::size_t> {
-    const auto file = by_path.find(path.lexically_relative(dataset.path).generic_string());
-    if (file == by_path.end() || file->second->bytes == 0 || file->second->sha256.empty())
-      return std::nullopt;
-    const auto [at, is_new] = seen.try_emplace(file->second->sha256, s);
-    return is_new ? std::nullopt : std::optional(at->second);
-  };
-  std::vector<SameContent> out(dataset.scenes.size());
-  for (std::size_t s = 0; s < out.size(); ++s) {
-    const SceneFiles& f = dataset.scenes[s];
-    out[s].image = first(images, f.image, s);
-    out[s].cloud = first(clouds, use_crops && !f.crop.empty() ? f.crop : f.cloud, s);
-  }
-  return out;
-}
-
 Message diagnose_unseen_tags(const CalibrationResult& result) {
   const Target& target = result.target;
   if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)

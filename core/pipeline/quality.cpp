@@ -48,6 +48,13 @@ void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
   }
   if (!result.intrinsics.contradiction) return;
   const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
+  if (found.turned_deg > 0) {
+    verdict.doubtful(Message(
+        "the images contradict the intrinsics: %1; turn them, and switch off what turns images, or "
+        "calibrate the camera from images as they are",
+        describe_turn(found.turned_deg)));
+    return;
+  }
   if (found.modelled) {
     verdict.doubtful(
         Message("the images contradict the intrinsics: %1; the model takes that out of the images, "
