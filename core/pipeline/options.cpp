@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/text.h"
 #include "base/yaml_file.h"
 
 namespace lvcalib {
@@ -277,8 +278,11 @@ Status set_option(CalibrationOptions& options, const std::string& key, double va
     keys.push_back(d.key);
     if (d.key != key) continue;
     if (!(value >= d.low && value <= d.high)) {
+      // "0/1" and the like name the choices again.
+      const bool choice = d.unit.find('/') != std::string::npos;
       return Error::input(Message("'%1' must be between %2 and %3, found %4", key, shown(d.low),
-                                  shown(d.high) + " " + d.unit, shown(value)));
+                                  shown(d.high) + (choice ? "" : behind_number(d.unit)),
+                                  shown(value)));
     }
     if (d.whole && value != std::floor(value)) {
       return Error::input(Message("'%1' must be a whole number, found %2", key, shown(value)));
