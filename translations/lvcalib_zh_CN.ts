@@ -3110,6 +3110,10 @@ were saved. Take them up again?</source>
         <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4 %5）；仍要去除它：--with %6</translation>
     </message>
     <message>
+        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model; scene %3 misses most</source>
+        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应；场景 %3 偏差最大</translation>
+    </message>
+    <message>
         <source>No further scene of this board will show %1; measure instead: %2</source>
         <translation>用此标定板再拍摄任何场景都看不到 %1；请改为测量：%2</translation>
     </message>
@@ -5028,6 +5032,98 @@ were saved. Take them up again?</source>
     <message>
         <source>open it where it is now, or make a dataset from a recording or from files</source>
         <translation>请到其现在的位置打开，或由录制数据或文件生成数据集</translation>
+    </message>
+    <message>
+        <source>A compressed cloud that unpacks to more is refused.</source>
+        <translation>解压后大于此值的压缩点云会被拒绝。</translation>
+    </message>
+    <message>
+        <source>max unpacked mib</source>
+        <translation>解压上限 MiB</translation>
+    </message>
+    <message>
+        <source>%1 bytes follow the last of the %2 points that its header counts, and are left out: are there more points, or two files in one?</source>
+        <translation>文件头声明的 %2 个点中最后一点之后还有 %1 字节，未予采用：是点数更多，还是两个文件连在了一起？</translation>
+    </message>
+    <message>
+        <source>LiDAR and camera cannot both be called &apos;%1&apos;: no reader could tell the frames apart</source>
+        <translation>激光雷达和相机不能都叫“%1”：读取者无法区分这两个坐标系</translation>
+    </message>
+    <message>
+        <source>No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out variance, %4); to take it out anyway: --with %5</source>
+        <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4）；仍要去除它：--with %5</translation>
+    </message>
+    <message>
+        <source>from point %1 of %2 on none is a return (all are NaN, infinite or at the origin), as if the recording had been cut off</source>
+        <translation>从第 %1 点起（共 %2 点）再无回波（全为 NaN、无穷大或位于原点），似乎录制被中断</translation>
+    </message>
+    <message>
+        <source>give each frame a name of its own</source>
+        <translation>请给每个坐标系各取一个名称</translation>
+    </message>
+    <message>
+        <source>it is turned by a quarter: turn it back, and switch off what turns images, or use intrinsics of the turned ones</source>
+        <translation>图像被转了 90°：请转回并关闭旋转图像的功能，或使用旋转后图像的内参</translation>
+    </message>
+    <message>
+        <source>its compressed data unpack to %1 MiB, more than the limit of %2 MiB</source>
+        <translation>其压缩数据解压后为 %1 MiB，超过 %2 MiB 的上限</translation>
+    </message>
+    <message>
+        <source>its corners and its returns are those of scene %1, of which it is a copy that counts once</source>
+        <translation>其角点和回波与场景 %1 相同，是该场景的副本，只计一次</translation>
+    </message>
+    <message>
+        <source>its image is turned against those of the other scenes: all agree once it is turned counterclockwise by %1°; turn it, and switch off what turns images</source>
+        <translation>其图像相对其他场景的图像转了方向：逆时针旋转 %1° 后所有场景一致；请旋转该图像，并关闭旋转图像的功能</translation>
+    </message>
+    <message>
+        <source>keep the one that is meant</source>
+        <translation>请只保留想要的那一个</translation>
+    </message>
+    <message>
+        <source>key &apos;%1&apos; is there twice, first in line %2</source>
+        <translation>键“%1”出现了两次，第一次在第 %2 行</translation>
+    </message>
+    <message>
+        <source>overlap less, or choose a larger paper</source>
+        <translation>请减小重叠，或选择更大的纸张</translation>
+    </message>
+    <message>
+        <source>paper &apos;%1&apos; has no room for pages that share %2 mm with each neighbour; expected %3 mm at most</source>
+        <translation>纸张“%1”容不下与每个相邻页重叠 %2 mm 的页面；最多应为 %3 mm</translation>
+    </message>
+    <message>
+        <source>scene %1 has %2 and %3: %2 is used; delete the other</source>
+        <translation>场景 %1 同时有 %2 和 %3：使用 %2；请删除另一个</translation>
+    </message>
+    <message>
+        <source>scene %1: its cloud: %2</source>
+        <translation>场景 %1：其点云：%2</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensity is left out, as you decided</source>
+        <translation>按您的决定，不使用点云的强度</translation>
+    </message>
+    <message>
+        <source>the clouds&apos; intensity is left out, as you decided: the extrinsic rests on planes and corners, and the print does not hold it sideways</source>
+        <translation>按您的决定，不使用点云的强度：外参仅依据平面和角点，印刷图案无法约束其横向位置</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; turn them, and switch off what turns images, or calibrate the camera from images as they are</source>
+        <translation>图像与内参矛盾：%1；请旋转这些图像并关闭旋转图像的功能，或用现有方向的图像标定相机</translation>
+    </message>
+    <message>
+        <source>their circles are of another size: %1 would fit</source>
+        <translation>图像中圆的大小不同：%1 才相符</translation>
+    </message>
+    <message>
+        <source>they agree with them once they are turned counterclockwise by %1°</source>
+        <translation>逆时针旋转 %1° 后两者一致</translation>
+    </message>
+    <message>
+        <source>write the cloud with fewer points or uncompressed, or raise clouds.max_unpacked_mib in the options</source>
+        <translation>请减少点数或以不压缩方式写出点云，或在选项中提高 clouds.max_unpacked_mib</translation>
     </message>
 </context>
 <context>

@@ -43,8 +43,8 @@ std::string summary_of(const Discovery& discovery, Quality before, const Calibra
     for (const ChannelSummary& after : discovery.history.back().channels) {
       if (before.channel != after.channel) continue;
       char part[96];
-      std::snprintf(part, sizeof part, "; %s %.3g -> %.3g %s", name_of(before.channel), before.rms,
-                    after.rms, unit_of(before.channel));
+      std::snprintf(part, sizeof part, "; %s %.3g -> %.3g%s", name_of(before.channel), before.rms,
+                    after.rms, behind_number(unit_of(before.channel)).c_str());
       text += part;
     }
   }

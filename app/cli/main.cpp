@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "base/text.h"
+#include "base/yaml_file.h"
 #include "command.h"
 #include "interrupt.h"
 #include "progress_printer.h"
@@ -63,6 +67,19 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   command.set_version_flag("--version", "lvcalib " LVCALIB_VERSION);
 }
 
+// The error of a first argument that names no command; nothing if it is none or an option.
+std::optional<Error> unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return std::nullopt;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  const std::string asked(argv[1]);
+  if (std::find(names.begin(), names.end(), asked) != names.end()) return std::nullopt;
+  const std::string near = nearest_word(asked, names);
+  return Error::usage(
+      Message("there is no command '%1', known are %2", asked.substr(0, 100), joined(names, ", ")),
+      {}, near.empty() ? Message("see lvcalib --help") : Message("did you mean %1?", near));
+}
+
 // Parses the command line. Returns an exit status when there is nothing to run.
 int parse(CLI::App& app, int argc, char** argv, ProgressPrinter& printer) {
   try {
@@ -71,6 +88,7 @@ int parse(CLI::App& app, int argc, char** argv, ProgressPrinter& printer) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0)  // --help and --version
       return check_printed(printer, app.exit(e));
+    if (const auto error = unknown_command(app, argc, argv)) return fail(printer, *error);
     const auto used = app.get_subcommands();
     const std::string where = used.empty() ? std::string{} : used.front()->get_name();
     return fail(printer, Error::usage(Message::verbatim(e.what()), where,

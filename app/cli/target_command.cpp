@@ -68,11 +68,14 @@ Command add_target_command(CLI::App& app) {
                       "target.yaml of the board; without it, the default board");
   command->add_option("-o,--output", options->output, "board.pdf, board.svg or board.png")
       ->required();
-  command->add_option("--paper", options->sheet.paper,
-                      "board (one page of the board's size), A0 … A4, Letter or WxH in mm; a "
-                      "smaller paper than the board gives several pages (PDF only)");
+  CLI::Option* paper =
+      command->add_option("--paper", options->sheet.paper,
+                          "board (one page of the board's size), A0 … A4, Letter or WxH in mm; a "
+                          "smaller paper than the board gives several pages (PDF only)");
   command->add_option("--dpi", options->sheet.dpi, "resolution of a PNG");
-  command->add_option("--overlap", options->sheet.overlap_mm, "mm that neighbouring pages share");
+  // On one page there is no neighbour.
+  command->add_option("--overlap", options->sheet.overlap_mm, "mm that neighbouring pages share")
+      ->needs(paper);
   command->add_option("--page-border", options->sheet.page_border_mm,
                       "mm that the printer leaves white");
   return {command, [options](Session& session) { return run(*options, session); }};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -41,6 +42,25 @@ bool convert(const YAML::Node& node, YamlValue& out, int depth, int& budget) {
     }
   }
   return true;
+}
+
+// The first key, in any map, that one has twice; and where its map has it first.
+struct RepeatedKey {
+  std::string key;
+  int line = 0;
+  int first_line = 0;
+};
+std::optional<RepeatedKey> repeated_key(const YamlValue& value) {
+  std::map<std::string_view, int> lines;
+  for (const auto& [key, inner] : value.map) {
+    const auto [first, is_new] = lines.try_emplace(key, inner.line);
+    if (!is_new) return RepeatedKey{key, inner.line, first->second};
+    if (auto found = repeated_key(inner)) return found;
+  }
+  for (const YamlValue& item : value.list) {
+    if (auto found = repeated_key(item)) return found;
+  }
+  return std::nullopt;
 }
 
 Message describe(const YamlValue& value) {
@@ -107,6 +127,12 @@ Result<YamlFile> YamlFile::parse(std::string text, std::string name) {
     return Error::input(
         Message("expected a YAML map of keys and values, found %1", describe(file.root_)),
         file.name_);
+  }
+  // Which of the two is meant nobody knows: libraries differ in the one that they take.
+  if (const auto twice = repeated_key(file.root_)) {
+    return Error::input(
+        Message("key '%1' is there twice, first in line %2", twice->key, twice->first_line),
+        file.name_ + ":" + std::to_string(twice->line), Message("keep the one that is meant"));
   }
   return file;
 }

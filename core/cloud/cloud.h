@@ -31,6 +31,9 @@ struct Cloud {
   std::vector<std::uint16_t> line;  ///< Laser line (ring, channel); empty if absent.
   std::size_t dropped = 0;  ///< Points left out because they are not finite or at the origin.
   std::size_t rows = 1;     ///< Of an organised cloud that was read with every point; 1 otherwise.
+  /// Why its file may not be whole: it goes on after the last point that its header counts, or has
+  /// no return from some point on. Whatever points there are stand here all the same.
+  std::vector<Message> warnings;
 
   [[nodiscard]] std::size_t size() const { return points_m.size(); }
   [[nodiscard]] bool has_intensity() const { return !intensity.empty(); }
@@ -41,17 +44,24 @@ struct Cloud {
   [[nodiscard]] bool has_line() const { return !line.empty(); }
 };
 
+/// What a compressed cloud may unpack to unless more is asked for: a file can claim 88 times its
+/// own size. Thirty million points of 32 bytes, more than ten seconds of the densest scanners.
+constexpr std::uint64_t kMaxUnpackedBytes = std::uint64_t{1} << 30;
+
 /// Reads a PCD (ascii, binary, binary_compressed) or PLY (ascii, binary of both byte orders)
 /// file, told apart by content. Field names: x y z, intensity (also: i, scalar_intensity,
 /// reflectivity…), time (t, timestamp, offset_time, time_stamp…), line (ring, channel).
-/// One pass, memory bounded by the file's real size whatever its header claims.
+/// One pass, memory bounded by the file's real size whatever its header claims; of a compressed
+/// file also by `max_unpacked_bytes`.
 /// Errors name the file, what was expected and what was found; `stop` gives kCancelled.
 Result<Cloud> read_cloud(const std::filesystem::path& path, std::stop_token stop = {},
-                         PointChoice choice = PointChoice::kReturns);
+                         PointChoice choice = PointChoice::kReturns,
+                         std::uint64_t max_unpacked_bytes = kMaxUnpackedBytes);
 
 /// The same from memory, for tests and fuzzing; `name` stands for the file in messages.
 Result<Cloud> read_cloud_from_memory(std::string_view content, const std::string& name,
-                                     PointChoice choice = PointChoice::kReturns);
+                                     PointChoice choice = PointChoice::kReturns,
+                                     std::uint64_t max_unpacked_bytes = kMaxUnpackedBytes);
 
 /// Writes a binary PCD with the fields and rows the cloud has, atomically.
 Status write_pcd(const std::filesystem::path& path, const Cloud& cloud);

@@ -59,7 +59,7 @@ void CloudBuilder::append_small(const char* block, std::size_t first, std::size_
   decode_floats(block, field(kX), swap, count, x_.data());
   decode_floats(block, field(kY), swap, count, y_.data());
   decode_floats(block, field(kZ), swap, count, z_.data());
-  const std::size_t kept = choose_points(count);
+  const std::size_t kept = choose_points(seen_ + first, count);
   if (kept == 0) return;
   const bool all = kept == count;
 
@@ -83,8 +83,9 @@ void CloudBuilder::append_small(const char* block, std::size_t first, std::size_
   }
 }
 
-// Lists the points that are finite and not at the origin; returns their number.
-std::size_t CloudBuilder::choose_points(std::size_t count) {
+// Lists the points that are finite and not at the origin, `before` others having been seen;
+// returns their number.
+std::size_t CloudBuilder::choose_points(std::uint64_t before, std::size_t count) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
     kept_[kept] = static_cast<std::uint16_t>(i);
@@ -93,6 +94,7 @@ std::size_t CloudBuilder::choose_points(std::size_t count) {
     const bool origin = x_[i] == 0.0F && y_[i] == 0.0F && z_[i] == 0.0F;
     kept += static_cast<std::size_t>(zero == 0.0F && !origin);
   }
+  if (kept > 0) last_return_ = before + kept_[kept - 1] + 1U;
   returns_ += kept;
   if (choice_ == PointChoice::kAll) {
     std::iota(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(count), std::uint16_t{0});
@@ -180,6 +182,21 @@ bool CloudBuilder::is_return(std::size_t i) const {
   return choice_ == PointChoice::kReturns || (p.allFinite() && !p.isZero(0.0F));
 }
 
+// Whether the returns end long before the file, as where a recording was cut off and its file had
+// been given its length before, and not as this LiDAR misses elsewhere.
+bool CloudBuilder::is_cut_off(std::uint64_t rows) const {
+  // What a tenth of the points adds to standard deviations is a twentieth of them: less is no loss
+  // that anybody would see.
+  constexpr std::uint64_t kWorthTelling = 10;
+  const std::uint64_t tail = seen_ - last_return_;
+  const std::uint64_t missing_before = last_return_ - returns_;
+  if (kWorthTelling * tail < seen_ || tail <= missing_before) return false;
+  // Where a row is a laser line, the last lines may look into the sky. A line measures more often
+  // than there are lines.
+  const std::uint64_t columns = rows > 0 ? seen_ / rows : 0;
+  return rows <= 1 || rows > columns || tail % columns != 0;
+}
+
 Result<Cloud> CloudBuilder::finish(const std::string& name, std::uint64_t rows) {
   if (seen_ == 0) return Error::input(Message("holds no points (its header says 0)"), name);
   drop_not_finite(cloud_.intensity);
@@ -188,6 +205,12 @@ Result<Cloud> CloudBuilder::finish(const std::string& name, std::uint64_t rows) 
     return Error::input(
         Message("none of its %1 points is usable: all are NaN, infinite or at the origin", seen_),
         name, Message("check the driver or the export that wrote the file"));
+  }
+  if (is_cut_off(rows)) {
+    cloud_.warnings.push_back(
+        Message("from point %1 of %2 on none is a return (all are NaN, infinite or at the origin), "
+                "as if the recording had been cut off",
+                last_return_ + 1, seen_));
   }
   scale_times();
   if (choice_ == PointChoice::kAll) cloud_.rows = static_cast<std::size_t>(rows);

@@ -38,19 +38,20 @@ class CloudBuilder {
 
   /// Completes the cloud. Times become seconds from the earliest one. A field that is finite
   /// nowhere is dropped; points where it is not finite otherwise (unless all are wanted). Error if
-  /// no return is left. `rows`: of an organised cloud.
+  /// no return is left. `rows`: of an organised cloud. Warns of points that end before the file.
   Result<Cloud> finish(const std::string& name, std::uint64_t rows = 1);
 
  private:
   static constexpr std::size_t kBlock = 2048;  // scratch stays in the fastest cache
 
   void append_small(const char* block, std::size_t first, std::size_t count);
-  std::size_t choose_points(std::size_t count);
+  std::size_t choose_points(std::uint64_t before, std::size_t count);
   void append_times(const char* block, std::size_t first, std::size_t count, std::size_t kept);
   void append_column(const std::array<float, kBlock>& values, std::size_t kept, bool all,
                      std::vector<float>& column);
   void drop_not_finite(std::vector<float>& column);
   [[nodiscard]] bool is_return(std::size_t i) const;
+  [[nodiscard]] bool is_cut_off(std::uint64_t rows) const;
   void scale_times();
 
   BlockLayout layout_;
@@ -59,6 +60,7 @@ class CloudBuilder {
   Cloud cloud_;
   std::uint64_t seen_ = 0;
   std::uint64_t returns_ = 0;
+  std::uint64_t last_return_ = 0;  ///< Points up to and with the last return.
   std::optional<ExactTime> first_time_;
   std::array<float, kBlock> x_ = {}, y_ = {}, z_ = {}, scratch_ = {};
   std::array<std::uint16_t, kBlock> lines_ = {}, kept_ = {};

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include <lzf.h>
 
+#include "base/text.h"
 #include "cloud/pcd_header.h"
 #include "cloud/readers.h"
 #include "cloud/text_rows.h"
@@ -45,9 +48,12 @@ Result<PcdColumns> find_columns(const Input& input, const PcdHeader& header, Poi
   return columns;
 }
 
-Result<Cloud> finish(const Input& input, const PcdHeader& header, CloudBuilder& builder) {
+Result<Cloud> finish(Input& input, const PcdHeader& header, CloudBuilder& builder) {
   if (builder.seen() < header.points) return truncated(input, header.points, builder.seen());
-  return builder.finish(input.name(), header.rows);
+  auto cloud = builder.finish(input.name(), header.rows);
+  if (!cloud) return cloud;
+  if (Status s = look_behind_points(input, header.points, *cloud); !s) return s.error();
+  return cloud;
 }
 
 Result<Cloud> read_ascii(Input& input, const PcdHeader& header, const PcdColumns& columns) {
@@ -97,7 +103,7 @@ struct Block {
 
 // The block of compressed data: two 32-bit sizes, then the LZF stream.
 Result<Block> decompress(Input& input, std::uint64_t points, std::uint64_t padded,
-                         std::uint64_t unpadded) {
+                         std::uint64_t unpadded, std::uint64_t max_unpacked_bytes) {
   std::uint32_t sizes[2] = {};
   auto complete = input.require(sizeof sizes);
   if (!complete) return complete.error();
@@ -120,6 +126,15 @@ Result<Block> decompress(Input& input, std::uint64_t points, std::uint64_t padde
     return input.error(
         Message("its compressed data cannot hold %1 points: %2 bytes are too few", points, packed));
   }
+  if (plain > max_unpacked_bytes) {
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    return input.error(
+        Message("its compressed data unpack to %1 MiB, more than the limit of %2 MiB",
+                formatted("%.0f", std::ceil(plain / kMebibyte)),
+                formatted("%.0f", static_cast<double>(max_unpacked_bytes) / kMebibyte)),
+        Message("write the cloud with fewer points or uncompressed, or raise "
+                "clouds.max_unpacked_mib in the options"));
+  }
   complete = input.require(packed);
   if (!complete) return complete.error();
   Block block{std::unique_ptr<char[]>(new char[std::max<std::size_t>(plain, 1)]), plain};
@@ -128,16 +143,19 @@ Result<Block> decompress(Input& input, std::uint64_t points, std::uint64_t padde
     return input.error(Message("its compressed data are damaged"),
                        Message("copy or export the file again"));
   }
+  input.consume(packed);
   return block;
 }
 
-Result<Cloud> read_compressed(Input& input, const PcdHeader& header, const PcdColumns& columns) {
+Result<Cloud> read_compressed(Input& input, const PcdHeader& header, const PcdColumns& columns,
+                              std::uint64_t max_unpacked_bytes) {
   std::uint64_t unpadded_bytes = 0;
   for (const PcdField& field : header.fields) {
     if (field.name != "_") unpadded_bytes += field.bytes();
   }
   const std::uint64_t padded = header.points * header.point_bytes();
-  auto block = decompress(input, header.points, padded, header.points * unpadded_bytes);
+  auto block =
+      decompress(input, header.points, padded, header.points * unpadded_bytes, max_unpacked_bytes);
   if (!block) return block.error();
 
   // Column by column; some writers leave the padding out.
@@ -153,13 +171,36 @@ Result<Cloud> read_compressed(Input& input, const PcdHeader& header, const PcdCo
     }
     offset += points * field.bytes();
   }
-  input.consume(input.rest().size());
   CloudBuilder builder(layout, columns.time_is_integer(), header.points, columns.choice);
   builder.append(block->bytes.get(), points);
-  return builder.finish(input.name(), header.rows);
+  return finish(input, header, builder);
 }
 
 }  // namespace
+
+Status look_behind_points(Input& input, std::uint64_t points, Cloud& cloud) {
+  constexpr std::string_view kPadding("\0 \t\r\n\v\f", 7);
+  // Padding fills a block of a disk or a page of memory; what begins later follows from nothing
+  // that wrote points.
+  constexpr std::uint64_t kFarthest = Input::kDefaultChunk;
+  const std::uint64_t bytes = input.remaining();
+  for (std::uint64_t looked = 0; looked < kFarthest;) {
+    const std::string_view rest = input.rest();
+    if (rest.find_first_not_of(kPadding) != std::string_view::npos) {
+      cloud.warnings.push_back(
+          Message("%1 bytes follow the last of the %2 points that its header counts, and are left "
+                  "out: are there more points, or two files in one?",
+                  bytes, points));
+      return Done{};
+    }
+    looked += rest.size();
+    input.consume(rest.size());
+    auto grew = input.more();
+    if (!grew) return grew.error();
+    if (!*grew) break;
+  }
+  return Done{};
+}
 
 Status read_binary_points(Input& input, std::size_t point_bytes, std::uint64_t points,
                           CloudBuilder& builder) {
@@ -176,7 +217,7 @@ Status read_binary_points(Input& input, std::size_t point_bytes, std::uint64_t p
   return Done{};
 }
 
-Result<Cloud> read_pcd(Input& input, PointChoice choice) {
+Result<Cloud> read_pcd(Input& input, PointChoice choice, std::uint64_t max_unpacked_bytes) {
   auto header = read_pcd_header(input);
   if (!header) return header.error();
   auto columns = find_columns(input, *header, choice);
@@ -189,7 +230,7 @@ Result<Cloud> read_pcd(Input& input, PointChoice choice) {
     case PcdData::kBinaryCompressed:
       break;
   }
-  return read_compressed(input, *header, *columns);
+  return read_compressed(input, *header, *columns, max_unpacked_bytes);
 }
 
 }  // namespace lvcalib

@@ -136,6 +136,17 @@ Status read_list_rows(Input& input, const PlyElement& vertices, bool swap_bytes,
   return Done{};
 }
 
+// The cloud, and a look at what follows its points unless other elements do.
+Result<Cloud> finish(Input& input, const PlyHeader& header, CloudBuilder& builder) {
+  auto cloud = builder.finish(input.name());
+  if (!cloud) return cloud;
+  const auto after = header.elements.begin() + static_cast<std::ptrdiff_t>(header.vertex) + 1;
+  if (std::any_of(after, header.elements.end(), [](const PlyElement& e) { return e.count > 0; }))
+    return cloud;
+  if (Status s = look_behind_points(input, header.vertices().count, *cloud); !s) return s.error();
+  return cloud;
+}
+
 Result<Cloud> read_binary(Input& input, const PlyHeader& header, const RoleFields& roles,
                           PointChoice choice) {
   const bool file_is_little = header.format == PlyFormat::kLittleEndian;
@@ -156,7 +167,7 @@ Result<Cloud> read_binary(Input& input, const PlyHeader& header, const RoleField
                             ? read_list_rows(input, vertices, swap_bytes, builder)
                             : read_binary_points(input, row_bytes, vertices.count, builder);
   if (!status) return status.error();
-  return builder.finish(input.name());
+  return finish(input, header, builder);
 }
 
 // One row of a text element is one line.
@@ -194,7 +205,7 @@ Result<Cloud> read_ascii(Input& input, const PlyHeader& header, const RoleFields
   const Status status = read_text_rows(input, lines, entries, vertices.count, builder);
   if (!status) return status.error();
   if (builder.seen() < vertices.count) return truncated(input, vertices.count, builder.seen());
-  return builder.finish(input.name());
+  return finish(input, header, builder);
 }
 
 }  // namespace

@@ -15,10 +15,16 @@ namespace lvcalib {
 // and their library brings VTK into every program.
 
 /// Reads a PCD file from its first byte on.
-Result<Cloud> read_pcd(Input& input, PointChoice choice = PointChoice::kReturns);
+Result<Cloud> read_pcd(Input& input, PointChoice choice = PointChoice::kReturns,
+                       std::uint64_t max_unpacked_bytes = kMaxUnpackedBytes);
 
 /// Reads a PLY file from its first byte on; points come from the element "vertex".
 Result<Cloud> read_ply(Input& input, PointChoice choice = PointChoice::kReturns);
+
+/// After the last point: warns in `cloud` of what follows there. Zeros and white space are padding
+/// that writers leave behind and nobody misses; anything else is data that the header does not
+/// count.
+Status look_behind_points(Input& input, std::uint64_t points, Cloud& cloud);
 
 /// Feeds `points` fixed-size points to the builder, chunk by chunk.
 Status read_binary_points(Input& input, std::size_t point_bytes, std::uint64_t points,

@@ -10,6 +10,7 @@
 #include "detection/board_pose.h"
 #include "detection/board_tags.h"
 #include "detection/checkerboard_detector.h"
+#include "detection/circle_radius.h"
 #include "detection/tag_arrangement.h"
 #include "detection/tag_diagnosis.h"
 
@@ -23,10 +24,15 @@ std::string size_text(int width, int height) {
 Status check_input(const GrayImage& image, const Target& target, const Camera& camera,
                    const DetectionOptions& options) {
   if (image.width_px != camera.width_px || image.height_px != camera.height_px) {
-    return Error::input(Message("the image has %1 pixels, the intrinsics are for %2",
-                                size_text(image.width_px, image.height_px),
-                                size_text(camera.width_px, camera.height_px)),
-                        {}, Message("use the intrinsics of this camera at this resolution"));
+    const bool turned = image.width_px == camera.height_px && image.height_px == camera.width_px;
+    return Error::input(
+        Message("the image has %1 pixels, the intrinsics are for %2",
+                size_text(image.width_px, image.height_px),
+                size_text(camera.width_px, camera.height_px)),
+        {},
+        turned ? Message("it is turned by a quarter: turn it back, and switch off what turns "
+                         "images, or use intrinsics of the turned ones")
+               : Message("use the intrinsics of this camera at this resolution"));
   }
   if (image.width_px < 1 || image.height_px < 1 ||
       image.pixels.size() !=
@@ -312,8 +318,13 @@ Result<BoardView> find_board_in_image(const GrayImage& image, const Target& targ
     return status.error();
   }
   if (context.stopped()) return Error::cancelled();
-  return target.has_tags() ? view_tags(image, target, camera, options, context)
-                           : view_checkerboard(image, target, camera, options, context);
+  auto view = target.has_tags() ? view_tags(image, target, camera, options, context)
+                                : view_checkerboard(image, target, camera, options, context);
+  if (view) {
+    view->circle_radius =
+        measure_circle_radius(image, target, camera, view->camera_from_board.transform);
+  }
+  return view;
 }
 
 void refit_view(BoardView& view, const Camera& camera, const DetectionOptions& options) {

@@ -45,6 +45,12 @@ struct CornerObservation {
   double sigma_px = 0.0;
 };
 
+/// Radius of the board's circles as an image shows them; 0 where it does not.
+struct MeasuredRadius {
+  double radius_m = 0.0;
+  double pixel_m = 0.0;  ///< What a pixel is on the board.
+};
+
 /// What one image tells about the board.
 struct BoardView {
   std::vector<CornerObservation> corners;
@@ -59,6 +65,7 @@ struct BoardView {
   double sigma_px =
       0.0;  ///< Standard deviation of one corner coordinate, estimated from the residuals.
   double rms_px = 0.0;
+  MeasuredRadius circle_radius;
   std::vector<Message> warnings;
 };
 

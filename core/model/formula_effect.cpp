@@ -30,17 +30,20 @@ class FormulaEffect final : public CovariateEffect {
   }
 
   Status bind(const MeasurementTable& table, const UserEffectOptions& options);
-  void bind_without_data(const UserEffectOptions& options) {
+  Status bind_without_data(const UserEffectOptions& options) {
+    if (Status s = check_linear(probe_rows()); !s) return s;
     std::vector<EffectParameter> out;
     for (const std::string& name : expression_.coefficients())
       out.push_back(user_parameter(name, acts_on(), 1.0, options));
     set_parameters(std::move(out));
+    return Done{};
   }
 
  private:
   [[nodiscard]] Error error(const Message& what, const Message& hint = {}) const {
     return Error::input(Message("the effect '%1' cannot be used: %2", info_.id, what), {}, hint);
   }
+  [[nodiscard]] std::vector<std::vector<double>> probe_rows() const;
   [[nodiscard]] Status check_linear(const std::vector<std::vector<double>>& rows) const;
   [[nodiscard]] bool adds_up(const std::vector<double>& row, std::span<const double> columns,
                              const std::vector<double>& coefficients) const;
@@ -58,6 +61,30 @@ bool FormulaEffect::adds_up(const std::vector<double>& row, std::span<const doub
   }
   const double value = expression_.evaluate(row, coefficients);
   return std::isfinite(value) && std::abs(value - sum) <= 1e-9 * (size + std::abs(value));
+}
+
+// Covariates that stand in for data where there are none yet: what is not linear in a coefficient
+// is so wherever it is defined.
+std::vector<std::vector<double>> FormulaEffect::probe_rows() const {
+  constexpr int kTried = 16;
+  constexpr double kGolden =
+      0.6180339887;  // Its multiples' fractions fill the unit interval evenly.
+  std::vector<std::vector<double>> rows;
+  std::vector<double> columns(expression_.coefficients().size());
+  double at = 0.0;
+  for (int r = 0; r < kTried; ++r) {
+    std::vector<double> row(covariates().size());
+    for (double& value : row) {
+      at += kGolden;
+      value = at - std::floor(at);
+    }
+    expression_.columns(row, columns);
+    const std::vector<double> none(columns.size(), 0.0);
+    const bool finite = std::all_of(columns.begin(), columns.end(),
+                                    [](double column) { return std::isfinite(column); });
+    if (finite && std::isfinite(expression_.evaluate(row, none))) rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 // f(0) = 0, f(−2 eₖ) = −2 f(eₖ), and f(c) = Σ cₖ f(eₖ) for one c with all coefficients.
@@ -165,7 +192,7 @@ Result<EffectPtr> make_formula_effect(const UserEffectSpec& spec, const Measurem
   auto effect = std::make_shared<FormulaEffect>(user_effect_info(spec, covariates), spec.channel,
                                                 covariates, std::move(*expression));
   if (table == nullptr) {
-    effect->bind_without_data(options);
+    if (Status s = effect->bind_without_data(options); !s) return s.error();
     return EffectPtr(effect);
   }
   if (Status s = effect->bind(*table, options); !s) return s.error();

@@ -37,8 +37,9 @@ Result<std::vector<BoardImage>> look_at_images(
     const std::function<Camera(int width_px, int height_px)>& camera_for,
     const DetectionOptions& options, const RunContext& context, double first, double last);
 
-/// Whether two views hold the very same corners: of one image that is there twice. Found under the
-/// same camera, as another one moves them by rounding at least.
+/// Whether two views hold the same corners, of one image that is there twice (copied, or written
+/// again with a bit changed): they differ by less than a tenth of what their own noise makes of two
+/// images of one scene. Found under the same camera.
 bool same_corners(const BoardView& a, const BoardView& b);
 
 /// RMS of a corner coordinate's distance from where a camera sees it. A corner that the camera

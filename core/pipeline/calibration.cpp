@@ -9,8 +9,10 @@
 #include "base/text.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/quality.h"
+#include "pipeline/scene_copies.h"
 #include "pipeline/scene_loading.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/turned_images.h"
 
 namespace lvcalib {
 namespace {
@@ -35,6 +37,7 @@ struct Calibration {
   CalibrationResult result;
   std::vector<std::optional<BoardPlane>> planes;  // Per scene, where it was fitted in this run.
   std::vector<char> looked_twice;                 // Per scene; not bool, scenes run in parallel.
+  std::vector<SameContent> same;                  // Per scene: what it shares with another.
   bool looked_for_sizes = false;
   bool looked_for_readings = false;
 };
@@ -45,8 +48,7 @@ std::optional<SceneConsensus> decide(const CalibrationInput& in, const Calibrati
 
 // A scene counts once. With another scene's image or cloud it is not known which of the two is
 // right: the others must tell, and the verdict says so.
-void note_same_files(const CalibrationInput& in, CalibrationResult& result) {
-  const auto same = same_content(in.dataset, in.request.use_crops, result.inputs);
+void note_same_content(CalibrationResult& result, const std::vector<SameContent>& same) {
   for (std::size_t s = 0; s < same.size(); ++s) {
     SceneResult& scene = result.scenes[s];
     if (!scene.reason.empty()) continue;
@@ -59,8 +61,18 @@ void note_same_files(const CalibrationInput& in, CalibrationResult& result) {
         });
     if (first != same.begin() + static_cast<std::ptrdiff_t>(s)) {
       const SceneResult& one = result.scenes[static_cast<std::size_t>(first - same.begin())];
-      if (one.reason.empty())
-        scene.reason = Message("the same files as scene %1, which counts once", one.name);
+      if (!one.reason.empty()) continue;
+      // Where the files tell, nobody has looked at them.
+      scene.reason = scene.view
+                         ? Message(
+                               "its corners and its returns are those of scene %1, of which it is "
+                               "a copy that counts once",
+                               one.name)
+                         : Message("the same files as scene %1, which counts once", one.name);
+      // A copy says nothing more about the camera either.
+      scene.view.reset();
+      scene.search.reset();
+      scene.shared_file = {};
       continue;
     }
     if (image) {
@@ -102,7 +114,8 @@ Status prepare(const CalibrationInput& in, Calibration& run) {
       scene.edits = edits->second;
     run.result.scenes.push_back(std::move(scene));
   }
-  note_same_files(in, run.result);
+  run.same = same_content(in.dataset, in.request.use_crops, run.result.inputs);
+  note_same_content(run.result, run.same);
   for (const std::string& name : in.request.rejected) {
     const bool known = std::any_of(in.dataset.scenes.begin(), in.dataset.scenes.end(),
                                    [&](const SceneFiles& f) { return f.name == name; });
@@ -383,7 +396,9 @@ Status explain_disagreement(const CalibrationInput& in, CalibrationResult& resul
   const int agreeing = result.consensus.agreeing;
   std::size_t found = 0;
   for (const SceneResult& scene : result.scenes)
-    found += scene.view && scene.search && !scene.search->candidates.empty() ? 1 : 0;
+    found += scene.view && scene.search && !scene.search->candidates.empty() && !scene.turned_image
+                 ? 1
+                 : 0;
   if (static_cast<std::size_t>(agreeing) >= found) return Done{};
   const auto scenes = hypotheses(result);
   if (const auto pair = exchanged_images(scenes, agreeing, in.request.options.consensus)) {
@@ -409,9 +424,28 @@ Status explain_disagreement(const CalibrationInput& in, CalibrationResult& resul
   return in.context.stopped() ? Status(Error::cancelled()) : Status(Done{});
 }
 
+// Before anybody looks for boards where turned images put them.
+void note_turned_images(const CalibrationInput& in, CalibrationResult& result,
+                        const SceneConsensus& consensus) {
+  const auto turned =
+      turned_images(result.scenes, hypotheses(result), consensus.chosen, result.camera,
+                    in.request.options.detection, in.request.options.consensus);
+  if (!turned) return;
+  for (const std::size_t s : turned->scenes) {
+    SceneResult& scene = result.scenes[s];
+    scene.contradicts = true;
+    scene.turned_image = true;
+    scene.reason = Message(
+        "its image is turned against those of the other scenes: all agree once it is turned "
+        "counterclockwise by %1°; turn it, and switch off what turns images",
+        turned->degrees);
+  }
+}
+
 Status agree(const CalibrationInput& in, Calibration& run) {
   in.context.report("localize", 0.7, Message("comparing scenes"));
   auto consensus = decide(in, run.result);
+  if (consensus) note_turned_images(in, run.result, *consensus);
   if (!consensus) {
     // What would mend it costs less to look for than walls do, and gets clearer evidence: first
     // what two scenes must agree on.
@@ -695,6 +729,8 @@ Result<CalibrationResult> calibrate_once(const CalibrationInput& in) {
   if (Status s = prepare(in, run); !s) return s.error();
   if (Status s = load_scenes(in.dataset, in.request, in.context, result, in.cache); !s)
     return s.error();
+  find_copies(result.scenes, run.same);
+  note_same_content(result, run.same);
   take_out_tags(result.scenes);
   if (Status s = some_view(result); !s) return s.error();
   if (Status s = load_extra_images(in.dataset, in.request, in.context, result, in.cache); !s)

@@ -44,7 +44,9 @@ struct SceneResult {
   Message objection;
   /// The sentence that its image or its cloud, and only one of the two, is another scene's.
   Message shared_file;
+  std::vector<Message> cloud_warnings;   ///< Why its cloud's file may not be whole.
   bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
+  bool turned_image = false;             ///< So because its image is turned; see TurnedImages.
   BoardPlace place = BoardPlace::kOpen;  ///< What is where the other scenes put its board.
   /// The LiDAR sees the board but not its print: `search` goes by the outline, and the intensity of
   /// `board_points` is left out.

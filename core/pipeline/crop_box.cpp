@@ -32,6 +32,7 @@ Status check(const CropBox& box) {
 
 Cloud crop(const Cloud& cloud, const CropBox& box) {
   Cloud out;
+  out.warnings = cloud.warnings;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!box.contains(cloud.points_m[i].cast<double>())) continue;
     out.points_m.push_back(cloud.points_m[i]);

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 #include "base/file_io.h"
 #include "base/yaml_file.h"
@@ -23,9 +24,33 @@ fs::path first_existing(const fs::path& folder, const std::vector<std::string>& 
   return {};
 }
 
+const std::vector<std::string>& image_names() {
+  static const std::vector<std::string> names = {"image.png", "image.jpg",  "image.jpeg",
+                                                 "image.bmp", "image.tiff", "image.tif"};
+  return names;
+}
+
+const std::vector<std::string>& cloud_names() {
+  static const std::vector<std::string> names = {"cloud.pcd", "cloud.ply"};
+  return names;
+}
+
 fs::path scene_image(const fs::path& folder) {
-  return first_existing(
-      folder, {"image.png", "image.jpg", "image.jpeg", "image.bmp", "image.tiff", "image.tif"});
+  return first_existing(folder, image_names());
+}
+
+// A warning for every file of a scene that could be its image or its cloud as well as the one that
+// is used.
+void warn_of_others(const SceneFiles& scene, std::vector<Message>& warnings) {
+  for (const auto& [used, names] :
+       {std::pair(scene.image, image_names()), std::pair(scene.cloud, cloud_names())}) {
+    for (const std::string& name : names) {
+      std::error_code code;
+      if (name == used.filename() || !fs::exists(used.parent_path() / name, code)) continue;
+      warnings.push_back(Message("scene %1 has %2 and %3: %2 is used; delete the other", scene.name,
+                                 used.filename().string(), name));
+    }
+  }
 }
 
 Result<std::vector<fs::path>> list_scene_folders(const fs::path& folder) {
@@ -87,7 +112,7 @@ Result<SceneFiles> open_scene(const fs::path& folder) {
     return Error::input(Message("no image in this scene; expected image.png, .jpg, .bmp or .tiff"),
                         folder.string());
   }
-  scene.cloud = first_existing(folder, {"cloud.pcd", "cloud.ply"});
+  scene.cloud = first_existing(folder, cloud_names());
   if (scene.cloud.empty()) {
     return Error::input(Message("no cloud in this scene; expected cloud.pcd or cloud.ply"),
                         folder.string());
@@ -275,6 +300,9 @@ Result<Dataset> open_dataset(const fs::path& path, UnusableScenes unusable) {
   auto scenes = list_scenes(path / "scenes", unusable);
   if (!scenes) return scenes.error();
   dataset.scenes = std::move(*scenes);
+  for (const SceneFiles& scene : dataset.scenes) {
+    if (!scene.problem) warn_of_others(scene, dataset.warnings);
+  }
   if (fs::is_directory(path / "intrinsics", code)) {
     auto images = list_images(path / "intrinsics");
     if (!images) return images.error();

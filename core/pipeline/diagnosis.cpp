@@ -244,30 +244,6 @@ Message diagnose_guess(const Rigid3& guess, const Rigid3& found) {
                  formatted("%.0f", rotation_distance_rad(guess, found) * 180.0 / M_PI));
 }
 
-std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
-                                      const std::vector<InputFile>& inputs) {
-  std::map<std::string, const InputFile*> by_path;
-  for (const InputFile& file : inputs) by_path.emplace(file.path, &file);
-  std::map<std::string, std::size_t> images;
-  std::map<std::string, std::size_t> clouds;
-  // The first scene with a file's content, if that is another.
-  const auto first = [&](auto& seen, const fs::path& path,
-                         std::size_t s) -> std::optional<std::size_t> {
-    const auto file = by_path.find(path.lexically_relative(dataset.path).generic_string());
-    if (file == by_path.end() || file->second->bytes == 0 || file->second->sha256.empty())
-      return std::nullopt;
-    const auto [at, is_new] = seen.try_emplace(file->second->sha256, s);
-    return is_new ? std::nullopt : std::optional(at->second);
-  };
-  std::vector<SameContent> out(dataset.scenes.size());
-  for (std::size_t s = 0; s < out.size(); ++s) {
-    const SceneFiles& f = dataset.scenes[s];
-    out[s].image = first(images, f.image, s);
-    out[s].cloud = first(clouds, use_crops && !f.crop.empty() ? f.crop : f.cloud, s);
-  }
-  return out;
-}
-
 Message diagnose_unseen_tags(const CalibrationResult& result) {
   const Target& target = result.target;
   if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
@@ -297,6 +273,27 @@ Message diagnose_unseen_tags(const CalibrationResult& result) {
         "no image shows the tags of the right columns that target.yaml has: %1 would fit", fields);
   return Message("no image shows the tags of the upper rows that target.yaml has: %1 would fit",
                  fields);
+}
+
+Message better_circle_radius(const CalibrationResult& result) {
+  constexpr double kAgree_px = 0.25;
+  double weights = 0.0;
+  double radii = 0.0;
+  double pixels = 0.0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!scene.view || !(scene.view->circle_radius.radius_m > 0.0)) continue;
+    const MeasuredRadius& seen = scene.view->circle_radius;
+    const double weight = 1.0 / (seen.pixel_m * seen.pixel_m);
+    weights += weight;
+    radii += weight * seen.radius_m;
+    pixels += weight * seen.pixel_m;
+  }
+  if (!(weights > 0.0)) return {};
+  const double radius_m = radii / weights;
+  // Alike in all images, so that more of them tell no better.
+  if (std::abs(radius_m - result.target.circle_radius_m) < kAgree_px * pixels / weights) return {};
+  return Message("their circles are of another size: %1 would fit",
+                 formatted("circleRadius: %.4f", radius_m));
 }
 
 SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target) {

@@ -51,19 +51,14 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
 /// "its translation is in millimetres", …
 Message diagnose_guess(const Rigid3& guess, const Rigid3& camera_from_lidar);
 
-/// The first earlier scene whose image, and whose cloud, has the same content as a scene's; nothing
-/// where there is none.
-struct SameContent {
-  std::optional<std::size_t> image;
-  std::optional<std::size_t> cloud;
-};
-/// Per scene.
-std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
-                                      const std::vector<InputFile>& inputs);
-
 /// Whole rows or columns at the end of a grid of tags that no image shows, of two images or more:
 /// "no image shows tags 16 to 19: tagRows: 4 would fit". Empty if there are none.
 Message diagnose_unseen_tags(const CalibrationResult& result);
+
+/// If the images show circles of another radius than target.yaml says, by more than a quarter of a
+/// pixel, which is what the places of edges within one image agree to: "circleRadius: 0.0450 would
+/// fit". Empty if not.
+Message better_circle_radius(const CalibrationResult& result);
 
 /// What a scene that has been searched brings to the joint decision; nothing if it brings nothing.
 SceneHypotheses hypotheses_of(const SceneResult& scene, const Target& target);

@@ -14,6 +14,7 @@
 #include "detection/board_view.h"
 #include "pipeline/calibration.h"
 #include "pipeline/forward_stage.h"
+#include "pipeline/turned_images.h"
 
 namespace lvcalib {
 namespace {
@@ -36,7 +37,7 @@ std::vector<CornerView> extra_views(const IntrinsicsReport& report) {
 
 // Whether a scene's image counts for the camera.
 bool image_counts(const SceneResult& scene) {
-  return scene.view && !scene.rejected;
+  return scene.view && !scene.rejected && !scene.turned_image;
 }
 
 // The scenes' images first, then those of intrinsics/. Scenes that the solve refused count: what
@@ -268,6 +269,25 @@ Message contradicted_by(const std::vector<CornerView>& views, const Camera& give
   return contrast.contradicts() ? describe(contrast, given, views) : Message();
 }
 
+// By how many degrees all images must be turned to agree with intrinsics that they contradict as
+// they are; 0: by none. Turned, principal point and distortion lie on the other side.
+int turn_that_mends(const std::vector<CornerView>& views, const Camera& given, double false_alarm) {
+  for (const int degrees : possible_turns_deg(given)) {
+    std::vector<std::vector<CornerObservation>> corners;
+    corners.reserve(views.size());
+    std::vector<CornerView> turned;
+    for (const CornerView& view : views) {
+      corners.push_back(turned_corners(*view.corners, given, degrees));
+      const auto pose = estimate_board_pose(corners.back(), given, DetectionOptions());
+      if (!pose) break;
+      turned.push_back({&corners.back(), pose->camera_from_board.transform});
+    }
+    if (turned.size() == views.size() && contradicted_by(turned, given, false_alarm).empty())
+      return degrees;
+  }
+  return 0;
+}
+
 }  // namespace
 
 IntrinsicsReport start_intrinsics(const Dataset& dataset, IntrinsicsMode mode) {
@@ -326,10 +346,18 @@ LeftOutSizes left_out_sizes(const CalibrationResult& result) {
   return out;
 }
 
+Message describe_turn(int degrees) {
+  return Message("they agree with them once they are turned counterclockwise by %1°", degrees);
+}
+
 Message contradicted_by_corners(const CalibrationResult& result) {
   if (result.intrinsics.mode != IntrinsicsMode::kFixed) return {};
-  return contradicted_by(views_of(result), result.intrinsics.given,
-                         result.options.intrinsics.false_alarm);
+  const std::vector<CornerView> views = views_of(result);
+  const Camera& given = result.intrinsics.given;
+  const double alarm = result.options.intrinsics.false_alarm;
+  const Message what = contradicted_by(views, given, alarm);
+  const int degrees = what.empty() ? 0 : turn_that_mends(views, given, alarm);
+  return degrees > 0 ? describe_turn(degrees) : what;
 }
 
 Message better_spacing(const std::vector<CornerView>& views, const Target& target,
@@ -512,6 +540,7 @@ Status check_intrinsics(CalibrationResult& result,
   IntrinsicsContradiction found;
   found.contrast = freed && freed->contrast.contradicts() ? freed->contrast : of_corners;
   found.what = describe(found.contrast, given, views);
+  found.turned_deg = clear ? turn_that_mends(views, given, alarm) : 0;
   if (freed) {
     found.camera_from_lidar = UncertainRigid3{
         se3_exp(freed->contrast.correction) * freed->forward.state.camera_from_lidar,

@@ -28,6 +28,8 @@ struct IntrinsicsContradiction {
   double move_mm = 0.0;    ///< Between that and the result: of the LiDAR's position,
   double move_mrad = 0.0;  ///< and of the rotation.
   bool matters = true;     ///< More than the tolerance.
+  /// The images agree with the given intrinsics once all are turned counterclockwise by so much.
+  int turned_deg = 0;
   /// The model in force has it, as an effect: the extrinsic is for a camera without it.
   bool modelled = false;
 };
@@ -65,6 +67,9 @@ IntrinsicsVector solve_prior(const IntrinsicsReport& report);
 
 /// Sizes of the faults that the calibration's solve leaves out.
 LeftOutSizes left_out_sizes(const CalibrationResult& result);
+
+/// In words that images contradict intrinsics because they are turned.
+Message describe_turn(int degrees);
 
 /// If the images' corners alone contradict the given intrinsics: in words what is wrong.
 Message contradicted_by_corners(const CalibrationResult& result);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/text.h"
 #include "base/yaml_file.h"
 
 namespace lvcalib {
@@ -55,6 +56,9 @@ std::vector<OptionDeclaration> make_declarations() {
       declare("clouds.use_intensity", "0/1", 0, 1, "localize",
               "Use the clouds' intensities; without them planes and corners have to do.",
               &O::clouds, &K::use_intensity),
+      declare("clouds.max_unpacked_mib", "MiB", 1, 4096, "localize",
+              "A compressed cloud that unpacks to more is refused.", &O::clouds,
+              &K::max_unpacked_mib),
       declare("localization.min_range_m", "m", 0, 100, "localize",
               "Closer points (the rig itself) are ignored.", &O::localization, &L::min_range_m),
       declare("localization.max_lever_arm_m", "m", 0.01, 1000, "localize",
@@ -274,8 +278,11 @@ Status set_option(CalibrationOptions& options, const std::string& key, double va
     keys.push_back(d.key);
     if (d.key != key) continue;
     if (!(value >= d.low && value <= d.high)) {
+      // "0/1" and the like name the choices again.
+      const bool choice = d.unit.find('/') != std::string::npos;
       return Error::input(Message("'%1' must be between %2 and %3, found %4", key, shown(d.low),
-                                  shown(d.high) + " " + d.unit, shown(value)));
+                                  shown(d.high) + (choice ? "" : behind_number(d.unit)),
+                                  shown(value)));
     }
     if (d.whole && value != std::floor(value)) {
       return Error::input(Message("'%1' must be a whole number, found %2", key, shown(value)));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "cloud/cloud.h"
 #include "detection/board_view.h"
 #include "localization/board_search.h"
 #include "localization/scene_consensus.h"
@@ -22,6 +24,12 @@ namespace lvcalib {
 struct CloudOptions {
   /// Without, every cloud is taken for one that has no intensity: planes and corners have to do.
   bool use_intensity = true;
+  /// A compressed cloud that unpacks to more is refused; as many are read at once as there are
+  /// threads. The format itself ends at 4096.
+  double max_unpacked_mib = static_cast<double>(kMaxUnpackedBytes >> 20U);
+  [[nodiscard]] std::uint64_t max_unpacked_bytes() const {
+    return static_cast<std::uint64_t>(max_unpacked_mib * 1024.0 * 1024.0);
+  }
 };
 
 /// When a result counts as trustworthy.

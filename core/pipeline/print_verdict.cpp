@@ -18,9 +18,11 @@ namespace lvcalib {
 namespace {
 
 // Why the intensities of a scene are not used.
-enum class PrintState { kSeen, kNoIntensity, kNoContrast, kOtherPrint };
+enum class PrintState { kSeen, kLeftOut, kNoIntensity, kNoContrast, kOtherPrint };
 
-PrintState print_state(const SceneResult& scene, const ForwardSceneResult& solved) {
+PrintState print_state(const SceneResult& scene, const ForwardSceneResult& solved,
+                       const CloudOptions& clouds) {
+  if (!clouds.use_intensity) return PrintState::kLeftOut;
   if (scene.no_contrast) return PrintState::kNoContrast;
   if (!scene.board_points.has_contrast()) return PrintState::kNoIntensity;
   if (solved.print_correlation > 0.0) return PrintState::kSeen;
@@ -30,6 +32,8 @@ PrintState print_state(const SceneResult& scene, const ForwardSceneResult& solve
 
 Message print_problem(PrintState state) {
   switch (state) {
+    case PrintState::kLeftOut:
+      return Message("the clouds' intensity is left out, as you decided");
     case PrintState::kNoIntensity:
       return Message("the clouds' intensity is missing or the same everywhere");
     case PrintState::kNoContrast:
@@ -42,6 +46,10 @@ Message print_problem(PrintState state) {
 // Where it is so in all scenes.
 Message print_problem_everywhere(PrintState state) {
   switch (state) {
+    case PrintState::kLeftOut:
+      return Message(
+          "the clouds' intensity is left out, as you decided: the extrinsic rests on planes and "
+          "corners, and the print does not hold it sideways");
     case PrintState::kNoIntensity:
       return Message(
           "the clouds' intensity is missing or the same everywhere: the extrinsic rests on planes "
@@ -202,7 +210,7 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
     const ForwardSceneResult& found = forward.scenes[next++];
     if (scene == result.scenes.end()) continue;
     ++scenes;
-    const PrintState state = print_state(*scene, found);
+    const PrintState state = print_state(*scene, found, result.options.clouds);
     if (state != PrintState::kSeen)
       unseen[state] += (unseen[state].empty() ? "" : ", ") + scene->name;
     // Where the median white return is at the ceiling the level of white is not measured, and an

@@ -48,6 +48,13 @@ void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
   }
   if (!result.intrinsics.contradiction) return;
   const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
+  if (found.turned_deg > 0) {
+    verdict.doubtful(Message(
+        "the images contradict the intrinsics: %1; turn them, and switch off what turns images, or "
+        "calibrate the camera from images as they are",
+        describe_turn(found.turned_deg)));
+    return;
+  }
   if (found.modelled) {
     verdict.doubtful(
         Message("the images contradict the intrinsics: %1; the model takes that out of the images, "
@@ -359,6 +366,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_shared_files(result, verdict);
   if (const Message unseen = diagnose_unseen_tags(result); !unseen.empty())
     verdict.doubtful(unseen);
+  if (const Message radius = better_circle_radius(result); !radius.empty())
+    verdict.doubtful(Message("the images contradict target.yaml: %1; measure the print", radius));
   judge_count(result, verdict);
   const Message bump = diagnose_bump(result);
   if (!bump.empty()) verdict.doubtful(bump);
@@ -408,6 +417,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   // Behind what is wrong, which may be why they are weak.
   for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
   for (const SceneResult& scene : result.scenes) {
+    for (const Message& w : scene.cloud_warnings)
+      verdict.note(Message("scene %1: its cloud: %2", scene.name, w));
     if (!scene.used && !scene.reason.empty() && !scene.rejected) {
       // The image shows the board, and the cloud shows none where the other scenes say: a scene
       // that contradicts them is worth more than a note.

@@ -78,14 +78,20 @@ class SceneLoader {
     const std::string key = cache_ ? search_key(dataset_, files, request_) : "";
     if (const BoardSearchResult* kept =
             cache_ ? cache_->scene(files.name).search.find(key) : nullptr) {
+      const auto* warnings = cache_->scene(files.name).cloud_warnings.find(key);
       const std::lock_guard lock(mutex_);
       result_.scenes[s].search = *kept;
+      if (warnings != nullptr) result_.scenes[s].cloud_warnings = *warnings;
       return;
     }
     auto start = Clock::now();
     auto cloud = read_scene_cloud(files, request_, context_.stop);
     const double load = ms_since(start);
     if (!cloud) return fail(s, cloud.error());
+    if (!cloud->warnings.empty()) {
+      const std::lock_guard lock(mutex_);
+      result_.scenes[s].cloud_warnings = cloud->warnings;
+    }
     if (cloud->size() == 0 && request_.crop_boxes.contains(files.name)) {
       const std::lock_guard lock(mutex_);
       result_.scenes[s].reason = Message("the crop box holds no points");
@@ -111,7 +117,10 @@ class SceneLoader {
     const std::lock_guard lock(mutex_);
     result_.times.load_ms += load;
     result_.times.localize_ms += localize;
-    if (cache_) cache_->scene(files.name).search.keep(key, search);
+    if (cache_) {
+      cache_->scene(files.name).search.keep(key, search);
+      cache_->scene(files.name).cloud_warnings.keep(key, cloud->warnings);
+    }
     result_.scenes[s].search = std::move(search);
   }
 
@@ -177,7 +186,8 @@ class SceneLoader {
 Result<Cloud> read_scene_cloud(const SceneFiles& files, const CalibrationRequest& request,
                                std::stop_token stop) {
   const auto& path = request.use_crops && !files.crop.empty() ? files.crop : files.cloud;
-  auto cloud = read_cloud(path, std::move(stop));
+  auto cloud = read_cloud(path, std::move(stop), PointChoice::kReturns,
+                          request.options.clouds.max_unpacked_bytes());
   if (!cloud) return cloud.error();
   // Here and nowhere else, so that all that follows meets a cloud that never had any.
   if (!request.options.clouds.use_intensity) cloud->intensity.clear();

@@ -57,8 +57,9 @@ struct SecondLook {
 /// Everything kept of one scene. Board points are kept (in the searches' patches), full clouds not.
 struct SceneStages {
   Kept<SeenBoard> seen;
-  Kept<BoardSearchResult> search;  ///< First look.
-  Kept<SecondLook> second_look;    ///< Where the other scenes put the board.
+  Kept<BoardSearchResult> search;             ///< First look.
+  Kept<std::vector<Message>> cloud_warnings;  ///< Of the file that the first look read.
+  Kept<SecondLook> second_look;               ///< Where the other scenes put the board.
   Kept<BoardRefinement> refinement;
   Kept<std::vector<RefinedNode>> paper_nodes;  ///< Of the same points, as the paper refines them.
 };

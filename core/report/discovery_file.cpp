@@ -128,8 +128,9 @@ std::string channel_lines(const std::vector<ChannelSummary>& channels) {
   std::string out;
   for (const ChannelSummary& c : channels) {
     char text[200];
-    std::snprintf(text, sizeof text, "  %-10s %10.4g %12.4g %12.4g %12.4g %s\n", name_of(c.channel),
-                  c.rms, c.noise_floor, c.unexplained, c.heldout_rms, unit_of(c.channel));
+    std::snprintf(text, sizeof text, "  %-10s %10.4g %12.4g %12.4g %12.4g%s\n", name_of(c.channel),
+                  c.rms, c.noise_floor, c.unexplained, c.heldout_rms,
+                  behind_number(unit_of(c.channel)).c_str());
     out += text;
   }
   return out;
@@ -219,8 +220,8 @@ std::string discovery_summary(const Discovery& d) {
     for (const StructureScore& s : d.unknown) {
       out += std::string("  ") + name_of(s.channel) + " against " +
              covariates_named(s.covariates()).text() +
-             line(": %.1f %% of the held-out variance, %.3g ", 100.0 * s.score, s.amplitude, 0, 0) +
-             unit_of(s.channel) +
+             line(": %.1f %% of the held-out variance, %.3g", 100.0 * s.score, s.amplitude, 0, 0) +
+             behind_number(unit_of(s.channel)) +
              (s.matters ? line(", would move the extrinsic by %.1f mm and %.2f mrad",
                                1e3 * s.extrinsic_move.translation_m,
                                1e3 * s.extrinsic_move.rotation_rad, 0, 0)

@@ -483,6 +483,13 @@ Result<std::string> export_result(const ExportInput& input, const std::string& f
   for (const std::string& name : {input.lidar_frame, input.camera_frame}) {
     if (Status s = check_frame_name(name); !s) return s.error();
   }
+  if (input.lidar_frame == input.camera_frame) {
+    return Error::usage(
+        Message(
+            "LiDAR and camera cannot both be called '%1': no reader could tell the frames apart",
+            input.lidar_frame),
+        {}, Message("give each frame a name of its own"));
+  }
   std::vector<std::string> names;
   for (const ExportFormat& f : export_formats()) {
     names.push_back(f.name);

@@ -47,9 +47,9 @@ std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown) 
     if (!said.insert(s.channel).second) continue;
     out.push_back(Message(
         "No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its "
-        "held-out variance, %4 %5); to take it out anyway: --with %6",
+        "held-out variance, %4); to take it out anyway: --with %5",
         word_for(s.channel), covariates_named(s.covariates()), formatted("%.2g", 100.0 * s.score),
-        formatted("%.2g", s.amplitude), unit_of(s.channel), curve_spec(s)));
+        formatted("%.2g", s.amplitude) + behind_number(unit_of(s.channel)), curve_spec(s)));
     if (!s.formula.empty()) out.back() += Message(", or as a closed form: --with '%1'", s.formula);
   }
   return out;

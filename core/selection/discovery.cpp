@@ -102,7 +102,12 @@ Status check_wanted(const std::vector<std::string>& with) {
   for (const EffectPtr& effect : effect_catalogue()) known.push_back(effect->info().id);
   for (const std::string& id : with) {
     if (is_user_effect(id)) {
-      if (auto spec = parse_user_effect(id); !spec) return spec.error();
+      const auto spec = parse_user_effect(id);
+      if (!spec) return spec.error();
+      // What no data can make usable is said before a calibration is made for it.
+      if (spec->kind == UserEffectSpec::Kind::kFormula) {
+        if (const auto effect = make_user_effect(id); !effect) return effect.error();
+      }
       continue;
     }
     if (find_effect(id) != nullptr) continue;

@@ -86,7 +86,7 @@ Message found_text(const EffectFinding& f) {
   double squares = 0.0;
   for (const CurvePoint& point : p) squares += point.sigma * point.sigma;
   const double factor = display_factor(f.curve.channel);
-  const std::string unit = std::string(" ") + unit_of(f.curve.channel);
+  const std::string unit = behind_number(unit_of(f.curve.channel));
   const double sigma = std::sqrt(squares / static_cast<double>(p.size()));
   return Message("it runs from %1 to %2 over %3, known to %4",
                  formatted("%.3g", factor * low->value),

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/text.h"
 #include "base/yaml_file.h"
 #include "target/sheet.h"
 
@@ -90,6 +91,13 @@ Result<SheetLayout> lay_out_paper(const Eigen::Vector2d& board_mm, const SheetOp
   }
   const double smallest = kNarrowestFooter_mm + 2 * options.page_border_mm;
   const double tile = paper->minCoeff() - 2 * options.page_border_mm - kFooter_mm;
+  if (paper->minCoeff() >= smallest && tile > 0.0 && !(tile >= 2 * options.overlap_mm)) {
+    return Error::usage(Message("paper '%1' has no room for pages that share %2 mm with each "
+                                "neighbour; expected %3 mm at most",
+                                options.paper, formatted("%g", options.overlap_mm),
+                                static_cast<int>(std::floor(0.5 * tile))),
+                        {}, Message("overlap less, or choose a larger paper"));
+  }
   if (!(paper->minCoeff() >= smallest) || !(tile >= 2 * options.overlap_mm) ||
       !(paper->maxCoeff() <= kLongestPage_mm)) {
     return Error::usage(Message("paper '%1' has no room; expected sides of %2 to %3 mm",

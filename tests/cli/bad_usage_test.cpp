@@ -188,6 +188,17 @@ TEST_F(AnyCommand, EvaluateNamesTheUnfitFile) {
   expect_error({"evaluate", "result.json"}, 2, {"--truth is required"});
 }
 
+TEST_F(AnyCommand, ACommandThatIsNoneIsNamedWithTheNearestOne) {
+  expect_error({"calibrat", "x"}, 2, {"there is no command 'calibrat'", "did you mean calibrate?"});
+  expect_error({"foo"}, 2, {"there is no command 'foo', known are calibrate, discover, "});
+  expect_error({}, 2, {"A subcommand is required"});
+  expect_error({"--frobnicate"}, 2, {"--help"});
+}
+
+TEST_F(AnyCommand, OverlapsAreOfSeveralPages) {
+  expect_error({"target", "-o", "board.pdf", "--overlap", "300"}, 2, {"--overlap", "--paper"});
+}
+
 TEST_F(AnyCommand, TargetTellsFormatsByTheirEnding) {
   const fs::path target = good_dataset() / "target.yaml";
   expect_error({"target", target, "-o", "board.docx"}, 2, {"board.docx", ".pdf, .svg or .png"});

@@ -62,6 +62,19 @@ TEST(YamlFile, ErrorsNameFileLineKeyAndWhatWasFound) {
   EXPECT_EQ(error(file.section("a")), "f.yaml:1: 'a' must be a map, found 'word'");
 }
 
+TEST(YamlFile, AKeyThatIsThereTwiceIsRefused) {
+  const auto refused = [](const char* text) {
+    const auto file = YamlFile::parse(text, "f.yaml");
+    EXPECT_FALSE(file.ok()) << text;
+    return file.ok() ? std::string() : file.error().text();
+  };
+  EXPECT_EQ(refused("tagSize: 0.1\nb: 2\ntagSize: 0.12\n"),
+            "f.yaml:3: key 'tagSize' is there twice, first in line 1 (keep the one that is meant)");
+  EXPECT_THAT(refused("a:\n  k: 1\n  k: 1\n"), HasSubstr("f.yaml:3: key 'k'"));
+  EXPECT_THAT(refused("a:\n  - {k: 1}\n  - {k: 1, k: 2}\n"), HasSubstr("f.yaml:3: key 'k'"));
+  EXPECT_TRUE(YamlFile::parse("a: {k: 1}\nb: {k: 1}\nk: 3\n", "f.yaml").ok());
+}
+
 TEST(YamlFile, AMissingKeyPointsToItsMisspelling) {
   const YamlFile file = parsed("distorsion_model: plumb_bob\nother: 1\n");
   const Error e = file.string("distortion_model").error();

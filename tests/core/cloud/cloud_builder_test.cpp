@@ -75,6 +75,38 @@ TEST(CloudBuilder, KeepsOrderAcrossBlocksWithGaps) {
   }
 }
 
+TEST(CloudBuilder, ReturnsThatEndLongBeforeTheFileAreToldOf) {
+  const auto points = [](int returns, int missing_between, int tail) {
+    std::vector<Point> out;
+    for (int i = 0; i < returns; ++i) {
+      out.push_back({1, 2, 3, 4, 1e-4 * i});
+      if (i > 0 && i <= missing_between) out.push_back({NAN, NAN, NAN, 0, 0});
+    }
+    for (int i = 0; i < tail; ++i) out.push_back({0, 0, 0, 0, 0});
+    return out;
+  };
+  const auto cut = build(points(5000, 1000, 3000));
+  ASSERT_TRUE(cut.ok());
+  ASSERT_EQ(cut->warnings.size(), 1U);
+  EXPECT_THAT(cut->warnings[0].text(), testing::HasSubstr("from point 6001 of 9000 on"));
+  // As the LiDAR misses elsewhere, and too few to matter.
+  EXPECT_TRUE(build(points(5000, 1000, 900))->warnings.empty());
+  EXPECT_TRUE(build(points(5000, 0, 500))->warnings.empty());
+}
+
+TEST(CloudBuilder, WholeLinesWithoutAReturnLookIntoTheSky) {
+  // Four lines of 3000 columns, of which the last two see nothing; or the last one and a half.
+  const auto warnings = [](std::size_t returns) {
+    std::vector<Point> points(12'000, Point{0, 0, 0, 0, 0});
+    for (std::size_t i = 0; i < returns; ++i) points[i] = {1, 2, 3, 4, 1e-4};
+    CloudBuilder builder(layout_of_points(), false, points.size());
+    builder.append(reinterpret_cast<const char*>(points.data()), points.size());
+    return builder.finish("built", 4)->warnings.size();
+  };
+  EXPECT_EQ(warnings(6000), 0U);
+  EXPECT_EQ(warnings(7500), 1U);
+}
+
 TEST(CloudBuilder, TimesStartAtTheEarliestPoint) {
   const auto cloud = build({{1, 0, 0, 1, 5.5}, {2, 0, 0, 2, 5.25}, {3, 0, 0, 3, 6.0}});
   ASSERT_TRUE(cloud.ok());

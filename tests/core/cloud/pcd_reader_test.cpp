@@ -13,6 +13,7 @@ namespace lvcalib {
 namespace {
 
 using test::bytes;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -120,6 +121,42 @@ TEST(PcdReader, TrailingBytesAreIgnored) {
   const std::string text = test::pcd_header("x y z", "4 4 4", "F F F", "1 1 1", 1, "binary") +
                            bytes(1.0F) + bytes(2.0F) + bytes(3.0F) + std::string(4096, '\0');
   EXPECT_EQ(read_ok(text).size(), 1U);
+  EXPECT_TRUE(read_ok(text).warnings.empty()) << "padding";
+}
+
+TEST(PcdReader, DataBehindTheLastPointAreToldOf) {
+  const std::string point = bytes(1.0F) + bytes(2.0F) + bytes(3.0F);
+  const auto header = [](const char* data) {
+    return test::pcd_header("x y z", "4 4 4", "F F F", "1 1 1", 1, data);
+  };
+  for (const std::string& text : {header("binary") + point + point,
+                                  header("binary_compressed") + compressed_block(point) + point,
+                                  header("ascii") + "1 2 3\n\n4 5 678901\n"}) {
+    const Cloud cloud = read_ok(text);
+    EXPECT_EQ(cloud.size(), 1U);
+    ASSERT_EQ(cloud.warnings.size(), 1U);
+    EXPECT_THAT(cloud.warnings[0].text(), HasSubstr("12 bytes follow the last of the 1 points"));
+  }
+  EXPECT_TRUE(read_ok(header("ascii") + "1 2 3\n \r\n").warnings.empty());
+  EXPECT_TRUE(read_ok(header("binary_compressed") + compressed_block(point)).warnings.empty());
+}
+
+TEST(PcdReader, ACompressedCloudUnpacksToTheLimitAndNotBeyond) {
+  constexpr std::size_t kPoints = 200'000;
+  std::string plain;
+  while (plain.size() < 12 * kPoints) plain += bytes(1.0F);
+  const std::string text =
+      test::pcd_header("x y z", "4 4 4", "F F F", "1 1 1", kPoints, "binary_compressed") +
+      compressed_block(plain);
+  const auto read = [&](std::uint64_t limit) {
+    return read_cloud_from_memory(text, "m.pcd", PointChoice::kReturns, limit);
+  };
+  EXPECT_TRUE(read(plain.size()).ok());
+  const auto refused = read(std::uint64_t{2} << 20U);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().text(),
+              AllOf(HasSubstr("unpack to 3 MiB, more than the limit of 2 MiB"),
+                    HasSubstr("clouds.max_unpacked_mib")));
 }
 
 TEST(PcdReader, NeededFieldOfUnknownTypeIsRefusedAndOtherFieldsAreNot) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdint>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,6 +46,28 @@ void expect_tricky(const Result<Cloud>& cloud) {
   EXPECT_THAT(cloud->intensity, ElementsAre(200, 100));
   EXPECT_THAT(cloud->line, ElementsAre(7, 8));
   EXPECT_FALSE(cloud->has_time());
+}
+
+TEST(PlyReader, DataBehindTheLastPointAreToldOfUnlessTheyAreOtherElements) {
+  const std::string points =
+      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string faces = "element face 1\nproperty int from\n";
+  const std::string point = bytes(1.0F) + bytes(2.0F) + bytes(3.0F);
+  const auto warnings = [](const std::string& format, const std::string& rest) {
+    const auto cloud = read_cloud_from_memory("ply\nformat " + format + " 1.0\n" + rest, "m");
+    EXPECT_TRUE(cloud.ok()) << cloud.error().text();
+    return cloud.ok() ? cloud->warnings : std::vector<Message>();
+  };
+  const std::string binary = "binary_little_endian";
+  EXPECT_THAT(warnings(binary, points + "end_header\n" + point + std::string(99, '\0')),
+              testing::IsEmpty());
+  EXPECT_THAT(warnings(binary, points + faces + "end_header\n" + point + bytes(7)),
+              testing::IsEmpty());
+  for (const auto& found : {warnings(binary, points + "end_header\n" + point + point),
+                            warnings("ascii", points + "end_header\n1 2 3\n4 5 6789012\n")}) {
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].text(), HasSubstr("12 bytes follow the last of the 1 points"));
+  }
 }
 
 TEST(PlyReader, TheSameCloudFromAllFormats) {

@@ -52,6 +52,9 @@ class RealCloud : public testing::Test {
     found_ = true;
     auto cloud = read_cloud(path);
     EXPECT_TRUE(cloud.ok()) << cloud.error().text();
+    if (cloud.ok()) {
+      EXPECT_TRUE(cloud->warnings.empty()) << cloud->warnings.front().text();
+    }
     return cloud.ok() ? *cloud : Cloud{};
   }
   bool found_ = false;

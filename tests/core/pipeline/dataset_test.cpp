@@ -175,6 +175,18 @@ TEST_F(DatasetTest, UnknownKeysWarn) {
   EXPECT_THAT(dataset->warnings[0], HasSubstr("tagSpacin"));
 }
 
+TEST_F(DatasetTest, FilesThatCouldBeASceneSImageOrCloudAsWellWarn) {
+  folder_.write("d/scenes/B/image.jpg", "");
+  folder_.write("d/scenes/B/cloud.ply", "");
+  const auto dataset = open_dataset(path());
+  ASSERT_TRUE(dataset.ok());
+  ASSERT_EQ(dataset->warnings.size(), 2U);
+  EXPECT_EQ(dataset->warnings[0].text(),
+            "scene B has image.png and image.jpg: image.png is used; delete the other");
+  EXPECT_EQ(dataset->warnings[1].text(),
+            "scene B has cloud.pcd and cloud.ply: cloud.pcd is used; delete the other");
+}
+
 TEST_F(DatasetTest, ReadsTheRoughExtrinsicBesideIt) {
   folder_.write("d/rig.yaml", "T_camera_lidar: [0, -1, 0, 0.1, 0, 0, -1, 0.2, 1, 0, 0, 0.3]\n");
   const auto dataset = open_dataset(path());

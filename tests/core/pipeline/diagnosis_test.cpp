@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/diagnosis.h"
 
+#include <random>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/scene_copies.h"
+#include "pipeline/turned_images.h"
 #include "support/temporary_folder.h"
 
 namespace lvcalib {
@@ -87,6 +91,49 @@ TEST(DiagnoseUnseenTags, WholeRowsThatNoImageShowsAreNamed) {
   // One image may show a part of the board only.
   result.scenes.pop_back();
   EXPECT_EQ(diagnose_unseen_tags(result), Message());
+}
+
+TEST(BetterCircleRadius, IsNamedBeyondAQuarterOfAPixel) {
+  CalibrationResult result = with_extrinsics({Rigid3(), Rigid3()});
+  result.target.circle_radius_m = 0.045;
+  EXPECT_EQ(better_circle_radius(result), Message()) << "not measured";
+  const auto measured = [&](double first_m, double second_m) {
+    result.scenes[0].view->circle_radius = {first_m, 0.002};
+    result.scenes[1].view->circle_radius = {second_m, 0.002};
+    return better_circle_radius(result).text();
+  };
+  EXPECT_EQ(measured(0.0453, 0.0456), "");
+  EXPECT_THAT(measured(0.0473, 0.0475), HasSubstr("circleRadius: 0.0474 would fit"));
+}
+
+// A wall of returns as a scan of it measures them.
+Cloud wall(std::uint32_t seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<float> place(-0.5F, 0.5F);
+  std::normal_distribution<float> noise(0.0F, 0.003F);
+  std::uniform_int_distribution<int> level(0, 255);
+  Cloud cloud;
+  for (int i = 0; i < 20'000; ++i) {
+    cloud.points_m.emplace_back(3.0F + noise(engine), place(engine), place(engine));
+    cloud.intensity.push_back(static_cast<float>(level(engine)));
+  }
+  return cloud;
+}
+
+TEST(SameReturns, AreThoseOfACloudThatWasWrittenAgain) {
+  const Cloud cloud = wall(1);
+  Cloud rounded;
+  // Another order, four digits behind the point, a third of the points gone.
+  for (std::size_t i = cloud.size(); i-- > 0;) {
+    if (i % 3 == 0) continue;
+    const Eigen::Vector3f tenths = 1e4F * cloud.points_m[i];
+    rounded.points_m.push_back(1e-4F * tenths.array().round());
+    rounded.intensity.push_back(cloud.intensity[i]);
+  }
+  EXPECT_TRUE(same_returns(cloud, rounded));
+  EXPECT_TRUE(same_returns(rounded, cloud));
+  EXPECT_FALSE(same_returns(cloud, wall(2))) << "another scan of the same wall";
+  EXPECT_FALSE(same_returns(cloud, Cloud()));
 }
 
 TEST(SameContent, ImagesAndCloudsAreComparedEachForItself) {

@@ -61,6 +61,16 @@ TEST(Options, ValuesOutsideTheRangeAreRefusedWithIt) {
   }
 }
 
+TEST(Options, RangesAreGivenInUnitsThatHaveAName) {
+  CalibrationOptions options;
+  const auto refused = [&](const char* key) {
+    return set_option(options, key, -5.0).error().message.text();
+  };
+  EXPECT_THAT(refused("detection.min_tags"), HasSubstr("between 1 and 1000, found -5"));
+  EXPECT_THAT(refused("clouds.use_intensity"), HasSubstr("between 0 and 1, found -5"));
+  EXPECT_THAT(refused("clouds.max_unpacked_mib"), HasSubstr("between 1 and 4096 MiB, found -5"));
+}
+
 TEST(Options, UnknownKeysNameTheNearestKnownOne) {
   CalibrationOptions options;
   const Status status = set_option(options, "refinement.max_bin", 12);

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/scene_loading.h"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/quality.h"
 #include "support/simulated_dataset.h"
 
 namespace lvcalib {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 CalibrationResult prepared(const Dataset& dataset) {
@@ -84,6 +88,23 @@ TEST(ReadSceneCloud, IntensitiesAreLeftOutWhenTheyAreNotWanted) {
   EXPECT_TRUE(with->has_intensity());
   EXPECT_FALSE(without->has_intensity());
   EXPECT_EQ(without->points_m, with->points_m);
+}
+
+TEST(LoadScenes, ACloudThatIsNotWholeIsToldOfAlsoWhenItsSearchIsKept) {
+  const test::SimulatedDataset data(test::dataset_options(13, 1));
+  std::ofstream(data.path() / "scenes/A/cloud.pcd", std::ios::app | std::ios::binary)
+      << "another file";
+  const Dataset dataset = data.open();
+  StageCache cache;
+  cache.prepare(dataset);
+  for (int run = 0; run < 2; ++run) {
+    CalibrationResult result = prepared(dataset);
+    ASSERT_TRUE(load_scenes(dataset, {}, {}, result, &cache).ok());
+    ASSERT_EQ(result.scenes[0].cloud_warnings.size(), 1U) << run;
+    EXPECT_THAT(result.scenes[0].cloud_warnings[0].text(), HasSubstr("12 bytes follow"));
+    judge_quality(result, {});
+    EXPECT_THAT(result.warnings, Contains(HasSubstr("scene A: its cloud: 12 bytes")));
+  }
 }
 
 TEST(LoadScenes, AnImageOfAnotherSizeSpoilsAll) {

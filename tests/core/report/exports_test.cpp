@@ -281,6 +281,15 @@ TEST(ExportResult, NamesOfFramesAreTheUsersInEveryFormat) {
   }
 }
 
+TEST(ExportResult, FramesOfOneNameAreRefused) {
+  ExportInput input = input_of(DistortionModel::kPlumbBob);
+  input.lidar_frame = input.camera_frame = "sensor";
+  const auto text = export_result(input, "urdf");
+  ASSERT_FALSE(text.ok());
+  EXPECT_EQ(text.error().kind, ErrorKind::kUsage);
+  EXPECT_THAT(text.error().text(), HasSubstr("cannot both be called 'sensor'"));
+}
+
 TEST(ExportResult, KittisLinesAreWhereItsReadersLookForThem) {
   const ExportInput input = input_of(DistortionModel::kPlumbBob);
   std::istringstream text(*export_result(input, "kitti"));

@@ -32,6 +32,13 @@ TEST(CheckWanted, NamesTheNearest) {
   EXPECT_THAT(check_wanted({"range_wak"}).error().text(), HasSubstr("did you mean 'range_walk'?"));
   EXPECT_THAT(check_wanted({"formula:range:a*azimut"}).error().text(), HasSubstr("azimuth"));
   EXPECT_EQ(check_wanted({"formula:range:a*("}).error().kind, ErrorKind::kUsage);
+  // Before any data: no data would mend it, and none are asked for what they alone can tell.
+  EXPECT_THAT(check_wanted({"formula:range:a*a*range"}).error().text(),
+              HasSubstr("not linear in the coefficient a"));
+  EXPECT_THAT(check_wanted({"formula:range:a*range+0.001"}).error().text(),
+              HasSubstr("not zero when"));
+  EXPECT_TRUE(check_wanted({"formula:intensity:a*ln(range)+b*sqrt(range-2)"}).ok());
+  EXPECT_TRUE(check_wanted({"formula:range:a*ln(-1-azimuth*azimuth)"}).ok());
 }
 
 TEST(Wanted, GoOnWithTheRest) {

@@ -65,6 +65,9 @@ TEST(SheetLayout, RefusesWhatCannotBePrinted) {
   refused(target, {.paper = "-210x297"}, "has no room");
   refused(target, {.paper = "1e9x1e9"}, "has no room");
   refused(target, {.paper = "A4", .overlap_mm = 150}, "has no room");
+  // (210 − 2·5 − 16) / 2: half of the narrower side is a page's own.
+  refused(target, {.paper = "A4", .overlap_mm = 300, .page_border_mm = 5},
+          "share 300 mm with each neighbour; expected 92 mm at most");
   refused(target, {.paper = "A4", .overlap_mm = -1}, "must not be negative");
   Target huge = target;
   huge.tag_size_m = 40;
