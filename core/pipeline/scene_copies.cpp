@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "pipeline/calibration.h"
 
 namespace lvcalib {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr float kSamePlace_m = 1e-4F;

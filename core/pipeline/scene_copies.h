@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "pipeline/dataset.h"
 #include "pipeline/input_hashes.h"
 
