@@ -52,7 +52,8 @@ double normal_quantile(double p);
 /// Standard normal density.
 double normal_pdf(double x);
 
-/// Upper quantile of the χ² distribution (Wilson–Hilferty), for gates: P(χ² > result) = tail.
+/// Upper quantile of the χ² distribution, for gates: P(χ² > result) = tail. Not a number without a
+/// degree of freedom.
 double chi_square_gate(int degrees_of_freedom, double tail);
 
 }  // namespace lvcalib

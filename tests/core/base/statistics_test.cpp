@@ -116,16 +116,21 @@ TEST(Statistics, NormalQuantileIsTheInverse) {
 }
 
 TEST(Statistics, ChiSquareGateAgreesWithTables) {
-  // Upper 5 % and 1 % points from printed tables; Wilson–Hilferty is good to about one per cent.
+  // From printed tables, to the digits that are there.
   const struct {
     int degrees;
     double tail;
     double value;
-  } table[] = {{1, 0.05, 3.841}, {2, 0.05, 5.991},  {6, 0.05, 12.592},  {10, 0.05, 18.307},
-               {2, 0.01, 9.210}, {6, 0.01, 16.812}, {30, 0.01, 50.892}, {100, 0.05, 124.342}};
+  } table[] = {{1, 0.05, 3.841},   {2, 0.05, 5.991},  {6, 0.05, 12.592},  {10, 0.05, 18.307},
+               {2, 0.01, 9.210},   {6, 0.01, 16.812}, {30, 0.01, 50.892}, {100, 0.05, 124.342},
+               {1, 0.001, 10.828}, {1, 1e-4, 15.137}, {6, 1e-4, 27.856}};
   for (const auto& row : table) {
-    EXPECT_NEAR(chi_square_gate(row.degrees, row.tail), row.value, 0.03 * row.value);
+    EXPECT_NEAR(chi_square_gate(row.degrees, row.tail), row.value, 6e-4);
   }
+  // Of two degrees the tail is exp(−χ²/2), however far out.
+  EXPECT_NEAR(chi_square_gate(2, 1e-12), -2.0 * std::log(1e-12), 1e-9);
+  // Without a degree of freedom there is no gate, and nothing passes a comparison with it.
+  EXPECT_TRUE(std::isnan(chi_square_gate(0, 0.01)));
 }
 
 }  // namespace
