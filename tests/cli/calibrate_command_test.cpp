@@ -118,11 +118,11 @@ TEST_F(CalibrateFlags, WithoutIntensityPlanesAndCornersHaveToDo) {
   ASSERT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.err;
   const json j = result("plain");
   EXPECT_EQ(j["print"]["used"], false);
-  EXPECT_THAT(j["warnings"].dump(), HasSubstr("intensity is missing"));
+  EXPECT_THAT(j["warnings"].dump(), HasSubstr("intensity is left out, as you decided"));
   EXPECT_FALSE(j.contains("ablation"));
   // No circles are measured, so the paper's method has nothing to work on.
   for (const json& method : j["methods"]) EXPECT_NE(method["name"], "joint_paper");
-  EXPECT_THAT(outcome.err, HasSubstr("intensity is missing"));
+  EXPECT_THAT(outcome.err, HasSubstr("intensity is left out, as you decided"));
 }
 
 TEST_F(CalibrateFlags, DiscoverTakesTheOneAndNotTheOther) {

@@ -35,6 +35,18 @@ TEST(CircleRadius, IsThatOfThePrintWhateverTheTargetSays) {
   }
 }
 
+// Where tags' borders are blurred away there is no place of an edge to compare with.
+TEST(CircleRadius, IsNotMeasuredThroughBlurAsWideAsTheBorders) {
+  const Target target = circled_target(0.045);
+  const Camera camera = testing::pinhole(700, 600, 700);
+  const Rigid3 pose = testing::facing_pose(target, 1.4, 0.1, 0.3, -0.2);
+  testing::RenderOptions render;
+  render.samples_per_side = 3;
+  render.blur_px = 3.0;
+  const GrayImage image = testing::render_board(target, camera, pose, render);
+  EXPECT_EQ(measure_circle_radius(image, target, camera, pose).radius_m, 0.0);
+}
+
 TEST(CircleRadius, IsNotMeasuredWithoutCirclesOrContrast) {
   const Target target = circled_target(0.040);
   const Camera camera = testing::pinhole(700, 600, 700);
