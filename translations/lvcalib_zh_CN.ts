@@ -3106,14 +3106,6 @@ were saved. Take them up again?</source>
         <translation>激光雷达与相机对标定板尺寸的判断不一致：激光雷达测得比 target.yaml 约小 %1 %</translation>
     </message>
     <message>
-        <source>No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out variance, %4 %5); to take it out anyway: --with %6</source>
-        <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4 %5）；仍要去除它：--with %6</translation>
-    </message>
-    <message>
-        <source>LiDAR residuals are %1 times (nodes) and %2 times (planes) their noise: an effect is missing in the model; scene %3 misses most</source>
-        <translation>激光雷达残差为其噪声的 %1 倍（节点）和 %2 倍（平面）：模型中缺少一个效应；场景 %3 偏差最大</translation>
-    </message>
-    <message>
         <source>No further scene of this board will show %1; measure instead: %2</source>
         <translation>用此标定板再拍摄任何场景都看不到 %1；请改为测量：%2</translation>
     </message>

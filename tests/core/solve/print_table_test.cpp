@@ -120,16 +120,14 @@ TEST_F(PrintTable, APartOfTheBoardIsUsedAllTheSame) {
     if ((p.head<2>() - stain).cwiseAbs().maxCoeff() < 0.04) stained.intensity[i] = 15.0F;
   }
   const auto ranges = [&](const Cloud& cloud, const std::vector<BoardOutline>& uncovered) {
-    std::vector<SceneMeasurements> scenes;
+    TableInput input = input_of_rig();
     for (const ForwardScene& scene : rig_.scenes)
-      scenes.push_back({scene.name, scene.corners, scene.board_points});
-    scenes[0].board_points = &cloud;
-    scenes[0].uncovered = uncovered;
+      input.scenes.push_back({scene.name, scene.corners, scene.board_points});
+    input.scenes[0].board_points = &cloud;
+    input.scenes[0].uncovered = uncovered;
     TableOptions how;
     how.max_rows_per_scene = 1'000'000;
-    return print_table(scenes, std::make_shared<const BlurredPrint>(rig_.target), rig_.camera,
-                       state_, solution_.noise, test::kRigCornerSigma_px, how, {})
-        .range.size();
+    return print_table(input, state_, how, {}).range.size();
   };
   const std::size_t clean = ranges(*rig_.scenes[0].board_points, {});
   EXPECT_LT(ranges(stained, {}) + 50, clean);

@@ -26,7 +26,7 @@ ProjectedUncertainty example() {
 }
 
 TEST(UncertaintyMapPlot, ShowsEveryCellInTheColourOfItsValue) {
-  UncertaintyMapPlot plot;
+  UncertaintyMapPlot plot(UncertaintyMapPlot::Of::kExtrinsic);
   plot.resize(500, 340);
   plot.setMap(example(), {600, 400});
   const auto rows = test::rows_of(plot.csv());
@@ -43,7 +43,7 @@ TEST(UncertaintyMapPlot, ShowsEveryCellInTheColourOfItsValue) {
 
 // As the core computes it: outer cells are centred on the outermost pixels.
 TEST(UncertaintyMapPlot, NoCellReachesBeyondTheImage) {
-  UncertaintyMapPlot plot;
+  UncertaintyMapPlot plot(UncertaintyMapPlot::Of::kExtrinsic);
   plot.resize(500, 340);
   ProjectedUncertainty map = example();
   for (Eigen::Vector2d& pixel : map.pixel)
@@ -66,7 +66,7 @@ TEST(UncertaintyMapPlot, NoCellReachesBeyondTheImage) {
 }
 
 TEST(UncertaintyMapPlot, ImageStandsUprightWithSquarePixels) {
-  UncertaintyMapPlot plot;
+  UncertaintyMapPlot plot(UncertaintyMapPlot::Of::kExtrinsic);
   plot.resize(500, 340);
   plot.setMap(example(), {600, 400});
   plot.toPixmap(500, 340);
@@ -76,7 +76,7 @@ TEST(UncertaintyMapPlot, ImageStandsUprightWithSquarePixels) {
 }
 
 TEST(UncertaintyMapPlot, NothingIsSaidToBeNothing) {
-  UncertaintyMapPlot plot;
+  UncertaintyMapPlot plot(UncertaintyMapPlot::Of::kExtrinsic);
   plot.setMap(std::nullopt, {});
   EXPECT_TRUE(plot.csv().isEmpty());
   ProjectedUncertainty blind = example();
