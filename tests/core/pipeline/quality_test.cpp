@@ -88,8 +88,17 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
       {"two scenes", Quality::kDoubtful, [](auto& r) { r.extrinsic.used_scenes = 2; }},
       {"miss their model by 3.00 px", Quality::kDoubtful,
        [](auto& r) { r.extrinsic.sigma_px = 3.0; }},
-      {"2.5 times (nodes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.node_scale = 2.5; }},
-      {"5.0 times (planes)", Quality::kDoubtful, [](auto& r) { r.extrinsic.plane_scale = 5.0; }},
+      {"LiDAR residuals are 2.5 times (nodes) and 1.0 times (planes) their noise",
+       Quality::kDoubtful,
+       [](auto& r) {
+         r.extrinsic.node_scale = 2.5;
+         r.extrinsic.scenes.emplace_back();
+         r.extrinsic.scenes.back().used = true;
+         r.extrinsic.scenes.back().nodes.emplace_back();
+       }},
+      // A board without circles has no nodes to speak of.
+      {"the boards' planes miss the LiDAR's ranges by 5.0 times their noise", Quality::kDoubtful,
+       [](auto& r) { r.extrinsic.plane_scale = 5.0; }},
       {"an effect is missing in the model; scene B misses most: 4.0 mm", Quality::kDoubtful,
        [](auto& r) { let_scene_b_miss(4.0, r); }},
       {"scene B misses most: 6.0 mm, the others 1.0 mm: did the board or a sensor move while it "

@@ -43,7 +43,7 @@ const std::set<QString>& same_everywhere() {
       "lvcalib", "English", "GPL",        "BSD",       "Clause", "later",    "tagSize",     "nat",
       "LVI",     "SAM",     "camchain",   "LIVO",      "FAST",   "LIVE",     "FileStorage", "Rcl",
       "Pcl",     "rvec",    "tvec",       "cos",       "sin",    "Del",      "raw",         "demo",
-      "dataset", "target",  "CameraInfo", "MCAP",      "bag",    "rosbag",   "Letter"};
+      "dataset", "target",  "CameraInfo", "MCAP",      "bag",    "rosbag",   "Letter",      "MiB"};
   return words;
 }
 
