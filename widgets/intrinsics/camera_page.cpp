@@ -293,6 +293,7 @@ void CameraPage::showText() {
 void CameraPage::showImages() {
   const int before = images_->indexOfTopLevelItem(images_->currentItem());
   images_->clear();
+  showImage();  // Nothing is chosen; an empty list does not say so by itself.
   if (!figures_) return;
   for (const CameraFigures::Image& image : figures_->images) {
     const bool used = image.corners > 0;
@@ -319,7 +320,9 @@ std::filesystem::path CameraPage::pathOf(const CameraFigures::Image& image) cons
 
 void CameraPage::showImage() {
   const int index = images_->indexOfTopLevelItem(images_->currentItem());
+  image_loader_.abandon();  // What it loads is not what is chosen now.
   image_->setImage({});
+  image_->setMessage({});
   image_->overlay().setOverlay({});
   if (!figures_ || index < 0) return;
   const std::filesystem::path path = pathOf(figures_->images[static_cast<std::size_t>(index)]);
@@ -339,6 +342,7 @@ void CameraPage::showImage() {
 }
 
 void CameraPage::showOverlay(int index) {
+  if (!figures_) return;
   ImageOverlay overlay;
   const ResidualColumns& c = figures_->corners;
   for (std::size_t k = 0; k + 1 < c.size(); k += 2) {

@@ -117,6 +117,18 @@ TEST_F(CameraPageTest, ShowsTheCameraThatWasTakenAsGiven) {
             static_cast<std::size_t>(images()->topLevelItem(0)->text(1).toInt()));
 }
 
+// While the image of what was there before is still being loaded.
+TEST_F(CameraPageTest, NothingOfADatasetThatIsClosedStays) {
+  open(rig().fixed);
+  page_.setDataset(std::nullopt);
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(images()->topLevelItemCount(), 0);
+  auto* view = find<ImageView>(page_, "camera_image");
+  EXPECT_FALSE(test::wait_until([&] { return !view->image().isNull(); }, 500));
+  EXPECT_EQ(cells("residuals"), 0);
+  EXPECT_TRUE(text().isEmpty());
+}
+
 TEST_F(CameraPageTest, WhatWasEstimatedWithTheLidarIsShownWithItsUncertainty) {
   open(rig().free);
   EXPECT_TRUE(text().contains("with the LiDAR")) << text().toStdString();
