@@ -19,6 +19,7 @@
 #include <QTextBlock>
 #include <QTextBrowser>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <QUndoStack>
 #include <QUrl>
 #include <filesystem>
@@ -208,6 +209,30 @@ TEST_F(MainWindowTest, ACropBoxRunsItsSceneAgainAndCanBeUndone) {
   ASSERT_TRUE(test::wait_for_result(*window_));
   EXPECT_EQ(pose(), first);
   EXPECT_EQ(cell(*window_, "A", SceneModel::kState), "used");
+}
+
+// On the Camera page: the result follows at once, and another scene's decisions stay.
+TEST_F(MainWindowTest, ImagesOfTheCameraThatAreAddedCountInTheResult) {
+  const QString own = folder_.filePath("own");
+  std::filesystem::copy(dataset().toStdString(), own.toStdString(),
+                        std::filesystem::copy_options::recursive);
+  answers_.dataset = own;
+  ASSERT_TRUE(trigger(*window_, "open_dataset"));
+  ASSERT_TRUE(wait_until([&] { return workspace().is_open() && !workspace().busy(); }));
+  QTest::keyClick(window_.get(), Qt::Key_F5);
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_TRUE(workspace().result()->intrinsics.extra_images.empty());
+  answers_.images = QStringList{own + "/scenes/A/image.png"};
+  find<QPushButton>(*window_, "camera_add")->click();
+  ASSERT_TRUE(wait_until([&] { return workspace().result()->intrinsics.extra_images.size() == 1; },
+                         60'000));
+  // It is that of a scene, and says so where images are listed.
+  auto* tabs = find<QTabWidget>(*window_, "pages");
+  tabs->setCurrentIndex(tabs->count() - 1);
+  auto* images = find<QTreeWidget>(*window_, "camera_images");
+  ASSERT_TRUE(wait_until([&] { return images->topLevelItemCount() == 4; }, 10'000));
+  EXPECT_EQ(images->topLevelItem(3)->text(0), QStringLiteral("intrinsics/image.png"));
+  EXPECT_FALSE(images->topLevelItem(3)->text(3).isEmpty());
 }
 
 TEST_F(MainWindowTest, LengthsAreShownInMillimetres) {
