@@ -14,7 +14,7 @@ namespace {
 using Directions = std::vector<Eigen::Vector3d>;
 
 constexpr int kSectors = 48;  // About the middle of the view: some returns fall into each.
-constexpr int kEdges = 4;
+constexpr int kEdges = 4;     // As a pyramid has: more lines would hide what is inside.
 
 // A sample of the points' directions.
 Directions directions_of(const Cloud& cloud) {

@@ -14,7 +14,7 @@
 namespace lvcalib {
 namespace {
 
-constexpr int kSteps = 64;
+constexpr int kSteps = 64;   // Across an edge: some for each pixel of the nearest boards.
 constexpr int kPlaces = 24;  // About a circle, or a tag.
 
 std::optional<double> grey_at(const GrayImage& image, const Eigen::Vector2d& pixel) {

@@ -66,6 +66,8 @@ bool FormulaEffect::adds_up(const std::vector<double>& row, std::span<const doub
 // Covariates that stand in for data where there are none yet: what is not linear in a coefficient
 // is so wherever it is defined.
 std::vector<std::vector<double>> FormulaEffect::probe_rows() const {
+  // A formula that is no line in a coefficient shows it at two points; the others are for those
+  // that have no value at some.
   constexpr int kTried = 16;
   constexpr double kGolden =
       0.6180339887;  // Its multiples' fractions fill the unit interval evenly.

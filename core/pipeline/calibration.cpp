@@ -46,48 +46,6 @@ std::optional<SceneConsensus> decide(const CalibrationInput& in, const Calibrati
   return decide_scenes(hypotheses(result), in.request.guess, in.request.options.consensus);
 }
 
-// A scene counts once. With another scene's image or cloud it is not known which of the two is
-// right: the others must tell, and the verdict says so.
-void note_same_content(CalibrationResult& result, const std::vector<SameContent>& same) {
-  for (std::size_t s = 0; s < same.size(); ++s) {
-    SceneResult& scene = result.scenes[s];
-    if (!scene.reason.empty()) continue;
-    const std::optional<std::size_t>& image = same[s].image;
-    const std::optional<std::size_t>& cloud = same[s].cloud;
-    const auto first = std::find_if(
-        same.begin(), same.begin() + static_cast<std::ptrdiff_t>(s), [&](const SameContent& other) {
-          const auto t = static_cast<std::size_t>(&other - &same[0]);
-          return image == other.image.value_or(t) && cloud == other.cloud.value_or(t);
-        });
-    if (first != same.begin() + static_cast<std::ptrdiff_t>(s)) {
-      const SceneResult& one = result.scenes[static_cast<std::size_t>(first - same.begin())];
-      if (!one.reason.empty()) continue;
-      // Where the files tell, nobody has looked at them.
-      scene.reason = scene.view
-                         ? Message(
-                               "its corners and its returns are those of scene %1, of which it is "
-                               "a copy that counts once",
-                               one.name)
-                         : Message("the same files as scene %1, which counts once", one.name);
-      // A copy says nothing more about the camera either.
-      scene.view.reset();
-      scene.search.reset();
-      scene.shared_file = {};
-      continue;
-    }
-    if (image) {
-      scene.shared_file =
-          Message("scene %1 has the same image as scene %2: one of the two is not the scene's own",
-                  scene.name, result.scenes[*image].name);
-    }
-    if (cloud) {
-      scene.shared_file =
-          Message("scene %1 has the same cloud as scene %2: one of the two is not the scene's own",
-                  scene.name, result.scenes[*cloud].name);
-    }
-  }
-}
-
 Status prepare(const CalibrationInput& in, Calibration& run) {
   run.result.dataset = place_of(in.dataset);
   run.result.target = in.dataset.target;
@@ -424,28 +382,11 @@ Status explain_disagreement(const CalibrationInput& in, CalibrationResult& resul
   return in.context.stopped() ? Status(Error::cancelled()) : Status(Done{});
 }
 
-// Before anybody looks for boards where turned images put them.
-void note_turned_images(const CalibrationInput& in, CalibrationResult& result,
-                        const SceneConsensus& consensus) {
-  const auto turned =
-      turned_images(result.scenes, hypotheses(result), consensus.chosen, result.camera,
-                    in.request.options.detection, in.request.options.consensus);
-  if (!turned) return;
-  for (const std::size_t s : turned->scenes) {
-    SceneResult& scene = result.scenes[s];
-    scene.contradicts = true;
-    scene.turned_image = true;
-    scene.reason = Message(
-        "its image is turned against those of the other scenes: all agree once it is turned "
-        "counterclockwise by %1°; turn it, and switch off what turns images",
-        turned->degrees);
-  }
-}
-
 Status agree(const CalibrationInput& in, Calibration& run) {
   in.context.report("localize", 0.7, Message("comparing scenes"));
   auto consensus = decide(in, run.result);
-  if (consensus) note_turned_images(in, run.result, *consensus);
+  // Before anybody looks for boards where turned images put them.
+  if (consensus) note_turned_images(run.result, hypotheses(run.result), *consensus);
   if (!consensus) {
     // What would mend it costs less to look for than walls do, and gets clearer evidence: first
     // what two scenes must agree on.
@@ -766,6 +707,13 @@ Result<CalibrationResult> without_guess(Result<CalibrationResult> failed, const 
 }
 
 }  // namespace
+
+const SceneSolution* solution_of(const CalibrationResult& result, const std::string& scene) {
+  for (const SceneSolution& s : result.extrinsic.scenes) {
+    if (s.name == scene) return &s;
+  }
+  return nullptr;
+}
 
 Result<CalibrationResult> calibrate(const Dataset& dataset, const CalibrationRequest& request,
                                     const RunContext& context) {

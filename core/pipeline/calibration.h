@@ -136,6 +136,9 @@ struct CalibrationResult {
   StageTimes times;
 };
 
+/// What the joint solve says of a scene; null if the scene had no part in it.
+const SceneSolution* solution_of(const CalibrationResult& result, const std::string& scene);
+
 /// What to run besides the dataset.
 struct CalibrationRequest {
   CalibrationOptions options;

@@ -76,13 +76,6 @@ void add_residuals(const BoardView& view, const SceneSolution& solution, Collect
   }
 }
 
-const SceneSolution* solution_of(const CalibrationResult& result, const SceneResult& scene) {
-  for (const SceneSolution& solution : result.extrinsic.scenes) {
-    if (solution.name == scene.name && solution.used) return &solution;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 std::vector<Message> unreached_parts(const std::vector<Eigen::Vector2d>& pixels,
@@ -120,8 +113,9 @@ CameraFigures camera_figures(const CalibrationResult& result) {
   Collector collected;
   for (const SceneResult& scene : result.scenes) {
     collected.begin({scene.name, {}, 0, 0.0, scene.reason});
-    const SceneSolution* solution = solution_of(result, scene);
-    if (solution != nullptr && scene.view) add_residuals(*scene.view, *solution, collected);
+    const SceneSolution* solution = solution_of(result, scene.name);
+    if (solution != nullptr && solution->used && scene.view)
+      add_residuals(*scene.view, *solution, collected);
   }
   const IntrinsicsReport& report = result.intrinsics;
   for (const BoardImage& image : report.extra_images) {

@@ -276,6 +276,8 @@ Message diagnose_unseen_tags(const CalibrationResult& result) {
 }
 
 Message better_circle_radius(const CalibrationResult& result) {
+  // Round and straight edges of one image lie alike to this: what blur and sampling do to their
+  // middle level differs by less.
   constexpr double kAgree_px = 0.25;
   double weights = 0.0;
   double radii = 0.0;

@@ -15,13 +15,6 @@
 namespace lvcalib {
 namespace {
 
-const SceneSolution* solution_of(const CalibrationResult& result, const std::string& name) {
-  for (const SceneSolution& s : result.extrinsic.scenes) {
-    if (s.name == name) return &s;
-  }
-  return nullptr;
-}
-
 // What spoke against intrinsics and target in the images, asked again without what the model's
 // effects do to these.
 void ask_again(const Discovery& discovery, CalibrationResult& result) {

@@ -160,7 +160,7 @@ BeamPoint beam_towards(const Eigen::Vector3d& point_m, std::size_t scene,
 }
 
 double black_share(const Target& target) {
-  constexpr int kSide = 60;
+  constexpr int kSide = 60;  // Finer than the bits of any tag.
   const BoardOutline outline = target.outline();
   double black = 0.0;
   for (int i = 0; i < kSide; ++i) {

@@ -87,7 +87,7 @@ std::vector<SameContent> same_content(const Dataset& dataset, bool use_crops,
 }
 
 bool same_returns(const Cloud& a, const Cloud& b) {
-  constexpr double kMost = 0.5;
+  constexpr double kMost = 0.5;  // A cloud that was cut or thinned keeps as many.
   return share_in(a, b, order_by_x(b)) > kMost || share_in(b, a, order_by_x(a)) > kMost;
 }
 
@@ -103,6 +103,46 @@ void find_copies(const std::vector<SceneResult>& scenes, std::vector<SameContent
       const Cloud* others = likely_board(one);
       if (!same[s].cloud && board != nullptr && others != nullptr && same_returns(*board, *others))
         same[s].cloud = other;
+    }
+  }
+}
+
+void note_same_content(CalibrationResult& result, const std::vector<SameContent>& same) {
+  for (std::size_t s = 0; s < same.size(); ++s) {
+    SceneResult& scene = result.scenes[s];
+    if (!scene.reason.empty()) continue;
+    const std::optional<std::size_t>& image = same[s].image;
+    const std::optional<std::size_t>& cloud = same[s].cloud;
+    const auto first = std::find_if(
+        same.begin(), same.begin() + static_cast<std::ptrdiff_t>(s), [&](const SameContent& other) {
+          const auto t = static_cast<std::size_t>(&other - &same[0]);
+          return image == other.image.value_or(t) && cloud == other.cloud.value_or(t);
+        });
+    if (first != same.begin() + static_cast<std::ptrdiff_t>(s)) {
+      const SceneResult& one = result.scenes[static_cast<std::size_t>(first - same.begin())];
+      if (!one.reason.empty()) continue;
+      // Where the files tell, nobody has looked at them.
+      scene.reason = scene.view
+                         ? Message(
+                               "its corners and its returns are those of scene %1, of which it is "
+                               "a copy that counts once",
+                               one.name)
+                         : Message("the same files as scene %1, which counts once", one.name);
+      // A copy says nothing more about the camera either.
+      scene.view.reset();
+      scene.search.reset();
+      scene.shared_file = {};
+      continue;
+    }
+    if (image) {
+      scene.shared_file =
+          Message("scene %1 has the same image as scene %2: one of the two is not the scene's own",
+                  scene.name, result.scenes[*image].name);
+    }
+    if (cloud) {
+      scene.shared_file =
+          Message("scene %1 has the same cloud as scene %2: one of the two is not the scene's own",
+                  scene.name, result.scenes[*cloud].name);
     }
   }
 }

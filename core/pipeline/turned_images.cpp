@@ -55,4 +55,20 @@ std::optional<TurnedImages> turned_images(const std::vector<SceneResult>& scenes
   return std::nullopt;
 }
 
+void note_turned_images(CalibrationResult& result, const std::vector<SceneHypotheses>& hypotheses,
+                        const SceneConsensus& consensus) {
+  const auto turned = turned_images(result.scenes, hypotheses, consensus.chosen, result.camera,
+                                    result.options.detection, result.options.consensus);
+  if (!turned) return;
+  for (const std::size_t s : turned->scenes) {
+    SceneResult& scene = result.scenes[s];
+    scene.contradicts = true;
+    scene.turned_image = true;
+    scene.reason = Message(
+        "its image is turned against those of the other scenes: all agree once it is turned "
+        "counterclockwise by %1°; turn it, and switch off what turns images",
+        turned->degrees);
+  }
+}
+
 }  // namespace lvcalib

@@ -13,6 +13,7 @@
 
 namespace lvcalib {
 
+struct CalibrationResult;
 struct SceneResult;
 
 /// By how many degrees an image may be turned counterclockwise and still have the camera's size.
@@ -35,5 +36,9 @@ std::optional<TurnedImages> turned_images(const std::vector<SceneResult>& scenes
                                           const std::vector<std::optional<std::size_t>>& chosen,
                                           const Camera& camera, const DetectionOptions& detection,
                                           const ConsensusOptions& options);
+
+/// Says so of these scenes, which then contradict the others.
+void note_turned_images(CalibrationResult& result, const std::vector<SceneHypotheses>& hypotheses,
+                        const SceneConsensus& consensus);
 
 }  // namespace lvcalib

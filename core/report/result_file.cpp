@@ -205,13 +205,6 @@ ordered_json intrinsics_json(const IntrinsicsReport& report) {
   return j;
 }
 
-const SceneSolution* solution_of(const CalibrationResult& result, const std::string& name) {
-  for (const SceneSolution& s : result.extrinsic.scenes) {
-    if (s.name == name) return &s;
-  }
-  return nullptr;
-}
-
 ordered_json to_json(const CalibrationResult& result, const FrameNames& frames) {
   const ExtrinsicSolution& x = result.extrinsic;
   ordered_json j;

@@ -73,7 +73,7 @@ QString doubt(const QString& text, const QPalette& palette) {
 }
 
 QString paragraph(const QString& text) {
-  return QStringLiteral("<p>%1</p>").arg(text.toHtmlEscaped());
+  return html_paragraph(text.toHtmlEscaped());
 }
 
 QString unreached(const CameraFigures& figures, const QPalette& palette) {

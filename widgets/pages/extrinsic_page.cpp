@@ -265,7 +265,7 @@ void ExtrinsicPage::fillPlots() {
   if (result_) {
     for (const SceneResult& scene : result_->scenes) {
       const QString name = QString::fromStdString(scene.name);
-      const SceneSolution* solution = solution_of(*result_, scene);
+      const SceneSolution* solution = solution_of(*result_, scene.name);
       const double nothing = std::numeric_limits<double>::quiet_NaN();
       px.push_back({name, solution != nullptr ? solution->rms_px : nothing, scene.used});
       mm.push_back({name, solution != nullptr ? solution->rms_mm : nothing, scene.used});

@@ -43,7 +43,7 @@ std::map<std::pair<int, int>, CornerResidual> residuals_of(const SceneSolution* 
 }
 
 void add_corners(ImageOverlay& overlay, const CalibrationResult& result, const SceneResult& scene) {
-  const auto residuals = residuals_of(solution_of(result, scene));
+  const auto residuals = residuals_of(solution_of(result, scene.name));
   for (const CornerObservation& c : scene.view->corners) {
     ImageOverlay::Corner corner;
     corner.feature_id = c.feature_id;
@@ -100,7 +100,7 @@ std::set<int> refused_circles(const CalibrationResult& result, const SceneResult
       if (!node.valid) out.insert(node.id);
     }
   }
-  if (const SceneSolution* solution = solution_of(result, scene)) {
+  if (const SceneSolution* solution = solution_of(result, scene.name)) {
     for (const NodeResidual& node : solution->nodes) {
       if (solution->used && !node.used) out.insert(node.id);
     }
@@ -144,12 +144,6 @@ void add_board(std::vector<CloudLine>& lines, const Target& target, const Rigid3
 }
 
 }  // namespace
-
-const SceneSolution* solution_of(const CalibrationResult& result, const SceneResult& scene) {
-  const auto found = std::find_if(result.extrinsic.scenes.begin(), result.extrinsic.scenes.end(),
-                                  [&](const SceneSolution& s) { return s.name == scene.name; });
-  return found == result.extrinsic.scenes.end() ? nullptr : &*found;
-}
 
 bool has_extrinsic(const CalibrationResult& result) {
   return result.extrinsic.used_scenes > 0 &&
@@ -230,7 +224,7 @@ void add_points(ImageOverlay& overlay, const CloudScene& cloud) {
 
 std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene) {
   std::vector<CloudLine> lines;
-  const SceneSolution* solution = solution_of(result, scene);
+  const SceneSolution* solution = solution_of(result, scene.name);
   if (solution != nullptr && has_extrinsic(result)) {
     const Rigid3 lidar_from_board =
         result.extrinsic.camera_from_lidar.transform.inverse() * solution->camera_from_board;

@@ -13,9 +13,6 @@
 
 namespace lvcalib::widgets {
 
-/// The solution of a scene, or null if the scene took no part.
-const SceneSolution* solution_of(const CalibrationResult& result, const SceneResult& scene);
-
 /// True if the result carries an extrinsic that can be projected with.
 bool has_extrinsic(const CalibrationResult& result);
 

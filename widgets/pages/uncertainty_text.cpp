@@ -17,10 +17,6 @@ QString words(const std::string& text) {
   return QString::fromStdString(text).toHtmlEscaped();
 }
 
-QString paragraph(const QString& html) {
-  return "<p>" + html + "</p>";
-}
-
 // Breaks between the two where it has to, not between a number and its unit.
 QString pair(double mm, double mrad) {
   const QString text = tr("%1 mm, %2 mrad").arg(mm, 0, 'f', 2).arg(mrad, 0, 'f', 3);
@@ -37,7 +33,7 @@ QString names(const std::vector<std::string>& scenes) {
 
 QString weak_directions(const CalibrationResult& result) {
   const auto& lines = result.extrinsic.weak_directions;
-  if (lines.empty()) return paragraph(tr("None: the scenes determine all six."));
+  if (lines.empty()) return html_paragraph(tr("None: the scenes determine all six."));
   QString out = "<ul>";
   for (const Message& line : lines) out += "<li>" + core_text(line).toHtmlEscaped() + "</li>";
   return out + "</ul>";
@@ -63,13 +59,13 @@ QString split_halves(const UncertaintyReport& report, const StateColors& colors)
     out += "</table>";
   }
   if (!report.splits_reason.empty())
-    out += paragraph(core_text(report.splits_reason).toHtmlEscaped());
+    out += html_paragraph(core_text(report.splits_reason).toHtmlEscaped());
   return out;
 }
 
 QString leave_one_out(const CalibrationResult& result) {
   const auto& list = result.extrinsic.leave_one_out;
-  if (list.empty()) return paragraph(tr("Not enough scenes: three are needed."));
+  if (list.empty()) return html_paragraph(tr("Not enough scenes: three are needed."));
   QString out = "<table>" + html_row({tr("Without"), tr("moves and turns by")}, "th");
   for (const LeaveOneOut& l : list)
     out += html_row({words(l.without), pair(l.translation_mm, l.rotation_mrad)});
@@ -107,7 +103,7 @@ QString over_image(const UncertaintyReport& report, const std::optional<Uncertai
       text +=
           QLatin1Char(' ') +
           tr("In total: %1 px to %2 px.").arg(all->first, 0, 'f', 3).arg(all->second, 0, 'f', 3);
-    out += paragraph(text);
+    out += html_paragraph(text);
   }
   return out;
 }

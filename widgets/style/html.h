@@ -10,6 +10,10 @@ inline QString html_heading(const QString& text) {
   return "<h4>" + text.toHtmlEscaped() + "</h4>";
 }
 
+inline QString html_paragraph(const QString& html) {
+  return "<p>" + html + "</p>";
+}
+
 /// A row of a table: the first cell, which names it, to the left, the others to the right. Cells
 /// are HTML.
 inline QString html_row(const QStringList& cells, const char* tag = "td") {

@@ -18,7 +18,7 @@ class SceneOverlayTest : public ::testing::Test {
 
 TEST_F(SceneOverlayTest, PredictedCornersMissTheDetectedOnesByTheResidual) {
   const ImageOverlay overlay = image_overlay(result_, scene_);
-  const SceneSolution* solution = solution_of(result_, scene_);
+  const SceneSolution* solution = solution_of(result_, scene_.name);
   ASSERT_NE(solution, nullptr);
   ASSERT_EQ(overlay.corners.size(), scene_.view->corners.size());
   double sum_sq = 0.0;
@@ -43,7 +43,7 @@ TEST_F(SceneOverlayTest, CirclesFromTheLidarLieOnThePrintedOnes) {
   const ImageOverlay overlay = image_overlay(result_, scene_);
   ASSERT_EQ(overlay.circles.size(), 9U);
   ASSERT_EQ(overlay.tags.size(), static_cast<std::size_t>(scene_.view->tag_count));
-  const SceneSolution* solution = solution_of(result_, scene_);
+  const SceneSolution* solution = solution_of(result_, scene_.name);
   for (const ImageOverlay::Circle& circle : overlay.circles) {
     const Eigen::Vector2d c = result_.target.nodes()[static_cast<std::size_t>(circle.id)].center_m;
     const auto pixel =
