@@ -158,7 +158,7 @@ void add_sensor_options(CLI::App& command, SimulateArguments& options) {
       ->check(CLI::IsMember({"rosette", "avia", "spinning"}))
       ->capture_default_str();
   command.add_option("--points", lidar.points, "points per scene; 0: what suits the LiDAR");
-  command.add_option("--lines", lidar.lines, "lines of a spinning LiDAR: 64 or 128")
+  command.add_option("--lines", lidar.lines, "lines of a spinning LiDAR: 16, 32, 64 or 128")
       ->capture_default_str();
   command.add_option("--range-noise", lidar.range_sigma_m, "range noise on white, m, one sigma")
       ->capture_default_str();

@@ -349,13 +349,14 @@ BoardSearchResult search_board(const Cloud& cloud, const Target& target,
   const VoxelCloud voxels = voxels_of(in, camera_distance_m, region);
   std::vector<PatchMatches> found;
   const bool by_pattern = matches_by_pattern(target, cloud);
+  const std::optional<Eigen::Vector3d> width = region ? region->width : std::nullopt;
   for (PlanarPatch& patch : patches_in(in, voxels)) {
     if (context.stopped()) return {};
     if (!plausible_size(in, patch)) continue;
     ++result.patches;
     PatchMatches item;
     item.matches =
-        by_pattern ? search_patch(in, voxels, patch) : outline_poses(voxels, patch, target);
+        by_pattern ? search_patch(in, voxels, patch) : outline_poses(voxels, patch, target, width);
     item.patch = std::move(patch);
     for (const PatternMatch& m : item.matches)
       result.best_correlation = std::max(result.best_correlation, m.correlation);

@@ -276,6 +276,14 @@ double tolerance_of(const VoxelCloud& cloud, const std::vector<std::uint32_t>& s
                     2.0 * first);
 }
 
+// Whether a patch has about the board's size or more on both sides.
+bool has_board_size(const PlanarPatch& patch, const PatchSearchOptions& options) {
+  constexpr double kShare = 0.8;  // Lines leave up to their distance of a board unseen.
+  const auto [shorter, longer] = std::minmax(options.board_width_m, options.board_height_m);
+  return patch.open ||
+         (patch.extent_m.x() > kShare * longer && patch.extent_m.y() > kShare * shorter);
+}
+
 // The patch about a seed, its extent not measured yet.
 std::optional<PlanarPatch> grow(const PatchGrowth& by, std::uint32_t seed, LocalPlane plane,
                                 const PatchConnection& connection) {
@@ -339,8 +347,12 @@ std::vector<PlanarPatch> find_planar_patches(const VoxelCloud& cloud,
                        1.1 * std::hypot(options.board_width_m, options.board_height_m)};
   std::vector<PlanarPatch> out;
   std::vector<std::uint32_t> ids;
+  // The largest patch so far that holds a voxel: how many it has, and whether it is large enough.
+  std::vector<std::size_t> largest(cloud.voxels().size(), 0);
+  std::vector<char> large(cloud.voxels().size(), 0);
   for (const PatchConnection& connection : options.connections) {
     std::vector<char> covered(cloud.voxels().size(), 0);
+    if (connection.grows_small) covered = large;
     for (const auto seed : seeds) {
       if (context.stopped()) return {};
       if (covered[seed] != 0) continue;
@@ -349,7 +361,13 @@ std::vector<PlanarPatch> find_planar_patches(const VoxelCloud& cloud,
       auto patch = plane ? grow(by, seed, *plane, connection) : std::nullopt;
       if (!patch) continue;
       for (const auto i : patch->voxels) covered[i] = 1;
+      if (connection.grows_small && patch->voxels.size() <= largest[seed]) continue;
       measure(by, seed, *patch);
+      const bool is_large = has_board_size(*patch, options);
+      for (const auto i : patch->voxels) {
+        largest[i] = std::max(largest[i], patch->voxels.size());
+        if (is_large) large[i] = 1;
+      }
       if (patch->extent_m.y() < options.smallest_side * short_side) continue;
       out.push_back(std::move(*patch));
     }

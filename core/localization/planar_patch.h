@@ -25,6 +25,9 @@ struct PlanarPatch : PlaneFrame {
 struct PatchConnection {
   double gap = 0.05;  ///< Cell side as a share of the board's shorter side; neighbours connect.
   bool cut_strips = false;  ///< Connections narrower than three cells do not count.
+  /// Only about seeds whose patches so far are smaller than the board, and only patches that have
+  /// grown: where the lines of a scanner lie this far apart, pieces of a board.
+  bool grows_small = false;
 };
 
 struct PatchSearchOptions {
@@ -33,8 +36,10 @@ struct PatchSearchOptions {
   /// Largest distance from the plane, 0: three times the measured noise of the scene's planes.
   double plane_tolerance_m = 0.0;
   /// Each way of connecting gives its own patches: fine cells part the board from neighbours and
-  /// from floor and walls that its plane cuts; wide ones bridge the lines of a sparse scanner.
-  std::vector<PatchConnection> connections = {{0.05, true}, {0.12, false}};
+  /// from floor and walls that its plane cuts; wide ones bridge the lines of a sparse scanner (the
+  /// last: 2° apart, a board of 0.6 m at 4 m).
+  std::vector<PatchConnection> connections = {
+      {0.05, true, false}, {0.12, false, false}, {0.25, false, true}};
   double smallest_side =
       0.4;  ///< Patches with a shorter side than this share of the board's are left out.
 };

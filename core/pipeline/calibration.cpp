@@ -281,9 +281,10 @@ Status search_again(const CalibrationInput& in, Calibration& run,
     if (camera_from_lidar && run.result.consensus.chosen[s]) continue;
     BoardSearchRegion region;
     if (camera_from_lidar) {
-      region.center_m = camera_from_lidar->inverse() * (scene.view->camera_from_board.transform *
-                                                        Eigen::Vector3d(c.x(), c.y(), 0.0));
+      const Rigid3 board = camera_from_lidar->inverse() * scene.view->camera_from_board.transform;
+      region.center_m = board * Eigen::Vector3d(c.x(), c.y(), 0.0);
       region.radius_m = 0.75 * outline.size_m().norm();
+      region.width = board.rotation * Eigen::Vector3d::UnitX();
     }
     const SecondSearch where{in.dataset.scenes[s], in.request, region, run.result.target, pyramid};
     if (Status status = search_scene_again(where, in.context, scene, in.cache); !status)

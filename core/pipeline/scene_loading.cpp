@@ -151,11 +151,12 @@ class SceneLoader {
                                                    bool rough) const {
     const BoardOutline outline = dataset_.target.outline();
     const Eigen::Vector2d c = outline.center_m();
-    const Eigen::Vector3d center =
-        result_.scenes[s].view->camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0);
+    const Rigid3& board = result_.scenes[s].view->camera_from_board.transform;
+    const Eigen::Vector3d center = board * Eigen::Vector3d(c.x(), c.y(), 0.0);
     const auto& o = request_.options.consensus;
     const double slack = rough ? o.guess_translation_m + o.guess_rotation_rad * center.norm() : 0.1;
-    return {guess.inverse() * center, 0.6 * outline.size_m().norm() + slack};
+    return {guess.inverse() * center, 0.6 * outline.size_m().norm() + slack,
+            guess.rotation.inverse() * (board.rotation * Eigen::Vector3d::UnitX())};
   }
 
   void fail(std::size_t s, Error error) {

@@ -89,6 +89,7 @@ std::string second_look_key(const std::string& search_key, const BoardSearchRegi
   std::string key = search_key + "region ";
   append(key, region.center_m);
   append(key, region.radius_m);
+  if (region.width) append(key, *region.width);
   return key;
 }
 

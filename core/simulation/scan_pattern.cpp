@@ -23,8 +23,12 @@ constexpr double kAviaRateHz = 240'000.0;
 // 77.2° by 70.4°: six fields of 70.4° spread over the difference.
 constexpr double kAviaLineStep = (77.2 - 70.4) / 5.0 * kRadPerDeg;
 
-constexpr double kSpinningElevation = 45.0 * kRadPerDeg;
 constexpr double kRevolutionS = 0.1;
+
+// Devices of 16 lines cover 30° in steps of 2° (Velodyne VLP-16), those of more 45° (Ouster OS1).
+double spinning_elevation_rad(std::size_t lines) {
+  return (lines <= 16 ? 30.0 : 45.0) * kRadPerDeg;
+}
 
 }  // namespace
 
@@ -36,7 +40,7 @@ ScanPattern::ScanPattern(const LidarOptions& options, Random random)
       phase_first_rad_(random.uniform(0.0, kTurn)),
       phase_second_rad_(random.uniform(0.0, kTurn)) {
   const double step = kind_ == LidarKind::kSpinning
-                          ? kSpinningElevation / (static_cast<double>(lines_) - 1.0)
+                          ? spinning_elevation_rad(lines_) / (static_cast<double>(lines_) - 1.0)
                           : kAviaLineStep;
   for (std::size_t line = 0; line < lines_; ++line) {
     line_elevation_rad_.push_back(
@@ -105,7 +109,8 @@ Shot ScanPattern::spinning_shot(std::size_t index) const {
 bool ScanPattern::in_field(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d unit = direction.normalized();
   if (kind_ == LidarKind::kSpinning) {
-    return std::abs(std::asin(std::clamp(unit.z(), -1.0, 1.0))) <= 0.5 * kSpinningElevation;
+    return std::abs(std::asin(std::clamp(unit.z(), -1.0, 1.0))) <=
+           0.5 * spinning_elevation_rad(lines_);
   }
   const double cos_half = std::cos(half_fov_rad_);
   return std::any_of(line_elevation_rad_.begin(), line_elevation_rad_.end(), [&](double elevation) {

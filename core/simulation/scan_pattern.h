@@ -26,8 +26,8 @@ struct Shot {
 /// Brazeal et al. 2021, Remote Sensing 13(22), report for the Mid-40). The pattern does not repeat
 /// within a scan and is densest at its middle. The six lines of an Avia are the same pattern,
 /// fanned out in elevation.
-/// Spinning: lines at even steps over 45° of elevation, 1800 columns a revolution; every
-/// revolution starts at another fraction of a column.
+/// Spinning: lines at even steps over 45° of elevation (16 lines: 30°), 1800 columns a revolution;
+/// every revolution starts at another fraction of a column.
 class ScanPattern {
  public:
   static constexpr int kColumnsPerRevolution = 1800;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/simulation_options.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -34,8 +36,11 @@ class RangeCheck {
 
 void check_lidar(const LidarOptions& o, RangeCheck& check) {
   check.in("number of points", o.points, 0, 10'000'000);
-  check.that(o.kind != LidarKind::kSpinning || o.lines == 64 || o.lines == 128,
-             Message("a spinning LiDAR has 64 or 128 lines"));
+  constexpr std::array kSpinningLines{16, 32, 64, 128};
+  check.that(
+      o.kind != LidarKind::kSpinning ||
+          std::find(kSpinningLines.begin(), kSpinningLines.end(), o.lines) != kSpinningLines.end(),
+      Message("a spinning LiDAR has 16, 32, 64 or 128 lines"));
   check.in("field of view [deg]", o.fov_deg, 10, 120);
   check.in("range noise [m]", o.range_sigma_m, 0, 1);
   check.in("growth of the range noise on dark", o.range_dark_exponent, 0, 1);

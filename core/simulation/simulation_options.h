@@ -16,7 +16,7 @@ namespace lvcalib::simulation {
 enum class LidarKind {
   kRosette,   ///< One line behind two Risley prisms, like a Livox Mid-70.
   kAvia,      ///< Six lines behind two Risley prisms, like a Livox Avia.
-  kSpinning,  ///< Lines over 45° of elevation turning about the z axis.
+  kSpinning,  ///< Lines over 45° (16 lines: 30°) of elevation turning about the z axis.
 };
 
 /// The LiDAR. A shot leaves in its commanded direction plus jitter, with an elliptic Gaussian
@@ -28,7 +28,7 @@ struct LidarOptions {
   LidarKind kind = LidarKind::kAvia;
   /// Points per scene, 1 … 10⁷; 0: rosette 200 000, avia 240 000, spinning five revolutions.
   int points = 0;
-  int lines = 128;                    ///< Lines of a spinning LiDAR: 64 or 128.
+  int lines = 128;                    ///< Lines of a spinning LiDAR: 16, 32, 64 or 128.
   double fov_deg = 70.4;              ///< Rosettes: diameter of one line's field, 10 … 120.
   double range_sigma_m = 0.008;       ///< Range noise on white (reflectivity 0.85), ≥ 0.
   double range_dark_exponent = 0.3;   ///< Noise grows as (0.85/reflectivity)^this, 0 … 1.

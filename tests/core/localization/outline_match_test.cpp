@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "localization/outline_match.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -54,6 +56,25 @@ TEST(OutlineFit, SaysHowMuchTheSidesDiffer) {
   EXPECT_NEAR(fit.side_error_m.y(), -0.2, 0.04);
 }
 
+// A stand under the board lies on one plane with it.
+TEST(OutlineFit, AStandDoesNotCount) {
+  Random random(4);
+  for (const double degrees : {0.0, 24.0, 105.0}) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Eigen::Vector2d center(0.2, -0.1);
+    auto samples = rectangle({0.6, 0.85}, angle, center, random);
+    const Eigen::Vector2d below = center + Eigen::Rotation2Dd(angle) * Eigen::Vector2d(0.0, -0.6);
+    for (const PlanarSample& s : rectangle({0.05, 0.35}, angle, below, random)) {
+      if (random.uniform() < 0.08) samples.push_back(s);
+    }
+    const auto fit = fit_outline(samples, {0.6, 0.85});
+    EXPECT_NEAR(std::remainder(fit.angle_rad - angle, std::numbers::pi), 0.0, 0.06);
+    EXPECT_LT((fit.center_m - center).norm(), 0.02);
+    EXPECT_LT(fit.side_error_m.cwiseAbs().maxCoeff(), 0.05);
+    EXPECT_NEAR(fit.outside, 0.07, 0.04);
+  }
+}
+
 class OutlinePoses : public ::testing::Test {
  protected:
   // Poses found for a panel of the given size; the plane's own axes are the frame.
@@ -70,8 +91,11 @@ class OutlinePoses : public ::testing::Test {
     const auto patches = find_planar_patches(voxels, search, {});
     if (patches.empty()) return {};
     patch_ = patches.front();
-    return outline_poses(voxels, patch_, target);
+    if (!width_) return outline_poses(voxels, patch_, target);
+    const Eigen::Vector3d along(std::cos(*width_), std::sin(*width_), 0.0);
+    return outline_poses(voxels, patch_, target, pose_.rotation * along);
   }
+  std::optional<double> width_;  // Told, against the panel's own.
   Random random_{3};
   Rigid3 pose_;
   PlanarPatch patch_;
@@ -98,6 +122,24 @@ TEST_F(OutlinePoses, EverySymmetricAssignmentIsOffered) {
 TEST_F(OutlinePoses, AnotherSizeIsRefused) {
   EXPECT_TRUE(poses({0.9, 0.7}, checkerboard(0.5, 1.2)).empty());
   EXPECT_TRUE(poses({0.6, 0.6}, checkerboard(0.9, 0.9)).empty());
+  // Holds a board in any place, and a third of it lies beyond.
+  EXPECT_TRUE(poses({1.05, 0.7}, checkerboard(0.7, 0.7)).empty());
+}
+
+// Of few lines across a board nobody can tell how it stands: where the other scenes say so, that
+// is offered as well, if the patch can be a board that stands so.
+TEST_F(OutlinePoses, AKnownDirectionIsOfferedAsWell) {
+  const Target target = checkerboard(0.9, 0.7);
+  for (const double turned : {0.0, 0.2, 1.5}) {
+    width_ = turned;
+    const auto found = poses({0.9, 0.7}, target);
+    ASSERT_EQ(found.size(), turned == 0.2 ? 4U : 2U) << turned;
+    if (turned != 0.2) continue;
+    const Eigen::Vector3d width = std::cos(found[2].pose.angle_rad) * patch_.axis_u +
+                                  std::sin(found[2].pose.angle_rad) * patch_.axis_v;
+    EXPECT_NEAR(width.dot(pose_.rotation * Eigen::Vector3d::UnitX()), std::cos(turned), 0.01);
+    EXPECT_LT(found[2].correlation, found[0].correlation);
+  }
 }
 
 TEST_F(OutlinePoses, TheWorseTheFitTheLessItCounts) {

@@ -72,6 +72,25 @@ TEST(PlanarPatches, AreTheSameEveryTime) {
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].voxels, b[k].voxels);
 }
 
+// As of 16 lines, 2° apart, at 4 m; what lies farther apart is not one board.
+TEST(PlanarPatches, LinesFarApartAreOneBoard) {
+  Random random(7);
+  const Rigid3 board = test::upright(4.0, 0.4, 0.1, 0.5);
+  for (const double step : {0.15, 0.5}) {
+    Cloud cloud;
+    test::add_room(cloud, -1.2, random);
+    for (double y = -0.4; y < 0.4; y += step) {
+      const Rigid3 line{board.rotation, board * Eigen::Vector3d(0.0, y, 0.0)};
+      test::add_panel(cloud, line, {0.9, 0.002}, 1e5, kNoise, random);
+    }
+    const auto patches = find_planar_patches(voxels_of(cloud), {}, {});
+    const bool whole = std::any_of(patches.begin(), patches.end(), [&](const PlanarPatch& patch) {
+      return (patch.center_m - board.translation).norm() < 0.15 && patch.extent_m.y() > 0.7;
+    });
+    EXPECT_EQ(whole, step < 0.3) << step;
+  }
+}
+
 TEST(PlanarPatches, StripsWhereTheBoardsPlaneMeetsTheFloorAreCut) {
   Random random(3);
   Cloud cloud;

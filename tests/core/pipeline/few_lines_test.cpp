@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scanners of 16 and 32 lines before a checkerboard: five lines cross it at 4 m, and only its
+// outline tells where to begin.
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "pipeline/calibration.h"
+#include "support/simulated_dataset.h"
+
+namespace lvcalib {
+namespace {
+
+// Of 0.61 m by 0.85 m.
+Target small_checkerboard() {
+  Target t;
+  t.type = TargetType::kCheckerboard;
+  t.corner_columns = 5;
+  t.corner_rows = 7;
+  t.column_spacing_m = t.row_spacing_m = 0.095;
+  t.board_width_m = 0.61;
+  t.board_height_m = 0.85;
+  return t;
+}
+
+class FewLines : public ::testing::TestWithParam<int> {};
+
+TEST_P(FewLines, FindACheckerboardInEveryScene) {
+  simulation::SimulationOptions options = test::dataset_options(7, 6);
+  options.target = small_checkerboard();
+  options.lidar.kind = simulation::LidarKind::kSpinning;
+  options.lidar.lines = GetParam();
+  options.lidar.points = 0;
+  options.placement.min_distance_m = 1.5;
+  options.placement.max_tilt_deg = 45.0;
+  options.placement.max_roll_deg = 60.0;
+  options.effects = {{"beam_divergence", 2.0}};
+  const test::SimulatedDataset data(options);
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  for (const SceneResult& scene : result->scenes)
+    EXPECT_TRUE(scene.used) << scene.name << ": " << scene.reason.text();
+  EXPECT_EQ(result->quality, Quality::kGood)
+      << (result->quality_reasons.empty() ? "" : result->quality_reasons.front().text());
+  const UncertainRigid3& found = result->extrinsic.camera_from_lidar;
+  const Vector6d off = se3_log(found.transform * data.rig().camera_from_lidar.inverse());
+  // χ² with six degrees of freedom, once in a thousand.
+  EXPECT_LT(off.dot(found.covariance.ldlt().solve(off)), 22.5);
+  EXPECT_LT(1e3 * off.head<3>().norm(), 5.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lines, FewLines, ::testing::Values(16, 32));
+
+}  // namespace
+}  // namespace lvcalib
