@@ -2,6 +2,7 @@
 #include "pipeline/quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -172,6 +173,20 @@ void judge_scene_scales(const CalibrationResult& result, const QualityOptions& o
                           "it another print?",
                           scene.name, percent));
   }
+}
+
+// Whether planes that miss the ranges mean something. A footprint across print pulls its range;
+// on few lines that does not average out, and a plane that knows nothing of it misses by more than
+// its noise. The joint solve knows, and asks of every kind of shared error whether it is there.
+bool planes_tell(const CalibrationResult& result) {
+  if (!result.forward || !result.forward->converged) return true;
+  constexpr std::array kInRanges{SharedError::kRangeShape,  SharedError::kBoardNormal,
+                                 SharedError::kBoardTilt,   SharedError::kLineRange,
+                                 SharedError::kSensorRange, SharedError::kSensorDark,
+                                 SharedError::kSensorLine};
+  return std::any_of(kInRanges.begin(), kInRanges.end(), [&](SharedError kind) {
+    return result.forward->noise.admitted[static_cast<std::size_t>(kind)];
+  });
 }
 
 // What nodes and planes miss the model by, and the scene that fits clearly worse than the others,
@@ -401,7 +416,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                   "model",
                   formatted("%.1f", result.modelled_range_misfit)));
     }
-  } else if (x.node_scale > options.max_noise_scale || x.plane_scale > options.max_noise_scale) {
+  } else if (x.node_scale > options.max_noise_scale ||
+             (x.plane_scale > options.max_noise_scale && planes_tell(result))) {
     verdict.doubtful(misfit(x));
   }
   if (result.target.has_circles() && x.rms_mm > 1e3 * result.target.circle_radius_m) {
