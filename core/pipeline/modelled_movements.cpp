@@ -36,16 +36,16 @@ Eigen::Vector2d print_scale(const ModelledMovements& movements, const Target& ta
           (at(0, half.y()).y() - at(0, -half.y()).y()) / (2.0 * half.y())};
 }
 
-// By which share a board looks larger along its axes than it is: one that reads farther does, and
-// one whose angles are stretched. Over its own returns: what the model does may depend on their
-// time, line and darkness.
+// By which share a board looks larger along its axes than it is: one that reads farther does, one
+// whose angles are stretched, and a tilted one whose far side reads farther still. The slope of
+// what moves its own returns over their place on it: what the model does may depend on their time,
+// line and print.
 Eigen::Vector2d seen_scale(const ModelledMovements& movements, const BoardOutline& outline,
                            const BoardBeams& beams, const Rigid3& lidar_from_board) {
   constexpr std::size_t kMost = 2000;  // A mean of smooth functions.
   const Rigid3 board_from_lidar = lidar_from_board.inverse();
   const std::size_t stride = 1 + beams.cloud().size() / kMost;
   double count = 0.0;
-  double farther = 0.0;
   Eigen::Array2d place = Eigen::Array2d::Zero(), squares = place, aside = place, products = place;
   for (std::size_t i = 0; i < beams.cloud().size(); i += stride) {
     const std::optional<BeamPoint> beam = beams.of(i);
@@ -54,12 +54,9 @@ Eigen::Vector2d seen_scale(const ModelledMovements& movements, const BoardOutlin
         (board_from_lidar * Eigen::Vector3d(beam->range_m * beam->direction)).head<2>().array();
     if ((at < outline.lower_left_m.array()).any() || (at > outline.upper_right_m.array()).any())
       continue;
-    const Eigen::Vector3d moved = movements.point(*beam);
-    const double along = beam->direction.dot(moved);
     const Eigen::Array2d across =
-        (board_from_lidar.rotation * (moved - along * beam->direction)).head<2>().array();
+        (board_from_lidar.rotation * movements.point(*beam)).head<2>().array();
     count += 1.0;
-    farther += along / beam->range_m;
     place += at;
     squares += at * at;
     aside += across;
@@ -67,7 +64,7 @@ Eigen::Vector2d seen_scale(const ModelledMovements& movements, const BoardOutlin
   }
   const Eigen::Array2d spread = squares - place * place / std::max(1.0, count);
   if (count < 3.0 || !(spread > 0.0).all()) return Eigen::Vector2d::Zero();
-  return farther / count + (products - place * aside / count) / spread;
+  return (products - place * aside / count) / spread;
 }
 
 }  // namespace
@@ -131,6 +128,7 @@ BoardBeams::BoardBeams(const CalibrationResult& result, std::size_t scene,
       scene_(static_cast<int>(scene)),
       geometry_(Rigid3(), lidar_from_board),
       scales_(scales),
+      target_(result.target),
       dark_(scales_.log_contrast > 0.0 && cloud_.has_intensity()),
       darkness_(darkness),
       velocities_(scan_velocities(cloud_)) {}
@@ -141,7 +139,9 @@ std::optional<BeamPoint> BoardBeams::of(std::size_t i) const {
     return std::nullopt;
   beam.scene = scene_;
   beam.darkness = dark_ ? scales_.darkness_of(cloud_.intensity[i]) : darkness_;
-  beam.white = std::clamp(1.0 - beam.darkness, 0.0, 1.0);
+  // Light follows the print, not what was read: a clipped reading looks dark.
+  const auto printed = dark_ ? target_.albedo(beam.board_m) : std::nullopt;
+  beam.white = printed.value_or(std::clamp(1.0 - beam.darkness, 0.0, 1.0));
   beam.line = cloud_.has_line() ? cloud_.line[i] : -1;
   if (cloud_.has_time()) beam.time_s = cloud_.time_s[i];
   if (!velocities_.empty()) beam.scan_rad_s = velocities_[i];

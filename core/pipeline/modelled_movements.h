@@ -55,6 +55,7 @@ class BoardBeams {
   int scene_;
   SceneGeometry geometry_;
   const ModelScales& scales_;
+  const Target& target_;
   bool dark_;
   double darkness_;
   std::vector<Eigen::Vector2d> velocities_;

@@ -39,7 +39,7 @@ TEST(SimulationOptions, RefusesValuesOutOfRange) {
       [](O& o) { o.lidar.beam_rays = 257; },
       [](O& o) {
         o.lidar.kind = LidarKind::kSpinning;
-        o.lidar.lines = 32;
+        o.lidar.lines = 48;
       },
       [](O& o) { o.image.width_px = -1440; },
       [](O& o) { o.image.full_well_e = 0.0; },
