@@ -175,6 +175,33 @@ void judge_scene_scales(const CalibrationResult& result, const QualityOptions& o
   }
 }
 
+bool without_circles(const Target& target, const SceneResult& scene) {
+  return target.has_circles() && scene.used && scene.refinement && scene.refinement->nodes.empty();
+}
+
+// A scanner of few lines measures circles in no scene: one note instead of one for each. Whether
+// it was said.
+bool note_missing_circles(const CalibrationResult& result, Verdict& verdict) {
+  constexpr std::size_t kMany = 3;
+  std::vector<std::string> names;
+  std::size_t used = 0;
+  for (const SceneResult& scene : result.scenes) {
+    used += scene.used ? 1 : 0;
+    if (without_circles(result.target, scene)) names.push_back(scene.name);
+  }
+  if (names.size() < kMany) return false;
+  verdict.note(
+      names.size() == used
+          ? Message("circles cannot be measured in any scene (too few lines or points, or "
+                    "intensities in coarse steps): the prints as a whole, planes and corners are "
+                    "used instead")
+          : Message("circles cannot be measured in scenes %1 (too few lines or points, or "
+                    "intensities in coarse steps): their prints as a whole, planes and corners "
+                    "are used instead",
+                    joined(names, ", ")));
+  return true;
+}
+
 // Whether planes that miss the ranges mean something. A footprint across print pulls its range;
 // on few lines that does not average out, and a plane that knows nothing of it misses by more than
 // its noise. The joint solve knows, and asks of every kind of shared error whether it is there.
@@ -430,6 +457,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     verdict.doubtful(Message("another assignment of the board is nearly as good (margin %1)",
                              formatted("%.1f", result.consensus.margin())));
   }
+  const bool told = note_missing_circles(result, verdict);
   // Behind what is wrong, which may be why they are weak.
   for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
   for (const SceneResult& scene : result.scenes) {
@@ -448,7 +476,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     if (scene.used && !scene.objection.empty())
       verdict.doubtful(Message("scene %1 is used all the same, as you decided, though %2",
                                scene.name, scene.objection));
-    if (!scene.refinement || !scene.used) continue;
+    if (!scene.refinement || !scene.used || (told && without_circles(result.target, scene)))
+      continue;
     for (const Message& w : scene.refinement->warnings)
       verdict.note(Message("scene %1: %2", scene.name, w));
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scanners of 16 and 32 lines before a checkerboard: five lines cross it at 4 m, and only its
 // outline tells where to begin.
+#include <algorithm>
+#include <string>
+
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
@@ -46,6 +49,24 @@ TEST_P(FewLines, FindACheckerboardInEveryScene) {
   // χ² with six degrees of freedom, once in a thousand.
   EXPECT_LT(off.dot(found.covariance.ldlt().solve(off)), 22.5);
   EXPECT_LT(1e3 * off.head<3>().norm(), 5.0);
+}
+
+// Of a board with circles none can be measured; that is said once.
+TEST(FewLinesBeforeCircles, SayOnceThatTheyCannotBeMeasured) {
+  simulation::SimulationOptions options = test::dataset_options(8, 4);
+  options.lidar.kind = simulation::LidarKind::kSpinning;
+  options.lidar.lines = 16;
+  options.lidar.points = 0;
+  const test::SimulatedDataset data(options);
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(result->quality, Quality::kGood);
+  EXPECT_EQ(std::count_if(result->warnings.begin(), result->warnings.end(),
+                          [](const Message& warning) {
+                            return warning.text().find("circles cannot be measured") !=
+                                   std::string::npos;
+                          }),
+            1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, FewLines, ::testing::Values(16, 32));
