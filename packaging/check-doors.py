@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks the architecture's doors and the licence lines.
+"""Checks the architecture's doors, the tests' mirror and the licence lines.
 
 Reads the #include lines of core/, widgets/ and app/ and fails if
 - a room of core/ or a folder of widgets/ includes one it has no door to,
 - widgets/ includes app/, or a header of widgets/ includes VTK,
 - anything in core/ includes widgets/, app/, Qt or VTK,
 - a header in core/ includes a library that must stay in source files,
+- a source of core/ or widgets/ has neither a test of its name nor is told to be tested elsewhere,
 - a source file's first lines lack the SPDX line of its folder.
 
 Usage: check-doors.py [ROOT]
@@ -60,6 +61,55 @@ WIDGET_DOORS = {
 
 # Headers of cloud/ that the simulator may use: it writes clouds and shares no estimation code.
 SIMULATION_CLOUD_HEADERS = {"cloud/cloud.h"}
+
+# Sources without a test file of their own, by the test file of what hands their work on; without
+# the folder where it is the same. Effects are held against the simulator's.
+TESTED_BY = {
+    "core/camera": {"camera_deviations": "camera_yaml"},
+    "core/detection": {"marker_detector": "charuco_view"},
+    "core/model": {
+        "beam_blur": "core/solve/print_table", "camera_intrinsics": "core/selection/sensitivity_budget",
+        "channel": "linear_model", "covariate_effect": "user_effect", "curve_effect": "user_effect",
+        "formula_effect": "user_effect", "measurement_table": "residuals", "print_rows": "residuals",
+        "sensor_errors": "core/selection/effect_search"},
+    "core/model/effects": {"*": "core/selection/hidden_effects"},
+    "core/pipeline": {
+        "board_images": "camera_calibration", "board_surface": "widgets/views/cloud_scene",
+        "camera_figures": "camera_calibration", "forward_stage": "calibration",
+        "fresh_data": "widgets/tools/check_dialog", "modelled_movements": "without_effects",
+        "print_verdict": "quality", "refusals": "scene_edits", "resolve_calibration": "calibration",
+        "scaled_board": "bad_board", "turned_images": "diagnosis"},
+    "core/recording": {
+        "container": "recording", "mcap": "recording", "random_file": "recording",
+        "ros1_bag": "recording", "rosbag2_sqlite": "recording"},
+    "core/refinement": {"transition_noise": "transition"},
+    "core/report": {
+        "boundary_export": "exports", "evidence_json": "result_file", "export_input": "exports",
+        "model_section": "html_report", "report_sections": "html_report",
+        "response_section": "html_report", "scene_section": "html_report"},
+    "core/selection": {
+        "advice_text": "proposals", "contradictions": "effect_search", "print_contrast": "effect_search"},
+    "core/solve": {
+        "covered_places": "board_returns", "forward_problem": "forward_solver",
+        "global_solution": "forward_solver", "print_size": "forward_solver",
+        "scene_rows": "print_table", "total_uncertainty": "scan_faults"},
+    "core/target": {"sheet_drawing": "sheet", "tag_pattern": "target"},
+    "widgets/importing": {"board_choice": "import_form"},
+    "widgets/pages": {
+        "cloud_pane": "scene_page", "image_pane": "scene_page", "selection_bar": "scene_page"},
+    "widgets/runner": {
+        "camera_work": "widgets/intrinsics/camera_page", "edge_work": "widgets/tools/check_dialog",
+        "files_work": "widgets/importing/files_dialog", "memory": "widgets/workbench/window_marks",
+        "run_story": "workspace"},
+    "widgets/style": {"edits_text": "widgets/models/scene_model"},
+    "widgets/tools": {
+        "camera_form": "target_camera_dialog", "camera_preview": "target_camera_dialog",
+        "key_form": "target_camera_dialog", "target_form": "target_camera_dialog"},
+    "widgets/views": {
+        "board_figure": "board_map_plot", "cloud_canvas": "cloud_view",
+        "cloud_pipeline": "cloud_actors", "plot_view": "plot_legend",
+        "tool_row": "widgets/modelling/where_pane"},
+}
 
 GUI = re.compile(r"^(Q[A-Z]\w*(/\w+)?|Qt\w*/.*|vtk\w*\.h(xx)?)$")
 HIDDEN = re.compile(r"^(opencv2|ceres|pcl|yaml-cpp|apriltag|cairo|muParser)(/|\.h$)|^(apriltag|cairo|tag|muParser)\w*\.h$")
@@ -136,6 +186,28 @@ def check_doors(root):
                 yield f"{path.relative_to(root)}:{line}: {complaint}"
 
 
+def check_mirrors(root):
+    if not (root / "tests").is_dir():
+        return
+    told = {f"{folder}/{name}" for folder, names in TESTED_BY.items() for name in names}
+    for path in sorted(p for top in ("core", "widgets") for p in (root / top).rglob("*.cpp")):
+        folder = path.relative_to(root).parent.as_posix()
+        names = TESTED_BY.get(folder, {})
+        name = path.stem if path.stem in names else "*"
+        told.discard(f"{folder}/{name}")
+        by = names.get(name)
+        own = root / "tests" / folder / f"{path.stem}_test.cpp"
+        if by is None and not own.is_file():
+            yield f"{path.relative_to(root)}: neither a test of its name nor in TESTED_BY"
+        elif by is not None:
+            other = root / "tests" / (by if "/" in by else f"{folder}/{by}")
+            if own.is_file() or not other.with_name(f"{other.name}_test.cpp").is_file():
+                yield f"{path.relative_to(root)}: TESTED_BY is out of date"
+    for name in sorted(told):
+        if (root / name).parent.is_dir():
+            yield f"{name}: TESTED_BY names what is not there"
+
+
 def check_licences(root):
     for top in TOP_LEVEL:
         licence = "BSD-3-Clause" if top == "core" else "GPL-3.0-or-later"
@@ -154,10 +226,10 @@ def main():
     if not (root / "core").is_dir():
         print(f"{root}: no folder core/", file=sys.stderr)
         return 2
-    complaints = [*check_doors(root), *check_widgets(root), *check_licences(root)]
+    complaints = [*check_doors(root), *check_widgets(root), *check_mirrors(root), *check_licences(root)]
     for complaint in complaints:
         print(complaint)
-    print(f"doors and licences: {len(complaints)} complaints")
+    print(f"doors, mirrors and licences: {len(complaints)} complaints")
     return 1 if complaints else 0
 
 

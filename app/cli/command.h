@@ -15,7 +15,6 @@ namespace lvcalib::cli {
 /// What main() hands to every command: progress, stop token, threads, and a place for warnings.
 struct Session {
   RunContext context;
-  bool quiet = false;
   std::function<void(const Message&)> warn;       ///< One line to standard error.
   std::function<void(const std::string&)> print;  ///< One line to standard output.
   std::function<void(const Message&)> note;       ///< The same, no warning; not with --quiet.

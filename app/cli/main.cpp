@@ -112,7 +112,6 @@ int run(int argc, char** argv, ProgressPrinter& printer, const InterruptWatch& i
   if (const int status = parse(app, argc, argv, printer); status >= 0) return status;
 
   Session session;
-  session.quiet = common.quiet;
   session.context.threads = common.threads;
   session.context.stop = interrupt.token();
   if (!common.quiet) {

@@ -24,7 +24,6 @@ class DemoTour : public QObject {
   ~DemoTour() override;
   void start();
   void end();
-  [[nodiscard]] CoachMarks& marks() { return *marks_; }
 
  private:
   QMainWindow& window_;

@@ -107,7 +107,7 @@ void MainActions::make_view_menu(QMainWindow& window) {
   theme_menu_ = view_->addMenu(QString());
   language_menu_ = view_->addMenu(QString());
   what_next = add(view_, "what_next", {});
-  before_toggles_ = view_->addSeparator();
+  view_->addSeparator();
   themes = new QActionGroup(&window);
   for (const Theme theme : {Theme::kSystem, Theme::kLight, Theme::kDark}) {
     QAction* action = add(theme_menu_, "theme", {});

@@ -55,7 +55,6 @@ class MainActions : public QObject {
   QPointer<QUndoStack> undo_stack_;
   QMenu *file_, *edit_, *run_menu_, *tools_, *view_, *help_, *recent_, *theme_menu_,
       *language_menu_;
-  QAction* before_toggles_ = nullptr;
 };
 
 }  // namespace lvcalib::widgets

@@ -107,10 +107,6 @@ ThresholdPane* PageStack::thresholds() const {
   return extrinsic_->thresholds();
 }
 
-void PageStack::show_welcome() {
-  setCurrentWidget(welcome_);
-}
-
 void PageStack::show_pages() {
   setCurrentWidget(tabs_);
 }

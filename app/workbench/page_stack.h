@@ -40,9 +40,7 @@ class PageStack : public QStackedWidget {
   [[nodiscard]] ModelPage* model_page() const { return model_; }
   [[nodiscard]] ThresholdPane* thresholds() const;
   [[nodiscard]] ExtrinsicPage* extrinsic_page() const { return extrinsic_; }
-  [[nodiscard]] CameraPage* camera_page() const { return camera_; }
   [[nodiscard]] WelcomePage& welcome() const { return *welcome_; }
-  void show_welcome();
   void show_pages();
   void show_tab(int tab);
   [[nodiscard]] int tab_count() const;

@@ -32,9 +32,6 @@ struct DecodedImage {
   [[nodiscard]] std::size_t row_bytes() const {
     return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(channels * bits / 8);
   }
-  [[nodiscard]] PixelView view() const {
-    return {width_px, height_px, channels, bits, bytes.data(), row_bytes()};
-  }
 };
 
 /// Decodes a png, jpg, bmp or tiff file: colour, grey, palette, with alpha, 8 or 16 bit. By libpng,

@@ -218,7 +218,7 @@ std::vector<TagDetection> run_pass(image_u8_t& image, apriltag_family_t& family,
     apriltag_detection_t* item = nullptr;
     zarray_get(found, i, &item);
     if (item->decision_margin < pass.min_margin) continue;
-    TagDetection tag{options.first_id + item->id, {}, item->hamming, item->decision_margin};
+    TagDetection tag{options.first_id + item->id, {}};
     for (std::size_t k = 0; k < 4; ++k) {
       // The library puts pixel centres at half-integers.
       tag.corners[k] = Eigen::Vector2d(item->p[k][0], item->p[k][1]) / pass.scale -

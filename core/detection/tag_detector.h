@@ -19,8 +19,6 @@ using TagCorners = std::array<Eigen::Vector2d, 4>;
 struct TagDetection {
   int id = 0;
   TagCorners corners;
-  int hamming = 0;      ///< Data bits that were read wrong and corrected.
-  double margin = 0.0;  ///< Mean distance of a bit's grey value from the decision threshold.
 };
 
 /// How to search an image for tags.

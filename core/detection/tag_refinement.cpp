@@ -68,7 +68,6 @@ class TagFit {
   double noise_ = 0.0;
   std::vector<double> residuals_;
   Matrix information_ = Matrix::Zero();
-  int iterations_ = 0;
   double growth_step_ = 0.0;
   bool swings_ = false;  // Steps of the growth went to and fro.
 };
@@ -200,7 +199,6 @@ Vector TagFit::accumulate(bool robust) {
 }
 
 double TagFit::iterate(bool robust) {
-  ++iterations_;
   if (robust) measure_noise();  // from the residuals of the iteration before
   const Vector gradient = accumulate(robust);
   // Curvature and growth are small corrections; half the range and a tenth of a bit as their
@@ -261,7 +259,6 @@ std::optional<TagRefinement> TagFit::result() const {
   if (!describe_agreement(out)) return std::nullopt;
   out.blur_px = state_.blur_px;
   out.contrast = state_.contrast[0];
-  out.iterations = iterations_;
   // Uniform noise; thinned-out pixels and Tukey's loss of efficiency are in the information.
   const Matrix covariance = out.noise * out.noise * information_.ldlt().solve(Matrix::Identity());
   const auto corners = state_.plane_corners();

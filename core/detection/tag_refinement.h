@@ -33,7 +33,6 @@ struct TagRefinement {
   double noise = 0.0;        ///< Standard deviation of the residuals, grey levels.
   double correlation = 0.0;  ///< Of image and rendered tag over the data bits, all pixels.
   double inliers = 0.0;      ///< Share of pixels that agree.
-  int iterations = 0;
 };
 
 /// Aligns the whole printed tag with the image: the known bits, the black border and a strip of the

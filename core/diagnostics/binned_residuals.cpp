@@ -48,14 +48,11 @@ MeanResidual mean_residual(const ResidualSample& sample, std::span<const std::si
   };
   double weights = 0.0;
   double sum = 0.0;
-  double noise = 0.0;
   for (const std::size_t k : rows) {
     weights += weight(k);
     sum += weight(k) * static_cast<double>(sample.value[k]);
-    noise += square(static_cast<double>(sample.sigma[k]));
   }
   out.mean = sum / weights;
-  out.noise = std::sqrt(noise / static_cast<double>(rows.size()));
   double scatter = 0.0;
   std::map<int, double> by_scene;
   for (const std::size_t k : rows) {
@@ -101,8 +98,6 @@ std::vector<ResidualBin> bin_residuals(std::span<const float> x, bool labels,
   std::vector<ResidualBin> out;
   for (const auto& rows : groups) {
     ResidualBin bin;
-    bin.low = static_cast<double>(x[rows.front()]);
-    bin.high = static_cast<double>(x[rows.back()]);
     for (const std::size_t k : rows) bin.center += static_cast<double>(x[k]);
     bin.center /= static_cast<double>(rows.size());
     bin.residual = mean_residual(sample, rows, groups.size());

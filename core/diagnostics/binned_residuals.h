@@ -14,7 +14,6 @@ struct MeanResidual {
   /// group and the scatter between scenes (cluster-robust; three scenes or more) give. Residuals of
   /// a scene err together, so that their number alone would promise too much.
   double sigma = 0.0;
-  double noise = 0.0;  ///< RMS of the stated standard deviations of single residuals.
   std::size_t n = 0;
   int scenes = 0;
   /// Student's t test at 5 %, divided by the number of groups that are looked at together.
@@ -34,8 +33,6 @@ MeanResidual mean_residual(const ResidualSample& sample, std::span<const std::si
 
 /// Means along a covariate.
 struct ResidualBin {
-  double low = 0.0;
-  double high = 0.0;
   double center = 0.0;  ///< Mean of the covariate in the bin.
   MeanResidual residual;
 };

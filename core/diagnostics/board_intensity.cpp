@@ -49,10 +49,6 @@ BoardIntensity board_intensity(const FittedModel& model, int scene, double cell_
   }
   out.columns = std::clamp(static_cast<int>(std::ceil(size.x() / cell_m)), 1, 2000);
   out.rows = std::clamp(static_cast<int>(std::ceil(size.y() / cell_m)), 1, 2000);
-  out.x_low_m = outline.lower_left_m.x();
-  out.x_high_m = outline.upper_right_m.x();
-  out.y_low_m = outline.lower_left_m.y();
-  out.y_high_m = outline.upper_right_m.y();
   const auto cells = static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows);
   std::vector<double> measured(cells);
   std::vector<double> predicted(cells);

@@ -12,7 +12,6 @@ namespace lvcalib {
 struct BoardIntensity {
   int columns = 0;
   int rows = 0;
-  double x_low_m = 0.0, x_high_m = 0.0, y_low_m = 0.0, y_high_m = 0.0;
   std::vector<float> measured;  ///< Row by row from the lower edge.
   std::vector<float> predicted;
   std::vector<float> difference;  ///< measured − predicted

@@ -313,11 +313,6 @@ bool StructureScore::is_at_a_place() const {
   return covariate == "azimuth" || covariate == "board x" || covariate == "board y";
 }
 
-StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
-                               int scenes) {
-  return score_of(covariate, OwnRows(residuals, scenes));
-}
-
 double place_score(const StructureScore& place, const MeasurementTable& table,
                    const ChannelResiduals& residuals) {
   const std::vector<Covariate> covariates = covariates_of(table, residuals.channel, residuals);

@@ -39,16 +39,14 @@ struct StructureScore {
   }
 };
 
-/// Share of held-out variance that a smooth curve of one covariate explains: cubic B-splines
-/// (shrunken means for categories) fitted on all scenes but one and predicted on that one, whose
-/// pose and levels are fitted again. `amplitude` is the curve's RMS. Not above zero if there is
-/// none. Eight splines, or thirty-two if the rows bear them and scenes held out prefer them.
-StructureScore structure_score(const Covariate& covariate, const ChannelResiduals& residuals,
-                               int scenes);
-
 /// What a scan found, best first, scenes held out one by one.
 struct StructureScan {
-  std::vector<StructureScore> curves;  ///< Every covariate of every channel.
+  /// Of every covariate of every channel, the share of held-out variance that a smooth curve
+  /// explains: cubic B-splines (shrunken means for categories) fitted on all scenes but one and
+  /// predicted on that one, whose pose and levels are fitted again. `amplitude` is the curve's RMS.
+  /// Not above zero if there is none. Eight splines, or thirty-two if the rows bear them and scenes
+  /// held out prefer them.
+  std::vector<StructureScore> curves;
   /// Something local, a bump on the board or a flaw in the field of view, hardly shows over one
   /// covariate: surfaces over the board and over azimuth and elevation (8 × 8 splines), those that
   /// predict scenes held out better than the curves of their covariates.

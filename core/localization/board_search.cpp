@@ -162,8 +162,10 @@ std::vector<PatternMatch> search_patch(const SearchInput& in, const VoxelCloud& 
     for (int d = 0; d < 72 * turns / symmetry; ++d)
       range.angles_rad.push_back(5.0 * d * kRadPerDeg);
   }
+  range.separation_m = separation_m(in);
+  range.count = kPosesPerPatch;
   return search_pattern(samples, in.pyramid.levels.front(), in.outline.center_m(), range,
-                        separation_m(in), kPosesPerPatch, in.context);
+                        in.context);
 }
 
 // One pass over the cloud: the points about every patch, at full density.
@@ -339,14 +341,13 @@ bool matches_by_pattern(const Target& target, const Cloud& cloud) {
   return target.has_tags() && cloud.has_contrast();
 }
 
-BoardSearchResult search_board(const Cloud& cloud, const Target& target,
-                               const PatternPyramid& pyramid, double camera_distance_m,
-                               const std::optional<BoardSearchRegion>& region,
+BoardSearchResult search_board(const Cloud& cloud, const BoardSought& sought,
                                const BoardSearchOptions& options, const RunContext& context) {
+  const Target& target = sought.target;
   const BoardOutline outline = target.outline();
-  const SearchInput in{cloud, target, pyramid, options, context, outline, outline.size_m()};
+  const SearchInput in{cloud, target, sought.pyramid, options, context, outline, outline.size_m()};
   BoardSearchResult result;
-  const VoxelCloud voxels = voxels_of(in, camera_distance_m, region);
+  const VoxelCloud voxels = voxels_of(in, sought.camera_distance_m, sought.region);
   std::vector<PatchMatches> found;
   const bool by_pattern = matches_by_pattern(target, cloud);
   const std::optional<Eigen::Vector3d> width = region ? region->width : std::nullopt;

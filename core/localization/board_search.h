@@ -54,13 +54,18 @@ struct PatternPyramid {
   std::vector<PatternTemplate> levels;
 };
 
+/// What is looked for, and where.
+struct BoardSought {
+  const Target& target;
+  const PatternPyramid& pyramid;   ///< Of the target.
+  double camera_distance_m = 0.0;  ///< From the camera to the board.
+  std::optional<BoardSearchRegion> region = {};
+};
+
 /// Looks for the board in a cloud without any initial guess: flat patches of about its size, in
 /// which the intensity follows the printed pattern (checkerboards and clouds whose intensity is
-/// missing or the same everywhere: whose outline fits). `camera_distance_m` is the distance from
-/// the camera to the board.
-BoardSearchResult search_board(const Cloud& cloud, const Target& target,
-                               const PatternPyramid& pyramid, double camera_distance_m,
-                               const std::optional<BoardSearchRegion>& region,
+/// missing or the same everywhere: whose outline fits).
+BoardSearchResult search_board(const Cloud& cloud, const BoardSought& sought,
                                const BoardSearchOptions& options, const RunContext& context);
 
 /// True if the board's pattern, not only its outline, can be looked for.

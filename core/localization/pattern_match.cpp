@@ -177,8 +177,8 @@ double PatternMatch::gain(double samples_per_independent) const {
 std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& samples,
                                          const PatternTemplate& pattern,
                                          const Eigen::Vector2d& outline_center_m,
-                                         const PatternSearchRange& range, double separation_m,
-                                         std::size_t count, const RunContext& context) {
+                                         const PatternSearchRange& range,
+                                         const RunContext& context) {
   // About 250 on a square board, which fills 64 % of the circle around it.
   constexpr std::size_t kSearchSamples = 400;
   // A few samples tell most of the poses that do not match at all.
@@ -208,7 +208,7 @@ std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& sample
       if (ranked.gain > 0) all.push_back(ranked);
     }
   }
-  return separated(std::move(all), separation_m, count);
+  return separated(std::move(all), range.separation_m, range.count);
 }
 
 namespace {

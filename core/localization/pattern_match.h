@@ -40,15 +40,16 @@ struct PatternSearchRange {
   double slack_m = 0.1;  ///< Centres within ± this of center_m along both axes.
   std::vector<double> angles_rad;
   double step_m = 0.025;
+  double separation_m = 0.1;  ///< How far apart the poses that are told are, or 20°.
+  std::size_t count = 8;      ///< So many at the most.
 };
 
-/// Best poses over the whole range, best first, at most `count`, each at least half a tag pitch
-/// or 20° away from the better ones.
+/// Best poses over the whole range, best first.
 std::vector<PatternMatch> search_pattern(const std::vector<PlanarSample>& samples,
                                          const PatternTemplate& pattern,
                                          const Eigen::Vector2d& outline_center_m,
-                                         const PatternSearchRange& range, double separation_m,
-                                         std::size_t count, const RunContext& context);
+                                         const PatternSearchRange& range,
+                                         const RunContext& context);
 
 /// Gauss–Newton on intensity = a + b·albedo(pose): pose to a fraction of the blur.
 PatternMatch refine_pattern_pose(const std::vector<PlanarSample>& samples,

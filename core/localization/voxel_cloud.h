@@ -35,7 +35,6 @@ class VoxelCloud {
   VoxelCloud(const Cloud& cloud, const Options& options, const RunContext& context);
 
   [[nodiscard]] const std::vector<Voxel>& voxels() const { return voxels_; }
-  [[nodiscard]] const Options& options() const { return options_; }
 
   /// Indices of voxels within `radius_m` of a point, appended to `out` (cleared first).
   void neighbours(const Eigen::Vector3f& point_m, double radius_m,

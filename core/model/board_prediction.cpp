@@ -94,15 +94,11 @@ std::optional<ReturnPrediction> BoardPredictor::predict(const Eigen::Vector3d& d
   ReturnPrediction out;
   out.board_m = met->board_m;
   out.spot_m2 = spot;
-  out.cos_incidence = -along;
   const Eigen::Vector2d place_m = met->board_m - change.shift_m;
   PrintSample print = look(place_m, spot, known, seen);
   const double by_growth =
       change.growth_m ? print_.edges().grow(place_m, spot, *change.growth_m, print) : 0.0;
   out.white = print.white;
-  const double widest = std::sqrt(0.5 * (spot(0, 0) + spot(1, 1)) +
-                                  std::hypot(0.5 * (spot(0, 0) - spot(1, 1)), spot(0, 1)));
-  out.inside_sigmas = print_.inside_m(met->board_m) / std::max(widest, 1e-9);
 
   // How a small motion of the board moves the hit: along the ray to the new plane, less what the
   // print moves itself.

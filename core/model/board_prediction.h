@@ -38,10 +38,8 @@ struct ReturnPrediction {
   Eigen::Vector2d board_m = Eigen::Vector2d::Zero();  ///< Where the ray meets the board.
   double range_m = 0.0;  ///< Mean over the footprint, weighted with the received power.
   double intensity = 0.0;
-  double white = 0.0;  ///< Share of white in the blurred spot, A.
-  double cos_incidence = 1.0;
+  double white = 0.0;                                 ///< Share of white in the blurred spot, A.
   Eigen::Matrix2d spot_m2 = Eigen::Matrix2d::Zero();  ///< Covariance of the blurred spot, board.
-  double inside_sigmas = 0.0;  ///< Distance to the board's outline in widths of the spot.
   /// By the left perturbation of lidar_from_board, order (translation, rotation); m, m/rad, 1/m.
   Eigen::Matrix<double, 1, 6> range_by_pose;
   Eigen::Matrix<double, 1, 6> intensity_by_pose;

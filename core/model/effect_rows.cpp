@@ -4,7 +4,6 @@
 namespace lvcalib {
 
 double log_contrast(const BoardLevels& levels) {
-  constexpr double kLeastShare = 0.01;
   const double white = std::max(levels.white, 1e-12);
   return std::log(white / std::max(levels.black, kLeastShare * white));
 }

@@ -201,8 +201,10 @@ struct CornerPrediction {
 std::optional<CornerPrediction> predict(const CornerRow& row, const Camera& camera,
                                         const Rigid3& camera_from_board);
 
-/// ln(white / black) of a scene's levels. Black that returns next to nothing has no logarithm: a
-/// hundredth of white stands for it.
+/// Black that returns next to nothing has no logarithm: this share of white stands for it.
+inline constexpr double kLeastShare = 0.01;
+
+/// ln(white / black) of a scene's levels.
 double log_contrast(const BoardLevels& levels);
 
 /// The edge in whose blur a return is, as the hooks of effects see it; its reading is left empty.

@@ -74,12 +74,6 @@ double Replicates::sigma() const {
   return sigma;
 }
 
-double Replicates::spread() const {
-  constexpr std::size_t kFewest = 10;
-  constexpr double kLeast = 0.01;  // Levels may be whole numbers, and all the same.
-  return values_.size() < kFewest ? 0.0 : std::max(kLeast, mad_sigma(values_));
-}
-
 double corner_noise(const MeasurementTable& table, const ModelState& state, double fallback_px) {
   constexpr std::size_t kFewest = 12;
   std::map<std::tuple<int, int, int>, Eigen::Vector2d> residual;  // scene, feature, corner

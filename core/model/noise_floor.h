@@ -27,8 +27,6 @@ class Replicates {
   }
   /// Zero if there are too few pairs even of farther neighbours.
   [[nodiscard]] double sigma() const;
-  /// Of all values about their median; zero if there are hardly any.
-  [[nodiscard]] double spread() const;
 
  private:
   std::vector<Eigen::Vector2d> at_;

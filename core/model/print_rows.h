@@ -46,9 +46,6 @@ class PrintRows {
   /// What one unit of each parameter of the effects in use does to the row that was predicted last.
   [[nodiscard]] const std::vector<UnitChange>& by_parameters() const { return changes_; }
 
-  /// Rotation of T_lidar_board.
-  [[nodiscard]] const Eigen::Matrix3d& lidar_from_board() const { return rotation_; }
-  [[nodiscard]] const SceneGeometry& geometry() const { return geometry_; }
   /// Turns a derivative by the board's pose into that by the board's motion between camera and
   /// LiDAR about its middle, board axes: shift (2), along the normal, tilt (2), spin.
   [[nodiscard]] Matrix6d board_motion_by_pose() const;

@@ -35,13 +35,6 @@ Eigen::Vector3d SceneGeometry::edge_row(const Eigen::Vector3d& direction,
   return outward - normal_ * (outward.dot(direction) / normal_.dot(direction));
 }
 
-Vector6d SceneGeometry::by_board_pose(const Eigen::Vector3d& row,
-                                      const Eigen::Vector3d& point_m) const {
-  Vector6d by_lidar;
-  by_lidar << row, point_m.cross(row);
-  return lidar_by_camera_.transpose() * by_lidar;
-}
-
 bool SceneGeometry::describe(const Eigen::Vector3d& direction, BeamPoint& beam) const {
   const auto range = range_m(direction);
   if (!range) return false;

@@ -37,12 +37,8 @@ class SceneGeometry {
   [[nodiscard]] Eigen::Vector3d edge_row(const Eigen::Vector3d& direction,
                                          const Eigen::Vector3d& outward) const;
 
-  /// Derivative of a·δ by the left perturbation of T_camera_board, where δ is the displacement of
-  /// the board at point_m; that by T_camera_lidar is its negative.
-  [[nodiscard]] Vector6d by_board_pose(const Eigen::Vector3d& row,
-                                       const Eigen::Vector3d& point_m) const;
-
-  /// Derivative by the left perturbation of T_camera_board from that by the one of T_lidar_board.
+  /// Derivative by the left perturbation of T_camera_board from that by the one of T_lidar_board;
+  /// that by T_camera_lidar is its negative.
   [[nodiscard]] Vector6d by_camera_pose(const Vector6d& by_lidar_pose) const {
     return lidar_by_camera_.transpose() * by_lidar_pose;
   }

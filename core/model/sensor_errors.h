@@ -12,7 +12,6 @@ namespace lvcalib {
 /// joint solve; not effects to be found.
 inline constexpr std::size_t kSensorErrors = 3;
 /// Their variances (m²).
-using SensorVariances = std::array<double, kSensorErrors>;
 /// So small that no data see them: a kind that is not there.
 inline constexpr double kAbsentSensorError = 1e-12;
 

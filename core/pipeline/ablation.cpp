@@ -76,7 +76,7 @@ Result<std::vector<AblationStep>> ablate(const CalibrationResult& result,
         "a term for the board's plane by its own covariance, not the nodes' third axis",
         "Huber's loss, not squares"};
     const auto measured =
-        compare_variants(observations, result.camera, target, nodes, ours, variants);
+        compare_variants({observations, result.camera, target, ours}, nodes, variants);
     for (std::size_t k = 0; k < variants.size(); ++k) {
       for (const MethodResult& m : measured) {
         if (m.name == variants[k].name) steps.push_back(step_of(m, changes[k], final));

@@ -318,7 +318,7 @@ Status search_plain_boards(const CalibrationInput& in, CalibrationResult& result
     const Cloud full = *cloud;
     cloud->intensity.clear();
     const double distance_m = scene.view->camera_from_board.transform.translation.norm();
-    auto found = search_board(*cloud, result.target, pyramid, distance_m, std::nullopt,
+    auto found = search_board(*cloud, {result.target, pyramid, distance_m},
                               in.request.options.localization, in.context);
     if (in.context.stopped()) return Error::cancelled();
     std::erase_if(found.candidates, [&](const BoardCandidate& candidate) {

@@ -77,8 +77,8 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
     if (context.stopped()) return;
     const BoardView& view = *result.scenes[seen[k]].view;
     found[reading * seen.size() + k] =
-        search_board(read_as(clouds[k], readings[reading].by), dataset.target, pyramid,
-                     middle_distance_m(view, dataset.target), std::nullopt,
+        search_board(read_as(clouds[k], readings[reading].by),
+                     {dataset.target, pyramid, middle_distance_m(view, dataset.target)},
                      request.options.localization, quiet)
             .candidates;
   };
@@ -173,8 +173,8 @@ std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
       const BoardView& view = *result.scenes[seen[image]].view;
       tried[image] = seen_by_camera(view, dataset.target);
       tried[image].candidates =
-          search_board(*points, dataset.target, pyramid, middle_distance_m(view, dataset.target),
-                       std::nullopt, request.options.localization, quiet)
+          search_board(*points, {dataset.target, pyramid, middle_distance_m(view, dataset.target)},
+                       request.options.localization, quiet)
               .candidates;
     }
     const auto consensus = decide_scenes(tried, std::nullopt, request.options.consensus);
@@ -204,11 +204,11 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
     RunContext quiet = context;
     quiet.progress = {};
     quiet.threads = 1;
-    scenes[s].candidates =
-        search_board(read_as(*cloud, {1.0F, -1.0F, 1.0F}), dataset.target, pyramid,
-                     middle_distance_m(*result.scenes[s].view, dataset.target), std::nullopt,
-                     request.options.localization, quiet)
-            .candidates;
+    scenes[s].candidates = search_board(read_as(*cloud, {1.0F, -1.0F, 1.0F}),
+                                        {dataset.target, pyramid,
+                                         middle_distance_m(*result.scenes[s].view, dataset.target)},
+                                        request.options.localization, quiet)
+                               .candidates;
   });
   const auto consensus = decide_scenes(scenes, std::nullopt, request.options.consensus);
   if (context.stopped() || !consensus || consensus->agreeing < std::max(2, agreeing + 1))
@@ -355,7 +355,7 @@ Message split_apart(const CalibrationResult& result) {
   for (std::size_t at = 1; at < scenes.size(); ++at) {
     const auto group = [&](bool later) {
       for (std::size_t k = 0; k < scenes.size(); ++k) scenes[k].use = (k >= at) == later;
-      return solve_extrinsic(scenes, result.camera, result.target, how);
+      return solve_extrinsic({scenes, result.camera, result.target, how});
     };
     const auto before = group(false);
     const auto after = group(true);

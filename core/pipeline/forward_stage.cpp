@@ -60,7 +60,6 @@ std::vector<ForwardScene> forward_scenes(const CalibrationResult& result,
     if (!solved.used) continue;
     const SceneObservations& from = observations[k];
     ForwardScene scene;
-    scene.name = from.name;
     for (std::size_t i = 0; i < from.corners.size(); ++i) {
       if (solved.corners[i].used) scene.corners.push_back(from.corners[i]);
     }
@@ -93,30 +92,24 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                                            const ExtrinsicSolution& start,
                                            const ForwardOptions& options,
                                            const RunContext& context) {
-  return solve_forward(forward_scenes(result, observations, index, start), *result.print,
-                       result.intrinsics.given, start_pose(result.consensus, start), start.sigma_px,
-                       options, context);
+  return solve_forward(
+      {forward_scenes(result, observations, index, start), *result.print, result.intrinsics.given,
+       start_pose(result.consensus, start), start.sigma_px},
+      options, context);
 }
 
 ReportedPose pose_of(const ForwardSolution& forward) {
   return {{forward.state.camera_from_lidar, forward.camera_from_lidar.covariance},
           forward.state.camera_from_board,
-          forward.uses_intensity,
-          forward.converged,
-          forward.iterations};
+          forward.uses_intensity};
 }
 
 ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& subset,
-                                 const ExtrinsicSolution& start,
-                                 const std::vector<SceneObservations>& observations,
-                                 const Camera& camera, const Target& target,
-                                 const ExtrinsicOptions& options) {
+                                 const ExtrinsicSolution& start, const FeatureInput& in) {
   const Rigid3& all = pose.camera_from_lidar.transform;
   RobustFit fit;
   fit.mask = mask_of(start);
   fit.scales = scales_of(start);
-  fit.fit.iterations = pose.iterations;
-  fit.fit.converged = pose.converged;
   fit.fit.state.camera_from_lidar = all;
   fit.fit.information = pose.camera_from_lidar.covariance.ldlt().solve(Matrix6d::Identity());
   std::size_t next = 0;
@@ -125,8 +118,8 @@ ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& s
     fit.fit.state.camera_from_board.push_back(scene.used ? pose.camera_from_board[next++]
                                                          : scene.camera_from_board);
   }
-  ExtrinsicSolution solution = report_solution(fit, observations, camera, target, options, false);
-  const int fewest = pose.uses_intensity ? 2 : fewest_to_leave_one_out(target);
+  ExtrinsicSolution solution = report_solution(fit, in, false);
+  const int fewest = pose.uses_intensity ? 2 : fewest_to_leave_one_out(in.target);
   for (std::size_t k = 0; solution.used_scenes >= fewest && k < start.scenes.size(); ++k) {
     if (!start.scenes[k].used) continue;
     std::vector<std::size_t> rest;

@@ -42,14 +42,9 @@ struct ReportedPose {
   UncertainRigid3 camera_from_lidar;
   std::vector<Rigid3> camera_from_board;
   bool uses_intensity = true;
-  bool converged = true;
-  int iterations = 0;
 };
 ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& subset,
-                                 const ExtrinsicSolution& start,
-                                 const std::vector<SceneObservations>& observations,
-                                 const Camera& camera, const Target& target,
-                                 const ExtrinsicOptions& options);
+                                 const ExtrinsicSolution& start, const FeatureInput& in);
 ReportedPose pose_of(const ForwardSolution& forward);
 
 /// Solves the forward model for some of the observations of `start`.

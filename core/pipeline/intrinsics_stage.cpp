@@ -178,7 +178,8 @@ std::optional<Freed> solve_freed(const CalibrationResult& result,
       extra.push_back({view.corners, corners->camera_from_board[next++]});
     options.first_camera = corners->camera;
     options.intrinsics_evidence = intrinsics_evidence(extra, corners->camera, corners->sigma_px);
-    auto solved = solve_extrinsic(freed, corners->camera, result.target, result.options.extrinsic);
+    auto solved =
+        solve_extrinsic({freed, corners->camera, result.target, result.options.extrinsic});
     if (solved) start = std::move(*solved);
   }
   auto forward = solve_every_return(result, freed, index, start, options, context);

@@ -61,7 +61,8 @@ void ask_scenes_again(std::vector<SceneObservations> observations,
     any = any || refused(scene) || insisted(scene);
   }
   if (!any) return;
-  const auto with = solve_extrinsic(observations, result.camera, target, result.options.extrinsic);
+  const auto with =
+      solve_extrinsic({observations, result.camera, target, result.options.extrinsic});
   if (!with || with->node_scale > std::max(1.0, without.node_scale) ||
       with->plane_scale > std::max(1.0, without.plane_scale))
     return;
@@ -101,8 +102,8 @@ void report_model(const Discovery& discovery, CalibrationResult& result) {
   if (auto response = without.boundary_response(observations))
     result.response = std::move(*response);
   if (result.forward) tell_beam(discovery, *result.forward);
-  const ExtrinsicOptions& how = result.options.extrinsic;
-  const auto again = solve_extrinsic(observations, result.camera, target, how);
+  const FeatureInput in{observations, result.camera, target, result.options.extrinsic};
+  const auto again = solve_extrinsic(in);
   if (again) ask_scenes_again(observations, index, target, *again, result);
   const auto& solved = result.extrinsic.scenes;
   const auto boards = static_cast<std::size_t>(
@@ -124,27 +125,23 @@ void report_model(const Discovery& discovery, CalibrationResult& result) {
                     discovery.state.camera_from_board};
   if (result.forward) {
     pose.uses_intensity = result.forward->uses_intensity;
-    pose.converged = result.forward->converged;
-    pose.iterations = result.forward->iterations;
   }
   const SubsetSolver subsets =
       model_subsets(discovery.fit, discovery.state.camera_from_lidar, nodes);
-  result.extrinsic = report_forward(pose, subsets, nodes, observations, result.camera, target, how);
+  result.extrinsic = report_forward(pose, subsets, nodes, in);
   result.extrinsic.camera_from_lidar = pose.camera_from_lidar;
   MethodOptions methods;
-  methods.paper = JointVariant{"joint_paper", std::move(paper), paper_objective(how)};
+  methods.paper = JointVariant{"joint_paper", std::move(paper), paper_objective(in.options)};
   methods.other = {"forward_model", discovery.state.camera_from_lidar, subsets};
-  result.methods = compare_methods(observations, result.camera, target, nodes, how, methods);
+  result.methods = compare_methods(in, nodes, methods);
   result.ablation.clear();  // Of the base model.
-  result.uncertainty =
-      assess_uncertainty(observations, result.camera, target, result.extrinsic, how, {}, subsets);
+  result.uncertainty = assess_uncertainty(in, result.extrinsic, subsets);
 }
 
 }  // namespace
 
 DiscoveryInput discovery_input(const CalibrationResult& result) {
   DiscoveryInput input;
-  input.target = result.target;
   input.camera = result.camera;
   input.sigma_px = result.extrinsic.sigma_px;
   input.state.camera_from_lidar = result.extrinsic.camera_from_lidar.transform;

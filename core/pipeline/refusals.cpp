@@ -137,9 +137,9 @@ std::vector<GateDistance> gate_distances(const CalibrationResult& result) {
     for (const CornerResidual& corner : solved.corners) {
       GateDistance& tag = tags[corner.feature_id];
       const double sigmas = corner.residual_px.norm() / std::max(x.sigma_px, 1e-12);
-      tag = {solved.name, What::kTag, corner.feature_id, std::max(tag.sigmas, sigmas), corner.used};
+      tag = {What::kTag, std::max(tag.sigmas, sigmas), corner.used};
     }
-    for (auto& [id, tag] : tags) out.push_back(std::move(tag));
+    for (const auto& [id, tag] : tags) out.push_back(tag);
     const BoardRefinement& refined = *scene->refinement;
     for (std::size_t k = 0; k < solved.nodes.size() && k < refined.nodes.size(); ++k) {
       if (!refined.nodes[k].valid) continue;
@@ -151,8 +151,7 @@ std::vector<GateDistance> gate_distances(const CalibrationResult& result) {
           x.node_scale * x.node_scale *
           (refined.nodes[k].covariance_m2 + floor_m * floor_m * Eigen::Matrix2d::Identity());
       const double chi2 = in_plane.dot(covariance.ldlt().solve(in_plane));
-      out.push_back({solved.name, What::kCircle, solved.nodes[k].id, std::sqrt(std::max(0.0, chi2)),
-                     solved.nodes[k].used});
+      out.push_back({What::kCircle, std::sqrt(std::max(0.0, chi2)), solved.nodes[k].used});
     }
   }
   return out;

@@ -47,9 +47,7 @@ std::vector<Refusal> refusals(const CalibrationResult& result);
 /// How far a tag (its worst corner) or a circle that takes part misses the board's pose, in
 /// standard deviations: what the gate is held against.
 struct GateDistance {
-  std::string scene;
   Refusal::What what = Refusal::What::kTag;  ///< Or kCircle.
-  int id = 0;
   double sigmas = 0.0;
   bool used = true;
 };

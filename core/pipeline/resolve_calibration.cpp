@@ -32,25 +32,24 @@ Status respond(CalibrationResult& result, const Target& target, const Calibratio
 
 // Every corner and return in one model; where that fails, what nodes and planes say stands. With
 // the intrinsics freed, `nodes` is solved again under the camera that comes out.
-Status solve_forward_model(CalibrationResult& result, const Target& target,
-                           const std::vector<SceneObservations>& observations,
+Status solve_forward_model(CalibrationResult& result, const FeatureInput& in,
                            const std::vector<std::size_t>& index, ExtrinsicSolution& nodes,
-                           const ExtrinsicOptions& extrinsic, const RunContext& context) {
+                           const RunContext& context) {
   if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
   ForwardOptions how = result.options.forward;
   how.intrinsics_sigma = solve_prior(result.intrinsics);
   how.intrinsics_evidence = result.intrinsics.evidence;
   how.first_camera = result.camera;
-  auto forward = solve_every_return(result, observations, index, nodes, how, context);
+  auto forward = solve_every_return(result, in.scenes, index, nodes, how, context);
   if (forward && result.intrinsics.mode != IntrinsicsMode::kFixed) {
     // The start rested on a camera that the corners alone had given. With the better one scenes may
     // come back, and nodes and planes are judged by it.
     result.camera = forward->state.camera;
     how.first_camera = result.camera;
-    auto again = solve_extrinsic(observations, result.camera, target, extrinsic);
+    auto again = solve_extrinsic(in);
     if (again) {
       if (again->used_scenes != nodes.used_scenes)
-        forward = solve_every_return(result, observations, index, *again, how, context);
+        forward = solve_every_return(result, in.scenes, index, *again, how, context);
       nodes = std::move(*again);
     }
   }
@@ -71,8 +70,7 @@ Status solve_forward_model(CalibrationResult& result, const Target& target,
                                 .cwiseMax(0.0)
                                 .cwiseSqrt();
   result.extrinsic =
-      report_forward(pose_of(*result.forward), forward_subsets(*result.forward, nodes), nodes,
-                     observations, result.camera, target, extrinsic);
+      report_forward(pose_of(*result.forward), forward_subsets(*result.forward, nodes), nodes, in);
   result.covariance_total = total_covariance(*result.forward, left_out_sizes(result));
   return Done{};
 }
@@ -132,7 +130,7 @@ Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const T
                                               const std::vector<std::size_t>& index,
                                               std::vector<SceneObservations>& observations,
                                               ExtrinsicOptions& options) {
-  auto solution = solve_extrinsic(observations, result.camera, target, options);
+  auto solution = solve_extrinsic({observations, result.camera, target, options});
   if (!solution) return solution;
   bool kept = false;
   for (std::size_t k = 0; k < index.size(); ++k) {
@@ -163,7 +161,7 @@ Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const T
     scene.contradicts = true;
   }
   options.reject_bad_scenes = false;
-  return solve_extrinsic(observations, result.camera, target, options);
+  return solve_extrinsic({observations, result.camera, target, options});
 }
 
 }  // namespace
@@ -211,9 +209,8 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     return error;
   }
   ExtrinsicSolution nodes = std::move(*solution);
-  if (Status status =
-          solve_forward_model(result, target, observations, index, nodes, extrinsic, context);
-      !status)
+  const FeatureInput in{observations, result.camera, target, extrinsic};
+  if (Status status = solve_forward_model(result, in, index, nodes, context); !status)
     return status.error();
   if (Status s = check_intrinsics(result, observations, index, nodes, context); !s)
     return s.error();
@@ -236,7 +233,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   }
   methods.paper = JointVariant{"joint_paper", with_paper_nodes(observations, result, index),
                                paper_objective(extrinsic)};
-  result.methods = compare_methods(observations, result.camera, target, nodes, extrinsic, methods);
+  result.methods = compare_methods(in, nodes, methods);
   if (context.stopped()) return Error::cancelled();
   result.ablation.clear();
   if (options.ablation) {
@@ -244,8 +241,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     if (!steps) return steps.error();
     result.ablation = std::move(*steps);
   }
-  result.uncertainty = assess_uncertainty(observations, result.camera, target, result.extrinsic,
-                                          extrinsic, {}, subsets);
+  result.uncertainty = assess_uncertainty(in, result.extrinsic, subsets);
   if (Status status = respond(result, target, options, context); !status) return status.error();
   judge_quality(result, options.quality);
   return result;

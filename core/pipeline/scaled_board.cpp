@@ -45,8 +45,8 @@ BoardCandidate best_at_size(const Cloud& cloud, const CalibrationResult& result,
                             const RunContext& context) {
   const Target target = scaled(result.target, size);
   const double distance_m = size * view.camera_from_board.transform.translation.norm();
-  const auto search = search_board(cloud, target, PatternPyramid(target), distance_m, std::nullopt,
-                                   options, context);
+  const auto search =
+      search_board(cloud, {target, PatternPyramid(target), distance_m}, options, context);
   BoardCandidate best;
   for (const BoardCandidate& candidate : search.candidates) {
     if (candidate.gain > best.gain) best = candidate;

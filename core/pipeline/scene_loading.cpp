@@ -109,8 +109,9 @@ class SceneLoader {
     quiet.progress = {};
     std::optional<BoardSearchRegion> region;
     if (request_.guess) region = predicted_region(s, *request_.guess, true);
-    auto search = search_board(*cloud, dataset_.target, pyramid(),
-                               board_distance(*result_.scenes[s].view, dataset_.target), region,
+    auto search = search_board(*cloud,
+                               {dataset_.target, pyramid(),
+                                board_distance(*result_.scenes[s].view, dataset_.target), region},
                                request_.options.localization, quiet);
     if (context_.stopped()) return;  // Half a search is not to be kept.
     const double localize = ms_since(start);
@@ -287,8 +288,10 @@ Status search_scene_again(const SecondSearch& where, const RunContext& context, 
   options.search_walls = true;
   SecondLook look;
   look.search =
-      search_board(*cloud, where.target, where.pyramid, board_distance(*scene.view, where.target),
-                   region.radius_m > 0 ? std::optional(region) : std::nullopt, options, context);
+      search_board(*cloud,
+                   {where.target, where.pyramid, board_distance(*scene.view, where.target),
+                    region.radius_m > 0 ? std::optional(region) : std::nullopt},
+                   options, context);
   if (context.stopped()) return Error::cancelled();
   if (region.radius_m > 0) look.place = look_at_place(*cloud, region.center_m, where.target);
   take(look);

@@ -68,7 +68,6 @@ struct CameraInfoMessage {
   std::int64_t stamp_ns = 0;
   std::string frame;
   Camera camera;
-  std::vector<Message> warnings;
 };
 
 /// CameraInfo. `rectified`: the intrinsics of rectified images (from P) instead of those of raw

@@ -65,11 +65,6 @@ double TransitionNoise::plateau_sigma() const {
   return std::sqrt(std::max(variance_.front(), variance_.back()));
 }
 
-double TransitionNoise::information(double z) const {
-  const double slope = normal_pdf(z);
-  return slope * slope / variance(z);
-}
-
 void TransitionNoise::update(const std::vector<TransitionResidual>& residuals) {
   constexpr std::size_t kFewest = 20;
   if (residuals.size() < kFewest) return;

@@ -24,8 +24,6 @@ class TransitionNoise {
   [[nodiscard]] double variance(double z) const { return variance_[zone(z)]; }
   /// The larger of the two plateaus' standard deviations.
   [[nodiscard]] double plateau_sigma() const;
-  /// What a sample says about where the edge is: (∂level/∂z)² over its variance.
-  [[nodiscard]] double information(double z) const;
 
   /// Estimates it anew; fewer than twenty residuals change nothing.
   void update(const std::vector<TransitionResidual>& residuals);

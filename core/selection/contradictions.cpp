@@ -115,8 +115,7 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
   columns.add(tried.effect, tried.shape, table());
   append_columns(columns.list()[own_count()], nullptr, subset);
   append_columns(columns.list()[own_count() + 1], nullptr, subset);
-  const Linearization linear =
-      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return false;
   const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 3});
   return f_test(fit, tried.count()) * static_cast<double>(candidates_.size()) >

@@ -163,8 +163,7 @@ std::vector<EffectSearch::Swap> EffectSearch::swaps(std::size_t k,
   for (const EffectPtr& effect : effects) {
     for (const double shape : shapes_worth_trying(*effect)) columns.add(effect, shape, table());
   }
-  const Linearization linear =
-      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return {};
   const Reference as_it_is = make_reference(linear, own_subset(columns), variances_, {});
   std::vector<Swap> tried(columns.list().size() - first);
@@ -192,7 +191,7 @@ std::vector<EffectSearch::Swap> EffectSearch::swaps(std::size_t k,
 }
 
 void EffectSearch::refit() {
-  refit_from(linearize(table(), state_, model(), own_columns(), context_, kEveryChannel, &memory_));
+  refit_from(linearized(model(), own_columns()));
 }
 
 void EffectSearch::refit_from(Linearization start) {
@@ -223,7 +222,7 @@ Linearization EffectSearch::linear_here() const {
   if (at_ == At::kLinear) return linear_;
   // A tenth of a standard deviation further derivatives are the same.
   if (at_ == At::kFit) return stepped(linear_, reference_.fit);
-  return linearize(table(), state_, fitted(), own_columns(), context_, kEveryChannel, &memory_);
+  return linearized(fitted(), own_columns());
 }
 
 ModelFit EffectSearch::fit_as_it_stands(const Linearization& linear,
@@ -251,9 +250,7 @@ void EffectSearch::settle() {
   constexpr int kVarianceRounds = 12;  // Per step, as in the joint solve; they go on in the next.
   stated_.reset();
   joint_covariance_.reset();
-  linear_ = sensor_.empty() ? linear_here()
-                            : linearize(table(), state_, fitted(), own_columns(), context_,
-                                        kEveryChannel, &memory_);
+  linear_ = sensor_.empty() ? linear_here() : linearized(fitted(), own_columns());
   at_ = At::kLinear;
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     for (int round = 0; round < kVarianceRounds; ++round) {
@@ -318,8 +315,7 @@ EffectSearch::Descent EffectSearch::descend(double size) {
   const double before = misfit(linear_, reference_.subset, weights);
   for (double share = 1.0; share * size > kStands; share *= 0.5) {
     move(reference_.fit, share);
-    Linearization next =
-        linearize(table(), state_, fitted(), own_columns(), context_, kEveryChannel, &memory_);
+    Linearization next = linearized(fitted(), own_columns());
     if (context_.stopped()) return Descent::kNone;
     const double after = misfit(next, own_subset(next.columns), weights);
     if (after < before) {
@@ -498,7 +494,7 @@ void EffectSearch::rank() {
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   append_candidates(columns);
-  linear_ = linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  linear_ = linearized(model(), columns);
   at_ = At::kLinear;
   candidates_.clear();
   if (context_.stopped()) return;
@@ -619,8 +615,7 @@ std::vector<ModelFit> EffectSearch::fits_with(const std::vector<LeftOutGroup>& g
       append(other, subsets[1 + g]);
     }
   }
-  const Linearization linear =
-      linearize(table(), state_, fitted(), columns, context_, kEveryChannel, &memory_);
+  const Linearization linear = linearized(fitted(), columns);
   if (context_.stopped()) return {};
   std::vector<ModelFit> out;
   for (const ColumnSubset& subset : subsets) out.push_back(fit_as_it_stands(linear, subset));
@@ -633,8 +628,7 @@ std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect)
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   columns.add(effect, shape, table());
-  const Linearization linear =
-      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return std::nullopt;
   const Reference reference = make_reference(linear, subset, variances_, {.rounds = 0});
   const Candidate c = evaluate_candidate(linear, reference, own_count(), options_->tolerance, {});

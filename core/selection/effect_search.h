@@ -160,6 +160,12 @@ class EffectSearch {
   // The model and the sensor's errors: what the rows are fitted with.
   [[nodiscard]] std::vector<EffectInUse> fitted() const;
   [[nodiscard]] EffectColumnsList own_columns() const;
+  // By these effects' columns about the state in use.
+  [[nodiscard]] Linearization linearized(const std::vector<EffectInUse>& effects,
+                                         const EffectColumnsList& columns,
+                                         const ChannelMask& channels = kEveryChannel) const {
+    return linearize(table(), state_, effects, columns, context_, channels, &memory_);
+  }
   // Columns that stand for effect number `of`, its value in use taken for zero.
   struct OtherColumns {
     std::size_t of, columns;

@@ -41,11 +41,9 @@ void read_back(const EffectSearch& search, std::vector<ModelTerm>& terms) {
     if (!term.use.held) {
       term.use.values = fitted.values;
       term.use.shape = fitted.shape;
-      term.shape_sigma = search.shape_sigma(next);
       term.sigma = search.joint_covariance().diagonal().segment(at, n).cwiseMax(0.0).cwiseSqrt();
     } else {
       term.sigma.setZero(n);
-      term.shape_sigma = 0.0;
     }
     at += n;
     ++next;

@@ -26,7 +26,6 @@ class EffectSearch;
 /// What discovery starts from: the scenes in use and the state of the plain calibration. The print
 /// is null where the joint solve over every return failed.
 struct DiscoveryInput : TableInput {
-  Target target;
   ModelState state;
 };
 
@@ -47,10 +46,9 @@ struct ModelTerm {
   std::string spec;  ///< What make_effect() takes: an id, or a formula or curve.
   EffectInUse use;
   std::vector<EffectParameter> parameters;
-  Eigen::VectorXd sigma;     ///< Standard deviations (SI); zero where the values are held.
-  double shape_sigma = 0.0;  ///< Of the shape number; zero if it has none or is held.
-  Selection selection;       ///< How it came into the model.
-  bool on = true;            ///< Off: kept with its values, no part of the model.
+  Eigen::VectorXd sigma;  ///< Standard deviations (SI); zero where the values are held.
+  Selection selection;    ///< How it came into the model.
+  bool on = true;         ///< Off: kept with its values, no part of the model.
 
   [[nodiscard]] std::vector<ParameterEstimate> estimates() const;
 };

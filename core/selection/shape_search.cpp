@@ -44,8 +44,7 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
   EffectColumnsList columns = own_columns();
   const ColumnSubset subset = own_subset(columns);
   for (const double shape : shapes) columns.add(effect, shape, table());
-  const Linearization linear =
-      linearize(table(), state_, model(), columns, context_, kEveryChannel, &memory_);
+  const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return shapes.front();
   const Reference reference = make_reference(linear, subset, variances_, {});
   std::vector<double> gain(shapes.size(), -HUGE_VAL);
@@ -74,7 +73,7 @@ std::vector<double> EffectSearch::shape_profile(std::size_t k, const std::vector
         here = here || elsewhere->squares(channel, mine.first + p) > 0.0;
     }
   }
-  Linearization linear = linearize(table(), state_, model(), columns, context_, acts, &memory_);
+  Linearization linear = linearized(model(), columns, acts);
   std::vector<double> out(shapes.size(), 0.0);
   if (context_.stopped()) return out;
   for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
@@ -170,8 +169,7 @@ void EffectSearch::estimate_joint_covariance() {
     shaped.push_back(k);
   }
   if (shaped.empty() || context_.stopped()) return;
-  const Linearization linear =
-      linearize(table(), state_, fitted(), columns, context_, kEveryChannel, &memory_);
+  const Linearization linear = linearized(fitted(), columns);
   if (context_.stopped()) return;
   const ModelFit fit = fit_as_it_stands(linear, subset);
   const auto own = fit.covariance.rows() - static_cast<Eigen::Index>(shaped.size());

@@ -101,8 +101,7 @@ Rigid3 solve_by_joint(const MethodInput& input, const Rigid3& start) {
   NoiseScales scales = input.scales;
   JointState state{start, input.camera_from_board};
   for (int round = 0; round < kRounds; ++round) {
-    const JointFit fit = solve_joint(input.scenes, input.camera, input.target, state, scales,
-                                     input.mask, input.options);
+    const JointFit fit = solve_joint(input, state, scales, input.mask);
     state = fit.state;
     const GroupFit& nodes = fit.groups[static_cast<std::size_t>(ResidualGroup::kNode)];
     if (nodes.redundancy < 1.0) break;
@@ -116,8 +115,7 @@ Rigid3 solve_by_joint(const MethodInput& input, const Rigid3& start) {
 }
 
 Rigid3 solve_as_stated(const MethodInput& input, const Rigid3& start) {
-  return solve_joint(input.scenes, input.camera, input.target, {start, input.camera_from_board},
-                     input.scales, input.mask, input.options)
+  return solve_joint(input, {start, input.camera_from_board}, input.scales, input.mask)
       .state.camera_from_lidar;
 }
 

@@ -6,11 +6,7 @@
 namespace lvcalib {
 
 /// What every method is given.
-struct MethodInput {
-  const std::vector<SceneObservations>& scenes;
-  const Camera& camera;
-  const Target& target;
-  const ExtrinsicOptions& options;
+struct MethodInput : FeatureInput {
   ObservationMask mask;
   NoiseScales scales;
   std::vector<Rigid3> camera_from_board;  ///< From the corners alone.

@@ -45,8 +45,7 @@ void describe_numbers(BoardReturns& returns) {
 
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            const RangeNoise& noise, const ReturnSelection& selection,
-                            const std::function<double(std::uint32_t)>& added_m) {
+                            const RangeNoise& noise, const ReturnSelection& selection) {
   const BoardPredictor predictor(print, lidar_from_board, {}, beam);
   const double beam_rad = std::sqrt(beam.blur_rad2.trace());
   const BoardOutline& outline = print.outline();
@@ -72,8 +71,8 @@ BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                     // One spot is wider than the beam's angles span by 1/cos θ at most.
                     kCoverSpots * beam_rad * range / 0.5};
     const double gate = selection.range_gate * at.sigma_m;
-    if (added_m && std::abs(at.off_m) > gate) {
-      const double off = at.off_m - added_m(at.point);
+    if (selection.added_m && std::abs(at.off_m) > gate) {
+      const double off = at.off_m - selection.added_m(at.point);
       if (std::abs(off) < std::abs(at.off_m)) at.off_m = off;
     }
     if (at.off_m < -std::max(kCover_m, 2.0 * gate)) {

@@ -57,18 +57,18 @@ struct ReturnSelection {
   bool covers = true;
   /// Parts of the board where nothing counts as covered, whatever it looks like.
   std::vector<BoardOutline> uncovered = {};
+  /// What effects in the model add to the range of a point of the cloud; empty: nothing. A return
+  /// is on the board if its range agrees with or without that: what an effect has brought in stays
+  /// in should the effect be wrong. It is asked of those returns alone that do not agree.
+  std::function<double(std::uint32_t)> added_m = {};
 };
 
 /// Picks the returns on a board at `lidar_from_board`: those whose ray meets the board's inside and
 /// whose range agrees with its plane. Where something stands before the board or lies on it,
 /// returns within three spot widths of it are left out as well: part of their light comes from it.
-/// `added_m`: what effects in the model add to the range of a point of the cloud; empty: nothing. A
-/// return is on the board if its range agrees with or without that: what an effect has brought in
-/// stays in should the effect be wrong. It is asked of those returns alone that do not agree.
 BoardReturns select_returns(const Cloud& cloud, const BlurredPrint& print,
                             const Rigid3& lidar_from_board, const BeamSpread& beam,
-                            const RangeNoise& noise, const ReturnSelection& selection = {},
-                            const std::function<double(std::uint32_t)>& added_m = {});
+                            const RangeNoise& noise, const ReturnSelection& selection = {});
 
 /// Below this intensity_structure() returns show no print: noise alone gives one, with a few
 /// hundred returns ± 0.1; a print of a contrast of half the noise adds this quarter.

@@ -72,8 +72,9 @@ double robust_sigma_px(const std::vector<Eigen::Vector2d>& errors, double unknow
 
 }  // namespace
 
-CornerFit fit_corners(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                      const ObservationMask& mask, const ExtrinsicOptions& options) {
+CornerFit fit_corners(const FeatureInput& in, const ObservationMask& mask) {
+  const std::vector<SceneObservations>& scenes = in.scenes;
+  const ExtrinsicOptions& options = in.options;
   constexpr int kRounds = 8;
   CornerFit fit;
   for (const SceneObservations& scene : scenes)
@@ -83,7 +84,7 @@ CornerFit fit_corners(const std::vector<SceneObservations>& scenes, const Camera
     std::vector<Eigen::Vector2d> errors;
     for (std::size_t s = 0; s < scenes.size(); ++s) {
       if (mask.scene[s])
-        append_errors(scenes[s], camera, mask.corner[s], fit.camera_from_board[s], errors);
+        append_errors(scenes[s], in.camera, mask.corner[s], fit.camera_from_board[s], errors);
     }
     return errors;
   };
@@ -97,7 +98,7 @@ CornerFit fit_corners(const std::vector<SceneObservations>& scenes, const Camera
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t s = 0; s < scenes.size(); ++s) {
       if (!mask.scene[s]) continue;
-      fit.camera_from_board[s] = fit_pose(scenes[s], camera, mask.corner[s],
+      fit.camera_from_board[s] = fit_pose(scenes[s], in.camera, mask.corner[s],
                                           fit.camera_from_board[s], fit.sigma_px, options);
     }
     const double before = fit.sigma_px;

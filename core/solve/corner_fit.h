@@ -15,7 +15,6 @@ struct CornerFit {
 
 /// Fits the poses from the starts in `scenes` (Huber weights at options.robust_threshold, noise
 /// re-estimated until it stands still). Sigma is never below options.sigma_px_floor.
-CornerFit fit_corners(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                      const ObservationMask& mask, const ExtrinsicOptions& options);
+CornerFit fit_corners(const FeatureInput& in, const ObservationMask& mask);
 
 }  // namespace lvcalib

@@ -17,21 +17,17 @@ using Block = std::array<double, 7>;
 
 class JointProblem {
  public:
-  JointProblem(const std::vector<SceneObservations>& scenes, const Camera& camera,
-               const Target& target, const JointState& start, const NoiseScales& scales,
-               const ObservationMask& mask, const ExtrinsicOptions& options,
-               bool hold_extrinsic = false)
-      : scenes_(scenes),
-        camera_(camera),
+  JointProblem(const FeatureInput& in, const JointState& start, const NoiseScales& scales,
+               const ObservationMask& mask, bool hold_extrinsic = false)
+      : in_(in),
         scales_(scales),
         mask_(mask),
-        options_(options),
-        probes_(plane_probe_points(target)),
-        boards_(scenes.size()),
+        probes_(plane_probe_points(in.target)),
+        boards_(in.scenes.size()),
         problem_(problem_options()) {
     rigid_to_block(start.camera_from_lidar, extrinsic_.data());
     problem_.AddParameterBlock(extrinsic_.data(), 7, &manifold_);
-    for (std::size_t s = 0; s < scenes.size(); ++s) {
+    for (std::size_t s = 0; s < in.scenes.size(); ++s) {
       rigid_to_block(start.camera_from_board[s], boards_[s].data());
       if (!mask.scene[s]) continue;
       problem_.AddParameterBlock(boards_[s].data(), 7, &manifold_);
@@ -44,7 +40,6 @@ class JointProblem {
     const ceres::Solver::Summary summary = descend();
     JointFit fit;
     fit.converged = summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE;
-    fit.iterations = static_cast<int>(summary.iterations.size());
     fit.state = state();
     analyse(fit);
     return fit;
@@ -58,7 +53,7 @@ class JointProblem {
  private:
   ceres::Solver::Summary descend() {
     ceres::Solver::Options options;
-    options.max_num_iterations = options_.max_iterations;
+    options.max_num_iterations = in_.options.max_iterations;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.function_tolerance = 1e-12;
     options.gradient_tolerance = 1e-12;
@@ -86,12 +81,13 @@ class JointProblem {
   }
 
   void add_scene(std::size_t s) {
-    const SceneObservations& scene = scenes_[s];
+    const SceneObservations& scene = in_.scenes[s];
     for (std::size_t k = 0; k < scene.corners.size(); ++k) {
       if (!mask_.corner[s][k]) continue;
       const CornerObservation& c = scene.corners[k];
-      add(problem_.AddResidualBlock(new CornerCost(camera_, c.board_m, c.pixel, scales_.sigma_px),
-                                    &loss_, boards_[s].data()),
+      add(problem_.AddResidualBlock(
+              new CornerCost(in_.camera, c.board_m, c.pixel, scales_.sigma_px), &loss_,
+              boards_[s].data()),
           ResidualGroup::kCorner, 2);
     }
     PlaneAxes axes;
@@ -102,15 +98,15 @@ class JointProblem {
       if (mask_.node[s][k]) add_node(s, scene.nodes[k], axes);
     }
     // Otherwise the nodes' third axis stands for the plane.
-    if (options_.node_term == NodeTerm::kInPlane) add_plane(s);
+    if (in_.options.node_term == NodeTerm::kInPlane) add_plane(s);
   }
 
   void add_node(std::size_t s, const RefinedNode& node, const PlaneAxes& axes) {
-    const double floor_sq = options_.node_sigma_floor_m * options_.node_sigma_floor_m;
+    const double floor_sq = in_.options.node_sigma_floor_m * in_.options.node_sigma_floor_m;
     const double scale_sq = scales_.node * scales_.node;
     const Eigen::Matrix2d in_plane =
         scale_sq * (node.covariance_m2 + floor_sq * Eigen::Matrix2d::Identity());
-    if (options_.node_term == NodeTerm::kInPlane) {
+    if (in_.options.node_term == NodeTerm::kInPlane) {
       add(problem_.AddResidualBlock(
               new NodeCost(node.board_m, node.center_lidar_m, axes, whitening_2(in_plane)), &loss_,
               extrinsic_.data(), boards_[s].data()),
@@ -119,7 +115,7 @@ class JointProblem {
     }
     const double variance = scale_sq * (node.sigma_m() * node.sigma_m() + floor_sq);
     Eigen::Matrix3d covariance = variance * Eigen::Matrix3d::Identity();
-    if (options_.node_term == NodeTerm::kAllAxes) covariance.topLeftCorner<2, 2>() = in_plane;
+    if (in_.options.node_term == NodeTerm::kAllAxes) covariance.topLeftCorner<2, 2>() = in_plane;
     add(problem_.AddResidualBlock(
             new NodePointCost(node.board_m, node.center_lidar_m, axes, whitening_3(covariance)),
             &loss_, extrinsic_.data(), boards_[s].data()),
@@ -127,10 +123,10 @@ class JointProblem {
   }
 
   void add_plane(std::size_t s) {
-    const SceneObservations& scene = scenes_[s];
+    const SceneObservations& scene = in_.scenes[s];
     const Eigen::Matrix3d covariance = scales_.plane * scales_.plane *
                                        probe_covariance(scene.plane, scene.lidar_from_board,
-                                                        probes_, options_.plane_sigma_floor_m);
+                                                        probes_, in_.options.plane_sigma_floor_m);
     add(problem_.AddResidualBlock(new PlaneCost(probes_, scene.plane.center_m, scene.plane.normal,
                                                 whitening_3(covariance)),
                                   &loss_, extrinsic_.data(), boards_[s].data()),
@@ -203,16 +199,14 @@ class JointProblem {
     return sum;
   }
 
-  const std::vector<SceneObservations>& scenes_;
-  const Camera& camera_;
+  const FeatureInput in_;
   const NoiseScales& scales_;
   const ObservationMask& mask_;
-  const ExtrinsicOptions& options_;
   Eigen::Matrix3d probes_;
   Block extrinsic_{};
   std::vector<Block> boards_;
   RigidManifold manifold_;
-  ceres::HuberLoss loss_{options_.robust_threshold};
+  ceres::HuberLoss loss_{in_.options.robust_threshold};
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> ids_;
   std::vector<ResidualGroup> groups_;
@@ -239,17 +233,14 @@ NoiseScales scales_of(const ExtrinsicSolution& solution) {
   return {solution.sigma_px, solution.node_scale, solution.plane_scale};
 }
 
-JointFit solve_joint(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                     const Target& target, const JointState& start, const NoiseScales& scales,
-                     const ObservationMask& mask, const ExtrinsicOptions& options) {
-  return JointProblem(scenes, camera, target, start, scales, mask, options).solve();
+JointFit solve_joint(const FeatureInput& in, const JointState& start, const NoiseScales& scales,
+                     const ObservationMask& mask) {
+  return JointProblem(in, start, scales, mask).solve();
 }
 
-std::vector<Rigid3> solve_boards(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                                 const Target& target, const JointState& start,
-                                 const NoiseScales& scales, const ObservationMask& mask,
-                                 const ExtrinsicOptions& options) {
-  return JointProblem(scenes, camera, target, start, scales, mask, options, true).solve_boards();
+std::vector<Rigid3> solve_boards(const FeatureInput& in, const JointState& start,
+                                 const NoiseScales& scales, const ObservationMask& mask) {
+  return JointProblem(in, start, scales, mask, true).solve_boards();
 }
 
 Eigen::Matrix2d whitening_2(const Eigen::Matrix2d& covariance) {

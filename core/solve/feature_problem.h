@@ -11,14 +11,6 @@
 
 namespace lvcalib {
 
-/// What a solve by features is given, and functions of it pass on.
-struct FeatureInput {
-  const std::vector<SceneObservations>& scenes;
-  const Camera& camera;
-  const Target& target;
-  const ExtrinsicOptions& options;
-};
-
 /// Standard deviations that the joint objective uses, estimated from round to round.
 struct NoiseScales {
   double sigma_px = 0.1;
@@ -60,20 +52,16 @@ struct JointFit {
   Matrix6d information = Matrix6d::Zero();  ///< Of the extrinsic, board poses eliminated.
   std::array<GroupFit, kResidualGroups> groups;
   bool converged = false;
-  int iterations = 0;
 };
 
 /// Solves the weighted objective once, with fixed scales and mask.
-JointFit solve_joint(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                     const Target& target, const JointState& start, const NoiseScales& scales,
-                     const ObservationMask& mask, const ExtrinsicOptions& options);
+JointFit solve_joint(const FeatureInput& in, const JointState& start, const NoiseScales& scales,
+                     const ObservationMask& mask);
 
 /// Board poses that fit best when the extrinsic is held at `camera_from_lidar`: what an extrinsic
 /// leaves of the objective, wherever it comes from. Scenes not in the mask keep their start.
-std::vector<Rigid3> solve_boards(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                                 const Target& target, const JointState& start,
-                                 const NoiseScales& scales, const ObservationMask& mask,
-                                 const ExtrinsicOptions& options);
+std::vector<Rigid3> solve_boards(const FeatureInput& in, const JointState& start,
+                                 const NoiseScales& scales, const ObservationMask& mask);
 
 /// Inverse square root (upper Cholesky factor of the inverse) of a covariance: whitening·residual
 /// has unit covariance.

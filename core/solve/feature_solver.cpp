@@ -64,14 +64,12 @@ Rigid3 closed_form_extrinsic(const std::vector<SceneObservations>& scenes, const
   return align_points(pairs);
 }
 
-Result<ExtrinsicSolution> solve_extrinsic(const std::vector<SceneObservations>& scenes,
-                                          const Camera& camera, const Target& target,
-                                          const ExtrinsicOptions& options) {
-  if (Status status = enough_scenes(scenes, target); !status) return status.error();
-  if (Status status = corners_in_view(scenes, camera); !status) return status.error();
-  auto fit = fit_robustly(scenes, camera, target, options);
+Result<ExtrinsicSolution> solve_extrinsic(const FeatureInput& in) {
+  if (Status status = enough_scenes(in.scenes, in.target); !status) return status.error();
+  if (Status status = corners_in_view(in.scenes, in.camera); !status) return status.error();
+  auto fit = fit_robustly(in);
   if (!fit) return fit.error();
-  return report_solution(*fit, scenes, camera, target, options);
+  return report_solution(*fit, in);
 }
 
 }  // namespace lvcalib

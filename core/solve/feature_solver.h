@@ -49,6 +49,14 @@ struct ExtrinsicOptions {
   int max_iterations = 50;
 };
 
+/// What a solve by features is given, and functions of it pass on.
+struct FeatureInput {
+  const std::vector<SceneObservations>& scenes;
+  const Camera& camera;
+  const Target& target;
+  const ExtrinsicOptions& options;
+};
+
 /// One corner's residual (measured − predicted).
 struct CornerResidual {
   int feature_id = 0;
@@ -100,7 +108,6 @@ struct ExtrinsicSolution {
   int rank = 6;              ///< Directions of the extrinsic that the scenes determine.
   std::vector<Message> weak_directions;  ///< In words; empty when none is.
   int used_scenes = 0;
-  int iterations = 0;
   [[nodiscard]] bool uses_nodes() const {
     return std::any_of(scenes.begin(), scenes.end(),
                        [](const SceneSolution& s) { return s.used && s.uses_nodes(); });
@@ -112,9 +119,7 @@ struct ExtrinsicSolution {
 /// their refinement; the board planes with theirs. For targets without circles corners and
 /// planes alone. Robust against single bad tags, nodes and scenes.
 /// Errors (kUntrusted): no scenes; fewer than three scenes without nodes; not solvable.
-Result<ExtrinsicSolution> solve_extrinsic(const std::vector<SceneObservations>& scenes,
-                                          const Camera& camera, const Target& target,
-                                          const ExtrinsicOptions& options);
+Result<ExtrinsicSolution> solve_extrinsic(const FeatureInput& in);
 
 /// Closed-form start: aligns board points seen by both sensors (Kabsch) over the used scenes.
 Rigid3 closed_form_extrinsic(const std::vector<SceneObservations>& scenes, const Target& target);

@@ -25,7 +25,6 @@ namespace lvcalib {
 /// What one scene brings to the joint solve: corners that are in use, and the points about the
 /// board.
 struct ForwardScene {
-  std::string name;
   std::vector<CornerObservation> corners;
   const Cloud* board_points = nullptr;
   Rigid3 camera_from_board;                  ///< Start, from the corners alone.

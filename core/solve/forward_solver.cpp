@@ -34,11 +34,8 @@ constexpr double kShrinks = 0.5;
 // One error counts as one, rounding aside.
 constexpr double kOneError = 0.999;
 
-// What the solve is given.
-struct ForwardInput {
-  const std::vector<ForwardScene>& scenes;
-  const BlurredPrint& print;
-  const Camera& camera;  // As given.
+// What the solve is given, and how it runs.
+struct ForwardRun : ForwardInput {
   const ForwardOptions& options;
   const RunContext& context;
 };
@@ -58,12 +55,12 @@ struct Iteration {
   ForwardSolution solution;  // What else is known of it.
 };
 
-Iteration started(const ForwardInput& in, const Rigid3& start, double corner_sigma_px) {
+Iteration started(const ForwardRun& in) {
   Iteration it;
   it.state.camera = in.options.first_camera.value_or(in.camera);
-  it.state.camera_from_lidar = start;
+  it.state.camera_from_lidar = in.camera_from_lidar;
   it.noise.shared = kAbsentShared;
-  it.noise.corner_px = std::max(in.options.sigma_px_floor, corner_sigma_px);
+  it.noise.corner_px = std::max(in.options.sigma_px_floor, in.corner_sigma_px);
   it.solution.scenes.resize(in.scenes.size());
   const double blur = in.options.first_blur_rad * in.options.first_blur_rad;
   it.state.beam.blur_rad2 = blur * Eigen::Matrix2d::Identity();
@@ -100,7 +97,7 @@ double place_margin_m(const BoardOutline& outline, const Rigid3& board,
 
 // The returns on each board; false if there are none on any. `settled`: the boards lie where they
 // are, so that what stands out is something else.
-bool select(const ForwardInput& in, Iteration& it, bool settled) {
+bool select(const ForwardRun& in, Iteration& it, bool settled) {
   it.returns.resize(in.scenes.size());
   ReturnSelection how = in.options.selection;
   how.covers = how.covers && settled;
@@ -129,7 +126,7 @@ bool select(const ForwardInput& in, Iteration& it, bool settled) {
 
 // The blurs that most spots will ask for, made on all cores; others are made when they are asked
 // for.
-void prepare_print(const ForwardInput& in, const ForwardState& state) {
+void prepare_print(const ForwardRun& in, const ForwardState& state) {
   double nearest = 1e9;
   double farthest = 0.0;
   for (std::size_t s = 0; s < in.scenes.size(); ++s) {
@@ -142,7 +139,7 @@ void prepare_print(const ForwardInput& in, const ForwardState& state) {
 }
 
 // Where the prints put the boards, before anything else is asked of them.
-bool match(const ForwardInput& in, Iteration& it) {
+bool match(const ForwardRun& in, Iteration& it) {
   const auto vote = vote_on_print(it.returns, in.print, it.state.camera_from_board,
                                   it.state.camera_from_lidar, in.options.search, in.context);
   if (!vote) return false;
@@ -162,7 +159,7 @@ bool match(const ForwardInput& in, Iteration& it) {
 }
 
 // Levels by regression of the intensities on the coarse print.
-void first_levels(const ForwardInput& in, Iteration& it) {
+void first_levels(const ForwardRun& in, Iteration& it) {
   const BlurredPrint::Coarse print = in.print.coarse(kCoarseBlur_m);
   for (std::size_t s = 0; s < in.scenes.size(); ++s) {
     // Of a print that is not seen nobody knows what it does to ranges: it is plain.
@@ -205,7 +202,7 @@ LinearizationOptions final_rows(const ForwardOptions& options) {
   return how;
 }
 
-GlobalPrior global_prior(const ForwardInput& in, const Camera& now, bool free_blur,
+GlobalPrior global_prior(const ForwardRun& in, const Camera& now, bool free_blur,
                          bool free_intrinsics) {
   GlobalPrior prior;
   // Wide: any beam is narrower than 10 mrad; keeps a blur that no edge shows where it is.
@@ -337,7 +334,7 @@ void update_noise(double sigma_px_floor, Iteration& it) {
 }
 
 // The equations about the state as it is; the iteration keeps how well the scenes fit.
-std::vector<SceneEquations> linearized(const ForwardInput& in, Iteration& it,
+std::vector<SceneEquations> linearized(const ForwardRun& in, Iteration& it,
                                        const LinearizationOptions& how) {
   LinearizedScenes out = linearize_scenes({in.scenes, it.returns, in.print, it.state, it.noise},
                                           how, it.seen, in.context.thread_count());
@@ -346,22 +343,22 @@ std::vector<SceneEquations> linearized(const ForwardInput& in, Iteration& it,
 }
 
 // One Gauss–Newton step; the size of the extrinsic's move in its σ.
-std::optional<double> iterate(const ForwardInput& in, Iteration& it,
-                              const LinearizationOptions& how, bool free_blur) {
+std::optional<double> iterate(const ForwardRun& in, Iteration& it, const LinearizationOptions& how,
+                              bool free_blur) {
   if (in.context.stopped()) return std::nullopt;
   ++it.solution.iterations;
   const std::vector<SceneEquations> equations = linearized(in, it, how);
   it.prior = global_prior(in, it.state.camera, free_blur, how.stride == 1);
   GlobalSolution step =
-      solve_equations(equations, it.prior, it.state.sensor, it.noise.shared, BoardMotion::kWidens,
-                      how.shared_errors, in.context.thread_count());
+      solve_equations(equations, it.prior, it.state.sensor, it.noise.shared,
+                      {BoardMotion::kWidens, how.shared_errors, in.context.thread_count()});
   if (!step.solvable) return std::nullopt;
   if (how.shared_errors) {
     for (int round = 0; round < kVarianceRounds; ++round) {
       const bool moved = update_shared(step, false, it.noise);
       if (!moved && !admit_shared(step, false, in.options.false_alarm, it.noise)) break;
       step = solve_equations(equations, it.prior, it.state.sensor, it.noise.shared,
-                             BoardMotion::kWidens, true, in.context.thread_count());
+                             {BoardMotion::kWidens, true, in.context.thread_count()});
       if (!step.solvable) return std::nullopt;
     }
     it.equations = std::move(equations);
@@ -381,7 +378,7 @@ double mean_range_m(const ForwardState& state) {
   return sum / static_cast<double>(state.camera_from_board.size());
 }
 
-bool coarse(const ForwardInput& in, Iteration& it) {
+bool coarse(const ForwardRun& in, Iteration& it) {
   const Eigen::Matrix2d natural = it.state.beam.blur_rad2;
   // Without intensities nobody would bring it back.
   const double wide =
@@ -411,7 +408,7 @@ std::vector<std::uint16_t> lines_with_offset(const std::vector<BoardReturns>& re
   return out;
 }
 
-bool fine(const ForwardInput& in, Iteration& it) {
+bool fine(const ForwardRun& in, Iteration& it) {
   int rounds_left = in.options.max_iterations;
   // Few rows until the state stands still, then all of them, with shared errors.
   double last = HUGE_VAL;
@@ -442,12 +439,12 @@ bool fine(const ForwardInput& in, Iteration& it) {
 
 // How far boards move between camera and LiDAR, all else as it was found; and how well each kind of
 // motion is determined.
-SharedVariances measure_board_motion(const ForwardInput& in, Iteration& it) {
+SharedVariances measure_board_motion(const ForwardRun& in, Iteration& it) {
   SharedVariances determined{};
   for (int round = 0; round < kBoardRounds; ++round) {
     const GlobalSolution step =
-        solve_equations(it.equations, it.prior, it.before, it.noise.shared, BoardMotion::kWeighed,
-                        true, in.context.thread_count());
+        solve_equations(it.equations, it.prior, it.before, it.noise.shared,
+                        {BoardMotion::kWeighed, true, in.context.thread_count()});
     if (!step.solvable) break;
     for (std::size_t k = 0; k < kSharedErrors; ++k) {
       if (moves_board(k)) determined[k] = step.determined[k];
@@ -459,7 +456,7 @@ SharedVariances measure_board_motion(const ForwardInput& in, Iteration& it) {
 }
 
 // With the noise found at the solution, and with faults that it does not have.
-void last_step(const ForwardInput& in, Iteration& it) {
+void last_step(const ForwardRun& in, Iteration& it) {
   LinearizationOptions how = final_rows(in.options);
   how.faults = true;
   it.equations = linearized(in, it, how);
@@ -467,7 +464,7 @@ void last_step(const ForwardInput& in, Iteration& it) {
   it.before = it.state.sensor;
   const SharedVariances boards_determined = measure_board_motion(in, it);
   GlobalSolution step = solve_equations(it.equations, it.prior, it.before, it.noise.shared,
-                                        BoardMotion::kWidens, true, in.context.thread_count());
+                                        {BoardMotion::kWidens, true, in.context.thread_count()});
   if (!step.solvable) return;
   for (std::size_t k = 0; k < kSharedErrors; ++k) {
     if (moves_board(k)) step.determined[k] = boards_determined[k];
@@ -478,7 +475,7 @@ void last_step(const ForwardInput& in, Iteration& it) {
 
 // ν = 2v²/Var(v), v the trace of the extrinsic's scaled covariance, whose variance comes from
 // that of the estimated variances: Var(D) = 2D²/γ.
-double satterthwaite(const ForwardInput& in, const Iteration& it) {
+double satterthwaite(const ForwardRun& in, const Iteration& it) {
   constexpr double kStep = 0.2;
   const auto spread = [](const GlobalSolution& s) {
     // Rotations act over some three metres.
@@ -493,8 +490,8 @@ double satterthwaite(const ForwardInput& in, const Iteration& it) {
     SharedVariances varied = it.noise.shared;
     varied[k] *= 1.0 + kStep;
     const GlobalSolution s =
-        solve_equations(it.equations, it.prior, it.before, varied, BoardMotion::kWidens, false,
-                        in.context.thread_count());
+        solve_equations(it.equations, it.prior, it.before, varied,
+                        {BoardMotion::kWidens, false, in.context.thread_count()});
     if (!s.solvable) continue;
     const double slope = (spread(s) - v) / kStep;  // By the logarithm of D.
     variance += slope * slope * 2.0 / std::max(1.0, it.last.determined[k]);
@@ -503,7 +500,7 @@ double satterthwaite(const ForwardInput& in, const Iteration& it) {
   return variance > 0.0 ? std::min(kMany, 2.0 * v * v / variance) : kMany;
 }
 
-PrintSize print_size(const ForwardInput& in, const Iteration& it) {
+PrintSize print_size(const ForwardRun& in, const Iteration& it) {
   std::vector<SceneSize> scenes;
   for (std::size_t s = 0; s < in.scenes.size(); ++s) {
     const ForwardSceneResult& scene = it.solution.scenes[s];
@@ -513,7 +510,7 @@ PrintSize print_size(const ForwardInput& in, const Iteration& it) {
   return print_size_of(scenes, it.state.camera_from_lidar, in.print.outline().center_m());
 }
 
-ForwardSolution finished(const ForwardInput& in, Iteration& it) {
+ForwardSolution finished(const ForwardRun& in, Iteration& it) {
   ForwardSolution& out = it.solution;
   const Matrix6d covariance = it.last.covariance.topLeftCorner<6, 6>();
   out.camera_from_lidar = {it.state.camera_from_lidar, covariance};
@@ -577,17 +574,15 @@ std::optional<UncertainRigid3> solve_subset(const ForwardSolution& solution,
                          step->covariance.topLeftCorner<6, 6>()};
 }
 
-Result<ForwardSolution> solve_forward(const std::vector<ForwardScene>& scenes,
-                                      const BlurredPrint& print, const Camera& camera,
-                                      const Rigid3& camera_from_lidar, double corner_sigma_px,
-                                      const ForwardOptions& options, const RunContext& context) {
-  if (scenes.empty()) return Error::untrusted(Message("no usable scene is left"));
-  const ForwardInput in{scenes, print, camera, options, context};
+Result<ForwardSolution> solve_forward(const ForwardInput& input, const ForwardOptions& options,
+                                      const RunContext& context) {
+  if (input.scenes.empty()) return Error::untrusted(Message("no usable scene is left"));
+  const ForwardRun in{input, options, context};
   const auto failure = [&context] {
     if (context.stopped()) return Error::cancelled();
     return Error::untrusted(Message("the joint solve fails on these observations"));
   };
-  Iteration it = started(in, camera_from_lidar, corner_sigma_px);
+  Iteration it = started(in);
   if (!select(in, it, false)) {
     return Error::untrusted(Message("no LiDAR return lies on the board where the start puts it"),
                             {}, Message("give a rough extrinsic with --init"));

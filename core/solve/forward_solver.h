@@ -37,6 +37,15 @@ struct ForwardOptions {
   double first_blur_rad = 0.0015;
 };
 
+/// What the joint solve is given. Refers to all of it.
+struct ForwardInput {
+  const std::vector<ForwardScene>& scenes;
+  const BlurredPrint& print;
+  const Camera& camera;
+  Rigid3 camera_from_lidar;  ///< Start.
+  double corner_sigma_px = 0.0;
+};
+
 /// What the solve says about one scene.
 struct ForwardSceneResult {
   std::size_t returns = 0;  ///< Rows in use.
@@ -89,12 +98,10 @@ std::optional<UncertainRigid3> solve_subset(const ForwardSolution& solution,
 
 /// The joint solve: every corner, every range and every intensity on the boards, one extrinsic,
 /// one pose per board, one beam (Gauss–Newton; scenes eliminated; shared errors marginalised with
-/// variances estimated by restricted maximum likelihood). `start` may be off by some centimetres:
+/// variances estimated by restricted maximum likelihood). The start may be off by some centimetres:
 /// the print is matched scene by scene first, and the scenes' votes compared over all scenes.
 /// Errors (kUntrusted): no scene with returns on its board; not solvable. kCancelled.
-Result<ForwardSolution> solve_forward(const std::vector<ForwardScene>& scenes,
-                                      const BlurredPrint& print, const Camera& camera,
-                                      const Rigid3& camera_from_lidar, double corner_sigma_px,
-                                      const ForwardOptions& options, const RunContext& context);
+Result<ForwardSolution> solve_forward(const ForwardInput& input, const ForwardOptions& options,
+                                      const RunContext& context);
 
 }  // namespace lvcalib

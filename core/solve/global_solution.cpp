@@ -151,8 +151,8 @@ void GlobalPrior::set_sensor(const SensorErrors& sensor, const SharedVariances& 
 
 GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, GlobalPrior prior,
                                const SensorErrors& sensor, const SharedVariances& variances,
-                               BoardMotion motion, bool measure_shared, int threads) {
-  const auto weighed = [&](std::size_t kind) { return is_weighed(kind, motion); };
+                               const EliminationOptions& how) {
+  const auto weighed = [&](std::size_t kind) { return is_weighed(kind, how.motion); };
   GlobalSolution out;
   const Eigen::Index globals = scenes.front().globals;
   if (globals > kGlobals) prior.set_sensor(sensor, variances);
@@ -163,13 +163,13 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, Global
   };
   std::vector<Eliminated> parts(scenes.size());
   out.terms.resize(scenes.size());
-  parallel_for(scenes.size(), threads, [&](std::size_t s) {
+  parallel_for(scenes.size(), how.threads, [&](std::size_t s) {
     const SceneEquations& scene = scenes[s];
     const Eigen::Index n = scene.normal.rows() - globals;
     if (n <= 0) return;
-    const Eigen::VectorXd gradient = own_gradient(scene, variances, motion);
+    const Eigen::VectorXd gradient = own_gradient(scene, variances, how.motion);
     Eliminated& part = parts[s];
-    part.own.compute(own_equations(scene, variances, motion));
+    part.own.compute(own_equations(scene, variances, how.motion));
     if (part.own.info() != Eigen::Success) return;
     const Eigen::MatrixXd coupling = scene.normal.bottomLeftCorner(n, globals);
     part.to_globals = part.own.solve(coupling);
@@ -178,8 +178,9 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, Global
     term.information =
         scene.normal.topLeftCorner(globals, globals) - coupling.transpose() * part.to_globals;
     term.gradient = scene.gradient.head(globals) - coupling.transpose() * part.rest;
-    term.spread = motion == BoardMotion::kWidens ? board_spread(scene, part.to_globals, variances)
-                                                 : Eigen::MatrixXd::Zero(globals, globals);
+    term.spread = how.motion == BoardMotion::kWidens
+                      ? board_spread(scene, part.to_globals, variances)
+                      : Eigen::MatrixXd::Zero(globals, globals);
     term.usable = term.information.allFinite() && term.gradient.allFinite();
   });
   std::vector<const GlobalTerm*> terms;
@@ -194,10 +195,10 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, Global
   std::vector<SharedVariances> squares(scenes.size());
   std::vector<SharedVariances> determined(scenes.size());
   std::vector<SharedVariances> determined_squares(scenes.size());
-  parallel_for(scenes.size(), threads, [&](std::size_t s) {
+  parallel_for(scenes.size(), how.threads, [&](std::size_t s) {
     if (!out.terms[s].usable) return;
     out.scenes[s] = parts[s].rest - parts[s].to_globals * out.globals;
-    if (!measure_shared) return;
+    if (!how.measure_shared) return;
     const Eigen::Index n = out.scenes[s].size();
     const Eigen::MatrixXd inverse = parts[s].own.solve(Eigen::MatrixXd::Identity(n, n));
     const Eigen::MatrixXd spread = parts[s].to_globals * out.covariance;
@@ -215,7 +216,7 @@ GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, Global
     }
   });
   SharedVariances second{};
-  for (Eigen::Index i = 0; measure_shared && i < globals - kGlobals; ++i) {
+  for (Eigen::Index i = 0; how.measure_shared && i < globals - kGlobals; ++i) {
     const std::size_t k = sensor_kind(i);
     const Eigen::Index at = kGlobals + i;
     const double u = prior.offset(at) + out.globals(at);

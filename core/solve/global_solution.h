@@ -48,14 +48,21 @@ struct GlobalSolution {
   bool solvable = false;
 };
 
-/// Eliminates the scenes (Schur complement) and solves. Priors of locals are in the equations,
-/// those of the sensor's errors follow from the variances. Where motions of boards are not weighed
-/// (see moves_board()) they widen the covariance instead. With `measure_shared` also measures what
-/// the variances of the kinds that are weighed should be.
+/// Where motions of boards are not weighed (see moves_board()) they widen the covariance instead.
 enum class BoardMotion { kWeighed, kWidens };
+
+struct EliminationOptions {
+  BoardMotion motion = BoardMotion::kWidens;
+  /// Also measure what the variances of the kinds that are weighed should be.
+  bool measure_shared = false;
+  int threads = 1;
+};
+
+/// Eliminates the scenes (Schur complement) and solves. Priors of locals are in the equations,
+/// those of the sensor's errors follow from the variances.
 GlobalSolution solve_equations(const std::vector<SceneEquations>& scenes, GlobalPrior prior,
                                const SensorErrors& sensor, const SharedVariances& variances,
-                               BoardMotion motion, bool measure_shared, int threads);
+                               const EliminationOptions& how);
 
 /// What one scene says about faults that the solve does not have (see kFaults), its own unknowns
 /// eliminated.

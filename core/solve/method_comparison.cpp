@@ -28,11 +28,9 @@ constexpr Method kMethods[] = {
     {"joint_raw", Objective::kJoint, false},      {"joint_refined", Objective::kJoint, true}};
 
 // The observations that the joint solve took.
-MethodInput input_of(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                     const Target& target, const ExtrinsicSolution& joint,
-                     const ExtrinsicOptions& options) {
-  MethodInput input{scenes, camera, target, options, mask_of(joint), scales_of(joint), {}};
-  for (const SceneObservations& scene : scenes)
+MethodInput input_of(const FeatureInput& in, const ExtrinsicSolution& joint) {
+  MethodInput input{in, mask_of(joint), scales_of(joint), {}};
+  for (const SceneObservations& scene : in.scenes)
     input.camera_from_board.push_back(scene.camera_from_board);
   return input;
 }
@@ -59,7 +57,6 @@ bool has_three_nodes(const ObservationMask& mask) {
   return nodes >= 3;
 }
 
-// Board poses that fit best beside an extrinsic.
 // What all methods are measured by: the refined observations, and their joint solve.
 struct Yardstick {
   MethodInput refined;
@@ -72,8 +69,7 @@ std::vector<Rigid3> boards_beside(const Yardstick& by, const Rigid3& camera_from
   JointState start{camera_from_lidar, {}};
   for (const SceneSolution& scene : by.joint.scenes)
     start.camera_from_board.push_back(scene.camera_from_board);
-  return solve_boards(by.refined.scenes, by.refined.camera, by.refined.target, start,
-                      by.refined.scales, mask, by.refined.options);
+  return solve_boards(by.refined, start, by.refined.scales, mask);
 }
 
 std::vector<double> corner_errors(const MethodInput& input, std::size_t s, const Rigid3& board) {
@@ -215,10 +211,7 @@ std::optional<MethodResult> evaluate(const Yardstick& by, const JointVariant& va
                                      bool held_out) {
   NoiseScales scales;
   scales.sigma_px = by.refined.scales.sigma_px;
-  const MethodInput input{variant.scenes,
-                          by.refined.camera,
-                          by.refined.target,
-                          variant.options,
+  const MethodInput input{{variant.scenes, by.refined.camera, by.refined.target, variant.options},
                           whole_mask(variant.scenes, by.refined.mask.scene),
                           scales,
                           by.refined.camera_from_board};
@@ -243,34 +236,28 @@ ExtrinsicOptions paper_objective(ExtrinsicOptions options) {
   return options;
 }
 
-std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& scenes,
-                                          const Camera& camera, const Target& target,
-                                          const ExtrinsicSolution& joint,
-                                          const ExtrinsicOptions& options,
-                                          const MethodOptions& method_options) {
-  const std::vector<SceneObservations> raw_scenes = with_raw_nodes(scenes);
-  const MethodInput raw = input_of(raw_scenes, camera, target, joint, options);
-  const Yardstick by{input_of(scenes, camera, target, joint, options), joint};
-  const auto held_out = [&](int fewest) {
-    return method_options.held_out && joint.used_scenes >= fewest;
-  };
+std::vector<MethodResult> compare_methods(const FeatureInput& in, const ExtrinsicSolution& joint,
+                                          const MethodOptions& options) {
+  const std::vector<SceneObservations> raw_scenes = with_raw_nodes(in.scenes);
+  const MethodInput raw = input_of({raw_scenes, in.camera, in.target, in.options}, joint);
+  const Yardstick by{input_of(in, joint), joint};
+  const auto held_out = [&](int fewest) { return options.held_out && joint.used_scenes >= fewest; };
   // Each solves as many times as there are scenes, and none asks for another.
   std::vector<std::function<std::optional<MethodResult>()>> tasks;
   for (const Method& method : kMethods) {
     const bool is_joint = method.objective == Objective::kJoint && method.refined;
-    if (!target.has_circles() && !is_joint) continue;
+    if (!in.target.has_circles() && !is_joint) continue;
     // Without circles a scene less may leave too few to solve.
-    const int fewest = target.has_circles() ? 2 : 4;
+    const int fewest = in.target.has_circles() ? 2 : 4;
     const MethodInput& input = method.refined ? by.refined : raw;
     tasks.emplace_back([&, fewest] { return evaluate(by, method, input, held_out(fewest)); });
   }
-  if (method_options.paper && target.has_circles())
-    tasks.emplace_back([&] { return evaluate(by, *method_options.paper, held_out(2)); });
-  if (method_options.other)
-    tasks.emplace_back([&] { return evaluate(by, *method_options.other, held_out(2)); });
+  if (options.paper && in.target.has_circles())
+    tasks.emplace_back([&] { return evaluate(by, *options.paper, held_out(2)); });
+  if (options.other) tasks.emplace_back([&] { return evaluate(by, *options.other, held_out(2)); });
   std::vector<std::optional<MethodResult>> done(tasks.size());
   // The last ones take longest.
-  parallel_for(tasks.size(), method_options.threads, [&](std::size_t k) {
+  parallel_for(tasks.size(), options.threads, [&](std::size_t k) {
     const std::size_t at = tasks.size() - 1 - k;
     done[at] = tasks[at]();
   });
@@ -281,16 +268,12 @@ std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& 
   return results;
 }
 
-std::vector<MethodResult> compare_variants(const std::vector<SceneObservations>& scenes,
-                                           const Camera& camera, const Target& target,
-                                           const ExtrinsicSolution& joint,
-                                           const ExtrinsicOptions& options,
-                                           const std::vector<JointVariant>& variants,
-                                           bool held_out) {
-  const Yardstick by{input_of(scenes, camera, target, joint, options), joint};
+std::vector<MethodResult> compare_variants(const FeatureInput& in, const ExtrinsicSolution& joint,
+                                           const std::vector<JointVariant>& variants) {
+  const Yardstick by{input_of(in, joint), joint};
   std::vector<MethodResult> results;
   for (const JointVariant& variant : variants) {
-    auto result = evaluate(by, variant, held_out && joint.used_scenes >= 2);
+    auto result = evaluate(by, variant, joint.used_scenes >= 2);
     if (result) results.push_back(std::move(*result));
   }
   return results;

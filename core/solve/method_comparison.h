@@ -79,19 +79,12 @@ struct MethodOptions {
 /// Each with the centres as initialised (raw) and as refined. Boards without circles have no nodes
 /// to compare: joint_refined alone is listed, its rms_mm the heights over the planes.
 /// Behind them `paper`, and `other`, the joint solve over every return.
-std::vector<MethodResult> compare_methods(const std::vector<SceneObservations>& scenes,
-                                          const Camera& camera, const Target& target,
-                                          const ExtrinsicSolution& joint,
-                                          const ExtrinsicOptions& options,
-                                          const MethodOptions& method_options = {});
+std::vector<MethodResult> compare_methods(const FeatureInput& in, const ExtrinsicSolution& joint,
+                                          const MethodOptions& options = {});
 
 /// Variants of the joint objective, measured as compare_methods() does. Those that fewer than three
 /// nodes leave undetermined are not listed.
-std::vector<MethodResult> compare_variants(const std::vector<SceneObservations>& scenes,
-                                           const Camera& camera, const Target& target,
-                                           const ExtrinsicSolution& joint,
-                                           const ExtrinsicOptions& options,
-                                           const std::vector<JointVariant>& variants,
-                                           bool held_out = true);
+std::vector<MethodResult> compare_variants(const FeatureInput& in, const ExtrinsicSolution& joint,
+                                           const std::vector<JointVariant>& variants);
 
 }  // namespace lvcalib

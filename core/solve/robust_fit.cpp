@@ -44,14 +44,14 @@ void update_scales(const JointFit& fit, double false_alarm, NoiseScales& scales)
 JointFit settle(const FeatureInput& in, const JointState& start, const ObservationMask& mask,
                 NoiseScales& scales) {
   constexpr int kRounds = 5;
-  JointFit fit = solve_joint(in.scenes, in.camera, in.target, start, scales, mask, in.options);
+  JointFit fit = solve_joint(in, start, scales, mask);
   for (int round = 0; round < kRounds; ++round) {
     const NoiseScales old = scales;
     update_scales(fit, in.options.false_alarm, scales);
     const double change = std::max(std::abs(std::log(scales.node / old.node)),
                                    std::abs(std::log(scales.plane / old.plane)));
     if (change < 0.01) break;
-    fit = solve_joint(in.scenes, in.camera, in.target, fit.state, scales, mask, in.options);
+    fit = solve_joint(in, fit.state, scales, mask);
   }
   return fit;
 }
@@ -106,7 +106,7 @@ bool reject_outliers(const FeatureInput& in, const JointState& state, Observatio
     tags = reject_tags(in, s, state, scales, mask) || tags;
     nodes = reject_nodes(in, s, state, scales, mask) || nodes;
   }
-  if (tags) scales.sigma_px = fit_corners(in.scenes, in.camera, mask, in.options).sigma_px;
+  if (tags) scales.sigma_px = fit_corners(in, mask).sigma_px;
   return tags || nodes;
 }
 
@@ -200,22 +200,20 @@ int fewest_to_leave_one_out(const Target& target) {
   return target.has_circles() ? 3 : 4;
 }
 
-Result<RobustFit> fit_robustly(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                               const Target& target, const ExtrinsicOptions& options) {
-  const FeatureInput in{scenes, camera, target, options};
+Result<RobustFit> fit_robustly(const FeatureInput& in) {
   RobustFit out;
-  out.mask = full_mask(scenes);
-  out.reasons.resize(scenes.size());
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    if (!scenes[s].use) out.reasons[s] = Message("not used");
+  out.mask = full_mask(in.scenes);
+  out.reasons.resize(in.scenes.size());
+  for (std::size_t s = 0; s < in.scenes.size(); ++s) {
+    if (!in.scenes[s].use) out.reasons[s] = Message("not used");
   }
-  CornerFit corners = fit_corners(scenes, camera, out.mask, options);
+  CornerFit corners = fit_corners(in, out.mask);
   out.scales.sigma_px = corners.sigma_px;
-  const JointState start{closed_form_extrinsic(scenes, target),
+  const JointState start{closed_form_extrinsic(in.scenes, in.target),
                          std::move(corners.camera_from_board)};
   out.fit = settle(in, start, out.mask, out.scales);
   explain_by_single_outliers(in, out);
-  if (options.reject_bad_scenes) reject_bad_scenes(in, out);
+  if (in.options.reject_bad_scenes) reject_bad_scenes(in, out);
   if (reject_outliers(in, out.fit.state, out.mask, out.scales))
     out.fit = settle(in, out.fit.state, out.mask, out.scales);
   if (!out.fit.state.camera_from_lidar.translation.allFinite() || out.fit.information.isZero(0.0))

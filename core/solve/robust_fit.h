@@ -26,7 +26,6 @@ int fewest_to_leave_one_out(const Target& target);
 /// planes by variance components (χ² over redundancy). Then leaves out single nodes and tags that
 /// are off by more than the gate, and scenes without which the rest fits far better.
 /// Errors (kUntrusted): the solve fails on these observations.
-Result<RobustFit> fit_robustly(const std::vector<SceneObservations>& scenes, const Camera& camera,
-                               const Target& target, const ExtrinsicOptions& options);
+Result<RobustFit> fit_robustly(const FeatureInput& in);
 
 }  // namespace lvcalib

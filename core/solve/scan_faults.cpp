@@ -125,7 +125,7 @@ std::vector<ScanFault> find_scan_faults(const std::vector<SceneEquations>& scene
   };
   if (!any_has(0)) return {};
   const GlobalSolution solved =
-      solve_equations(scenes, prior, sensor, variances, BoardMotion::kWeighed, false, threads);
+      solve_equations(scenes, prior, sensor, variances, {BoardMotion::kWeighed, false, threads});
   if (!solved.solvable) return {};
   std::vector<FaultTerm> terms;
   for (const SceneEquations& scene : scenes)

@@ -113,8 +113,7 @@ std::vector<LeaveOneOut> leaving_out_each(const FeatureInput& in, const RobustFi
     if (!fit.mask.scene[s]) continue;
     ObservationMask without = fit.mask;
     without.scene[s] = false;
-    const JointFit other =
-        solve_joint(in.scenes, in.camera, in.target, state, fit.scales, without, in.options);
+    const JointFit other = solve_joint(in, state, fit.scales, without);
     const Rigid3& a = state.camera_from_lidar;
     const Rigid3& b = other.state.camera_from_lidar;
     out.push_back({in.scenes[s].name, 1e3 * translation_distance_m(a.inverse(), b.inverse()),
@@ -125,22 +124,18 @@ std::vector<LeaveOneOut> leaving_out_each(const FeatureInput& in, const RobustFi
 
 }  // namespace
 
-ExtrinsicSolution report_solution(const RobustFit& fit,
-                                  const std::vector<SceneObservations>& scenes,
-                                  const Camera& camera, const Target& target,
-                                  const ExtrinsicOptions& options, bool leave_one_out) {
-  const FeatureInput in{scenes, camera, target, options};
+ExtrinsicSolution report_solution(const RobustFit& fit, const FeatureInput& in,
+                                  bool leave_one_out) {
   ExtrinsicSolution solution;
   solution.camera_from_lidar.transform = fit.fit.state.camera_from_lidar;
   solution.sigma_px = fit.scales.sigma_px;
   solution.node_scale = fit.scales.node;
   solution.plane_scale = fit.scales.plane;
-  solution.iterations = fit.fit.iterations;
   solution.used_scenes = count_used(fit.mask);
-  describe_uncertainty(fit, options.weak_direction_ratio, solution);
+  describe_uncertainty(fit, in.options.weak_direction_ratio, solution);
   std::vector<double> all_px;
   std::vector<double> all_mm;
-  for (std::size_t s = 0; s < scenes.size(); ++s)
+  for (std::size_t s = 0; s < in.scenes.size(); ++s)
     solution.scenes.push_back(report_scene(in, fit, s, all_px, all_mm));
   solution.rms_px = std::sqrt(2.0) * rms(all_px);
   solution.rms_mm = rms(all_mm);

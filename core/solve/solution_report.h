@@ -7,9 +7,7 @@ namespace lvcalib {
 
 /// Turns a finished fit into what users are told: residuals per scene, corner and node, covariance
 /// with rank and weak directions and, if asked for, the influence of leaving one scene out.
-ExtrinsicSolution report_solution(const RobustFit& fit,
-                                  const std::vector<SceneObservations>& scenes,
-                                  const Camera& camera, const Target& target,
-                                  const ExtrinsicOptions& options, bool leave_one_out = true);
+ExtrinsicSolution report_solution(const RobustFit& fit, const FeatureInput& in,
+                                  bool leave_one_out = true);
 
 }  // namespace lvcalib

@@ -17,6 +17,11 @@ namespace {
 // A split is called a contradiction if noise alone makes such a one in a thousand.
 constexpr double kSplitTail = 1e-3;
 
+// Where the covariance is projected to: a map over the image at one range, and distances along the
+// camera's axis.
+constexpr double kMapRange_m = 5.0;
+constexpr double kRanges_m[] = {2.0, 5.0, 10.0, 20.0, 50.0};
+
 // Covariance of the LiDAR's origin seen from the camera: ξ acts on it as ρ + ω × t.
 Eigen::Matrix3d origin_covariance(const Matrix6d& covariance, const Eigen::Vector3d& t) {
   Eigen::Matrix<double, 3, 6> j;
@@ -45,8 +50,7 @@ std::optional<UncertainRigid3> solve_half(const FeatureInput& in, const Extrinsi
   JointState start{joint.camera_from_lidar.transform, {}};
   for (const SceneSolution& s : joint.scenes)
     start.camera_from_board.push_back(s.camera_from_board);
-  const JointFit fit =
-      solve_joint(in.scenes, in.camera, in.target, start, scales_of(joint), mask, in.options);
+  const JointFit fit = solve_joint(in, start, scales_of(joint), mask);
   const Eigen::LDLT<Matrix6d> factor(fit.information);
   if (!fit.converged || factor.info() != Eigen::Success || !factor.isPositive() ||
       factor.rcond() < 1e-12)
@@ -173,14 +177,13 @@ std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
   return j * covariance * j.transpose();
 }
 
-UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance,
-                                      const UncertaintyOptions& how) {
+UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance) {
   UncertaintyReport report;
-  report.maps.push_back(map_over_image(camera, how.map_columns, [&](const Eigen::Vector3d& ray) {
-    return pixel_covariance(camera, how.map_range_m * ray, covariance);
+  report.maps.push_back(map_over_image(camera, kMapColumns, [&](const Eigen::Vector3d& ray) {
+    return pixel_covariance(camera, kMapRange_m * ray, covariance);
   }));
-  report.maps.back().range_m = how.map_range_m;
-  for (const double range : how.ranges_m) {
+  report.maps.back().range_m = kMapRange_m;
+  for (const double range : kRanges_m) {
     const Eigen::Matrix3d at = origin_covariance(covariance, {0.0, 0.0, range});
     report.by_range.push_back(
         {range, 1e3 * std::sqrt(at(0, 0) + at(1, 1)), 1e3 * std::sqrt(at(2, 2))});
@@ -188,16 +191,13 @@ UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& cova
   return report;
 }
 
-UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
-                                     const Camera& camera, const Target& target,
-                                     const ExtrinsicSolution& joint,
-                                     const ExtrinsicOptions& options, const UncertaintyOptions& how,
+UncertaintyReport assess_uncertainty(const FeatureInput& in, const ExtrinsicSolution& joint,
                                      const SubsetSolver& subset) {
-  UncertaintyReport report = project_uncertainty(camera, joint.camera_from_lidar.covariance, how);
+  UncertaintyReport report = project_uncertainty(in.camera, joint.camera_from_lidar.covariance);
   const SubsetSolver by_features = [&](const std::vector<std::size_t>& half) {
-    return solve_half({scenes, camera, target, options}, joint, half);
+    return solve_half(in, joint, half);
   };
-  compare_halves(target, joint, subset ? subset : by_features, report);
+  compare_halves(in.target, joint, subset ? subset : by_features, report);
   return report;
 }
 

@@ -36,6 +36,8 @@ struct ProjectedUncertainty {
   [[nodiscard]] std::optional<std::pair<double, double>> reach_px() const;
 };
 
+inline constexpr int kMapColumns = 24;  ///< Of every map over the image.
+
 /// How it shows in space: at this distance along the camera's axis.
 struct RangeUncertainty {
   double range_m = 0.0;
@@ -50,12 +52,6 @@ struct UncertaintyReport {
   std::vector<RangeUncertainty> by_range;
 };
 
-struct UncertaintyOptions {
-  std::vector<double> ranges_m = {2.0, 5.0, 10.0, 20.0, 50.0};
-  double map_range_m = 5.0;
-  int map_columns = 24;
-};
-
 /// The extrinsic from some of the scenes (indices); nothing if they do not determine it.
 using SubsetSolver =
     std::function<std::optional<UncertainRigid3>(const std::vector<std::size_t>& scenes)>;
@@ -63,16 +59,11 @@ using SubsetSolver =
 /// Compares halves of the scenes, and projects the covariance. Halves need two scenes each; three
 /// for targets without circles. Halves are solved by `subset`, or, without it, from nodes and
 /// planes.
-UncertaintyReport assess_uncertainty(const std::vector<SceneObservations>& scenes,
-                                     const Camera& camera, const Target& target,
-                                     const ExtrinsicSolution& joint,
-                                     const ExtrinsicOptions& options,
-                                     const UncertaintyOptions& how = {},
+UncertaintyReport assess_uncertainty(const FeatureInput& in, const ExtrinsicSolution& joint,
                                      const SubsetSolver& subset = {});
 
 /// The same projections of another covariance of the extrinsic (its total one), without halves.
-UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance,
-                                      const UncertaintyOptions& how = {});
+UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance);
 
 /// How far a direction that is known in the camera's frame may fall elsewhere in the image when the
 /// intrinsics (fx fy cx cy, eight distortion entries) have this covariance: J Σ Jᵀ with J = ∂π/∂θ.
@@ -80,7 +71,7 @@ UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& cova
 /// would do as well.
 ProjectedUncertainty project_intrinsics(const Camera& camera,
                                         const Eigen::Matrix<double, 12, 12>& covariance,
-                                        int columns = UncertaintyOptions{}.map_columns);
+                                        int columns = kMapColumns);
 
 /// Covariance (px²) of the pixel of a point (camera frame) when the extrinsic has this one.
 /// Nothing where the camera sees no such point.

@@ -348,7 +348,7 @@ std::vector<ProjectedEdge> projected_edges(const EdgeView& view, const Camera& c
                                            const Rigid3& camera_from_lidar) {
   std::vector<ProjectedEdge> out;
   for (const Placed& edge : place({view}, camera, camera_from_lidar))
-    out.push_back({edge.pixel, count_of(edge, Eigen::Vector2d::Zero()), edge.kind});
+    out.push_back({edge.pixel, count_of(edge, Eigen::Vector2d::Zero())});
   return out;
 }
 

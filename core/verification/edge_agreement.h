@@ -46,7 +46,6 @@ struct EdgeScore {
 struct ProjectedEdge {
   Eigen::Vector2d pixel;
   double count = 0.0;  ///< 0 no edge of the image is near, 1 it lies on one.
-  LidarEdge::Kind kind = LidarEdge::Kind::kRange;
 };
 
 /// What the edge of a surface in the image is off from where a beam finds it, one σ: blur, shadow,

@@ -33,8 +33,6 @@ class ImageEdges {
                                     const Eigen::Vector2d& direction) const;
 
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  [[nodiscard]] int width_px() const { return width_px_; }
-  [[nodiscard]] int height_px() const { return height_px_; }
 
  private:
   // Directions are told apart by steps of 45°.

@@ -119,7 +119,7 @@ void leave_one_out(benchmark::State& state) {
   const auto scenes = test::observed_scenes(static_cast<int>(state.range(0)), target, camera,
                                             test::test_extrinsic(), {}, 1);
   for (auto _ : state) {
-    auto solution = solve_extrinsic(scenes, camera, target, {});
+    auto solution = solve_extrinsic({scenes, camera, target, {}});
     if (!solution) give_up(solution.error());
     if (solution->leave_one_out.size() != scenes.size())
       give_up(Error::untrusted(Message("not every scene was left out")));

@@ -62,6 +62,25 @@ class CheckDoors(unittest.TestCase):
                        "yaml-cpp/yaml.h", "apriltag/apriltag.h", "apriltag.h"):
             self.refuse("core/cloud/a.h", BSD + f"#include <{header}>\n", "out of headers")
 
+    def test_mirrors(self):
+        mirror = {"core/cloud/a.cpp": BSD, "tests/core/cloud/a_test.cpp": GPL}
+        self.assertEqual(run(mirror)[0], 0)
+        elsewhere = {"core/target/sheet_drawing.cpp": BSD, "core/target/tag_pattern.cpp": BSD,
+                     "tests/core/target/sheet_test.cpp": GPL,
+                     "tests/core/target/target_test.cpp": GPL}
+        self.assertEqual(run(elsewhere)[0], 0)
+        for files, said in (
+                (mirror | {"core/cloud/b.cpp": BSD}, "core/cloud/b.cpp: neither"),
+                (elsewhere | {"tests/core/target/tag_pattern_test.cpp": GPL},
+                 "core/target/tag_pattern.cpp: TESTED_BY is out of date"),
+                ({k: v for k, v in elsewhere.items() if "sheet_test" not in k},
+                 "core/target/sheet_drawing.cpp: TESTED_BY is out of date"),
+                ({k: v for k, v in elsewhere.items() if "drawing" not in k},
+                 "core/target/sheet_drawing: TESTED_BY names what is not there")):
+            status, output = run(files)
+            self.assertEqual(status, 1, output)
+            self.assertIn(said, output)
+
     def test_licences(self):
         self.refuse("core/cloud/a.cpp", GPL, "BSD-3-Clause")
         self.refuse("app/cli/a.cpp", "int main() {}\n", "GPL-3.0-or-later")

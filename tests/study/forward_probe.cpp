@@ -40,7 +40,6 @@ std::vector<ForwardScene> forward_scenes(const CalibrationResult& result) {
     const SceneSolution& solution = result.extrinsic.scenes[k++];
     if (!solution.used) continue;
     ForwardScene f;
-    f.name = scene.name;
     for (std::size_t i = 0; i < scene.view->corners.size(); ++i) {
       if (solution.corners[i].used) f.corners.push_back(scene.view->corners[i]);
     }
@@ -54,7 +53,10 @@ std::vector<ForwardScene> forward_scenes(const CalibrationResult& result) {
   return scenes;
 }
 
-void print_solution(const ForwardSolution& s, const std::vector<ForwardScene>& scenes) {
+void print_solution(const ForwardSolution& s, const ExtrinsicSolution& from) {
+  std::vector<std::string> names;
+  for (const SceneSolution& scene : from.scenes)
+    if (scene.used) names.push_back(scene.name);
   const Matrix6d& c = s.camera_from_lidar.covariance;
   std::printf(
       "t %.4f %.4f %.4f m; sigma %.3f %.3f %.3f mm, %.3f %.3f %.3f mrad; dof %.0f; %d "
@@ -75,16 +77,16 @@ void print_solution(const ForwardSolution& s, const std::vector<ForwardScene>& s
   std::printf("shared:");
   for (const double v : s.noise.shared) std::printf(" %.4f", 1e3 * std::sqrt(v));
   std::printf(" (x 1e-3)\n");
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
+  for (std::size_t i = 0; i < s.scenes.size(); ++i) {
     const ForwardSceneResult& r = s.scenes[i];
     std::printf(
         "  %-6s rows %6zu of %6zu (%zu refused) corr %.3f margin %6.1f left %.3f chi r %.2f i %.2f "
         "c %.2f; range %.1f %.1f mm infl %.2f, levels %.1f %.1f noise %.2f %.2f infl %.2f\n",
-        scenes[i].name.c_str(), r.returns, r.on_board, r.refused, r.print_correlation,
-        r.print_margin, r.intensity_left, r.range_chi, r.intensity_chi, r.corner_chi,
-        1e3 * r.noise.range_white_m, 1e3 * r.noise.range_black_m, r.noise.range_inflation,
-        s.state.levels[i].white, s.state.levels[i].black, r.noise.intensity_white,
-        r.noise.intensity_black, r.noise.intensity_inflation);
+        names[i].c_str(), r.returns, r.on_board, r.refused, r.print_correlation, r.print_margin,
+        r.intensity_left, r.range_chi, r.intensity_chi, r.corner_chi, 1e3 * r.noise.range_white_m,
+        1e3 * r.noise.range_black_m, r.noise.range_inflation, s.state.levels[i].white,
+        s.state.levels[i].black, r.noise.intensity_white, r.noise.intensity_black,
+        r.noise.intensity_inflation);
     const Eigen::VectorXd& u = s.state.shared[i];
     if (u.size() > 0)
       std::printf("         board %.2f %.2f %.2f mm %.2f %.2f %.2f mrad\n", 1e3 * u(0), 1e3 * u(1),
@@ -238,12 +240,13 @@ int main(int argc, char** argv) {
   auto t0 = Clock::now();
   const BlurredPrint print(result->target);
   const auto solved =
-      solve_forward(scenes, print, result->camera, result->extrinsic.camera_from_lidar.transform,
-                    result->extrinsic.sigma_px, how, {});
+      solve_forward({scenes, print, result->camera, result->extrinsic.camera_from_lidar.transform,
+                     result->extrinsic.sigma_px},
+                    how, {});
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - t0).count();
   if (!solved) return std::fprintf(stderr, "%s\n", solved.error().text().c_str()), 1;
   std::printf("calibrate %.0f ms, forward %.0f ms\n", result->times.total_ms, ms);
-  print_solution(*solved, scenes);
+  print_solution(*solved, result->extrinsic);
   const Rigid3& a = result->extrinsic.camera_from_lidar.transform;
   const Rigid3& b = solved->camera_from_lidar.transform;
   std::printf("moved from the nodes' solution by %.2f mm %.3f mrad\n",
@@ -261,7 +264,7 @@ int main(int argc, char** argv) {
     std::vector<ForwardScene> some;
     for (const std::size_t i : half) some.push_back(scenes[i]);
     const auto x =
-        solve_forward(some, print, result->camera, a, result->extrinsic.sigma_px, how, {});
+        solve_forward({some, print, result->camera, a, result->extrinsic.sigma_px}, how, {});
     return x ? std::optional(x->camera_from_lidar) : std::nullopt;
   });
   return 0;

@@ -124,7 +124,6 @@ BoardOutcome run_board(int index, std::uint64_t seed) {
   const Rigid3 start = moved_start(scene->lidar_from_board, rig.target, random);
 
   ForwardScene forward;
-  forward.name = scene->name;
   forward.board_points = &scene->cloud;
   forward.camera_from_board = scene->camera_from_board;
   forward.lidar_from_board = start;
@@ -134,7 +133,8 @@ BoardOutcome run_board(int index, std::uint64_t seed) {
   options.sigma_px_floor = 1e-3;
   const auto clock = std::chrono::steady_clock::now();
   const auto solution = solve_forward(
-      {forward}, print, rig.camera, scene->camera_from_board * start.inverse(), 1e-3, options, {});
+      {{forward}, print, rig.camera, scene->camera_from_board * start.inverse(), 1e-3}, options,
+      {});
   outcome.time_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - clock).count();
   if (!solution) return outcome;

@@ -38,8 +38,7 @@ ExportPane::ExportPane(ExportInput input, Choices& choices, QString folder, QWid
   connect(formats_, &QListWidget::currentRowChanged, this, &ExportPane::preview);
   connect(&runner_, &Runner::finished, this, &ExportPane::preview);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::untrusted(
-        Message("an unexpected error stopped the work: %1", message.toStdString())));
+    Q_EMIT failed(Runner::unexpected(message));
     preview();
   });
   follow_language(this, [this] { retranslate(); });

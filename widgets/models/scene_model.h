@@ -41,7 +41,6 @@ class SceneModel : public QAbstractTableModel {
   [[nodiscard]] int thumbnail_width() const { return thumbnail_width_; }
   /// Whether the state is said in words beside its sign; its tool tip has them always.
   void set_state_said(bool said);
-  [[nodiscard]] bool is_state_said() const { return state_said_; }
   /// What a scene that is used says of itself, the shortest of the states.
   [[nodiscard]] static QString used_words();
   /// A file of the scene is missing or cannot be read, in words; empty: no longer.

@@ -41,7 +41,6 @@ class CloudPane : public QWidget {
   void setFilter(CloudFilter filter);
 
   [[nodiscard]] CloudView* view() const { return view_; }
-  [[nodiscard]] const std::optional<CropBox>& crop() const { return crop_; }
   /// True while a picture is being built.
   [[nodiscard]] bool busy() const;
 

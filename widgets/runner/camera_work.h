@@ -40,7 +40,6 @@ class CameraWork : public QObject {
   void ended();
 
  private:
-  bool replacing_ = false;  // A new request takes the place of the running one.
   Runner runner_;
 };
 

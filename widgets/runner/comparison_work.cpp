@@ -66,17 +66,8 @@ std::shared_ptr<const Comparison> compare(const ComparisonBasis& basis, const St
 }  // namespace
 
 ComparisonWork::ComparisonWork(QObject* parent) : QObject(parent) {
-  connect(&runner_, &Runner::progressed, this,
-          [this](quint64, const QString&, double fraction, const QString& text) {
-            Q_EMIT progressed(fraction, text);
-          });
-  connect(&runner_, &Runner::finished, this, &ComparisonWork::ended);
+  relay(runner_, this);
   connect(&runner_, &Runner::cancelled, this, &ComparisonWork::ended);
-  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::untrusted(
-        Message("an unexpected error stopped the work: %1", message.toStdString())));
-    Q_EMIT ended();
-  });
 }
 
 void ComparisonWork::request(const ComparisonBasis& basis, const ComparedResult& first,

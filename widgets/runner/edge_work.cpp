@@ -34,19 +34,9 @@ std::shared_ptr<const EdgeLook> look_at(const EdgePlaces& places, std::size_t pl
 }  // namespace
 
 EdgeWork::EdgeWork(QObject* parent) : QObject(parent) {
-  connect(&runner_, &Runner::progressed, this,
-          [this](quint64, const QString&, double fraction, const QString& text) {
-            Q_EMIT progressed(fraction, text);
-          });
-  connect(&runner_, &Runner::finished, this, &EdgeWork::ended);
+  relay(runner_, this);
   connect(&runner_, &Runner::cancelled, this, &EdgeWork::ended);
-  for (const Runner* runner : {&runner_, &looker_}) {
-    connect(runner, &Runner::failed, this, [this](quint64, const QString& message) {
-      Q_EMIT failed(Error::untrusted(
-          Message("an unexpected error stopped the work: %1", message.toStdString())));
-      Q_EMIT ended();
-    });
-  }
+  relay_failure(looker_, this);
   connect(&looker_, &Runner::finished, this, &EdgeWork::start_look);
 }
 

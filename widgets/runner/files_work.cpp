@@ -31,9 +31,7 @@ FilesWork::FilesWork(QObject* parent) : QObject(parent) {
           [this](quint64, const QString&, double fraction, const QString& text) {
             Q_EMIT progressed(fraction, text);
           });
-  connect(&runner_, &Runner::cancelled, this, [this] {
-    if (!replacing_) Q_EMIT cancelled();
-  });
+  connect(&runner_, &Runner::cancelled, this, &FilesWork::cancelled);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
     Q_EMIT failed(Error::input(Message::verbatim(message.toStdString())));
   });
@@ -42,9 +40,8 @@ FilesWork::FilesWork(QObject* parent) : QObject(parent) {
 // A job that only makes room for the next one was not cancelled by anybody.
 void FilesWork::start(Runner::Work work) {
   pictures_.cancel();
-  replacing_ = true;
+  runner_.abandon();
   runner_.start(std::move(work));
-  replacing_ = false;
 }
 
 void FilesWork::find(const PairOptions& options) {

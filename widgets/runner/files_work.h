@@ -46,7 +46,6 @@ class FilesWork : public QObject {
  private:
   void start(Runner::Work work);
 
-  bool replacing_ = false;
   Runner pictures_;
   Runner runner_;
 };

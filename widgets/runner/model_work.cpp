@@ -66,9 +66,7 @@ ModelWork::ModelWork(Workspace& workspace, QObject* parent)
   connect(&runner_, &Runner::finished, this, [this] { Q_EMIT ended(QString()); });
   connect(&runner_, &Runner::cancelled, this, [this] { Q_EMIT ended(tr("Cancelled")); });
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(
-        Error::untrusted(Message("an unexpected error stopped the work: %1", message.toStdString()),
-                         {}, Message("the model is as it was; try again")));
+    Q_EMIT failed(Runner::unexpected(message, {}, Message("the model is as it was; try again")));
     Q_EMIT ended(tr("Failed"));
   });
 }

@@ -52,25 +52,15 @@ Result<ScenePlan> plan(const PlanRequest& request, const RunContext& context) {
 }  // namespace
 
 PlanWork::PlanWork(QObject* parent) : QObject(parent) {
-  connect(&runner_, &Runner::progressed, this,
-          [this](quint64, const QString&, double fraction, const QString& text) {
-            Q_EMIT progressed(fraction, text);
-          });
-  connect(&runner_, &Runner::finished, this, &PlanWork::ended);
+  relay(runner_, this);
   connect(&runner_, &Runner::cancelled, this, [this] {
-    if (replacing_) return;
     Q_EMIT cancelled();
-    Q_EMIT ended();
-  });
-  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::untrusted(
-        Message("an unexpected error stopped the work: %1", message.toStdString())));
     Q_EMIT ended();
   });
 }
 
 void PlanWork::request(const PlanRequest& request) {
-  replacing_ = true;
+  runner_.abandon();
   runner_.start([this, request](const RunContext& context, const Runner::Post&) -> Runner::Deliver {
     auto out = plan(request, context);
     if (!out) {
@@ -80,7 +70,6 @@ void PlanWork::request(const PlanRequest& request) {
     return
         [this, made = std::make_shared<const ScenePlan>(std::move(*out))] { Q_EMIT ready(made); };
   });
-  replacing_ = false;
 }
 
 }  // namespace lvcalib::widgets

@@ -52,7 +52,6 @@ class PlanWork : public QObject {
   void ended();
 
  private:
-  bool replacing_ = false;  // A new request takes the place of the running one.
   Runner runner_;
 };
 

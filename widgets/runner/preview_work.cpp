@@ -13,10 +13,8 @@ PreviewWork::PreviewWork(Workspace& workspace, QObject* parent)
   connect(&settle_, &QTimer::timeout, this, &PreviewWork::start);
   // Another result answers other questions.
   connect(&workspace_, &Workspace::result_changed, this, &PreviewWork::cancel);
-  connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::untrusted(
-        Message("an unexpected error stopped the work: %1", message.toStdString())));
-  });
+  connect(&runner_, &Runner::failed, this,
+          [this](quint64, const QString& message) { Q_EMIT failed(Runner::unexpected(message)); });
 }
 
 void PreviewWork::request(const Decisions& decisions) {

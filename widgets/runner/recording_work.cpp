@@ -61,9 +61,7 @@ RecordingWork::RecordingWork(QObject* parent) : QObject(parent) {
           [this](quint64, const QString& stage, double fraction, const QString& text) {
             Q_EMIT progressed(stage, fraction, text);
           });
-  connect(&runner_, &Runner::cancelled, this, [this] {
-    if (!replacing_) Q_EMIT cancelled();
-  });
+  connect(&runner_, &Runner::cancelled, this, &RecordingWork::cancelled);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
     Q_EMIT failed(Error::input(Message::verbatim(message.toStdString())));
   });
@@ -73,9 +71,8 @@ RecordingWork::RecordingWork(QObject* parent) : QObject(parent) {
 void RecordingWork::start(Runner::Work work) {
   pictures_.cancel();
   cancelled_ = false;
-  replacing_ = true;
+  runner_.abandon();
   runner_.start(std::move(work));
-  replacing_ = false;
 }
 
 void RecordingWork::open(const QString& path) {

@@ -63,7 +63,6 @@ class RecordingWork : public QObject {
               const std::shared_ptr<const RecordingSurvey>& survey, const Target& target,
               ImportOptions options, const QString& dataset);
   void cancel();
-  void cancel_pictures() { pictures_.cancel(); }
   [[nodiscard]] bool busy() const { return runner_.running(); }
 
  Q_SIGNALS:
@@ -82,7 +81,6 @@ class RecordingWork : public QObject {
  private:
   void start(Runner::Work work);
 
-  bool replacing_ = false;
   bool cancelled_ = false;  // What was ready just before is not wanted any more.
   Runner glimpses_;
   Runner pictures_;

@@ -124,6 +124,12 @@ quint64 Runner::start(Work work) {
   return id_;
 }
 
+Error Runner::unexpected(const QString& message, std::string where, Message advice) {
+  return Error::untrusted(
+      Message("an unexpected error stopped the work: %1", message.toStdString()), std::move(where),
+      std::move(advice));
+}
+
 void Runner::cancel() {
   if (!task_) return;
   task_->stop.request_stop();

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "base/error.h"
 #include "base/progress.h"
 
 namespace lvcalib::widgets {
@@ -37,7 +38,8 @@ class Runner : public QObject {
   /// Abandons what runs.
   ~Runner() override;
 
-  /// Starts a job and returns its id; ids grow.
+  /// Starts a job and returns its id; ids grow. cancelled() is said of a running one, unless it was
+  /// abandoned before.
   quint64 start(Work work);
   /// Asks the running job to stop. cancelled() follows within kPatienceMs. What the job delivers
   /// in that time is still handed over (it may have kept finished stages).
@@ -46,6 +48,10 @@ class Runner : public QObject {
   void abandon();
   [[nodiscard]] bool running() const { return task_ != nullptr; }
   [[nodiscard]] quint64 current() const { return id_; }
+
+  /// How the message of failed() is told.
+  [[nodiscard]] static Error unexpected(const QString& message, std::string where = {},
+                                        Message advice = {});
 
   /// Waits until the threads of all jobs, abandoned ones too, have ended; false after the time.
   /// Negative: as long as it takes. For the end of a program, before what the jobs use is torn
@@ -70,5 +76,27 @@ class Runner : public QObject {
   std::shared_ptr<Task> task_;
   quint64 id_ = 0;
 };
+
+/// Tells an unexpected failure by the signals failed() and ended() of the `work` that a runner
+/// does.
+template <class W>
+void relay_failure(const Runner& runner, W* work) {
+  QObject::connect(&runner, &Runner::failed, work, [work](quint64, const QString& message) {
+    Q_EMIT work->failed(Runner::unexpected(message));
+    Q_EMIT work->ended();
+  });
+}
+
+/// The same, and its progress and its end by progressed() and ended(). What follows a cancelled job
+/// is left to `work`.
+template <class W>
+void relay(const Runner& runner, W* work) {
+  QObject::connect(&runner, &Runner::progressed, work,
+                   [work](quint64, const QString&, double fraction, const QString& text) {
+                     Q_EMIT work->progressed(fraction, text);
+                   });
+  QObject::connect(&runner, &Runner::finished, work, &W::ended);
+  relay_failure(runner, work);
+}
 
 }  // namespace lvcalib::widgets

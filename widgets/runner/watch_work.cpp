@@ -24,8 +24,7 @@ WatchWork::WatchWork(Workspace& workspace, QObject* parent)
   timer_.setInterval(kLook_ms);
   connect(&timer_, &QTimer::timeout, this, &WatchWork::look);
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
-    Q_EMIT failed(Error::untrusted(
-        Message("an unexpected error stopped the work: %1", message.toStdString())));
+    Q_EMIT failed(Runner::unexpected(message));
     if (watching()) timer_.start();
   });
   connect(&workspace_, &Workspace::run_started, this, [this] { ran_last_ = false; });

@@ -36,15 +36,13 @@ Workspace::Workspace(const QString& data_folder, QObject* parent)
             Q_EMIT progressed(stage, fraction, text);
           });
   connect(&runner_, &Runner::cancelled, this, [this] {
-    if (replacing_) return;
     Q_EMIT logged(tr("Cancelled."));
     Q_EMIT run_ended(tr("Cancelled"));
   });
   connect(&runner_, &Runner::failed, this, [this](quint64, const QString& message) {
     Q_EMIT run_ended(tr("Failed"));
-    Q_EMIT failed(Error::untrusted(
-                      Message("an unexpected error stopped the work: %1", message.toStdString()),
-                      dataset_.path.string(), Message("what was open is still there; try again")),
+    Q_EMIT failed(Runner::unexpected(message, dataset_.path.string(),
+                                     Message("what was open is still there; try again")),
                   false);
   });
   // After the stack has moved: while a command runs, it still has its old index.
@@ -69,9 +67,8 @@ Project Workspace::project() const {
 }
 
 void Workspace::start(const Runner::Work& work) {
-  replacing_ = true;
+  runner_.abandon();
   runner_.start(work);
-  replacing_ = false;
   Q_EMIT run_started();
 }
 

@@ -149,7 +149,6 @@ class Workspace : public QObject {
   bool up_to_date_ = false;
   bool dirty_ = false;
   bool unsaved_recovery_ = false;
-  bool replacing_ = false;  // A new job takes the place of the running one.
   QUndoStack undo_;
   QTimer settle_;
   Autosave autosave_;

@@ -24,12 +24,6 @@ void AppSettings::add_recent(const QString& path) {
   settings_.setValue(QStringLiteral("recent"), list.mid(0, kMaxRecent));
 }
 
-void AppSettings::forget_recent(const QString& path) {
-  QStringList list = recent();
-  list.removeAll(path);
-  settings_.setValue(QStringLiteral("recent"), list);
-}
-
 Theme AppSettings::theme() const {
   return theme_named(settings_.value(QStringLiteral("theme")).toString());
 }

@@ -26,7 +26,6 @@ class AppSettings {
   /// Datasets and projects, latest first.
   [[nodiscard]] QStringList recent() const;
   void add_recent(const QString& path);
-  void forget_recent(const QString& path);
 
   [[nodiscard]] Theme theme() const;
   void set_theme(Theme theme);

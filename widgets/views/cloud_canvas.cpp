@@ -166,7 +166,6 @@ void CloudCanvas::paintGL() {
 }
 
 void CloudCanvas::recordFrame(double elapsed_ms, std::size_t points) {
-  statistics_.last_ms = elapsed_ms;
   if (points < 10'000 || elapsed_ms <= 0.0) return;
   const double rate = static_cast<double>(points) / elapsed_ms;
   statistics_.points_per_ms += 0.3 * (rate - statistics_.points_per_ms);

@@ -12,7 +12,6 @@ namespace lvcalib::widgets {
 
 /// How long frames take.
 struct FrameStatistics {
-  double last_ms = 0.0;
   double points_per_ms = 0.0;  ///< Smoothed; what frame sizes are derived from.
   int frames = 0;              ///< Pictures begun since the widget exists.
   int portions = 0;            ///< Times that points were added to a picture.

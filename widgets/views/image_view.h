@@ -26,7 +26,6 @@ class ImageView : public QGraphicsView {
   void setImage(const QImage& image);
   [[nodiscard]] const QImage& image() const { return image_; }
   void setLevels(const ImageLevels& levels);
-  [[nodiscard]] const ImageLevels& levels() const { return levels_; }
   /// Text in the middle while there is no image.
   void setMessage(const QString& message);
   [[nodiscard]] const QString& message() const { return message_; }

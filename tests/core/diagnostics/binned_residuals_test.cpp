@@ -44,7 +44,6 @@ TEST(MeanResidualTest, WhiteNoiseHasTheTextbookDeviation) {
   const Columns c = noise(4000, 1, 3);
   const MeanResidual m = mean_residual(c.sample(), all_rows(c), 1);
   EXPECT_NEAR(m.sigma, 2.0 / std::sqrt(4000.0), 0.002);
-  EXPECT_NEAR(m.noise, 2.0, 1e-6);
   EXPECT_EQ(m.n, 4000U);
   EXPECT_LT(std::abs(m.mean), 4.0 * m.sigma);
 }
@@ -78,11 +77,9 @@ TEST(BinResiduals, AStepIsFoundWhereItIs) {
   const auto bins = bin_residuals(c.x, false, c.sample(), 10);
   ASSERT_EQ(bins.size(), 10U);
   for (const ResidualBin& bin : bins) {
-    EXPECT_LE(bin.low, bin.center);
-    EXPECT_GE(bin.high, bin.center);
-    if (bin.high < 0.45) {
+    if (bin.center < 0.45) {
       EXPECT_FALSE(bin.residual.significant);
-    } else if (bin.low > 0.55) {
+    } else if (bin.center > 0.55) {
       EXPECT_TRUE(bin.residual.significant);
       EXPECT_NEAR(bin.residual.mean, 3.0, 5.0 * bin.residual.sigma);
     }

@@ -44,13 +44,14 @@ TEST(StructureScan, ScoreIsTheShareOfHeldOutVariance) {
   for (const RangeRow& row : made.table.range) black += row.print == Print::kBlack ? 1.0 : 0.0;
   black /= static_cast<double>(made.table.range.size());
   const double curve = 36.0 * black * (1.0 - black);
-  const auto residuals = residuals_of(made.table, made.truth, {}, Channel::kRange);
-  for (const Covariate& c : covariates_of(made.table, Channel::kRange, residuals)) {
-    if (c.name != "print") continue;
-    const StructureScore s = structure_score(c, residuals, 6);
+  int seen = 0;
+  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {}).curves) {
+    if (s.channel != Channel::kRange || s.covariate != "print") continue;
+    ++seen;
     EXPECT_NEAR(s.score, curve / (curve + 64.0), 0.02);
     EXPECT_NEAR(s.amplitude, std::sqrt(curve), 0.15 * std::sqrt(curve));
   }
+  EXPECT_EQ(seen, 1);
 }
 
 // One scene alone cannot make structure: it does not predict the others.

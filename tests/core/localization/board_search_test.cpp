@@ -27,9 +27,11 @@ BoardSearchResult search(const SimulatedScene& scene, const Target& target,
                          const std::optional<BoardSearchRegion>& region = std::nullopt,
                          const RunContext& context = {}) {
   const PatternPyramid pyramid(target);
-  return search_board(scene.cloud, target, pyramid,
-                      scene.has_board ? board_center(target, scene.camera_from_board).norm() : 3.0,
-                      region, options, context);
+  return search_board(
+      scene.cloud,
+      {target, pyramid,
+       scene.has_board ? board_center(target, scene.camera_from_board).norm() : 3.0, region},
+      options, context);
 }
 
 // The best candidate is the board; what is found elsewhere (a decoy stands there) hardly counts.

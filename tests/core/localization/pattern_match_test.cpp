@@ -41,11 +41,12 @@ class PatternMatchTest : public ::testing::Test {
     PatternSearchRange range;
     range.slack_m = 0.1;
     range.step_m = 0.027;
+    range.separation_m = 0.11;
     for (int d = 0; d < 72; ++d) range.angles_rad.push_back(5.0 * d * kDegree);
     return range;
   }
   [[nodiscard]] std::vector<PatternMatch> search(const std::vector<PlanarSample>& samples) const {
-    return search_pattern(samples, coarse_, center_, everywhere(), 0.11, 8, {});
+    return search_pattern(samples, coarse_, center_, everywhere(), {});
   }
   Target target_;
   PatternTemplate coarse_{target_, 0.022};
@@ -161,7 +162,7 @@ TEST_F(PatternMatchTest, NothingToMatchIsNoMatch) {
   RunContext context;
   context.stop = stop.get_token();
   const auto samples = printed_samples(target_, {}, 1.0, 5.0, 3000, random_);
-  EXPECT_TRUE(search_pattern(samples, coarse_, center_, everywhere(), 0.11, 8, context).empty());
+  EXPECT_TRUE(search_pattern(samples, coarse_, center_, everywhere(), context).empty());
 }
 
 TEST_F(PatternMatchTest, GainGrowsWithCorrelationAndSamples) {

@@ -157,22 +157,6 @@ TEST(BoardPrediction, JacobiansAreThoseOfThePrediction) {
   }
 }
 
-// How far inside the outline a spot lies, in widths of its longer axis.
-TEST(BoardPrediction, ASpotIsAsWideAsItsLongerAxis) {
-  const Target target = circles();
-  const BlurredPrint print(target);
-  const Rigid3 pose = board_pose(0.8, 0.3, 3.0);
-  const BoardPredictor predictor(print, pose, levels(), beam(false));
-  const Eigen::Vector2d place = target.outline().lower_left_m + Eigen::Vector2d(0.05, 0.2);
-  const auto p = predictor.predict(towards(pose, place));
-  ASSERT_TRUE(p.has_value());
-  const Eigen::Vector2d axes =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(p->spot_m2).eigenvalues().cwiseSqrt();
-  ASSERT_GT(axes(1), 1.2 * axes(0));
-  EXPECT_NEAR(p->inside_sigmas, print.inside_m(p->board_m) / axes(1), 1e-9 * p->inside_sigmas);
-  EXPECT_NEAR(print.inside_m(p->board_m), 0.05, 1e-6);
-}
-
 TEST(BoardPrediction, SeesTheFrontOnly) {
   const BlurredPrint print(circles());
   const Rigid3 pose = board_pose(0.2, 0.0, 3.0);

@@ -71,8 +71,10 @@ TEST_F(Geometry, EdgeRowIsTheMoveAlongTheOutwardDirectionOfTheRaysBoardPoint) {
 TEST_F(Geometry, PoseDerivativesHold) {
   const Eigen::Vector3d direction = lidar_point(0.25, 0.4).normalized();
   const double range = geometry_.range_m(direction).value();
-  const Vector6d by_pose =
-      geometry_.by_board_pose(geometry_.range_row(direction), range * direction);
+  const Eigen::Vector3d row = geometry_.range_row(direction);
+  Vector6d by_lidar_pose;
+  by_lidar_pose << row, range * direction.cross(row);
+  const Vector6d by_pose = geometry_.by_camera_pose(by_lidar_pose);
   for (int k = 0; k < 6; ++k) {
     Vector6d xi = Vector6d::Zero();
     xi(k) = 1e-6;

@@ -22,7 +22,7 @@ CalibrationResult four_scenes() {
       test::observed_scenes(4, result.target, result.camera, test::test_extrinsic(), {}, 1);
   std::vector<SceneObservations> used = observations;
   used.erase(used.begin() + 2);
-  auto solution = solve_extrinsic(used, result.camera, result.target, {});
+  auto solution = solve_extrinsic({used, result.camera, result.target, {}});
   if (!solution) {
     ADD_FAILURE() << solution.error().text();
     return result;

@@ -30,7 +30,7 @@ CalibrationResult sample_result() {
   result.camera = test::test_camera();
   auto observations =
       test::observed_scenes(3, result.target, result.camera, test::test_extrinsic(), {}, 1);
-  auto solution = solve_extrinsic(observations, result.camera, result.target, {});
+  auto solution = solve_extrinsic({observations, result.camera, result.target, {}});
   if (!solution) {
     ADD_FAILURE() << solution.error().text();
     return result;

@@ -14,7 +14,7 @@ class MethodSolvers : public ::testing::Test {
   explicit MethodSolvers(const test::ObservationNoise& noise = {0.0, 0.0, 0.0, 0.0})
       : scenes_(test::observed_scenes(3, target_, camera_, truth_, noise, 1)) {}
   [[nodiscard]] MethodInput input() const {
-    MethodInput out{scenes_, camera_, target_, options_, {}, {}, {}};
+    MethodInput out{{scenes_, camera_, target_, options_}, {}, {}, {}};
     for (const SceneObservations& scene : scenes_) {
       out.mask.scene.push_back(true);
       out.mask.corner.emplace_back(scene.corners.size(), true);

@@ -38,7 +38,7 @@ TEST_F(CornerFitting, SigmaIsTheCornerNoise) {
   for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
     const auto observations = scenes(3, seed);
     const double sigma =
-        fit_corners(observations, camera_, all_of(observations), options_).sigma_px;
+        fit_corners({observations, camera_, target_, options_}, all_of(observations)).sigma_px;
     EXPECT_NEAR(sigma, noise_.corner_px, 4 * 0.037 * noise_.corner_px);
     sum += sigma / kDraws;
   }
@@ -47,11 +47,13 @@ TEST_F(CornerFitting, SigmaIsTheCornerNoise) {
 
 TEST_F(CornerFitting, FarOffStartsLeadToTheSamePosesAndSigma) {
   auto observations = scenes(3, 5);
-  const CornerFit near = fit_corners(observations, camera_, all_of(observations), options_);
+  const CornerFit near =
+      fit_corners({observations, camera_, target_, options_}, all_of(observations));
   Random random(5);
   for (SceneObservations& scene : observations)
     scene.camera_from_board = test::disturbed(scene.camera_from_board, random, 0.05, 0.05);
-  const CornerFit far = fit_corners(observations, camera_, all_of(observations), options_);
+  const CornerFit far =
+      fit_corners({observations, camera_, target_, options_}, all_of(observations));
   EXPECT_NEAR(far.sigma_px, near.sigma_px, 0.02 * near.sigma_px);
   for (std::size_t s = 0; s < 3; ++s) {
     EXPECT_THAT(far.camera_from_board[s], test::IsNearPose(near.camera_from_board[s], 0.02, 0.02));
@@ -60,12 +62,14 @@ TEST_F(CornerFitting, FarOffStartsLeadToTheSamePosesAndSigma) {
 
 TEST_F(CornerFitting, WhatTheLidarSaysPlaysNoPart) {
   auto observations = scenes(3, 6);
-  const CornerFit before = fit_corners(observations, camera_, all_of(observations), options_);
+  const CornerFit before =
+      fit_corners({observations, camera_, target_, options_}, all_of(observations));
   for (SceneObservations& scene : observations) {
     scene.plane.center_m.x() += 0.3;
     for (RefinedNode& node : scene.nodes) node.center_lidar_m.y() -= 0.2;
   }
-  const CornerFit after = fit_corners(observations, camera_, all_of(observations), options_);
+  const CornerFit after =
+      fit_corners({observations, camera_, target_, options_}, all_of(observations));
   EXPECT_EQ(before.sigma_px, after.sigma_px);
 }
 
@@ -74,19 +78,20 @@ TEST_F(CornerFitting, HiddenCornersAndScenesTakeNoPart) {
   ObservationMask mask = all_of(observations);
   mask.scene[1] = false;
   mask.corner[0][0] = false;
-  const double before = fit_corners(observations, camera_, mask, options_).sigma_px;
+  const double before = fit_corners({observations, camera_, target_, options_}, mask).sigma_px;
   observations[0].corners[0].pixel.x() += 50.0;
   for (CornerObservation& c : observations[1].corners) c.pixel.setZero();
-  const CornerFit after = fit_corners(observations, camera_, mask, options_);
+  const CornerFit after = fit_corners({observations, camera_, target_, options_}, mask);
   EXPECT_EQ(after.sigma_px, before);
   EXPECT_EQ(after.camera_from_board[1].matrix(), observations[1].camera_from_board.matrix());
 }
 
 TEST_F(CornerFitting, NothingToFitGivesTheFloor) {
-  EXPECT_EQ(fit_corners({}, camera_, {}, options_).sigma_px, options_.sigma_px_floor);
+  EXPECT_EQ(fit_corners({{}, camera_, target_, options_}, {}).sigma_px, options_.sigma_px_floor);
   noise_.corner_px = 0.0;
   const auto exact = scenes(3, 8);
-  EXPECT_EQ(fit_corners(exact, camera_, all_of(exact), options_).sigma_px, options_.sigma_px_floor);
+  EXPECT_EQ(fit_corners({exact, camera_, target_, options_}, all_of(exact)).sigma_px,
+            options_.sigma_px_floor);
 }
 
 }  // namespace

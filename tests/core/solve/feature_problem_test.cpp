@@ -35,7 +35,7 @@ struct Problem {
     scales.sigma_px = noise.corner_px;
   }
   [[nodiscard]] JointFit solve() const {
-    return solve_joint(scenes, camera, target, start, scales, mask, options);
+    return solve_joint({scenes, camera, target, options}, start, scales, mask);
   }
 };
 

@@ -24,7 +24,7 @@ class ExtrinsicSolver : public ::testing::Test {
   }
   [[nodiscard]] Result<ExtrinsicSolution> solve(
       const std::vector<SceneObservations>& observations) const {
-    return solve_extrinsic(observations, camera_, target_, options_);
+    return solve_extrinsic({observations, camera_, target_, options_});
   }
   // The truth lies within the 99.9 % ellipsoid of the stated covariance.
   void expect_within_covariance(const ExtrinsicSolution& solution) const {

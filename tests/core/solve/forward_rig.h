@@ -52,7 +52,6 @@ inline ForwardRig forward_rig(const simulation::SimulationOptions& options) {
     }
     rig.clouds.push_back(points_about(scene->cloud, rig.target, scene->lidar_from_board));
     ForwardScene forward;
-    forward.name = scene->name;
     forward.board_points = &rig.clouds.back();
     forward.camera_from_board = rig.camera_from_lidar * scene->lidar_from_board;
     forward.lidar_from_board = scene->lidar_from_board;
@@ -82,7 +81,7 @@ inline ForwardRig forward_rig(const simulation::SimulationOptions& options) {
 inline Result<ForwardSolution> solve(const ForwardRig& rig, const Vector6d& off,
                                      const RunContext& context = {}) {
   const BlurredPrint print(rig.target);
-  return solve_forward(rig.scenes, print, rig.camera, rig.start(off), kRigCornerSigma_px, {},
+  return solve_forward({rig.scenes, print, rig.camera, rig.start(off), kRigCornerSigma_px}, {},
                        context);
 }
 

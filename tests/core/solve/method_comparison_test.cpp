@@ -31,13 +31,14 @@ class Methods : public ::testing::Test {
   }
   [[nodiscard]] std::map<std::string, MethodResult> compare(
       const std::vector<SceneObservations>& observations, bool held_out = true) const {
-    const auto joint = solve_extrinsic(observations, camera_, target_, {});
+    const auto joint = solve_extrinsic({observations, camera_, target_, {}});
     if (!joint) {
       ADD_FAILURE() << joint.error().text();
       return {};
     }
     std::map<std::string, MethodResult> out;
-    for (MethodResult& m : compare_methods(observations, camera_, target_, *joint, {}, {held_out}))
+    for (MethodResult& m :
+         compare_methods({observations, camera_, target_, {}}, *joint, {held_out}))
       out[m.name] = std::move(m);
     return out;
   }
@@ -65,7 +66,7 @@ TEST_F(Methods, AllFindTheTruthFromNoiseFreeObservations) {
 
 TEST_F(Methods, JointRefinedIsTheSolveItself) {
   const auto observations = scenes(3, 2);
-  const auto joint = solve_extrinsic(observations, camera_, target_, {});
+  const auto joint = solve_extrinsic({observations, camera_, target_, {}});
   ASSERT_TRUE(joint.ok());
   const auto methods = compare(observations);
   const MethodResult& m = methods.at("joint_refined");
@@ -144,7 +145,7 @@ class PaperMethod : public Methods {
   [[nodiscard]] std::vector<MethodResult> compare_with_paper(
       const std::vector<SceneObservations>& observations,
       const std::vector<SceneObservations>& paper, int threads = 1) const {
-    const auto joint = solve_extrinsic(observations, camera_, target_, {});
+    const auto joint = solve_extrinsic({observations, camera_, target_, {}});
     if (!joint) {
       ADD_FAILURE() << joint.error().text();
       return {};
@@ -152,7 +153,7 @@ class PaperMethod : public Methods {
     MethodOptions options;
     options.paper = JointVariant{"joint_paper", paper, paper_objective({})};
     options.threads = threads;
-    return compare_methods(observations, camera_, target_, *joint, {}, options);
+    return compare_methods({observations, camera_, target_, {}}, *joint, options);
   }
 };
 
@@ -208,7 +209,7 @@ TEST_F(PaperMethod, IsNotListedWithoutThreeNodesOrWithoutCircles) {
 // How long that takes is told by calibration_benchmark.
 TEST_F(Methods, EveryOneOfTenScenesIsLeftOutOnce) {
   const auto observations = scenes(10, 6);
-  const auto joint = solve_extrinsic(observations, camera_, target_, {});
+  const auto joint = solve_extrinsic({observations, camera_, target_, {}});
   ASSERT_TRUE(joint.ok());
   ASSERT_EQ(joint->leave_one_out.size(), 10U);
   for (std::size_t s = 0; s < observations.size(); ++s)

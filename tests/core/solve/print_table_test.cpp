@@ -34,7 +34,7 @@ class PrintTable : public testing::Test {
     solution_ = *solved;
     TableInput input = input_of_rig();
     for (const ForwardScene& scene : rig_.scenes)
-      input.scenes.push_back({scene.name, scene.corners, scene.board_points});
+      input.scenes.push_back({{}, scene.corners, scene.board_points});
     state_ = {solution_.state.camera_from_lidar, solution_.state.camera_from_board,
               solution_.state.levels, solution_.state.beam};
     TableOptions how;
@@ -122,7 +122,7 @@ TEST_F(PrintTable, APartOfTheBoardIsUsedAllTheSame) {
   const auto ranges = [&](const Cloud& cloud, const std::vector<BoardOutline>& uncovered) {
     TableInput input = input_of_rig();
     for (const ForwardScene& scene : rig_.scenes)
-      input.scenes.push_back({scene.name, scene.corners, scene.board_points});
+      input.scenes.push_back({{}, scene.corners, scene.board_points});
     input.scenes[0].board_points = &cloud;
     input.scenes[0].uncovered = uncovered;
     TableOptions how;
@@ -145,7 +145,7 @@ TEST_F(PrintTable, MadeAgainItHasTheReturnsThatTheModelPredicts) {
   }
   TableInput input = input_of_rig();
   for (std::size_t s = 0; s < far.size(); ++s)
-    input.scenes.push_back({rig_.scenes[s].name, rig_.scenes[s].corners, &far[s]});
+    input.scenes.push_back({{}, rig_.scenes[s].corners, &far[s]});
   TableOptions how;
   how.max_rows_per_scene = 3000;
   const auto table = print_table(input, state_, how, {});

@@ -17,7 +17,7 @@ class RobustFitting : public ::testing::Test {
     return test::observed_scenes(count, target_, camera_, truth_, noise_, seed);
   }
   [[nodiscard]] RobustFit fit(const std::vector<SceneObservations>& observations) const {
-    auto result = fit_robustly(observations, camera_, target_, options_);
+    auto result = fit_robustly({observations, camera_, target_, options_});
     EXPECT_TRUE(result.ok());
     return std::move(result).value();
   }
@@ -83,7 +83,7 @@ TEST_F(RobustFitting, ObservationsThatAreNotNumbersAreRefused) {
   observations[0].plane.center_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   observations[0].lidar_from_board.translation.setConstant(
       std::numeric_limits<double>::quiet_NaN());
-  const auto result = fit_robustly(observations, camera_, target_, options_);
+  const auto result = fit_robustly({observations, camera_, target_, options_});
   ASSERT_FALSE(result.ok());
   EXPECT_EQ(result.error().kind, ErrorKind::kUntrusted);
 }

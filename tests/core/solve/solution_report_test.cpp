@@ -16,12 +16,12 @@ using ::testing::HasSubstr;
 class SolutionReporting : public ::testing::Test {
  protected:
   SolutionReporting() : scenes_(test::observed_scenes(4, target_, camera_, truth_, {}, 1)) {
-    auto result = fit_robustly(scenes_, camera_, target_, options_);
+    auto result = fit_robustly({scenes_, camera_, target_, options_});
     EXPECT_TRUE(result.ok());
     fit_ = std::move(result).value();
   }
   [[nodiscard]] ExtrinsicSolution report() const {
-    return report_solution(fit_, scenes_, camera_, target_, options_);
+    return report_solution(fit_, {scenes_, camera_, target_, options_});
   }
   Target target_;
   Camera camera_ = test::test_camera();

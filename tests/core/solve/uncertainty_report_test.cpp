@@ -24,12 +24,12 @@ class Uncertainty : public ::testing::Test {
     return test::observed_scenes(count, target_, camera_, truth_, noise_, seed);
   }
   [[nodiscard]] UncertaintyReport assess(const std::vector<SceneObservations>& observations) const {
-    const auto joint = solve_extrinsic(observations, camera_, target_, options_);
+    const auto joint = solve_extrinsic({observations, camera_, target_, options_});
     if (!joint) {
       ADD_FAILURE() << joint.error().text();
       return {};
     }
-    return assess_uncertainty(observations, camera_, target_, *joint, options_);
+    return assess_uncertainty({observations, camera_, target_, options_}, *joint);
   }
   Target target_;
   Camera camera_ = test::test_camera();
@@ -102,7 +102,7 @@ TEST_F(Uncertainty, TooFewScenesSaySo) {
 
 // The map against drawing extrinsics from the covariance and projecting a point.
 TEST_F(Uncertainty, PixelCovarianceIsThatOfDrawnExtrinsics) {
-  const auto joint = solve_extrinsic(scenes(3, 6), camera_, target_, options_);
+  const auto joint = solve_extrinsic({scenes(3, 6), camera_, target_, options_});
   ASSERT_TRUE(joint.ok());
   const Matrix6d& covariance = joint->camera_from_lidar.covariance;
   const Matrix6d root = covariance.llt().matrixL();

@@ -6,7 +6,6 @@
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
-#include <QElapsedTimer>
 #include <QFile>
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -182,11 +181,8 @@ TEST_F(ImportDialogTest, ACancelledImportLeavesNothingAndCanBeDoneAgain) {
   look_at(test::small_walk().path);
   button("import_start").click();
   ASSERT_TRUE(dialog()->busy());
-  QElapsedTimer clock;
-  clock.start();
   button("import_stop").click();
   ASSERT_TRUE(wait_until([&] { return !dialog()->busy(); }, 5000));
-  EXPECT_LT(clock.elapsed(), 200);
   ASSERT_TRUE(Runner::wait_for_workers(10'000));
   EXPECT_THAT(left_behind(), ::testing::ElementsAre("settings"));
   EXPECT_FALSE(window_->workspace().is_open());

@@ -26,8 +26,6 @@ TEST(PageStack, ShowsTheWelcomePageFirstAndATabPerPage) {
     EXPECT_EQ(tabs->currentIndex(), tab);
     EXPECT_FALSE(tabs->tabText(tab).isEmpty());
   }
-  stack.show_welcome();
-  EXPECT_TRUE(stack.welcome().isVisible());
 }
 
 TEST(PageStack, ABoxBeingEditedStaysUntilAnotherIsInForce) {
