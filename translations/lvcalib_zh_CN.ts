@@ -5117,6 +5117,22 @@ were saved. Take them up again?</source>
         <source>write the cloud with fewer points or uncompressed, or raise clouds.max_unpacked_mib in the options</source>
         <translation>请减少点数或以不压缩方式写出点云，或在选项中提高 clouds.max_unpacked_mib</translation>
     </message>
+    <message>
+        <source>the distortion model %1 predicts images held out to %2 px, %3 only to %4 px</source>
+        <translation>畸变模型 %1 对未参与拟合的图像的预测误差为 %2 px，而 %3 为 %4 px</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; calibrate the camera again with it</source>
+        <translation>图像与内参矛盾：%1；请用该模型重新标定相机</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; with it the extrinsic moves by %2 mm and %3 mrad, less than what matters</source>
+        <translation>图像与内参矛盾：%1；采用该模型后外参移动 %2 mm 和 %3 mrad，小于有影响的程度</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; with it the extrinsic moves by %2 mm and %3 mrad; calibrate the camera again with it</source>
+        <translation>图像与内参矛盾：%1；采用该模型后外参移动 %2 mm 和 %3 mrad；请用该模型重新标定相机</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -5887,6 +5903,10 @@ were saved. Take them up again?</source>
     <message>
         <source>Distortion models by the images that they were not fitted to: %1.</source>
         <translation>各畸变模型在未参与拟合的图像上的误差：%1。</translation>
+    </message>
+    <message>
+        <source>With it the extrinsic moves by %1.</source>
+        <translation>采用该模型后外参移动 %1。</translation>
     </message>
 </context>
 <context>

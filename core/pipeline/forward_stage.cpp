@@ -93,9 +93,12 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                                            const ExtrinsicSolution& start,
                                            const ForwardOptions& options,
                                            const RunContext& context) {
+  // Intrinsics are drawn to the given ones; those of another model to where they start.
+  const Camera& given = result.intrinsics.given;
+  const bool other = options.first_camera && options.first_camera->model != given.model;
   return solve_forward(forward_scenes(result, observations, index, start), *result.print,
-                       result.intrinsics.given, start_pose(result.consensus, start), start.sigma_px,
-                       options, context);
+                       other ? *options.first_camera : given, start_pose(result.consensus, start),
+                       start.sigma_px, options, context);
 }
 
 ReportedPose pose_of(const ForwardSolution& forward) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/calibration.h"
+#include "pipeline/camera_calibration.h"
 #include "support/simulated_dataset.h"
 
 namespace lvcalib {
@@ -72,6 +73,34 @@ TEST(Calibrate, ImagesForTheCameraAloneNarrowItsIntrinsics) {
   const auto fixed = calibrate(wrong, request, {});
   ASSERT_TRUE(fixed.ok()) << fixed.error().text();
   EXPECT_TRUE(fixed->intrinsics.contradiction.has_value());
+}
+
+// A camera calibrated as a fisheye that is none: it fits its own images about as well as can be,
+// and turns the extrinsic by more than a milliradian.
+TEST(Calibrate, NamesADistortionModelThatPredictsBetter) {
+  const test::SimulatedDataset data(test::dataset_options(9109, 7));
+  Dataset dataset = data.open();
+  std::vector<fs::path> images;
+  for (const SceneFiles& scene : dataset.scenes) images.push_back(scene.image);
+  CameraCalibrationOptions as_fisheye;
+  as_fisheye.model = DistortionModel::kEquidistant;
+  const auto camera = calibrate_camera(images, dataset.target, as_fisheye, {});
+  ASSERT_TRUE(camera.ok()) << camera.error().text();
+  dataset.camera = camera->camera;
+  const auto result = calibrate(dataset, {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  ASSERT_TRUE(result->intrinsics.contradiction);
+  const IntrinsicsContradiction& found = *result->intrinsics.contradiction;
+  EXPECT_EQ(found.better_model, DistortionModel::kPlumbBob);
+  EXPECT_TRUE(found.matters);
+  EXPECT_EQ(result->quality, Quality::kDoubtful);
+  EXPECT_THAT(result->warnings,
+              Contains(HasSubstr("the distortion model plumb_bob predicts images held out to")));
+  // With it the extrinsic is nearer to the truth than what the given camera leads to.
+  const Rigid3& truth = data.rig().camera_from_lidar;
+  ASSERT_TRUE(found.camera_from_lidar);
+  EXPECT_LT(rotation_distance_rad(truth, found.camera_from_lidar->transform),
+            0.5 * rotation_distance_rad(truth, result->extrinsic.camera_from_lidar.transform));
 }
 
 }  // namespace
