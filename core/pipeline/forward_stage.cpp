@@ -109,6 +109,17 @@ ReportedPose pose_of(const ForwardSolution& forward) {
           forward.iterations};
 }
 
+ProjectionCovariance projection_covariance(const CalibrationResult& result,
+                                           const Matrix6d& extrinsic) {
+  ProjectionCovariance out = ProjectionCovariance::held(extrinsic);
+  if (!result.forward || !result.model.empty()) return out;
+  const Eigen::MatrixXd& globals = result.forward->globals_covariance;
+  if (globals.rows() < kGlobals) return out;
+  out.cross = globals.block<kIntrinsics, 6>(kFirstIntrinsic, 0);
+  out.intrinsics = globals.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic);
+  return out;
+}
+
 ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& subset,
                                  const ExtrinsicSolution& start,
                                  const std::vector<SceneObservations>& observations,

@@ -137,7 +137,8 @@ void report_model(const Discovery& discovery, CalibrationResult& result) {
   result.methods = compare_methods(observations, result.camera, target, nodes, how, methods);
   result.ablation.clear();  // Of the base model.
   result.uncertainty =
-      assess_uncertainty(observations, result.camera, target, result.extrinsic, how, {}, subsets);
+      assess_uncertainty(observations, result.camera, target, result.extrinsic,
+                         projection_covariance(result, discovery.covariance), how, {}, subsets);
 }
 
 }  // namespace
