@@ -11,6 +11,7 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "cloud/about_cloud.h"
 #include "model/row_covariates.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/verdict.h"
@@ -449,8 +450,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   // Behind what is wrong, which may be why they are weak.
   for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
   for (const SceneResult& scene : result.scenes) {
-    for (const Message& w : scene.cloud_warnings)
-      verdict.note(Message("scene %1: its cloud: %2", scene.name, w));
+    for (const Message& w : scene.cloud_warnings) verdict.note(about_cloud(scene.name, w));
     if (!scene.used && !scene.reason.empty() && !scene.rejected) {
       // The image shows the board, and the cloud shows none where the other scenes say: a scene
       // that contradicts them is worth more than a note.
