@@ -139,6 +139,10 @@ were saved. Take them up again?</source>
         <source>Images (*.png *.jpg *.jpeg *.bmp *.tif *.tiff)</source>
         <translation>图像 (*.png *.jpg *.jpeg *.bmp *.tif *.tiff)</translation>
     </message>
+    <message>
+        <source>Open a folder of images of the board</source>
+        <translation>打开标定板图像文件夹</translation>
+    </message>
 </context>
 <context>
     <name>CloudSceneText</name>
@@ -5117,6 +5121,26 @@ were saved. Take them up again?</source>
         <source>write the cloud with fewer points or uncompressed, or raise clouds.max_unpacked_mib in the options</source>
         <translation>请减少点数或以不压缩方式写出点云，或在选项中提高 clouds.max_unpacked_mib</translation>
     </message>
+    <message>
+        <source>the distortion model %1 predicts images held out to %2 px, %3 only to %4 px</source>
+        <translation>畸变模型 %1 对未参与拟合的图像的预测误差为 %2 px，而 %3 为 %4 px</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; calibrate the camera again with it</source>
+        <translation>图像与内参矛盾：%1；请用该模型重新标定相机</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; with it the extrinsic moves by %2 mm and %3 mrad, less than what matters</source>
+        <translation>图像与内参矛盾：%1；采用该模型后外参移动 %2 mm 和 %3 mrad，小于有影响的程度</translation>
+    </message>
+    <message>
+        <source>the images contradict the intrinsics: %1; with it the extrinsic moves by %2 mm and %3 mrad; calibrate the camera again with it</source>
+        <translation>图像与内参矛盾：%1；采用该模型后外参移动 %2 mm 和 %3 mrad；请用该模型重新标定相机</translation>
+    </message>
+    <message>
+        <source>the images of scenes %1 and those of scenes %2 are turned against each other: all agree once the former are turned counterclockwise by %3°, or the latter by %4°; nothing tells which are as the camera gives them: turn those that are not, and switch off what turns images</source>
+        <translation>场景 %1 的图像与场景 %2 的图像方向互不一致：把前者逆时针旋转 %3°，或把后者逆时针旋转 %4° 后全部吻合；无法判断哪些是相机原本的方向：请旋转不是原本方向的图像，并关闭旋转图像的功能</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -5888,6 +5912,10 @@ were saved. Take them up again?</source>
         <source>Distortion models by the images that they were not fitted to: %1.</source>
         <translation>各畸变模型在未参与拟合的图像上的误差：%1。</translation>
     </message>
+    <message>
+        <source>With it the extrinsic moves by %1.</source>
+        <translation>采用该模型后外参移动 %1。</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::AboutDialog</name>
@@ -6194,6 +6222,55 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Step %1, %2: %3 mm (left bar) and %4 mrad (right bar) from the truth</source>
         <translation>第 %1 步，%2：与真值相差 %3 mm（左柱）和 %4 mrad（右柱）</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CameraDialog</name>
+    <message>
+        <source>Written: %1</source>
+        <translation>已写入：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n images.</source>
+        <translation>
+            <numerusform>%n 幅图像。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>A camera from images of the board</source>
+        <translation>由标定板图像标定相机</translation>
+    </message>
+    <message>
+        <source>&amp;Images</source>
+        <translation>图像(&amp;I)</translation>
+    </message>
+    <message>
+        <source>&amp;Board</source>
+        <translation>标定板(&amp;B)</translation>
+    </message>
+    <message>
+        <source>Distortion &amp;model</source>
+        <translation>畸变模型(&amp;M)</translation>
+    </message>
+    <message>
+        <source>A folder of images of the board, or a dataset</source>
+        <translation>标定板图像文件夹，或数据集</translation>
+    </message>
+    <message>
+        <source>target.yaml in that folder</source>
+        <translation>该文件夹中的 target.yaml</translation>
+    </message>
+    <message>
+        <source>&amp;Folder…</source>
+        <translation>文件夹(&amp;F)…</translation>
+    </message>
+    <message>
+        <source>&amp;target.yaml…</source>
+        <translation>target.yaml(&amp;T)…</translation>
+    </message>
+    <message>
+        <source>the one that predicts held-out images best</source>
+        <translation>对未参与拟合的图像预测最好的模型</translation>
     </message>
 </context>
 <context>
@@ -7740,14 +7817,6 @@ The pose, its standard deviations and the verdict. *Residuals* has a column for 
 </translation>
     </message>
     <message>
-        <source># Tools
-*Plan scenes* says where to hold the board next and how sure the extrinsic is then. *File › Watch* takes scenes as they come and shows the next pose in large letters. *Check on fresh data* lays the pose over pictures with or without a board and says whether edges of LiDAR and image agree; there a rough pose is also found by hand. *Compare with* sets two results side by side, *Correct clouds* takes the model&apos;s effects out of clouds, and the board is printed and described from the same menu.
-</source>
-        <translation># 工具
-*规划场景*说明下一步把标定板放在哪里，以及届时外参有多可靠。*文件 › 监视*在场景出现时即行采用，并以大字显示下一个位姿。*用新数据检验*把位姿叠加到有无标定板的画面上，说明激光雷达与图像的边缘是否吻合；也可在那里手动寻找粗略位姿。*比较*把两个结果并列，*校正点云*从点云中去除模型的效应；标定板的打印和描述也在同一菜单中。
-</translation>
-    </message>
-    <message>
         <source># Camera
 The intrinsics as given, as estimated with the extrinsic and from images alone, with their standard deviations, and what the images say against them. Every image is listed with what its corners miss the camera by.
 
@@ -7763,6 +7832,14 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
 - **标定相机** 只需要图像；各畸变模型在未参与拟合的图像上比较。用 *保存 camera.yaml…* 保存结果。
 - *残差* 用箭头显示角点偏离相机模型的程度；*不确定度* 显示图像各处方向的精度。
 - 求解外参时内参按给定值使用还是一同估计，是参数中的一个选项。
+</translation>
+    </message>
+    <message>
+        <source># Tools
+*Plan scenes* says where to hold the board next and how sure the extrinsic is then. *File › Watch* takes scenes as they come and shows the next pose in large letters. *Check on fresh data* lays the pose over pictures with or without a board and says whether edges of LiDAR and image agree; there a rough pose is also found by hand. *Compare with* sets two results side by side, *Correct clouds* takes the model&apos;s effects out of clouds, *Calibrate a camera* makes a camera.yaml of a folder of images, and the board is printed and described from the same menu.
+</source>
+        <translation># 工具
+*规划场景*说明下一步把标定板放在哪里，以及届时外参有多可靠。*文件 › 监视*在场景出现时即行采用，并以大字显示下一个位姿。*用新数据检验*把位姿叠加到有无标定板的画面上，说明激光雷达与图像的边缘是否吻合；也可在那里手动寻找粗略位姿。*比较*把两个结果并列，*校正点云*从点云中去除模型的效应，*标定相机*由图像文件夹生成 camera.yaml；标定板的打印和描述也在同一菜单中。
 </translation>
     </message>
 </context>
@@ -8310,6 +8387,14 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
     <message>
         <source>Lay the pose over images and clouds, with or without a board, and see whether their edges agree; find a rough pose by hand</source>
         <translation>把位姿叠加到有无标定板的图像和点云上，看边缘是否吻合；或手动寻找粗略位姿</translation>
+    </message>
+    <message>
+        <source>Calibrate a c&amp;amera…</source>
+        <translation>标定相机(&amp;A)…</translation>
+    </message>
+    <message>
+        <source>A camera alone, from a folder of images of the board; no dataset is needed</source>
+        <translation>仅标定相机：使用标定板图像文件夹，无需数据集</translation>
     </message>
 </context>
 <context>

@@ -51,7 +51,9 @@ Result<std::string> run(const CheckArguments& options, Session& session) {
   const auto read =
       read_fresh_views(pairs, input->camera, input->camera_from_lidar, session.context);
   if (!read) return read.error();
-  for (const Message& warning : read->warnings) session.warn(warning);
+  std::vector<Message> warnings = read->warnings;
+  warnings.insert(warnings.end(), read->cloud_warnings.begin(), read->cloud_warnings.end());
+  for (const Message& warning : warnings) session.warn(warning);
   EdgeCheckOptions check_options;
   check_options.covariance = stored->covariance;
   check_options.tolerance_px = options.tolerance_px;
@@ -59,7 +61,7 @@ Result<std::string> run(const CheckArguments& options, Session& session) {
                                  check_options, session.context);
   if (!check) return check.error();
   if (!options.output.empty()) {
-    if (Status s = write_check(*check, pairs, options.output); !s) return s.error();
+    if (Status s = write_check(*check, pairs, warnings, options.output); !s) return s.error();
   }
   if (check->verdict == EdgeVerdict::kAgrees)
     return name_of(check->verdict) + ": " + summary_of(*check);

@@ -104,6 +104,8 @@ Result<std::string> run(const CorrectArguments& options, Session& session) {
   session.context.report("load", 0.0, Message("reading the cloud"));
   auto cloud = read_cloud(options.cloud, session.context.stop, PointChoice::kAll);
   if (!cloud) return cloud.error();
+  for (const Message& warning : cloud->warnings)
+    session.warn(Message("%1: %2", options.cloud, warning));
   const auto summary =
       correct_cloud(*cloud, model->effects, model->scales, options.correction, session.context);
   if (!summary) {

@@ -41,6 +41,7 @@ MainActions::MainActions(QMainWindow& window, QUndoStack& undo_stack)
   use_crops = add(run_menu_, "use_crops", {});
   use_crops->setCheckable(true);
   target_camera = add(tools_, "target_camera", {});
+  camera_alone = add(tools_, "camera_alone", {});
   print_board = add(tools_, "print_board", {});
   correct = add(tools_, "correct_clouds", {});
   compare = add(tools_, "compare_results", {});
@@ -224,6 +225,8 @@ void MainActions::retranslate() {
            tr("Take a scene's board.pcd instead of its whole cloud where there is one"));
   describe(target_camera, tr("&Target and camera…"),
            tr("Make or edit target.yaml and camera.yaml"));
+  describe(camera_alone, tr("Calibrate a c&amera…"),
+           tr("A camera alone, from a folder of images of the board; no dataset is needed"));
   describe(print_board, tr("&Print the board…"),
            tr("Draw the board for printing, exactly to scale"));
   describe(correct, tr("&Correct clouds…"),

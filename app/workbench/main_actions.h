@@ -37,7 +37,7 @@ class MainActions : public QObject {
   QAction *import_recording, *import_files, *open_dataset, *open_project, *demo, *save, *save_as,
       *results, *report, *quit;
   QAction *watch_dataset, *watch_files, *what_next;
-  QAction *target_camera, *print_board, *correct, *compare, *plan, *check;
+  QAction *target_camera, *camera_alone, *print_board, *correct, *compare, *plan, *check;
   QAction *undo, *redo, *run, *cancel, *use_crops, *guide, *about;
   QActionGroup* themes;     ///< data(): name_of(Theme).
   QActionGroup* languages;  ///< data(): code of the language.

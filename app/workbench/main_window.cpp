@@ -153,6 +153,7 @@ void MainWindow::connect_actions() {
                                      : QString());
   };
   on(actions_->target_camera, target_camera);
+  on(actions_->camera_alone, [this] { results_->calibrate_camera(); });
   on(actions_->print_board, [this] {
     results_->print_board(workspace_->is_open() ? std::optional(workspace_->dataset().target)
                                                 : std::nullopt);

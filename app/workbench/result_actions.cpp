@@ -6,6 +6,7 @@
 
 #include "design/lidar_file.h"
 #include "dialogs/results_dialog.h"
+#include "intrinsics/camera_dialog.h"
 #include "tools/check_dialog.h"
 #include "tools/compare_dialog.h"
 #include "tools/correct_dialog.h"
@@ -110,6 +111,12 @@ void ResultActions::edit_target_camera(const QString& folder) {
   };
   connect(dialog, &TargetCameraDialog::targetSaved, this, saved);
   connect(dialog, &TargetCameraDialog::cameraSaved, this, saved);
+  dialog->show();
+}
+
+void ResultActions::calibrate_camera() {
+  auto* dialog = new CameraDialog(choices_, settings_.last_folder(), &window_);
+  connect(dialog, &CameraDialog::cameraSaved, this, &ResultActions::remember);
   dialog->show();
 }
 

@@ -39,6 +39,8 @@ class ResultActions : public QObject {
   void plan_scenes(const PlanBasis& basis);
   /// `folder`: whose target.yaml and camera.yaml are opened; empty: nothing is.
   void edit_target_camera(const QString& folder);
+  /// A camera alone, from a folder of images; nothing need be open.
+  void calibrate_camera();
   /// `present`: the board of what is open.
   void print_board(const std::optional<Target>& present);
   void cancel() { report_.cancel(); }

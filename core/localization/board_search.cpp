@@ -350,7 +350,7 @@ BoardSearchResult search_board(const Cloud& cloud, const BoardSought& sought,
   const VoxelCloud voxels = voxels_of(in, sought.camera_distance_m, sought.region);
   std::vector<PatchMatches> found;
   const bool by_pattern = matches_by_pattern(target, cloud);
-  const std::optional<Eigen::Vector3d> width = region ? region->width : std::nullopt;
+  const std::optional<Eigen::Vector3d> width = sought.region ? sought.region->width : std::nullopt;
   for (PlanarPatch& patch : patches_in(in, voxels)) {
     if (context.stopped()) return {};
     if (!plausible_size(in, patch)) continue;

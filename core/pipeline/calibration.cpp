@@ -19,7 +19,11 @@ namespace {
 
 std::vector<SceneHypotheses> hypotheses(const CalibrationResult& result) {
   std::vector<SceneHypotheses> out;
-  for (const SceneResult& scene : result.scenes) out.push_back(hypotheses_of(scene, result.target));
+  for (const SceneResult& scene : result.scenes) {
+    out.push_back(hypotheses_of(scene, result.target));
+    // What its image says is of another camera.
+    if (scene.turned_image) out.back().candidates.clear();
+  }
   return out;
 }
 
@@ -387,7 +391,9 @@ Status agree(const CalibrationInput& in, Calibration& run) {
   in.context.report("localize", 0.7, Message("comparing scenes"));
   auto consensus = decide(in, run.result);
   // Before anybody looks for boards where turned images put them.
-  if (consensus) note_turned_images(run.result, hypotheses(run.result), *consensus);
+  if (consensus && note_turned_images(run.result, hypotheses(run.result), *consensus,
+                                      in.request.guess.has_value()))
+    consensus = decide(in, run.result);
   if (!consensus) {
     // What would mend it costs less to look for than walls do, and gets clearer evidence: first
     // what two scenes must agree on.

@@ -8,20 +8,15 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
-#include "detection/board_pose.h"
 #include "pipeline/camera_figures.h"
+#include "pipeline/distortion_models.h"
 
 namespace lvcalib {
 namespace {
 
-constexpr std::array kModelOrder = {DistortionModel::kPlumbBob, DistortionModel::kEquidistant,
-                                    DistortionModel::kRationalPolynomial};
 // Focal lengths to start from, in widths of the image: from fisheyes (140° across and more) to
 // telephoto lenses. The bundle adjustment bridges the steps.
 constexpr std::array kFocalLadder = {0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0};
-// While the camera is a guess, corners may miss the board's pose by this share of the image's
-// width: distortion of tens of pixels does not cost the board.
-constexpr double kGuessTolerance = 0.03;
 // Of three the median is one of them, and a stray may be it.
 constexpr std::size_t kFewestToJudgeStrays = 4;
 // Foreshortening, by which the focal length is told from the distance, grows with the sine of the
@@ -47,40 +42,11 @@ Camera guessed_camera(int width_px, int height_px, double widths, DistortionMode
   return camera;
 }
 
-DetectionOptions tolerant(DetectionOptions options, int width_px) {
-  options.max_reprojection_px = std::max(options.max_reprojection_px, kGuessTolerance * width_px);
-  return options;
-}
-
-// Views with their poses under a camera; `misfit` is the RMS of a coordinate. Corners that fit no
-// pose at all count as if they missed by a tenth of the image.
-std::vector<CornerView> posed_views(const std::vector<BoardImage>& images, const Indices& use,
-                                    const Camera& camera, const DetectionOptions& options,
-                                    double& misfit_px) {
+std::vector<CornerView> views_of(const std::vector<BoardImage>& images, const Indices& use) {
   std::vector<CornerView> out;
-  double squares = 0.0;
-  double count = 0.0;
-  const double limit_px = 0.1 * camera.width_px;
-  for (const std::size_t i : use) {
-    const std::vector<CornerObservation>& corners = images[i].view->corners;
-    Rigid3 pose = images[i].view->camera_from_board.transform;
-    const auto fit = estimate_board_pose(corners, camera, tolerant(options, camera.width_px));
-    if (fit) pose = fit->camera_from_board.transform;
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      const double e = fit ? std::min(fit->residual_px[c], limit_px) : limit_px;
-      squares += 0.5 * e * e;
-      count += 1.0;
-    }
-    out.push_back({&corners, pose});
-  }
-  misfit_px = std::sqrt(squares / std::max(1.0, count));
+  for (const std::size_t i : use)
+    out.push_back({&images[i].view->corners, images[i].view->camera_from_board.transform});
   return out;
-}
-
-std::vector<CornerView> fitted_views(std::vector<CornerView> views, const IntrinsicsFit& fit) {
-  for (std::size_t v = 0; v < views.size(); ++v)
-    views[v].camera_from_board = fit.camera_from_board[v];
-  return views;
 }
 
 // Where a bundle adjustment of one model may start, the most promising first.
@@ -92,7 +58,7 @@ std::vector<Camera> starts_for(const std::vector<BoardImage>& images, const Indi
   for (const double widths : kFocalLadder) {
     const Camera camera = guessed_camera(first.width_px, first.height_px, widths, model);
     double misfit = 0.0;
-    posed_views(images, use, camera, options.detection, misfit);
+    posed_views(views_of(images, use), camera, options.detection, misfit);
     ladder.emplace_back(misfit, camera);
   }
   std::stable_sort(ladder.begin(), ladder.end(),
@@ -102,102 +68,19 @@ std::vector<Camera> starts_for(const std::vector<BoardImage>& images, const Indi
   return out;
 }
 
-// The bundle adjustment from one start. The prior is centred on the start, so it is laid about the
-// estimate and solved again until that no longer moves.
-std::optional<IntrinsicsFit> fit_from(const std::vector<BoardImage>& images, const Indices& use,
-                                      const Camera& start, const DetectionOptions& options) {
-  double misfit = 0.0;
-  std::vector<CornerView> views = posed_views(images, use, start, options, misfit);
-  auto fit = fit_intrinsics(views, start, wide_intrinsics_sigma(start));
-  if (!fit) return fit;
-  // The prior is a thousand times wider than what the images tell: each round leaves a millionth of
-  // what the one before moved, and only images that hardly tell anything need more than one.
-  constexpr int kRounds = 4;
-  constexpr double kSettled = 0.05;  // In standard deviations.
-  for (int round = 0; round < kRounds; ++round) {
-    views = fitted_views(std::move(views), *fit);
-    auto next = fit_intrinsics(views, fit->camera, wide_intrinsics_sigma(fit->camera));
-    if (!next) break;
-    const IntrinsicsVector moved = intrinsics_of(next->camera) - intrinsics_of(fit->camera);
-    fit = std::move(next);
-    bool settled = true;
-    for (Eigen::Index k = 0; k < kIntrinsics; ++k)
-      settled = settled && std::abs(moved(k)) <= kSettled * std::sqrt(fit->covariance(k, k));
-    if (settled) break;
-  }
-  return fit;
-}
-
 std::optional<IntrinsicsFit> fit_model(const std::vector<BoardImage>& images, const Indices& use,
                                        DistortionModel model,
                                        const CameraCalibrationOptions& options) {
   // A few: the best by its poses alone need not be where the adjustment ends best.
   constexpr std::size_t kTried = 3;
   std::optional<IntrinsicsFit> best;
+  const std::vector<CornerView> views = views_of(images, use);
   const std::vector<Camera> starts = starts_for(images, use, model, options);
   for (std::size_t k = 0; k < starts.size() && (k < kTried || !best); ++k) {
-    auto fit = fit_from(images, use, starts[k], options.detection);
+    auto fit = fit_from(views, starts[k], options.detection);
     if (fit && (!best || fit->sigma_px < 0.99 * best->sigma_px)) best = std::move(fit);
   }
   return best;
-}
-
-// Mean square of a coordinate in each image while it was held out. Empty if the model cannot be
-// fitted.
-std::vector<double> held_out_squares(const std::vector<BoardImage>& images, const Indices& use,
-                                     const Camera& start, const CameraCalibrationOptions& options,
-                                     const RunContext& context) {
-  const auto folds = std::min(use.size(), static_cast<std::size_t>(std::max(2, options.folds)));
-  std::vector<double> out(use.size(), 0.0);
-  for (std::size_t fold = 0; fold < folds; ++fold) {
-    if (context.stopped()) return {};
-    Indices kept;
-    for (std::size_t k = 0; k < use.size(); ++k) {
-      if (k % folds != fold) kept.push_back(use[k]);
-    }
-    const auto fit = fit_from(images, kept, start, options.detection);
-    if (!fit) return {};
-    for (std::size_t k = fold; k < use.size(); k += folds) {
-      double misfit = 0.0;
-      const auto views = posed_views(images, {use[k]}, fit->camera, options.detection, misfit);
-      // The pose alone, on all corners: a robust one would forgive a model what it cannot do.
-      const auto posed = fit_intrinsics(views, fit->camera, IntrinsicsVector::Zero());
-      const Rigid3& pose = posed ? posed->camera_from_board.front() : views[0].camera_from_board;
-      out[k] = std::pow(corner_rms_px(*views[0].corners, fit->camera, pose), 2);
-    }
-  }
-  return out;
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(std::max<std::size_t>(1, values.size()));
-}
-
-// Whether squares `b` of held-out images are lower than `a` beyond chance. Logarithms, so that one
-// image in which both are far off does not drown what all others say.
-bool predicts_better(const std::vector<double>& a, const std::vector<double>& b) {
-  constexpr double kLeast_px2 = 1e-8;
-  std::vector<double> gain;
-  for (std::size_t k = 0; k < a.size(); ++k)
-    gain.push_back(std::log(std::max(a[k], kLeast_px2) / std::max(b[k], kLeast_px2)));
-  const double mean = mean_of(gain);
-  double spread = 0.0;
-  for (const double g : gain) spread += (g - mean) * (g - mean);
-  const auto n = static_cast<double>(gain.size());
-  const double sigma = std::sqrt(spread / (n * std::max(1.0, n - 1.0)));
-  constexpr double kLeast = 0.02;
-  return mean > 2.0 * sigma && mean_of(b) < (1.0 - kLeast) * mean_of(a);
-}
-
-// Corners of the image that the camera has no ray for: the distortion folds back before them.
-int blind_corners(const Camera& camera) {
-  int blind = 0;
-  for (const double x : {0.0, camera.width_px - 1.0}) {
-    for (const double y : {0.0, camera.height_px - 1.0}) blind += camera.unproject({x, y}) ? 0 : 1;
-  }
-  return blind;
 }
 
 // The best fit over the models in question, and what held-out images say of them.
@@ -209,7 +92,7 @@ std::optional<IntrinsicsFit> choose_model(const std::vector<BoardImage>& images,
   const bool compare = use.size() >= static_cast<std::size_t>(options.fewest_to_compare);
   std::optional<IntrinsicsFit> best;
   std::vector<double> best_squares;
-  for (const DistortionModel model : kModelOrder) {
+  for (const DistortionModel model : kDistortionModels) {
     if (context.stopped()) return std::nullopt;
     // With too few images to compare the simplest that can be fitted stands.
     if (!compare && best) break;
@@ -219,8 +102,9 @@ std::optional<IntrinsicsFit> choose_model(const std::vector<BoardImage>& images,
       best = std::move(fit);
       continue;
     }
-    const auto squares = held_out_squares(images, use, fit->camera, options, context);
-    out.predictions.push_back({model, squares.empty() ? 0.0 : std::sqrt(mean_of(squares))});
+    const auto squares = held_out_squares(views_of(images, use), fit->camera, options.detection,
+                                          options.folds, context);
+    out.predictions.push_back({model, rms_of(squares)});
     const auto better = [&] {
       if (squares.empty() || best_squares.empty()) return best_squares.empty() && !squares.empty();
       // A distortion that folds back inside the image is wrong there, whatever it predicts

@@ -31,16 +31,17 @@ double middle_distance_m(const BoardView& view, const Target& target) {
   return (view.camera_from_board.transform * Eigen::Vector3d(c.x(), c.y(), 0.0)).norm();
 }
 
-// A scene as the camera sees it, its board still to be looked for.
-SceneHypotheses seen_by_camera(const BoardView& view, const Target& target) {
+}  // namespace
+
+SceneHypotheses seen_by_camera(const BoardView& view, const Target& target, double size) {
   SceneHypotheses h;
   h.camera_from_board = view.camera_from_board;
+  h.camera_from_board.transform.translation *= size;
   h.alternative_camera_from_board = view.alternative_pose;
-  h.board_middle_m = target.outline().center_m();
+  if (h.alternative_camera_from_board) h.alternative_camera_from_board->translation *= size;
+  h.board_middle_m = size * target.outline().center_m();
   return h;
 }
-
-}  // namespace
 
 std::vector<LengthUnit> other_length_units() {
   return {{Message("in millimetres"), 1e-3},

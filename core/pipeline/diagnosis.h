@@ -17,6 +17,10 @@ struct LengthUnit {
 };
 std::vector<LengthUnit> other_length_units();
 
+/// A board as an image has it, were it `size` times as large as the target says: where it may be in
+/// the cloud is left open.
+SceneHypotheses seen_by_camera(const BoardView& view, const Target& target, double size = 1.0);
+
 /// After the board was not found in any cloud: whether it is found, at places of two scenes that
 /// agree if there are two, once the clouds are taken for ones in millimetres, centimetres, feet or
 /// inches, or for mirrored ones. The error that says so.

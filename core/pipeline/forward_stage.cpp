@@ -92,9 +92,12 @@ Result<ForwardSolution> solve_every_return(const CalibrationResult& result,
                                            const ExtrinsicSolution& start,
                                            const ForwardOptions& options,
                                            const RunContext& context) {
+  // Intrinsics are drawn to the given ones; those of another model to where they start.
+  const Camera& given = result.intrinsics.given;
+  const bool other = options.first_camera && options.first_camera->model != given.model;
   return solve_forward(
-      {forward_scenes(result, observations, index, start), *result.print, result.intrinsics.given,
-       start_pose(result.consensus, start), start.sigma_px},
+      {forward_scenes(result, observations, index, start), *result.print,
+       other ? *options.first_camera : given, start_pose(result.consensus, start), start.sigma_px},
       options, context);
 }
 
@@ -102,6 +105,17 @@ ReportedPose pose_of(const ForwardSolution& forward) {
   return {{forward.state.camera_from_lidar, forward.camera_from_lidar.covariance},
           forward.state.camera_from_board,
           forward.uses_intensity};
+}
+
+ProjectionCovariance projection_covariance(const CalibrationResult& result,
+                                           const Matrix6d& extrinsic) {
+  ProjectionCovariance out = ProjectionCovariance::held(extrinsic);
+  if (!result.forward || !result.model.empty()) return out;
+  const Eigen::MatrixXd& globals = result.forward->globals_covariance;
+  if (globals.rows() < kGlobals) return out;
+  out.cross = globals.block<kIntrinsics, 6>(kFirstIntrinsic, 0);
+  out.intrinsics = globals.block<kIntrinsics, kIntrinsics>(kFirstIntrinsic, kFirstIntrinsic);
+  return out;
 }
 
 ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& subset,

@@ -47,6 +47,12 @@ ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& s
                                  const ExtrinsicSolution& start, const FeatureInput& in);
 ReportedPose pose_of(const ForwardSolution& forward);
 
+/// A covariance of the result's extrinsic with what goes with it of estimated intrinsics. Under a
+/// model with effects these are held where the calibration had put them. What `extrinsic` has
+/// beyond the calibration's own (the total one) counts as independent of the intrinsics.
+ProjectionCovariance projection_covariance(const CalibrationResult& result,
+                                           const Matrix6d& extrinsic);
+
 /// Solves the forward model for some of the observations of `start`.
 SubsetSolver forward_subsets(const ForwardSolution& forward, const ExtrinsicSolution& start);
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "cloud/about_cloud.h"
 #include "detection/board_view.h"
 #include "pipeline/scene_lister.h"
 #include "recording/pair_import.h"
@@ -16,6 +17,7 @@ namespace {
 struct Read {
   EdgeView view;
   std::vector<Eigen::Vector3f> points_m;
+  std::vector<Message> cloud_warnings;
 };
 
 Result<Read> read_pair(const FilePair& pair, const Camera& camera, const Rigid3& rough,
@@ -26,7 +28,7 @@ Result<Read> read_pair(const FilePair& pair, const Camera& camera, const Rigid3&
   if (!cloud) return cloud.error();
   auto view = edge_view(pair.name, *image, *cloud, camera, rough);
   if (!view) return view.error();
-  Read out{std::move(*view), {}};
+  Read out{std::move(*view), {}, cloud->warnings};
   const std::size_t step = 1 + cloud->size() / FreshViews::kMostDrawn;
   for (std::size_t i = 0; i < cloud->size(); i += step) out.points_m.push_back(cloud->points_m[i]);
   return out;
@@ -71,6 +73,8 @@ Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Ca
       out.views.push_back(std::move((*pair)->view));
       out.points_m.push_back(std::move((*pair)->points_m));
       out.pairs.push_back(k);
+      for (const Message& warning : (*pair)->cloud_warnings)
+        out.cloud_warnings.push_back(about_cloud(pairs[k].name, warning));
     } else if (pair) {
       out.warnings.push_back(Message("left out: %1", pair->error().sentence()));
     }

@@ -22,7 +22,8 @@ struct FreshViews {
   std::vector<std::size_t> pairs;  ///< Which pair each is of.
   /// As many: points of each cloud to draw, some kMostDrawn spread evenly over it.
   std::vector<std::vector<Eigen::Vector3f>> points_m;
-  std::vector<Message> warnings;  ///< Pairs that were left out, and why.
+  std::vector<Message> warnings;        ///< Pairs that were left out, and why.
+  std::vector<Message> cloud_warnings;  ///< Clouds that may not be whole; see about_cloud().
 };
 
 /// Reads pairs and finds their edges, as many at a time as the context has threads; what cannot be

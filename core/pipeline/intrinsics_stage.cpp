@@ -13,6 +13,7 @@
 #include "detection/board_pose.h"
 #include "detection/board_view.h"
 #include "pipeline/calibration.h"
+#include "pipeline/distortion_models.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/turned_images.h"
 
@@ -140,21 +141,17 @@ bool first_look(const ForwardSolution& forward, const Camera& given) {
       .contradicts();
 }
 
-struct Freed {
-  ForwardSolution forward;
-  IntrinsicsContrast contrast;
-};
-
 // The joint solve with the intrinsics freed; it starts from the corners' camera where the given one
-// is clearly off. Nothing where it fails.
-std::optional<Freed> solve_freed(const CalibrationResult& result,
-                                 const std::vector<SceneObservations>& observations,
-                                 const std::vector<std::size_t>& index,
-                                 const ExtrinsicSolution& nodes, const IntrinsicsFit* corners,
-                                 const RunContext& context) {
-  const Camera& given = result.intrinsics.given;
+// is clearly off or of another model. Nothing where it fails.
+std::optional<ForwardSolution> solve_freed(const CalibrationResult& result,
+                                           const std::vector<SceneObservations>& observations,
+                                           const std::vector<std::size_t>& index,
+                                           const ExtrinsicSolution& nodes,
+                                           const IntrinsicsFit* corners,
+                                           const RunContext& context) {
   ForwardOptions options = result.options.forward;
-  options.intrinsics_sigma = wide_intrinsics_sigma(given);
+  options.intrinsics_sigma =
+      wide_intrinsics_sigma(corners != nullptr ? corners->camera : result.intrinsics.given);
   options.intrinsics_evidence = result.intrinsics.evidence;
   std::vector<SceneObservations> freed = observations;
   ExtrinsicSolution start = nodes;
@@ -183,28 +180,37 @@ std::optional<Freed> solve_freed(const CalibrationResult& result,
     if (solved) start = std::move(*solved);
   }
   auto forward = solve_every_return(result, freed, index, start, options, context);
-  if (!forward) return std::nullopt;
-  Freed out{std::move(*forward), {}};
-  out.contrast = contrast_intrinsics(intrinsics_of(out.forward.state.camera), intrinsics_of(given),
-                                     out.forward.globals_covariance, options.intrinsics_sigma,
-                                     result.options.intrinsics.false_alarm);
-  return out;
+  return forward ? std::optional(std::move(*forward)) : std::nullopt;
+}
+
+UncertainRigid3 extrinsic_of(const ForwardSolution& forward) {
+  return {forward.state.camera_from_lidar, forward.globals_covariance.topLeftCorner<6, 6>()};
+}
+
+struct Move {
+  double mm = 0.0;  // Of the LiDAR's position.
+  double mrad = 0.0;
+  bool matters = false;
+};
+
+Move move_between(const UncertainRigid3& from, const UncertainRigid3& to, const QualityOptions& q) {
+  const double move_m = translation_distance_m(from.transform.inverse(), to.transform.inverse());
+  const double move_rad = rotation_distance_rad(from.transform, to.transform);
+  // Misfit widens one's standard deviation; that of the one without it is not spoiled by it.
+  const auto a = worst_sigmas(from);
+  const auto b = worst_sigmas(to);
+  return {
+      1e3 * move_m, 1e3 * move_rad,
+      move_m > std::max(q.tolerance_m, q.tolerance_sigmas * std::min(a.first, b.first)) ||
+          move_rad > std::max(q.tolerance_rad, q.tolerance_sigmas * std::min(a.second, b.second))};
 }
 
 void judge_move(const CalibrationResult& result, IntrinsicsContradiction& found) {
-  const Rigid3& a = result.extrinsic.camera_from_lidar.transform;
-  const Rigid3& b = found.camera_from_lidar->transform;
-  const double move_m = translation_distance_m(a.inverse(), b.inverse());
-  const double move_rad = rotation_distance_rad(a, b);
-  found.move_mm = 1e3 * move_m;
-  found.move_mrad = 1e3 * move_rad;
-  // Misfit widens the result's own standard deviation; the freed one's is not spoiled by it.
-  const auto own = worst_sigmas(result.extrinsic.camera_from_lidar);
-  const auto freed = worst_sigmas(*found.camera_from_lidar);
-  const QualityOptions& q = result.options.quality;
-  found.matters =
-      move_m > std::max(q.tolerance_m, q.tolerance_sigmas * std::min(own.first, freed.first)) ||
-      move_rad > std::max(q.tolerance_rad, q.tolerance_sigmas * std::min(own.second, freed.second));
+  const Move move = move_between(result.extrinsic.camera_from_lidar, *found.camera_from_lidar,
+                                 result.options.quality);
+  found.move_mm = move.mm;
+  found.move_mrad = move.mrad;
+  found.matters = move.matters;
 }
 
 // Faults that are in the data must lie within the total: with q = mᵀT⁻¹m above one for the move m,
@@ -235,6 +241,38 @@ void check_against_prior(CalibrationResult& result, const std::vector<CornerView
   found.contrast = contrast;
   found.what = describe(contrast, report.given, views);
   found.camera_from_lidar = result.extrinsic.camera_from_lidar;
+  report.contradiction = std::move(found);
+}
+
+Message describe_model(const BetterDistortion& better, const Camera& given) {
+  return Message("the distortion model %1 predicts images held out to %2 px, %3 only to %4 px",
+                 name_of(better.fit.camera.model), formatted("%.3f", better.held_out_px),
+                 name_of(given.model), formatted("%.3f", better.given_px));
+}
+
+void take_model(const BetterDistortion& better, const Camera& given,
+                IntrinsicsContradiction& found) {
+  const Message what = describe_model(better, given);
+  found.what = found.what.empty() ? what : joined({found.what, what}, "; ");
+  found.better_model = better.fit.camera.model;
+  found.better_px = better.fit.sigma_px;
+}
+
+// Joins what is said of the given model's values: either may be what is wrong, and a camera
+// calibrated again in the other model mends both. `with` is solved in the other model, `without`
+// has the intrinsics freed in the given one: only what lies between them is due to the model.
+void doubt_model(CalibrationResult& result, const BetterDistortion& better,
+                 const std::optional<ForwardSolution>& with, const UncertainRigid3& without) {
+  IntrinsicsReport& report = result.intrinsics;
+  IntrinsicsContradiction found = report.contradiction.value_or(IntrinsicsContradiction());
+  const bool mattered = report.contradiction && found.matters;
+  take_model(better, report.given, found);
+  if (with) {
+    found.camera_from_lidar = extrinsic_of(*with);
+    judge_move(result, found);
+    found.matters =
+        mattered || move_between(without, *found.camera_from_lidar, result.options.quality).matters;
+  }
   report.contradiction = std::move(found);
 }
 
@@ -428,7 +466,9 @@ void ask_images_again(CalibrationResult& result, const CornersWithout& others,
   IntrinsicsReport& report = result.intrinsics;
   const bool fixed = report.mode == IntrinsicsMode::kFixed;
   const bool asked = !report.spacing.empty();
-  if (!asked && !(fixed && report.contradiction)) return;
+  const bool camera_asked =
+      report.contradiction && (fixed || report.contradiction->better_model.has_value());
+  if (!asked && !camera_asked) return;
   const std::vector<CornerView> seen = views_of(result);
   using Corners = std::vector<std::vector<CornerObservation>>;
   const auto corners_left = [&](const CornersWithout& without) {
@@ -450,27 +490,41 @@ void ask_images_again(CalibrationResult& result, const CornersWithout& others,
                         });
     });
   };
-  const auto contradicted = [&](const std::vector<CornerView>& views) {
-    return contradicted_by(views, report.given, result.options.intrinsics.false_alarm);
+  // What images say against the camera: against its values, and the model that predicts better.
+  const auto against = [&](const std::vector<CornerView>& views) {
+    std::optional<IntrinsicsContradiction> found;
+    const double alarm = result.options.intrinsics.false_alarm;
+    if (const Message what = fixed ? contradicted_by(views, report.given, alarm) : Message();
+        !what.empty()) {
+      found.emplace();
+      found->what = what;
+    }
+    const auto fit = fit_freely(views, report.given);
+    const auto better =
+        fit ? better_distortion(views, *fit, result.options.detection, alarm, {}) : std::nullopt;
+    if (better) {
+      if (!found) found.emplace();
+      take_model(*better, report.given, *found);
+    }
+    return found;
   };
   const Corners left = corners_left(others);
   const std::vector<CornerView> views = views_with(left);
   // What still speaks against the target is as it was told of the images themselves.
   if (asked && better_spacing(views, result.target, report.given).empty()) report.spacing = {};
-  if (!fixed || !report.spacing.empty()) return;
+  if ((!fixed && !camera_asked) || !report.spacing.empty()) return;
   if (differ(views, seen)) {
     // Corners that lie otherwise than the target says were not asked about the camera.
-    const Message what = contradicted(views);
-    if (what.empty()) report.contradiction.reset();
-    if (!what.empty() && !report.contradiction) {
-      report.contradiction.emplace();
-      report.contradiction->what = what;
-    }
+    auto found = against(views);
+    if (!found) report.contradiction.reset();
+    if (found &&
+        (!report.contradiction || report.contradiction->better_model != found->better_model))
+      report.contradiction = std::move(found);
   }
   if (!report.contradiction) return;
   const Corners none_left = corners_left(all);
   const std::vector<CornerView> without_all = views_with(none_left);
-  report.contradiction->modelled = differ(without_all, views) && contradicted(without_all).empty();
+  report.contradiction->modelled = differ(without_all, views) && !against(without_all);
 }
 
 void verify_intrinsics(CalibrationResult& result) {
@@ -515,14 +569,24 @@ Status check_intrinsics(CalibrationResult& result,
   // Corners that lie otherwise on the board say nothing about the camera.
   report.spacing = better_spacing(views, result.target, report.given);
   if (!report.spacing.empty()) return Done{};
-  if (report.mode != IntrinsicsMode::kFixed) {
-    if (report.mode == IntrinsicsMode::kPrior && result.forward) check_against_prior(result, views);
-    return Done{};
-  }
   const Camera& given = report.given;
   const double alarm = result.options.intrinsics.false_alarm;
-  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
   const auto corners = fit_freely(views, given);
+  std::optional<BetterDistortion> better;
+  if (corners)
+    better = better_distortion(views, *corners, result.options.detection, alarm, context);
+  if (context.stopped()) return Error::cancelled();
+  const auto solve = [&](const IntrinsicsFit* start) {
+    return result.forward ? solve_freed(result, observations, index, nodes, start, context)
+                          : std::nullopt;
+  };
+  if (report.mode != IntrinsicsMode::kFixed) {
+    if (report.mode == IntrinsicsMode::kPrior && result.forward) check_against_prior(result, views);
+    if (better)
+      doubt_model(result, *better, solve(&better->fit), result.extrinsic.camera_from_lidar);
+    return context.stopped() ? Status(Error::cancelled()) : Status(Done{});
+  }
+  const IntrinsicsVector wide = wide_intrinsics_sigma(given);
   IntrinsicsContrast of_corners;
   if (corners) {
     report.replicate_px = corners->replicate_px;
@@ -532,24 +596,33 @@ Status check_intrinsics(CalibrationResult& result,
   const bool clear = of_corners.contradicts();
   const bool open =
       of_corners.dof > 0 && of_corners.chi_square > chi_square_gate(of_corners.dof, kFirstLook);
-  if (!clear && !open && !(result.forward && first_look(*result.forward, given))) return Done{};
-  std::optional<Freed> freed;
-  if (result.forward)
-    freed = solve_freed(result, observations, index, nodes, clear ? &*corners : nullptr, context);
+  if (!clear && !open && !better && !(result.forward && first_look(*result.forward, given)))
+    return Done{};
+  const auto freed = solve(clear ? &*corners : nullptr);
   if (context.stopped()) return Error::cancelled();
-  if (!clear && !(freed && freed->contrast.contradicts())) return Done{};
-  IntrinsicsContradiction found;
-  found.contrast = freed && freed->contrast.contradicts() ? freed->contrast : of_corners;
-  found.what = describe(found.contrast, given, views);
-  found.turned_deg = clear ? turn_that_mends(views, given, alarm) : 0;
-  if (freed) {
-    found.camera_from_lidar = UncertainRigid3{
-        se3_exp(freed->contrast.correction) * freed->forward.state.camera_from_lidar,
-        freed->contrast.covariance};
-    judge_move(result, found);
-    widen_total(result, found.camera_from_lidar->transform);
+  IntrinsicsContrast of_all;
+  if (freed)
+    of_all = contrast_intrinsics(intrinsics_of(freed->state.camera), intrinsics_of(given),
+                                 freed->globals_covariance, wide, alarm);
+  if (clear || of_all.contradicts()) {
+    IntrinsicsContradiction found;
+    found.contrast = of_all.contradicts() ? of_all : of_corners;
+    found.what = describe(found.contrast, given, views);
+    found.turned_deg = clear ? turn_that_mends(views, given, alarm) : 0;
+    if (freed) {
+      found.camera_from_lidar = UncertainRigid3{
+          se3_exp(of_all.correction) * freed->state.camera_from_lidar, of_all.covariance};
+      judge_move(result, found);
+    }
+    report.contradiction = std::move(found);
   }
-  report.contradiction = std::move(found);
+  if (better && !(report.contradiction && report.contradiction->turned_deg > 0)) {
+    doubt_model(result, *better, solve(&better->fit),
+                freed ? extrinsic_of(*freed) : result.extrinsic.camera_from_lidar);
+    if (context.stopped()) return Error::cancelled();
+  }
+  if (report.contradiction && report.contradiction->camera_from_lidar)
+    widen_total(result, report.contradiction->camera_from_lidar->transform);
   return Done{};
 }
 

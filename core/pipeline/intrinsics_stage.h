@@ -28,6 +28,11 @@ struct IntrinsicsContradiction {
   double move_mm = 0.0;    ///< Between that and the result: of the LiDAR's position,
   double move_mrad = 0.0;  ///< and of the rotation.
   bool matters = true;     ///< More than the tolerance.
+  /// Another distortion model predicts held-out images better: no values of the given one mend
+  /// that. `camera_from_lidar` is then solved with it.
+  std::optional<DistortionModel> better_model;
+  /// RMS of a corner's coordinate with it, in all images.
+  double better_px = 0.0;
   /// The images agree with the given intrinsics once all are turned counterclockwise by so much.
   int turned_deg = 0;
   /// The model in force has it, as an effect: the extrinsic is for a camera without it.

@@ -135,7 +135,8 @@ void report_model(const Discovery& discovery, CalibrationResult& result) {
   methods.other = {"forward_model", discovery.state.camera_from_lidar, subsets};
   result.methods = compare_methods(in, nodes, methods);
   result.ablation.clear();  // Of the base model.
-  result.uncertainty = assess_uncertainty(in, result.extrinsic, subsets);
+  result.uncertainty = assess_uncertainty(
+      in, result.extrinsic, projection_covariance(result, discovery.covariance), subsets);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "cloud/about_cloud.h"
 #include "model/row_covariates.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/verdict.h"
@@ -41,6 +42,29 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
   }
 }
 
+// A distortion model that another one beats: what that does, and how to have the other one.
+void judge_model(const IntrinsicsContradiction& found, Verdict& verdict) {
+  if (!found.camera_from_lidar) {
+    verdict.doubtful(
+        Message("the images contradict the intrinsics: %1; calibrate the camera again with it",
+                found.what));
+    return;
+  }
+  const std::string move_mm = formatted("%.1f", found.move_mm);
+  const std::string move_mrad = formatted("%.2f", found.move_mrad);
+  if (found.matters) {
+    verdict.doubtful(
+        Message("the images contradict the intrinsics: %1; with it the extrinsic moves by %2 mm "
+                "and %3 mrad; calibrate the camera again with it",
+                found.what, move_mm, move_mrad));
+  } else {
+    verdict.note(
+        Message("the images contradict the intrinsics: %1; with it the extrinsic moves by %2 mm "
+                "and %3 mrad, less than what matters",
+                found.what, move_mm, move_mrad));
+  }
+}
+
 // Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
 void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
   if (!result.intrinsics.spacing.empty()) {
@@ -62,6 +86,10 @@ void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
                 "so that the extrinsic is for a camera without it: calibrate the camera again, or "
                 "use --intrinsics free",
                 found.what));
+    return;
+  }
+  if (found.better_model) {
+    judge_model(found, verdict);
     return;
   }
   if (result.intrinsics.mode == IntrinsicsMode::kPrior) {
@@ -283,6 +311,11 @@ void judge_corners(const CalibrationResult& result, const QualityOptions& option
   constexpr double kNotNoise = 2.0;  // Four times the noise's square: with dozens no chance.
   const ExtrinsicSolution& x = result.extrinsic;
   const double noise_px = result.intrinsics.replicate_px;
+  // What another distortion model mends is told as that.
+  const auto& contradiction = result.intrinsics.contradiction;
+  if (contradiction && contradiction->better_model && noise_px > 0.0 &&
+      contradiction->better_px < kNotNoise * noise_px)
+    return;
   if (x.sigma_px > options.max_sigma_px && !(noise_px > 0.0)) {
     verdict.doubtful(
         Message("tag corners miss their model by %1 px: check the intrinsics and that the board is "
@@ -461,8 +494,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   // Behind what is wrong, which may be why they are weak.
   for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
   for (const SceneResult& scene : result.scenes) {
-    for (const Message& w : scene.cloud_warnings)
-      verdict.note(Message("scene %1: its cloud: %2", scene.name, w));
+    for (const Message& w : scene.cloud_warnings) verdict.note(about_cloud(scene.name, w));
     if (!scene.used && !scene.reason.empty() && !scene.rejected) {
       // The image shows the board, and the cloud shows none where the other scenes say: a scene
       // that contradicts them is worth more than a note.

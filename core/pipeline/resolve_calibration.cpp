@@ -241,7 +241,9 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     if (!steps) return steps.error();
     result.ablation = std::move(*steps);
   }
-  result.uncertainty = assess_uncertainty(in, result.extrinsic, subsets);
+  result.uncertainty = assess_uncertainty(
+      in, result.extrinsic,
+      projection_covariance(result, result.extrinsic.camera_from_lidar.covariance), subsets);
   if (Status status = respond(result, target, options, context); !status) return status.error();
   judge_quality(result, options.quality);
   return result;

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "localization/board_search.h"
+#include "localization/scene_consensus.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/scene_loading.h"
 
@@ -39,16 +40,20 @@ std::vector<double> sizes_of(const Target& target) {
   return sizes;
 }
 
-// The board's best candidate if it were `size` times as large as in target.yaml; gain 0: none.
-BoardCandidate best_at_size(const Cloud& cloud, const CalibrationResult& result,
-                            const BoardView& view, double size, const BoardSearchOptions& options,
-                            const RunContext& context) {
+// Where the board may be if it were `size` times as large as in target.yaml.
+std::vector<BoardCandidate> at_size(const Cloud& cloud, const CalibrationResult& result,
+                                    const BoardView& view, double size,
+                                    const BoardSearchOptions& options, const RunContext& context) {
   const Target target = scaled(result.target, size);
   const double distance_m = size * view.camera_from_board.transform.translation.norm();
-  const auto search =
-      search_board(cloud, {target, PatternPyramid(target), distance_m}, options, context);
+  return search_board(cloud, {target, PatternPyramid(target), distance_m}, options, context)
+      .candidates;
+}
+
+// The one of most evidence; gain 0: none.
+BoardCandidate best_of(const std::vector<BoardCandidate>& candidates) {
   BoardCandidate best;
-  for (const BoardCandidate& candidate : search.candidates) {
+  for (const BoardCandidate& candidate : candidates) {
     if (candidate.gain > best.gain) best = candidate;
   }
   return best;
@@ -60,45 +65,63 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
                                         const CalibrationResult& result,
                                         const RunContext& context) {
   constexpr double kSameSize = 0.03;  // Less than the steps of the sizes tried.
+  // A board turned by as much as its size is off fits nearly as well.
+  ConsensusOptions loose = request.options.consensus;
+  loose.systematic_rotation_rad = std::max(loose.systematic_rotation_rad, kSameSize);
   RunContext quiet = context;
   quiet.progress = {};
   quiet.threads = 1;
   std::optional<double> measured;
+  SceneHypotheses first_scene;
   for (std::size_t k = 0; k < result.scenes.size() && !context.stopped(); ++k) {
     if (!result.scenes[k].view || result.scenes[k].unreadable) continue;
     const SceneFiles& files = dataset.scenes[k];
     const auto cloud = read_scene_cloud(files, request, context.stop);
     if (!cloud || !matches_by_pattern(dataset.target, *cloud)) return std::nullopt;
+    const BoardView& view = *result.scenes[k].view;
     const auto look = [&](double size) {
-      return best_at_size(*cloud, result, *result.scenes[k].view, size,
-                          request.options.localization, quiet);
+      return at_size(*cloud, result, view, size, request.options.localization, quiet);
+    };
+    const auto hypotheses = [&](std::vector<BoardCandidate> candidates) {
+      SceneHypotheses out = seen_by_camera(view, result.target, *measured);
+      out.candidates = std::move(candidates);
+      return out;
     };
     if (measured) {
-      // Among so many sizes something may look like the board by chance, but not in two scenes.
-      const BoardCandidate again = look(*measured);
-      if (again.gain > 0 && std::abs(again.scale - 1.0) < kSameSize) return measured;
+      // Among so many sizes something may look like the board by chance, but not in two scenes at
+      // places that agree. Their distances are known as well as the size is.
+      auto again = look(*measured);
+      const BoardCandidate best = best_of(again);
+      if (!(best.gain > 0) || std::abs(best.scale - 1.0) >= kSameSize) continue;
+      const SceneHypotheses here = hypotheses(std::move(again));
+      loose.systematic_translation_m =
+          kSameSize * std::max(first_scene.camera_from_board.transform.translation.norm(),
+                               here.camera_from_board.transform.translation.norm());
+      const auto both = decide_scenes({first_scene, here}, request.guess, loose);
+      if (both && both->agreeing == 2) return measured;
       continue;
     }
     // The size of the strongest evidence, and the candidate there.
-    const auto best_of = [&](const std::vector<double>& sizes) {
+    const auto best_size = [&](const std::vector<double>& sizes) {
       std::vector<BoardCandidate> found(sizes.size());
       parallel_for(sizes.size(), context.thread_count(), [&](std::size_t i) {
-        if (!context.stopped()) found[i] = look(sizes[i]);
+        if (!context.stopped()) found[i] = best_of(look(sizes[i]));
       });
       const auto best = std::max_element(
           found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
       return std::pair(sizes[static_cast<std::size_t>(best - found.begin())], *best);
     };
-    const auto [coarse, first] = best_of(sizes_of(result.target));
+    const auto [coarse, first] = best_size(sizes_of(result.target));
     if (first.gain <= 0) return std::nullopt;
     // Some per cent off, a board set slightly askew fits nearly as well, and measures a wrong
     // scale: only next to the true size can the measured scale be trusted.
     std::vector<double> finer;
     for (int percent = -5; percent <= 5; ++percent)
       finer.push_back(coarse * (1.0 + 0.01 * percent));
-    const auto [size, candidate] = best_of(finer);
+    const auto [size, candidate] = best_size(finer);
     if (candidate.gain <= 0) return std::nullopt;
     measured = size * candidate.scale;
+    first_scene = hypotheses(look(*measured));
   }
   const auto views = std::count_if(result.scenes.begin(), result.scenes.end(),
                                    [](const SceneResult& scene) { return scene.view.has_value(); });

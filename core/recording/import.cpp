@@ -9,6 +9,7 @@
 
 #include "base/file_io.h"
 #include "base/text.h"
+#include "cloud/about_cloud.h"
 #include "cloud/cloud.h"
 #include "recording/messages.h"
 #include "recording/pixels.h"
@@ -74,6 +75,7 @@ Result<Cloud> SceneWriter::accumulate(const StillStretch& stretch, std::size_t& 
       {survey_.topics.cloud}, span, silent, "scene", [&](const RecordedMessage& m) -> Result<bool> {
         auto sweep = decode_cloud(cloud_topic(), m.data);
         if (!sweep) return true;  // Counted in the first pass.
+        if (out.warnings.empty()) out.warnings = sweep->cloud.warnings;
         if (sweeps == 0) {
           first_ns = m.time_ns;
           first_stamp_ns = sweep->stamp_ns;
@@ -134,6 +136,7 @@ Result<Message> SceneWriter::write_scene(const StillStretch& stretch,
   if (!cloud) return cloud.error();
   if (cloud->size() == 0) return Message("none of its sweeps can be read");
   out.points = cloud->size();
+  out.cloud_warnings = cloud->warnings;
   if (Status s = write_pcd(folder / "cloud.pcd", *cloud); !s) return s.error();
   return Message();
 }
@@ -267,6 +270,11 @@ Result<ImportSummary> import_into(UnfinishedFolder& folder, const Recording& rec
   if (Status s = write_scenes(recording, survey, options, camera, folder.path(), context, out); !s)
     return s.error();
   judge_guessed_board(folder.path(), out);
+  for (const ImportedStretch& stretch : out.stretches) {
+    for (const Message& warning : stretch.cloud_warnings) {
+      if (stretch.taken) out.warnings.push_back(about_cloud(stretch.scene, warning));
+    }
+  }
   const auto warnings = warnings_of(recording, survey, options);
   out.warnings.insert(out.warnings.end(), warnings.begin(), warnings.end());
   std::vector<std::pair<std::string, std::string>> files = {

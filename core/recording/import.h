@@ -94,6 +94,7 @@ struct ImportedStretch {
   std::size_t images = 0;     ///< To choose from.
   std::size_t sweeps = 0;
   std::size_t points = 0;
+  std::vector<Message> cloud_warnings;  ///< Why a sweep of it may not be whole; of the first such.
   Message board_complaint;  ///< Why a scene that was taken does not show the guessed board.
 };
 

@@ -10,6 +10,7 @@
 
 #include "base/file_io.h"
 #include "base/image_header.h"
+#include "cloud/about_cloud.h"
 #include "cloud/cloud.h"
 #include "cloud/kitti_points.h"
 #include "recording/import.h"
@@ -61,6 +62,7 @@ Result<Cloud> cloud_of_recording(const fs::path& path, const RunContext& context
           if (complaint.empty()) complaint = sweep.error().message;
           return true;
         }
+        if (out.warnings.empty()) out.warnings = sweep->cloud.warnings;
         const bool first = out.points_m.empty();
         if (first) first_ns = message.time_ns;
         const auto later_s =
@@ -98,16 +100,18 @@ Status copy_whole(const fs::path& from, const fs::path& to) {
   return Done{};
 }
 
-// A cloud as a file of the scene; the number of its points.
-Result<std::size_t> write_cloud(const fs::path& from, const fs::path& folder,
-                                const RunContext& context) {
+// A cloud as a file of the scene.
+Status write_cloud(const fs::path& from, const fs::path& folder, const RunContext& context,
+                   ImportedPair& out) {
   const auto cloud = read_pair_cloud(from, context);
   if (!cloud) return cloud.error();
   const Status written = is_cloud_file(from)
                              ? copy_whole(from, folder / ("cloud" + lower_extension(from)))
                              : write_pcd(folder / "cloud.pcd", *cloud);
   if (!written) return written.error();
-  return cloud->size();
+  out.points = cloud->size();
+  out.cloud_warnings = cloud->warnings;
+  return Done{};
 }
 
 // Why the image cannot be used; empty: it can.
@@ -140,13 +144,11 @@ Status write_scene(const PairImportOptions& options, const std::optional<Camera>
       return Done{};
     }
   }
-  const auto points = write_cloud(out.files.cloud, folder, context);
-  if (!points) {
-    if (points.error().kind != ErrorKind::kInput) return points.error();
-    out.reason = points.error().message;
+  if (const Status s = write_cloud(out.files.cloud, folder, context, out); !s) {
+    if (s.error().kind != ErrorKind::kInput) return s;
+    out.reason = s.error().message;
     return Done{};
   }
-  out.points = *points;
   if (!out.files.board_points.empty()) {
     // Nothing of the calibration rests on it unless it is asked for.
     if (read_cloud(out.files.board_points, context.stop)) {
@@ -172,6 +174,14 @@ void judge_guessed_board(const fs::path& folder, PairImportSummary& out) {
     fs::remove_all(folder / "scenes" / pair.files.name, code);
     pair.taken = false;
     pair.reason = pair.board_complaint;
+  }
+}
+
+void tell_of_clouds(PairImportSummary& out) {
+  for (const ImportedPair& pair : out.pairs) {
+    for (const Message& warning : pair.cloud_warnings) {
+      if (pair.taken) out.warnings.push_back(about_cloud(pair.files.name, warning));
+    }
   }
 }
 
@@ -221,6 +231,8 @@ Status tell_import(const fs::path& dataset, PairImportSummary& summary) {
     return Done{};
   }
   for (const ImportedPair& pair : summary.pairs) json["pairs"].push_back(pair_json(pair));
+  if (!json["warnings"].is_array()) json["warnings"] = nlohmann::ordered_json::array();
+  for (const Message& warning : summary.warnings) json["warnings"].push_back(warning.text());
   return write_file_atomically(path, text_of(json));
 }
 
@@ -294,6 +306,7 @@ Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImpor
   }
   if (camera && options.board_check && !options.board_is_certain)
     judge_guessed_board(folder->path(), out);
+  tell_of_clouds(out);
   std::vector<std::pair<std::string, std::string>> texts = {
       {"target.yaml", options.target_yaml}, {"import.json", import_json(files, out)}};
   if (camera) texts.emplace_back("camera.yaml", to_yaml(*camera));
@@ -337,6 +350,7 @@ Result<PairImportSummary> add_pairs(const std::vector<FilePair>& pairs,
     }
     out.pairs.push_back(std::move(pair));
   }
+  tell_of_clouds(out);
   if (Status s = tell_import(dataset, out); !s) return s.error();
   return out;
 }

@@ -33,6 +33,7 @@ struct ImportedPair {
   bool taken = false;
   Message reason;  ///< In words, why it was left; empty if it was taken.
   std::size_t points = 0;
+  std::vector<Message> cloud_warnings;  ///< See Cloud::warnings.
   Message board_complaint;  ///< Why a scene that was taken does not show the guessed board.
 };
 

@@ -17,7 +17,8 @@ ordered_json score_json(const EdgeScore& score) {
 
 }  // namespace
 
-std::string check_as_json(const EdgeCheck& check, const std::vector<FilePair>& pairs) {
+std::string check_as_json(const EdgeCheck& check, const std::vector<FilePair>& pairs,
+                          const std::vector<Message>& warnings) {
   ordered_json j;
   j["version"] = version();
   j["verdict"] = name_of(check.verdict);
@@ -40,12 +41,14 @@ std::string check_as_json(const EdgeCheck& check, const std::vector<FilePair>& p
     j["places"].push_back(
         {{"name", pair.name}, {"image", pair.image.string()}, {"cloud", pair.cloud.string()}});
   }
+  j["warnings"] = ordered_json::array();
+  for (const Message& warning : warnings) j["warnings"].push_back(warning);
   return j.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 Status write_check(const EdgeCheck& check, const std::vector<FilePair>& pairs,
-                   const std::filesystem::path& path) {
-  return write_file_atomically(path, check_as_json(check, pairs));
+                   const std::vector<Message>& warnings, const std::filesystem::path& path) {
+  return write_file_atomically(path, check_as_json(check, pairs, warnings));
 }
 
 }  // namespace lvcalib

@@ -195,6 +195,7 @@ ordered_json intrinsics_json(const IntrinsicsReport& report) {
                       {"dof", found.contrast.dof},
                       {"gate", found.contrast.gate},
                       {"matters", found.matters}};
+    if (found.better_model) c["better_model"] = name_of(*found.better_model);
     if (found.camera_from_lidar) {
       c["T_camera_lidar_freed"] = rows_of(found.camera_from_lidar->transform.matrix());
       c["extrinsic_move_mm"] = found.move_mm;

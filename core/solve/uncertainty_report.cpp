@@ -168,23 +168,27 @@ ProjectedUncertainty project_intrinsics(const Camera& camera,
 
 std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
                                                 const Eigen::Vector3d& point_in_camera_m,
-                                                const Matrix6d& covariance) {
+                                                const ProjectionCovariance& covariance) {
   Eigen::Matrix<double, 2, 3> by_point;
-  if (!camera.project(point_in_camera_m, &by_point)) return std::nullopt;
+  Eigen::Matrix<double, 2, 12> by_intrinsics;
+  if (!camera.project(point_in_camera_m, &by_point, &by_intrinsics)) return std::nullopt;
   Eigen::Matrix<double, 3, 6> by_pose;
   by_pose << Eigen::Matrix3d::Identity(), -skew(point_in_camera_m);
   const Eigen::Matrix<double, 2, 6> j = by_point * by_pose;
-  return j * covariance * j.transpose();
+  const Eigen::Matrix2d both = by_intrinsics * covariance.cross * j.transpose();
+  return j * covariance.extrinsic * j.transpose() + both + both.transpose() +
+         by_intrinsics * covariance.intrinsics * by_intrinsics.transpose();
 }
 
-UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance) {
+UncertaintyReport project_uncertainty(const Camera& camera,
+                                      const ProjectionCovariance& covariance) {
   UncertaintyReport report;
   report.maps.push_back(map_over_image(camera, kMapColumns, [&](const Eigen::Vector3d& ray) {
     return pixel_covariance(camera, kMapRange_m * ray, covariance);
   }));
   report.maps.back().range_m = kMapRange_m;
   for (const double range : kRanges_m) {
-    const Eigen::Matrix3d at = origin_covariance(covariance, {0.0, 0.0, range});
+    const Eigen::Matrix3d at = origin_covariance(covariance.extrinsic, {0.0, 0.0, range});
     report.by_range.push_back(
         {range, 1e3 * std::sqrt(at(0, 0) + at(1, 1)), 1e3 * std::sqrt(at(2, 2))});
   }
@@ -192,8 +196,9 @@ UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& cova
 }
 
 UncertaintyReport assess_uncertainty(const FeatureInput& in, const ExtrinsicSolution& joint,
+                                     const ProjectionCovariance& covariance,
                                      const SubsetSolver& subset) {
-  UncertaintyReport report = project_uncertainty(in.camera, joint.camera_from_lidar.covariance);
+  UncertaintyReport report = project_uncertainty(in.camera, covariance);
   const SubsetSolver by_features = [&](const std::vector<std::size_t>& half) {
     return solve_half(in, joint, half);
   };

@@ -52,18 +52,35 @@ struct UncertaintyReport {
   std::vector<RangeUncertainty> by_range;
 };
 
+/// Covariance of an extrinsic (left perturbation in the camera frame) together with that of the
+/// intrinsics (fx fy cx cy, eight distortion entries) of the camera that it goes with. Estimated
+/// together they err together: a principal point that is off is taken up by a turn, and a LiDAR
+/// point falls into the image better than either alone would have it.
+struct ProjectionCovariance {
+  Matrix6d extrinsic = Matrix6d::Zero();
+  Eigen::Matrix<double, 12, 6> cross = Eigen::Matrix<double, 12, 6>::Zero();
+  Eigen::Matrix<double, 12, 12> intrinsics = Eigen::Matrix<double, 12, 12>::Zero();
+  /// With the intrinsics held.
+  static ProjectionCovariance held(const Matrix6d& extrinsic) {
+    ProjectionCovariance out;
+    out.extrinsic = extrinsic;
+    return out;
+  }
+};
+
 /// The extrinsic from some of the scenes (indices); nothing if they do not determine it.
 using SubsetSolver =
     std::function<std::optional<UncertainRigid3>(const std::vector<std::size_t>& scenes)>;
 
-/// Compares halves of the scenes, and projects the covariance. Halves need two scenes each; three
+/// Compares halves of the scenes, and projects `covariance`. Halves need two scenes each; three
 /// for targets without circles. Halves are solved by `subset`, or, without it, from nodes and
 /// planes.
 UncertaintyReport assess_uncertainty(const FeatureInput& in, const ExtrinsicSolution& joint,
+                                     const ProjectionCovariance& covariance,
                                      const SubsetSolver& subset = {});
 
-/// The same projections of another covariance of the extrinsic (its total one), without halves.
-UncertaintyReport project_uncertainty(const Camera& camera, const Matrix6d& covariance);
+/// The same projections of another covariance (the total one), without halves.
+UncertaintyReport project_uncertainty(const Camera& camera, const ProjectionCovariance& covariance);
 
 /// How far a direction that is known in the camera's frame may fall elsewhere in the image when the
 /// intrinsics (fx fy cx cy, eight distortion entries) have this covariance: J Σ Jᵀ with J = ∂π/∂θ.
@@ -73,10 +90,10 @@ ProjectedUncertainty project_intrinsics(const Camera& camera,
                                         const Eigen::Matrix<double, 12, 12>& covariance,
                                         int columns = kMapColumns);
 
-/// Covariance (px²) of the pixel of a point (camera frame) when the extrinsic has this one.
-/// Nothing where the camera sees no such point.
+/// Covariance (px²) of the pixel of a LiDAR point, which lies at `point_in_camera_m`. Nothing where
+/// the camera sees no such point.
 std::optional<Eigen::Matrix2d> pixel_covariance(const Camera& camera,
                                                 const Eigen::Vector3d& point_in_camera_m,
-                                                const Matrix6d& covariance);
+                                                const ProjectionCovariance& covariance);
 
 }  // namespace lvcalib

@@ -63,6 +63,20 @@ TEST_F(CheckCommand, ARightCalibrationAgreesWithScenesAndWithPairs) {
   }
 }
 
+TEST_F(CheckCommand, TellsOfACloudThatMayNotBeWhole) {
+  fs::copy(at("pairs"), at("longer"));
+  const std::string scene = scene_names(good_dataset()).front();
+  write_file(at("longer") / (scene + ".pcd"),
+             read_file(at("longer") / (scene + ".pcd")) + "twelve bytes");
+  const Outcome outcome = run_lvcalib(
+      {"check", at("result") / "result.json", at("longer"), "-o", at("longer.json"), "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("scene " + scene + ": its cloud: 12 bytes follow"));
+  const auto j = nlohmann::json::parse(read_file(at("longer.json")));
+  ASSERT_EQ(j["warnings"].size(), 1U);
+  EXPECT_THAT(j["warnings"][0], HasSubstr("its cloud: 12 bytes follow"));
+}
+
 TEST_F(CheckCommand, ABumpedRigIsFoundOut) {
   const Outcome outcome =
       run_lvcalib({"check", at("bumped.json"), at("pairs"), "-o", at("check.json"), "--quiet"});

@@ -82,6 +82,17 @@ TEST_F(CorrectCommand, TakesAnOffsetOutAndKeepsEveryPoint) {
   EXPECT_THAT(cloud->intensity, ::testing::ElementsAre(100, 0, 10, 50));
 }
 
+TEST_F(CorrectCommand, TellsOfACloudWithoutReturnsInItsSecondHalf) {
+  std::string half =
+      "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+      "WIDTH 4000\nHEIGHT 1\nPOINTS 4000\nDATA ascii\n";
+  for (int i = 0; i < 4000; ++i) half += i < 2000 ? "2 0 0 100\n" : "nan nan nan 0\n";
+  write("half.pcd", half);
+  const Outcome outcome = run({"half.pcd", "--with", "result.json", "-o", "fixed.pcd"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("half.pcd: from point 2001 of 4000 on none is a return"));
+}
+
 TEST_F(CorrectCommand, AModelWithoutEffectsCopiesTheCloudAndWarns) {
   write("result.json", R"({"model": {"effects": []}})");
   const Outcome outcome = run({"cloud.pcd", "--with", "result.json", "-o", "fixed.pcd"});

@@ -119,6 +119,11 @@ QString Choices::files_to_import(QWidget* parent, const QString& folder) {
       parent, words(QT_TRANSLATE_NOOP("Choices", "Open a folder of images and clouds")), folder);
 }
 
+QString Choices::camera_images_to_open(QWidget* parent, const QString& folder) {
+  return QFileDialog::getExistingDirectory(
+      parent, words(QT_TRANSLATE_NOOP("Choices", "Open a folder of images of the board")), folder);
+}
+
 QString Choices::clouds_to_save(QWidget* parent, const QString& suggestion) {
   return QFileDialog::getSaveFileName(
       parent, words(QT_TRANSLATE_NOOP("Choices", "Place of the corrected clouds")), suggestion, {},

@@ -34,6 +34,8 @@ class Choices {
   virtual QString recording_to_open(QWidget* parent, const QString& folder);
   /// A folder of images and clouds.
   virtual QString files_to_import(QWidget* parent, const QString& folder);
+  /// A folder of images of the board, or a dataset.
+  virtual QString camera_images_to_open(QWidget* parent, const QString& folder);
   virtual QString target_to_open(QWidget* parent, const QString& folder);
   virtual QString camera_to_open(QWidget* parent, const QString& folder);
   /// The description of a LiDAR.

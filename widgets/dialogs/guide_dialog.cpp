@@ -111,7 +111,8 @@ void GuideDialog::retranslate() {
          "› Watch* takes scenes as they come and shows the next pose in large letters. *Check on "
          "fresh data* lays the pose over pictures with or without a board and says whether edges "
          "of LiDAR and image agree; there a rough pose is also found by hand. *Compare with* sets "
-         "two results side by side, *Correct clouds* takes the model's effects out of clouds, and "
+         "two results side by side, *Correct clouds* takes the model's effects out of clouds, "
+         "*Calibrate a camera* makes a camera.yaml of a folder of images, and "
          "the board is printed and described from the same menu.\n"),
       tr("# Keys\n"
          "F5 runs all, Esc cancels, Ctrl+Z undoes, Ctrl+1, Ctrl+2 … change the page, Ctrl+J "

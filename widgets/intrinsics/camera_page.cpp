@@ -44,8 +44,9 @@ std::shared_ptr<const ChannelView> view_of(const CameraFigures& figures) {
 
 }  // namespace
 
-CameraPage::CameraPage(QWidget* parent)
+CameraPage::CameraPage(QWidget* parent, Of of)
     : QWidget(parent),
+      of_(of),
       shown_label_(new QLabel(this)),
       shown_(new QComboBox(this)),
       add_(new QPushButton(this)),
@@ -86,6 +87,9 @@ CameraPage::CameraPage(QWidget* parent)
   layout->addLayout(head);
   layout->addWidget(message_);
   layout->addWidget(split, 1);
+  for (QWidget* part : {static_cast<QWidget*>(shown_label_), static_cast<QWidget*>(shown_),
+                        static_cast<QWidget*>(add_)})
+    part->setVisible(of_ == Of::kDataset);
   connectParts();
   follow_language(this, [this] { retranslate(); });
   showState();
@@ -170,6 +174,17 @@ void CameraPage::setDataset(std::optional<Dataset> dataset) {
   showState();
 }
 
+void CameraPage::setPhotos(std::optional<BoardPhotos> photos) {
+  work_.cancel();
+  photos_ = std::move(photos);
+  error_.reset();
+  alone_.reset();
+  stale_ = true;
+  ask();
+  showText();
+  showState();
+}
+
 void CameraPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
   if (!showsAlone()) {
@@ -180,7 +195,7 @@ void CameraPage::setResult(std::shared_ptr<const CalibrationResult> result) {
 }
 
 bool CameraPage::showsAlone() const {
-  return shown_->currentIndex() == kAlone;
+  return of_ == Of::kPhotos || shown_->currentIndex() == kAlone;
 }
 
 const Camera* CameraPage::shownCamera() const {
@@ -200,13 +215,17 @@ void CameraPage::addImages() {
 
 // Everything is found from the images: the given camera is what the result is compared with.
 void CameraPage::calibrate() {
-  if (!dataset_) return;
+  error_.reset();
+  if (photos_) work_.calibrate(photos_->images, photos_->target, photos_->options);
+  if (!dataset_) {
+    showState();
+    return;
+  }
   std::vector<std::filesystem::path> images;
   for (const SceneFiles& scene : dataset_->scenes) {
     if (!scene.image.empty()) images.push_back(scene.image);
   }
   images.insert(images.end(), dataset_->camera_images.begin(), dataset_->camera_images.end());
-  error_.reset();
   work_.calibrate(std::move(images), dataset_->target, {});
   showState();
 }
@@ -224,11 +243,12 @@ void CameraPage::takeCalibration(const std::shared_ptr<const CameraCalibration>&
 
 void CameraPage::save() {
   const Camera* camera = shownCamera();
-  if (camera == nullptr || choices_ == nullptr || !dataset_) return;
-  const std::filesystem::path own = dataset_->path / "camera.yaml";
-  const QString path = choices_->file_to_export(
-      this, QString::fromStdString((dataset_->path / "camera-calibrated.yaml").string()),
-      tr("YAML (*.yaml *.yml)"));
+  if (camera == nullptr || choices_ == nullptr || (!dataset_ && !photos_)) return;
+  const std::filesystem::path own = (dataset_ ? dataset_->path : photos_->folder) / "camera.yaml";
+  const std::filesystem::path suggestion =
+      dataset_ ? dataset_->path / "camera-calibrated.yaml" : own;
+  const QString path = choices_->file_to_export(this, QString::fromStdString(suggestion.string()),
+                                                tr("YAML (*.yaml *.yml)"));
   if (path.isEmpty()) return;
   const IntrinsicsVector sigma = showsAlone() ? alone_->sigma : result_->intrinsics.sigma;
   const Status written =
@@ -237,8 +257,10 @@ void CameraPage::save() {
     Q_EMIT failed(core_text(written.error()));
     return;
   }
+  Q_EMIT saved(path);
   std::error_code code;
-  if (std::filesystem::equivalent(path.toStdString(), own, code)) Q_EMIT datasetChanged();
+  if (dataset_ && std::filesystem::equivalent(path.toStdString(), own, code))
+    Q_EMIT datasetChanged();
 }
 
 // The figures are made in a thread of their own, and only while somebody looks.
@@ -364,7 +386,7 @@ void CameraPage::showState() {
   progress_->setVisible(busy);
   cancel_->setVisible(busy);
   add_->setEnabled(dataset_ && choices_ != nullptr && !busy);
-  calibrate_->setEnabled(dataset_ && !busy);
+  calibrate_->setEnabled((dataset_ || photos_) && !busy);
   const bool estimated = showsAlone()
                              ? alone_ != nullptr
                              : result_ && result_->intrinsics.mode != IntrinsicsMode::kFixed;

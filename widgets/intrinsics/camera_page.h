@@ -23,6 +23,15 @@ class QTreeWidget;
 namespace lvcalib::widgets {
 
 class ImageView;
+
+/// Images of a board that no dataset holds.
+struct BoardPhotos {
+  std::filesystem::path folder;  ///< Where camera.yaml goes, if nothing else is said.
+  std::vector<std::filesystem::path> images;
+  Target target;
+  CameraCalibrationOptions options;
+};
+
 class ResidualMapPlot;
 class UncertaintyMapPlot;
 
@@ -33,13 +42,17 @@ class CameraPage : public QWidget {
   Q_OBJECT
 
  public:
-  explicit CameraPage(QWidget* parent = nullptr);
+  /// Of a dataset, or of photos: these need none, and have nothing but the images.
+  enum class Of { kDataset, kPhotos };
+  explicit CameraPage(QWidget* parent = nullptr, Of of = Of::kDataset);
   ~CameraPage() override;
 
   /// Answers questions about files; must outlive this. Without it images are looked at only.
   void setChoices(Choices& choices);
   /// What is open; nothing: no dataset.
   void setDataset(std::optional<Dataset> dataset);
+  /// Nothing: none are chosen, or they cannot be read. What was made of others goes.
+  void setPhotos(std::optional<BoardPhotos> photos);
   void setResult(std::shared_ptr<const CalibrationResult> result);
 
   [[nodiscard]] bool busy() const { return work_.busy() || figures_worker_.running(); }
@@ -49,6 +62,7 @@ class CameraPage : public QWidget {
   /// The dataset's images, or its camera.yaml, have changed on disk.
   void datasetChanged();
   void failed(const QString& message);
+  void saved(const QString& path);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -74,7 +88,9 @@ class CameraPage : public QWidget {
   [[nodiscard]] std::filesystem::path pathOf(const CameraFigures::Image& image) const;
   [[nodiscard]] const Camera* shownCamera() const;
 
+  const Of of_;
   Choices* choices_ = nullptr;
+  std::optional<BoardPhotos> photos_;
   std::optional<Dataset> dataset_;
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const CameraCalibration> alone_;

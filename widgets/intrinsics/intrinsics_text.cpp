@@ -145,8 +145,10 @@ QString camera_verdict(const CalibrationResult& result, const CameraFigures& fig
     const IntrinsicsContradiction& found = *report.contradiction;
     QString text = tr("The images contradict the given intrinsics: %1.").arg(core_text(found.what));
     if (found.camera_from_lidar)
-      text += QLatin1Char(' ') + tr("With that freed the extrinsic moves by %1.")
-                                     .arg(move_text(found.move_mm, found.move_mrad));
+      text +=
+          QLatin1Char(' ') + (found.better_model ? tr("With it the extrinsic moves by %1.")
+                                                 : tr("With that freed the extrinsic moves by %1."))
+                                 .arg(move_text(found.move_mm, found.move_mrad));
     out += doubt(text, palette);
   }
   if (!report.spacing.empty())

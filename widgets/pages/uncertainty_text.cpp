@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pages/page_tr.h"
+#include "pipeline/forward_stage.h"
 #include "style/html.h"
 #include "style/theme.h"
 #include "words/core_text.h"
@@ -113,7 +114,7 @@ QString over_image(const UncertaintyReport& report, const std::optional<Uncertai
 std::optional<UncertaintyReport> total_report(const CalibrationResult& result) {
   if (!(result.covariance_total.trace() > 0.0) || result.uncertainty.by_range.empty())
     return std::nullopt;
-  return project_uncertainty(result.camera, result.covariance_total);
+  return project_uncertainty(result.camera, projection_covariance(result, result.covariance_total));
 }
 
 QString uncertainty_html(const CalibrationResult& result, const QPalette& palette) {

@@ -483,6 +483,8 @@ QString CheckDialog::stateText() const {
     lines << tr("%n pairs were left out; the first: %1", nullptr,
                 static_cast<int>(places_->read.warnings.size()))
                  .arg(core_text(places_->read.warnings.front()));
+  for (const Message& warning : places_->read.cloud_warnings)
+    lines << core_text(warning) + QLatin1Char('.');
   return lines.join(QLatin1Char(' '));
 }
 

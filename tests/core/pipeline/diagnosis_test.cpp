@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/diagnosis.h"
 
+#include <algorithm>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 
 #include "pipeline/scene_copies.h"
 #include "pipeline/turned_images.h"
+#include "support/simulated_dataset.h"
 #include "support/temporary_folder.h"
 
 namespace lvcalib {
@@ -164,6 +166,27 @@ TEST(SameContent, ImagesAndCloudsAreComparedEachForItself) {
   EXPECT_EQ(same[3].image, 1U);
   EXPECT_EQ(same[3].cloud, 0U);
   EXPECT_FALSE(same[4].image || same[4].cloud);
+}
+
+// Intensities that belong to other returns show something like a small board in every cloud; at
+// places that do not agree it is none.
+TEST(Calibrate, WhatLooksLikeASmallBoardByChanceIsNoOtherUnit) {
+  simulation::SimulationOptions options = test::dataset_options(992001, 4);
+  options.lidar.kind = simulation::LidarKind::kRosette;
+  options.lidar.points = 60'000;
+  const test::SimulatedDataset data(options);
+  const Dataset dataset = data.open();
+  for (const SceneFiles& scene : dataset.scenes) {
+    auto cloud = read_cloud(scene.cloud);
+    ASSERT_TRUE(cloud.ok());
+    std::rotate(cloud->intensity.begin(), cloud->intensity.end() - 300, cloud->intensity.end());
+    ASSERT_TRUE(write_pcd(scene.cloud, *cloud).ok());
+  }
+  const auto result = calibrate(dataset, {}, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_THAT(result.error().text(), HasSubstr("the board is not found in any cloud"));
+  EXPECT_THAT(result.error().text(), Not(HasSubstr("if the lengths in target.yaml are")));
+  EXPECT_THAT(result.error().text(), Not(HasSubstr("disagree on the board's size")));
 }
 
 }  // namespace

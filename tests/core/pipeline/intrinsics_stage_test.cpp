@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/intrinsics_stage.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 
+#include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "pipeline/calibration.h"
+#include "pipeline/camera_calibration.h"
 #include "support/simulated_dataset.h"
 
 namespace lvcalib {
@@ -64,6 +68,44 @@ TEST(Calibrate, ImagesForTheCameraAloneNarrowItsIntrinsics) {
       se3_log(data.rig().camera_from_lidar * with->extrinsic.camera_from_lidar.transform.inverse());
   for (int k = 0; k < 6; ++k) EXPECT_LT(std::abs(off(k)), 4.0 * std::sqrt(after(k, k))) << k;
 
+  // The map over the image is of extrinsic and intrinsics together, which err together: against
+  // draws from their covariance.
+  Eigen::MatrixXd both(18, 18);
+  std::array<Eigen::Index, 18> at;
+  for (Eigen::Index k = 0; k < 18; ++k)
+    at[static_cast<std::size_t>(k)] = k < 6 ? k : kFirstIntrinsic + k - 6;
+  for (Eigen::Index i = 0; i < 18; ++i) {
+    for (Eigen::Index j = 0; j < 18; ++j)
+      both(i, j) = without->forward->globals_covariance(at[static_cast<std::size_t>(i)],
+                                                        at[static_cast<std::size_t>(j)]);
+  }
+  const Eigen::VectorXd unit = both.diagonal().cwiseMax(1e-30).cwiseSqrt();
+  const Eigen::MatrixXd correlations =
+      unit.cwiseInverse().asDiagonal() * both * unit.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(correlations);
+  const Eigen::MatrixXd root = unit.asDiagonal() * axes.eigenvectors() *
+                               axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  ASSERT_FALSE(without->uncertainty.maps.empty());
+  const ProjectedUncertainty& map = without->uncertainty.maps.front();
+  Random random(5);
+  constexpr int kDraws = 3000;
+  const std::size_t middle = map.pixel.size() / 2 + static_cast<std::size_t>(map.columns) / 2;
+  for (const std::size_t k : {middle, middle - 6}) {
+    const Eigen::Vector3d point = map.range_m * *without->camera.unproject(map.pixel[k]);
+    double squares = 0.0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      Eigen::VectorXd z(18);
+      for (double& v : z) v = random.normal();
+      const Eigen::VectorXd off = root * z;
+      const Camera other =
+          with_intrinsics(without->camera, intrinsics_of(without->camera) + off.tail<12>());
+      const auto pixel = other.project(se3_exp(Vector6d(off.head<6>())) * point);
+      ASSERT_TRUE(pixel);
+      squares += (*pixel - map.pixel[k]).squaredNorm();
+    }
+    EXPECT_NEAR(std::sqrt(squares / kDraws) / map.sigma_px[k], 1.0, 0.07) << map.pixel[k];
+  }
+
   // Held intrinsics that are wrong: the images tell.
   Dataset wrong = data.open();
   wrong.camera.fx *= 1.01;
@@ -72,6 +114,34 @@ TEST(Calibrate, ImagesForTheCameraAloneNarrowItsIntrinsics) {
   const auto fixed = calibrate(wrong, request, {});
   ASSERT_TRUE(fixed.ok()) << fixed.error().text();
   EXPECT_TRUE(fixed->intrinsics.contradiction.has_value());
+}
+
+// A camera calibrated as a fisheye that is none: it fits its own images about as well as can be,
+// and turns the extrinsic by more than a milliradian.
+TEST(Calibrate, NamesADistortionModelThatPredictsBetter) {
+  const test::SimulatedDataset data(test::dataset_options(9109, 7));
+  Dataset dataset = data.open();
+  std::vector<fs::path> images;
+  for (const SceneFiles& scene : dataset.scenes) images.push_back(scene.image);
+  CameraCalibrationOptions as_fisheye;
+  as_fisheye.model = DistortionModel::kEquidistant;
+  const auto camera = calibrate_camera(images, dataset.target, as_fisheye, {});
+  ASSERT_TRUE(camera.ok()) << camera.error().text();
+  dataset.camera = camera->camera;
+  const auto result = calibrate(dataset, {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  ASSERT_TRUE(result->intrinsics.contradiction);
+  const IntrinsicsContradiction& found = *result->intrinsics.contradiction;
+  EXPECT_EQ(found.better_model, DistortionModel::kPlumbBob);
+  EXPECT_TRUE(found.matters);
+  EXPECT_EQ(result->quality, Quality::kDoubtful);
+  EXPECT_THAT(result->warnings,
+              Contains(HasSubstr("the distortion model plumb_bob predicts images held out to")));
+  // With it the extrinsic is nearer to the truth than what the given camera leads to.
+  const Rigid3& truth = data.rig().camera_from_lidar;
+  ASSERT_TRUE(found.camera_from_lidar);
+  EXPECT_LT(rotation_distance_rad(truth, found.camera_from_lidar->transform),
+            0.5 * rotation_distance_rad(truth, result->extrinsic.camera_from_lidar.transform));
 }
 
 }  // namespace

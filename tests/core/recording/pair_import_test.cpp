@@ -137,6 +137,28 @@ TEST_F(PairImport, PairsAreAddedToAnImportWithoutPartsOfScenes) {
   EXPECT_FALSE(json()["pairs"][3]["taken"].get<bool>());
 }
 
+// Files that stay as they are may be cut or too long: said when they are read, and kept.
+TEST_F(PairImport, CloudsThatMayNotBeWholeAreTold) {
+  EXPECT_EQ(pairs().pairs.size(), 3U);
+  const auto lengthen = [&](const std::string& name) {
+    folder_.write("clouds/" + name, bytes_of(folder_.path() / "clouds" / name) + "twelve bytes");
+  };
+  lengthen("pose1.pcd");
+  const PairedFiles all = found();
+  PairedFiles first = all;
+  first.pairs.resize(2);
+  const auto summary = import_pairs(first, options(), dataset(), {});
+  ASSERT_TRUE(summary.ok()) << summary.error().text();
+  ASSERT_EQ(summary->warnings.size(), 1U);
+  EXPECT_THAT(summary->warnings[0].text(), HasSubstr("scene pose1: its cloud: 12 bytes follow"));
+  EXPECT_EQ(json()["warnings"][0], summary->warnings[0].text());
+  lengthen("pose2.pcd");
+  const auto added = add_pairs({all.pairs[2]}, options(), dataset(), {});
+  ASSERT_TRUE(added.ok()) << added.error().text();
+  ASSERT_EQ(added->warnings.size(), 1U);
+  EXPECT_THAT(json()["warnings"][1], HasSubstr("scene pose2: its cloud: 12 bytes follow"));
+}
+
 TEST_F(PairImport, AddingWatchesTheCameraTheBoardAndTheStop) {
   const PairedFiles all = pairs();
   PairedFiles first = all;

@@ -18,8 +18,8 @@ TEST(CheckFile, HasVerdictScoresOffsetAndPlaces) {
   check.offset_px = 4.0;
   check.best_pose.translation = {1.0, 2.0, 3.0};
   check.noticed_turn_rad = {0.001, 0.002, 0.003};
-  const auto j =
-      nlohmann::json::parse(check_as_json(check, {{"yard", "yard.png", "yard.pcd", {}, {}}}));
+  const auto j = nlohmann::json::parse(check_as_json(
+      check, {{"yard", "yard.png", "yard.pcd", {}, {}}}, {Message("half of a cloud")}));
   EXPECT_EQ(j["verdict"], "contradicts");
   EXPECT_EQ(j["reason"], reason_of(check));
   EXPECT_EQ(j["given"]["score"], 0.25);
@@ -33,6 +33,7 @@ TEST(CheckFile, HasVerdictScoresOffsetAndPlaces) {
   EXPECT_EQ(j["T_camera_lidar_best"][1][3], 2.0);
   EXPECT_DOUBLE_EQ(j["noticed_turn_mrad"][1].get<double>(), 2.0);
   EXPECT_EQ(j["places"][0]["cloud"], "yard.pcd");
+  EXPECT_EQ(j["warnings"], nlohmann::json({"half of a cloud"}));
 }
 
 }  // namespace

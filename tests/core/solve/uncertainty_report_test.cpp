@@ -29,7 +29,8 @@ class Uncertainty : public ::testing::Test {
       ADD_FAILURE() << joint.error().text();
       return {};
     }
-    return assess_uncertainty({observations, camera_, target_, options_}, *joint);
+    return assess_uncertainty({observations, camera_, target_, options_}, *joint,
+                              ProjectionCovariance::held(joint->camera_from_lidar.covariance));
   }
   Target target_;
   Camera camera_ = test::test_camera();
@@ -107,7 +108,8 @@ TEST_F(Uncertainty, PixelCovarianceIsThatOfDrawnExtrinsics) {
   const Matrix6d& covariance = joint->camera_from_lidar.covariance;
   const Matrix6d root = covariance.llt().matrixL();
   const Eigen::Vector3d point(0.8, -0.5, 5.0);
-  const auto stated = pixel_covariance(camera_, point, covariance);
+  const auto held = ProjectionCovariance::held(covariance);
+  const auto stated = pixel_covariance(camera_, point, held);
   ASSERT_TRUE(stated.has_value());
   Random random(1);
   Eigen::Matrix2d drawn = Eigen::Matrix2d::Zero();
@@ -121,7 +123,49 @@ TEST_F(Uncertainty, PixelCovarianceIsThatOfDrawnExtrinsics) {
   }
   EXPECT_NEAR(std::sqrt(stated->trace()), std::sqrt(drawn.trace()),
               0.05 * std::sqrt(drawn.trace()));
-  EXPECT_FALSE(pixel_covariance(camera_, {0, 0, -1}, covariance).has_value());
+  EXPECT_FALSE(pixel_covariance(camera_, {0, 0, -1}, held).has_value());
+}
+
+// With intrinsics that were estimated together with the extrinsic: drawn from the joint covariance,
+// in which a turn takes up most of what the principal point is off.
+TEST_F(Uncertainty, PixelCovarianceIsThatOfExtrinsicAndIntrinsicsDrawnTogether) {
+  using Matrix18 = Eigen::Matrix<double, 18, 18>;
+  Random random(3);
+  Matrix18 root = Matrix18::Zero();
+  const std::array scale = {2e-3, 2e-3, 4e-3, 1e-3, 1e-3, 5e-4, 1.5, 1.5, 1.0, 1.0, 4e-3, 8e-3};
+  for (Eigen::Index i = 0; i < 12; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j)
+      root(i, j) = scale[static_cast<std::size_t>(i)] * (i == j ? 1.0 : 0.4 * random.normal());
+  }
+  // cx moves with a turn about y.
+  root.row(8) = -0.95 * camera_.fx * root.row(4);
+  root(8, 8) = 0.1;
+  const Matrix18 covariance = root * root.transpose();
+  ProjectionCovariance both = ProjectionCovariance::held(covariance.topLeftCorner<6, 6>());
+  both.cross = covariance.bottomLeftCorner<12, 6>();
+  both.intrinsics = covariance.bottomRightCorner<12, 12>();
+  constexpr int kDraws = 4000;
+  for (const Eigen::Vector3d& point :
+       {Eigen::Vector3d(0.8, -0.5, 5.0), Eigen::Vector3d(-1.2, 0.7, 3.0)}) {
+    Eigen::Matrix2d drawn = Eigen::Matrix2d::Zero();
+    const Eigen::Vector2d center = *camera_.project(point);
+    for (int i = 0; i < kDraws; ++i) {
+      Eigen::Matrix<double, 18, 1> z;
+      for (double& v : z) v = random.normal();
+      const Eigen::Matrix<double, 18, 1> off = root * z;
+      const Camera other = with_intrinsics(camera_, intrinsics_of(camera_) + off.tail<12>());
+      const Eigen::Vector2d d = *other.project(se3_exp(Vector6d(off.head<6>())) * point) - center;
+      drawn += d * d.transpose() / kDraws;
+    }
+    const auto stated = pixel_covariance(camera_, point, both);
+    ASSERT_TRUE(stated.has_value());
+    // A variance of 4000 draws is known to 2.2 % of itself, its root to half that: four of those.
+    for (int axis = 0; axis < 2; ++axis)
+      EXPECT_NEAR(std::sqrt((*stated)(axis, axis) / drawn(axis, axis)), 1.0, 0.045) << axis;
+    ProjectionCovariance apart = both;
+    apart.cross.setZero();
+    EXPECT_GT((*pixel_covariance(camera_, point, apart))(0, 0), 1.5 * (*stated)(0, 0));
+  }
 }
 
 TEST_F(Uncertainty, TheMapCoversTheImageAndGrowsWithRange) {

@@ -67,7 +67,8 @@ class Watchdog : public QObject {
 class Answers : public widgets::Choices {
  public:
   QString dataset, project, save_as, export_to, transform, moved_to;
-  QString recording, target, camera, new_dataset, cloud, clouds, clouds_to, other_result;
+  QString recording, target, camera, camera_images, new_dataset, cloud, clouds, clouds_to,
+      other_result;
   QString files, lidar;
   QStringList scenes;
   widgets::UnsavedAnswer unsaved_answer = widgets::UnsavedAnswer::kDiscard;
@@ -84,6 +85,7 @@ class Answers : public widgets::Choices {
   QString transform_to_open(QWidget*, const QString&) override { return transform; }
   QString recording_to_open(QWidget*, const QString&) override { return recording; }
   QString files_to_import(QWidget*, const QString&) override { return files; }
+  QString camera_images_to_open(QWidget*, const QString&) override { return camera_images; }
   QString target_to_open(QWidget*, const QString&) override { return target; }
   QString camera_to_open(QWidget*, const QString&) override { return camera; }
   QString lidar_to_open(QWidget*, const QString&) override { return lidar; }

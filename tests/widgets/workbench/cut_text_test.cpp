@@ -117,8 +117,9 @@ TEST_P(CutTextTest, NothingIsWithTwoEffectsInTheModel) {
 TEST_P(CutTextTest, NothingIsInAnyDialog) {
   open();
   ASSERT_NO_FATAL_FAILURE(calibrate());
-  for (const char* name : {"results", "compare_results", "check_fresh_data", "plan_scenes",
-                           "target_camera", "print_board", "correct_clouds", "guide", "about"}) {
+  for (const char* name :
+       {"results", "compare_results", "check_fresh_data", "plan_scenes", "target_camera",
+        "camera_alone", "print_board", "correct_clouds", "guide", "about"}) {
     ASSERT_TRUE(trigger(*window_, name)) << name;
     QTest::qWait(100);
     for (QDialog* dialog : window_->findChildren<QDialog*>()) {

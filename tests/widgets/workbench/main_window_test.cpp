@@ -32,6 +32,8 @@
 #include "dialogs/guide_dialog.h"
 #include "docks/parameters_dock.h"
 #include "docks/scenes_dock.h"
+#include "intrinsics/camera_dialog.h"
+#include "intrinsics/camera_page.h"
 #include "pages/response_page.h"
 #include "pages/scene_page.h"
 #include "pages/world_pane.h"
@@ -233,6 +235,24 @@ TEST_F(MainWindowTest, ImagesOfTheCameraThatAreAddedCountInTheResult) {
   ASSERT_TRUE(wait_until([&] { return images->topLevelItemCount() == 4; }, 10'000));
   EXPECT_EQ(images->topLevelItem(3)->text(0), QStringLiteral("intrinsics/image.png"));
   EXPECT_FALSE(images->topLevelItem(3)->text(3).isEmpty());
+}
+
+// Nothing is open; the folder is a dataset all the same, of which the images are taken.
+TEST_F(MainWindowTest, ACameraAloneNeedsNoDataset) {
+  ASSERT_FALSE(workspace().is_open());
+  ASSERT_TRUE(trigger(*window_, "camera_alone"));
+  auto* dialog = find<widgets::CameraDialog>(*window_, "camera_dialog");
+  ASSERT_NE(dialog, nullptr);
+  answers_.camera_images = dataset();
+  find<QPushButton>(*dialog, "photos_choose_folder")->click();
+  ASSERT_TRUE(wait_until([&] { return !dialog->busy(); }));
+  find<QPushButton>(*dialog, "camera_calibrate")->click();
+  ASSERT_TRUE(wait_until([&] { return dialog->page().calibration() && !dialog->busy(); }));
+  answers_.export_to = folder_.filePath("camera.yaml");
+  find<QPushButton>(*dialog, "camera_save")->click();
+  EXPECT_TRUE(read_camera(answers_.export_to.toStdString()).ok());
+  EXPECT_EQ(settings_->last_folder(), folder_.path());
+  EXPECT_FALSE(workspace().is_open());
 }
 
 TEST_F(MainWindowTest, LengthsAreShownInMillimetres) {

@@ -10,6 +10,7 @@
 #include <QDialog>
 #include <QDir>
 #include <QElapsedTimer>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
 #include <QScreen>
@@ -23,6 +24,7 @@
 #include <cstdio>
 
 #include "importing/stretch_list.h"
+#include "intrinsics/camera_dialog.h"
 #include "intrinsics/camera_page.h"
 #include "modelling/residual_plot.h"
 #include "pipeline/refusals.h"
@@ -211,6 +213,17 @@ void photograph_dialogs(widgets::MainWindow& window, Photographer& camera, const
     test::find<QTabWidget>(*forms, "target_camera_tabs")->setCurrentIndex(1);
   }
   take("target_camera_dialog", QStringLiteral("camera"));
+  test::trigger(window, "camera_alone");
+  if (auto* alone = test::find<widgets::CameraDialog>(window, "camera_dialog")) {
+    auto* images = test::find<QLineEdit>(*alone, "photos_folder");
+    images->setText(QString::fromStdString(window.workspace().dataset().path.string()));
+    images->setModified(true);
+    Q_EMIT images->editingFinished();
+    test::wait_until([&] { return !alone->busy(); }, 60'000);
+    test::find<QPushButton>(*alone, "camera_calibrate")->click();
+    test::wait_until([&] { return !alone->busy(); }, 60'000);
+  }
+  take("camera_dialog", QStringLiteral("camera-alone"));
   test::trigger(window, "print_board");
   take("print_dialog", QStringLiteral("print"));
   photograph_plan(window, camera, theme);

@@ -145,8 +145,9 @@ TEST_F(WindowMarksTest, EveryClickIsAnswered) {
     for (int k = choice->count() - 1; k >= 0; --k)
       answered(std::string(box) + " " + std::to_string(k), [&] { choice->setCurrentIndex(k); });
   }
-  for (const char* name : {"results", "compare_results", "check_fresh_data", "plan_scenes",
-                           "target_camera", "print_board", "correct_clouds", "guide", "about"}) {
+  for (const char* name :
+       {"results", "compare_results", "check_fresh_data", "plan_scenes", "target_camera",
+        "camera_alone", "print_board", "correct_clouds", "guide", "about"}) {
     answered(name, [&] { test::trigger(*window_, name); });
     for (QDialog* dialog : window_->findChildren<QDialog*>()) dialog->close();
   }

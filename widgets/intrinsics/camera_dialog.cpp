@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "intrinsics/camera_dialog.h"
+
+#include <QComboBox>
+#include <QDir>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "intrinsics/camera_page.h"
+#include "pipeline/dataset.h"
+#include "style/texts.h"
+#include "target/target.h"
+#include "words/core_text.h"
+
+namespace lvcalib::widgets {
+namespace {
+
+constexpr DistortionModel kModels[] = {DistortionModel::kPlumbBob, DistortionModel::kEquidistant,
+                                       DistortionModel::kRationalPolynomial};
+
+}  // namespace
+
+CameraDialog::CameraDialog(Choices& choices, const QString& folder, QWidget* parent)
+    : QDialog(parent),
+      choices_(choices),
+      start_folder_(folder),
+      labels_{new QLabel(this), new QLabel(this), new QLabel(this)},
+      folder_(new QLineEdit(this)),
+      choose_folder_(new QPushButton(this)),
+      target_(new QLineEdit(this)),
+      choose_target_(new QPushButton(this)),
+      model_(new QComboBox(this)),
+      text_(new QLabel(this)),
+      page_(new CameraPage(this, CameraPage::Of::kPhotos)) {
+  setObjectName(QStringLiteral("camera_dialog"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  resize(1000, 680);
+  const std::pair<QWidget*, const char*> named[] = {
+      {folder_, "photos_folder"}, {choose_folder_, "photos_choose_folder"},
+      {target_, "photos_target"}, {choose_target_, "photos_choose_target"},
+      {model_, "photos_model"},   {text_, "photos_text"}};
+  for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
+  text_->setWordWrap(true);
+  text_->setTextFormat(Qt::PlainText);
+  model_->addItem(QString());
+  for (const DistortionModel model : kModels)
+    model_->addItem(QString::fromStdString(name_of(model)));
+  auto* form = new QGridLayout;
+  QWidget* const fields[] = {folder_, target_, model_};
+  for (int row = 0; row < 3; ++row) {
+    labels_[row]->setBuddy(fields[row]);
+    form->addWidget(labels_[row], row, 0);
+    form->addWidget(fields[row], row, 1);
+  }
+  form->addWidget(choose_folder_, 0, 2);
+  form->addWidget(choose_target_, 1, 2);
+  form->setColumnStretch(1, 1);
+  page_->setChoices(choices_);
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(form);
+  layout->addWidget(text_);
+  layout->addWidget(page_, 1);
+  connectParts();
+  follow_language(this, [this] { retranslate(); });
+}
+
+CameraDialog::~CameraDialog() {
+  runner_.disconnect(this);
+}
+
+bool CameraDialog::busy() const {
+  return runner_.running() || page_->busy();
+}
+
+void CameraDialog::connectParts() {
+  connect(choose_folder_, &QPushButton::clicked, this, &CameraDialog::chooseFolder);
+  connect(choose_target_, &QPushButton::clicked, this, &CameraDialog::chooseTarget);
+  // Return in a field reads it, and is no click on the first button.
+  for (QPushButton* button : findChildren<QPushButton*>()) button->setAutoDefault(false);
+  for (QLineEdit* field : {folder_, target_})
+    connect(field, &QLineEdit::editingFinished, this, [this, field] {
+      if (!field->isModified()) return;
+      field->setModified(false);
+      read();
+    });
+  connect(model_, &QComboBox::currentIndexChanged, this, &CameraDialog::read);
+  connect(page_, &CameraPage::failed, this, &CameraDialog::say);
+  connect(page_, &CameraPage::saved, this, [this](const QString& path) {
+    say(tr("Written: %1").arg(QDir::toNativeSeparators(path)));
+    Q_EMIT cameraSaved(path);
+  });
+}
+
+void CameraDialog::chooseFolder() {
+  const QString folder = choices_.camera_images_to_open(
+      this, folder_->text().isEmpty() ? start_folder_ : folder_->text());
+  if (folder.isEmpty()) return;
+  folder_->setText(QDir::toNativeSeparators(folder));
+  read();
+}
+
+void CameraDialog::chooseTarget() {
+  const QString path =
+      choices_.target_to_open(this, folder_->text().isEmpty() ? start_folder_ : folder_->text());
+  if (path.isEmpty()) return;
+  target_->setText(QDir::toNativeSeparators(path));
+  read();
+}
+
+void CameraDialog::read() {
+  page_->setPhotos(std::nullopt);
+  say({});
+  if (folder_->text().isEmpty()) return;
+  BoardPhotos wanted;
+  wanted.folder = QDir::fromNativeSeparators(folder_->text()).toStdString();
+  if (model_->currentIndex() > 0) wanted.options.model = kModels[model_->currentIndex() - 1];
+  const std::filesystem::path target = QDir::fromNativeSeparators(target_->text()).toStdString();
+  runner_.start(
+      [this, wanted, target](const RunContext&, const Runner::Post&) mutable -> Runner::Deliver {
+        const auto images = find_camera_images(wanted.folder);
+        if (!images) return [this, error = images.error()] { say(core_text(error)); };
+        const auto board = read_target(target.empty() ? images->target : target);
+        if (!board) return [this, error = board.error()] { say(core_text(error)); };
+        wanted.images = images->images;
+        wanted.target = board->target;
+        return [this, wanted, warnings = board->warnings] {
+          QStringList lines = {tr("%n images.", nullptr, static_cast<int>(wanted.images.size()))};
+          for (const Message& warning : warnings) lines << core_text(warning);
+          say(lines.join(QLatin1Char(' ')));
+          page_->setPhotos(wanted);
+        };
+      });
+}
+
+void CameraDialog::say(const QString& text) {
+  text_->setText(text);
+}
+
+void CameraDialog::retranslate() {
+  setWindowTitle(tr("A camera from images of the board"));
+  labels_[0]->setText(tr("&Images"));
+  labels_[1]->setText(tr("&Board"));
+  labels_[2]->setText(tr("Distortion &model"));
+  folder_->setPlaceholderText(tr("A folder of images of the board, or a dataset"));
+  target_->setPlaceholderText(tr("target.yaml in that folder"));
+  choose_folder_->setText(tr("&Folder…"));
+  choose_target_->setText(tr("&target.yaml…"));
+  model_->setItemText(0, tr("the one that predicts held-out images best"));
+}
+
+}  // namespace lvcalib::widgets
