@@ -387,17 +387,19 @@ int photograph_covered(widgets::MainWindow& window, Photographer& camera, const 
   choose(window, "theme", theme);
   auto* tabs = test::find<QTabWidget>(window, "pages");
   const auto take = [&](const char* state) {
-    const QString name = QStringLiteral("%1-%2-").arg(QLatin1String(state), theme);
+    const auto name = [&](const char* part) {
+      return QStringLiteral("%1%2-%3").arg(QLatin1String(state), QLatin1String(part), theme);
+    };
     test::click_scene(window, QStringLiteral("B"), false);
     tabs->setCurrentIndex(0);
     tabs->currentWidget()->findChild<widgets::CloudView*>()->look(widgets::CloudViewpoint::kBoard);
     QTest::qWait(1500);
-    camera.take(name + QStringLiteral("scene"));
+    camera.take(name(""));
     tabs->setCurrentIndex(1);
-    camera.take(name + QStringLiteral("refinement"));
+    camera.take(name("-refinement"));
     tabs->setCurrentIndex(3);
     tabs->currentWidget()->findChild<QTabWidget*>()->setCurrentIndex(2);
-    camera.take(name + QStringLiteral("list"));
+    camera.take(name("-list"));
   };
   take("covered");
   SceneEdits edits;
